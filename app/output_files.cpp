@@ -164,7 +164,7 @@ Finding check_file(const fs::path& path, const ForeignReader& foreign) {
 std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
   if (!is_folder(path)) return {check_file(path, foreign)};
   std::vector<Finding> findings = validate(path, foreign);
-  // Nobody unpacks a picture of a folder: there it has to be one as it is.
+  // Nobody unpacks an image of a folder: there it has to be one as it is.
   for (const fs::path& output : outputs_below(path))
     findings.push_back(
         check_output(output.string(), *output_named(output), [&] { return read_file(output); }));

@@ -6,7 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/diff/diff_options.hpp"
-#include "app/output_places.hpp"
+#include "app/output_paths.hpp"
 #include "app/study/folder_report.hpp"
 #include "app/study/study_order.hpp"
 #include "app/study/study_run.hpp"
@@ -38,20 +38,20 @@ void make_candidate(const CheckArguments& arguments, const Invocation& invocatio
 }
 
 /// The candidate never writes over the baseline, nor an output over either.
-void check_places(const CheckArguments& arguments) {
+void check_paths(const CheckArguments& arguments) {
   if (overlap(arguments.baseline, arguments.out))
     throw InvalidInput(fmt::format("--baseline {} and --out {}: one is the other or lies in it",
                                    printable(arguments.baseline), printable(arguments.out)));
   const std::array<fs::path, 4> inputs = {arguments.baseline, arguments.out,
                                           arguments.options.settings, arguments.experiment};
-  check_output_places(arguments.options, inputs);
+  check_output_paths(arguments.options, inputs);
 }
 
 int check(const CheckArguments& arguments, const Invocation& invocation) {
-  check_places(arguments);
+  check_paths(arguments);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   make_candidate(arguments, invocation);
-  check_places(arguments);  // Now that the candidate's files are there.
+  check_paths(arguments);  // Now that the candidate's files are there.
   std::error_code error;
   // An empty folder stands for a baseline that is not there yet: everything in the candidate is
   // new.

@@ -5,7 +5,7 @@
 #include "app/commands.hpp"
 #include "app/diff/diff_options.hpp"
 #include "app/input_streams.hpp"
-#include "app/output_places.hpp"
+#include "app/output_paths.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -24,7 +24,7 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
   for (std::string* path : {&arguments.baseline, &arguments.current}) *path = made_file(*path);
   const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
                                                        arguments.options.settings};
-  check_output_places(arguments.options, inputs);
+  check_output_paths(arguments.options, inputs);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
   return hand_out(result, settings, arguments.options, invocation.console);
@@ -34,7 +34,7 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
 
 Action diff_command(CLI::App& app) {
   auto arguments = std::make_shared<DiffArguments>();
-  app.description("Compare two studies, folders of pictures or files, and say why they differ");
+  app.description("Compare two studies, folders of images or files, and say why they differ");
   app.footer(
       "Examples:\n"
       "  mapproof diff baseline out\n"

@@ -55,9 +55,9 @@ fs::path settings_beside(const std::string& baseline) {
 
 /// How many of the outputs take the place of the text.
 std::ptrdiff_t to_standard_output(const DiffOptions& options) {
-  const std::array places = {&options.page, &options.json, &options.junit, &options.markdown};
-  return std::ranges::count_if(places,
-                               [](const std::string* place) { return *place == kStandardOutput; });
+  const std::array locations = {&options.page, &options.json, &options.junit, &options.markdown};
+  return std::ranges::count_if(
+      locations, [](const std::string* location) { return *location == kStandardOutput; });
 }
 
 bool is_run_by_ctest() {
@@ -99,11 +99,11 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
              const Console& console) {
   const nlohmann::ordered_json object = diff_json(result);
   std::string text;
-  const auto hand = [&](const std::string& place, const auto& make) {
-    if (place == kStandardOutput)
+  const auto hand = [&](const std::string& location, const auto& make) {
+    if (location == kStandardOutput)
       text = make();
-    else if (!place.empty())
-      write_file(place, make());
+    else if (!location.empty())
+      write_file(location, make());
   };
   hand(options.page,
        [&] { return diff_html(result, settings, load_templates(options.templates)); });

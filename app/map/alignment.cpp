@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
 
-/// Errors of a map that no anchors tie to the truth: those that need none.
-std::optional<Score> anchor_free_score(const Points& coordinates, const Points& truth_m,
+/// Errors of a map that no anchors tie to the ground truth: those that need none.
+std::optional<Score> anchor_free_score(const Points& coordinates, const Points& ground_truth_m,
                                        AffineFit fit) {
-  std::optional<Score> score = score_map(coordinates, truth_m, {}, fit);
+  std::optional<Score> score = score_map(coordinates, ground_truth_m, {}, fit);
   if (score) score->mpe_m = score->moe_percent = kNaN;
   return score;
 }
@@ -43,21 +43,22 @@ CertaintyFrame align_metric(MapResult& result, const Reference& known, const Fra
   MapRecord& record = result.record;
   const Points own = record.estimate;
   if (!rigid && !known.anchors.empty()) align_and_score(record, own, known, fit.affine);
-  if (record.frame == Frame::kTruth && !rigid && !known.anchors.empty())
+  if (record.frame == Frame::kGroundTruth && !rigid && !known.anchors.empty())
     return {known.positions_m, known.anchors, false};
-  record.frame = Frame::kTruth;
+  record.frame = Frame::kGroundTruth;
   record.anchors = known.anchors;
-  if (known.anchors.empty() && !known.has_truth) return {own, {}, true};
+  if (known.anchors.empty() && !known.has_ground_truth) return {own, {}, true};
   std::vector<Eigen::Index> all(record.names.size());
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   if (!lay_rigidly(record, known.positions_m, known.anchors.empty() ? all : known.anchors))
     return {own, {}, true};
-  record.truth_m = known.positions_m;
+  record.ground_truth_m = known.positions_m;
   if (known.anchors.empty())
     result.remarks.push_back(
-        "No anchors: for its errors the map was turned and shifted onto the truth, its scale "
+        "No anchors: for its errors the map was turned and shifted onto the ground truth, its "
+        "scale "
         "kept.");
-  if (known.has_truth)
+  if (known.has_ground_truth)
     record.score = score_map(record.estimate, known.positions_m, known.anchors, fit.affine);
   if (known.anchors.empty()) return {record.estimate, {}, true};
   return {known.positions_m, known.anchors, true};
@@ -69,8 +70,8 @@ CertaintyFrame align(MapResult& result, const Reference& reference, const FrameF
   if (fit.is_metric) return align_metric(result, reference, fit);
   MapRecord& record = result.record;
   align_and_score(record, Points(record.estimate), reference, fit.affine);
-  const bool tied = record.frame == Frame::kTruth;
-  return {.positions_m = tied ? *record.truth_m : record.estimate,
+  const bool tied = record.frame == Frame::kGroundTruth;
+  return {.positions_m = tied ? *record.ground_truth_m : record.estimate,
           .anchors = tied ? record.anchors : std::vector<Eigen::Index>{}};
 }
 
@@ -79,25 +80,27 @@ void align_and_score(MapRecord& record, const Points& coordinates, const Referen
   record.frame = Frame::kSimilarity;
   record.estimate = coordinates;
   record.anchors = reference.anchors;
-  if (reference.has_truth || !reference.anchors.empty()) record.truth_m = reference.positions_m;
+  if (reference.has_ground_truth || !reference.anchors.empty())
+    record.ground_truth_m = reference.positions_m;
   if (!reference.anchors.empty()) {
     AlignedMap aligned =
         align_to_anchors(coordinates, reference.positions_m, reference.anchors, fit);
     record.statuses.insert(record.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
     if (aligned.aligned) {
-      record.frame = Frame::kTruth;
+      record.frame = Frame::kGroundTruth;
       record.estimate = std::move(aligned.positions_m);
     }
   }
-  if (!reference.has_truth) return;
-  record.score = record.frame == Frame::kTruth
+  if (!reference.has_ground_truth) return;
+  record.score = record.frame == Frame::kGroundTruth
                      ? score_map(record.estimate, reference.positions_m, reference.anchors, fit)
                      : anchor_free_score(record.estimate, reference.positions_m, fit);
 }
 
 std::vector<std::string> frame_warnings(const MapRecord& record) {
-  if (record.frame != Frame::kTruth || record.anchors.empty() || !record.truth_m) return {};
-  const Points anchors_m = (*record.truth_m)(record.anchors, Eigen::all);
+  if (record.frame != Frame::kGroundTruth || record.anchors.empty() || !record.ground_truth_m)
+    return {};
+  const Points anchors_m = (*record.ground_truth_m)(record.anchors, Eigen::all);
   const Eigen::RowVector2d centre = anchors_m.colwise().mean();
   std::vector<double> away;
   double trivial_m = 0.0;
@@ -105,8 +108,8 @@ std::vector<std::string> frame_warnings(const MapRecord& record) {
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
     if (!record.estimate.row(i).allFinite() || std::ranges::count(record.anchors, i) > 0) continue;
     away.push_back((record.estimate.row(i) - centre).norm());
-    if (!record.truth_m->row(i).allFinite()) continue;
-    trivial_m += (record.truth_m->row(i) - centre).norm();
+    if (!record.ground_truth_m->row(i).allFinite()) continue;
+    trivial_m += (record.ground_truth_m->row(i) - centre).norm();
     ++known;
   }
   if (away.empty()) return {};

@@ -29,8 +29,8 @@ void align_and_score(MapRecord& record, const Points& coordinates, const Referen
                      AffineFit fit);
 
 /// What a person should know of a map in the frame of its anchors that is worth little: errors as
-/// large as if all landmarks were put at the anchors' mean, or, without a truth, landmarks far
-/// outside of what the anchors span. A sentence each.
+/// large as if all landmarks were put at the anchors' mean, or, without a ground truth, landmarks
+/// far outside of what the anchors span. A sentence each.
 std::vector<std::string> frame_warnings(const MapRecord& record);
 
 }  // namespace mapproof

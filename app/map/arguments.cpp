@@ -79,7 +79,7 @@ void add_observation_options(CLI::App& app, MapJob& job) {
       ->capture_default_str();
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
-  app.add_option("--ground-truth,--truth", job.truth,
+  app.add_option("--ground-truth,--truth", job.ground_truth,
                  "True positions, to compute errors: CSV as for --anchors");
   app.add_option("--steps", job.steps, "Use only the first N steps")->check(CLI::Range(1, 1000000));
   app.add_option(
@@ -178,7 +178,7 @@ void settle(MapJob& job) {
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
   job.known_anchors = read_points(job.anchors);
-  job.known_truth = read_points(job.truth);
+  job.known_ground_truth = read_points(job.ground_truth);
 }
 
 }  // namespace mapproof

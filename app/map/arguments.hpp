@@ -29,7 +29,7 @@ struct MapJob {
   std::vector<std::string> with;       ///< Files of other sensors,
   std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
-  std::string truth;
+  std::string ground_truth;
   int steps = 0;             ///< The first so many observations; 0: all.
   bool drop_unseen = false;  ///< Map the others where a landmark was never observed.
   std::string fit = "least-distances";
@@ -41,9 +41,9 @@ struct MapJob {
   std::optional<double> degree;
   EmbedderOptions embedder;
 
-  std::string missing = "common-steps";  ///< One of missing_ways().
-  std::optional<int> dimensions;         ///< Of PPCA or PCA.
-  int submaps = 0;                       ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  std::string missing = "pairwise-complete";  ///< One of missing_ways().
+  std::optional<int> dimensions;              ///< Of PPCA or PCA.
+  int submaps = 0;                ///< Most landmarks of a sub-map, 6 or more; 0: one map.
   std::optional<double> overlap;  ///< Share that a sub-map borrows, in [0, 0.8]; empty: the usual.
   int ellipse_replicates = 0;     ///< Resamples for each landmark's ellipse; 0: none.
   bool check_ids = false;
@@ -58,7 +58,7 @@ struct MapJob {
 
   MethodSetting setting;  ///< Without a parameter: the usual one of these data.
   std::optional<NamedPointsFile> known_anchors;
-  std::optional<NamedPointsFile> known_truth;
+  std::optional<NamedPointsFile> known_ground_truth;
   /// Asked before anything is computed, of what is known of the map by then; may throw. Its setting
   /// lacks what is not known yet: a usual parameter.
   std::function<void(const MapRecord&)> begin = {};

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "app/map/pipeline.hpp"
+#include "core/association/correspondence.hpp"
 #include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/words.hpp"
-#include "core/labels/correspondence.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view kLabelsFile = "labels.csv";
 
 /// Whose a reading was found to be.
-struct AssignedReading {
+struct AssignedMeasurement {
   double step = 0.0;     ///< Number of the step, as the file has it, or the column from 0.
   std::size_t line = 0;  ///< Of the file; 0: not known.
   std::string given;     ///< The label in the file: "?" if it had none.
@@ -25,8 +25,9 @@ struct AssignedReading {
 };
 
 /// What came of estimating labels.
-struct EstimatedLabels {
-  std::vector<AssignedReading> readings;  ///< Of unlabelled ones all, of unsure ones the changed.
+struct EstimatedIds {
+  std::vector<AssignedMeasurement>
+      measurements;  ///< Of unlabelled ones all, of unsure ones the changed.
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
 };
@@ -38,8 +39,8 @@ constexpr double kManyUnclear = 0.1;  ///< Share of readings that is worth a war
 
 /// A history without gaps, whose doubtful entries hold readings in any order.
 struct Dealt {
-  Mask doubtful;  ///< M x N.
-  Lines reading;  ///< M x N: which of the unlabelled readings stands there; -1: none of them.
+  Mask doubtful;   ///< M x N.
+  Lines measured;  ///< M x N: which of the unlabelled readings stands there; -1: none of them.
 };
 
 /// Puts each step's unlabelled readings where the step has no labelled one.
@@ -50,26 +51,26 @@ Dealt deal(ObservationSource& source) {
   // Of visibility, detections alone may be listed: what is not seen is 0, and as free as a gap.
   const bool is_seen =
       source.history.sensor == Sensor::kVisibility && !values.array().isNaN().any();
-  for (std::size_t k = 0; k < source.unlabelled.size(); ++k) {
-    const UnlabelledReading& reading = source.unlabelled[k];
+  for (std::size_t k = 0; k < source.unassociated.size(); ++k) {
+    const UnassociatedMeasurement& measured = source.unassociated[k];
     Eigen::Index row = 0;
-    while (row < values.rows() &&
-           !(dealt.reading(row, reading.step) < 0 && (std::isnan(values(row, reading.step)) ||
-                                                      (is_seen && values(row, reading.step) == 0))))
+    while (row < values.rows() && !(dealt.measured(row, measured.step) < 0 &&
+                                    (std::isnan(values(row, measured.step)) ||
+                                     (is_seen && values(row, measured.step) == 0))))
       ++row;
     if (row == values.rows())
-      throw IoError(source.path, fmt::format("line {}", reading.line),
+      throw IoError(source.path, fmt::format("line {}", measured.line),
                     fmt::format("step {:.0f} has more readings without a label than landmarks "
                                 "without a reading",
-                                reading.number));
-    values(row, reading.step) = reading.value;
-    dealt.reading(row, reading.step) = static_cast<Eigen::Index>(k);
-    dealt.doubtful(row, reading.step) = true;
+                                measured.number));
+    values(row, measured.step) = measured.value;
+    dealt.measured(row, measured.step) = static_cast<Eigen::Index>(k);
+    dealt.doubtful(row, measured.step) = true;
   }
   if (is_seen)
-    for (const UnlabelledReading& reading : source.unlabelled)
+    for (const UnassociatedMeasurement& measured : source.unassociated)
       for (Eigen::Index row = 0; row < values.rows(); ++row)
-        if (values(row, reading.step) == 0.0) dealt.doubtful(row, reading.step) = true;
+        if (values(row, measured.step) == 0.0) dealt.doubtful(row, measured.step) = true;
   return dealt;
 }
 
@@ -99,30 +100,31 @@ void mark_unsure(const ObservationSource& source, const std::vector<std::string>
 }
 
 /// The readings that went to another landmark than the file says, or had none.
-std::vector<AssignedReading> assigned(const ObservationSource& source, const Dealt& dealt,
-                                      const Correspondence& found) {
-  std::vector<AssignedReading> readings;
+std::vector<AssignedMeasurement> assigned(const ObservationSource& source, const Dealt& dealt,
+                                          const Correspondence& found) {
+  std::vector<AssignedMeasurement> measurements;
   for (Eigen::Index step = 0; step < source.history.steps(); ++step)
     for (Eigen::Index row = 0; row < source.history.landmarks(); ++row) {
-      const Eigen::Index from = found.reading_of(row, step);
-      const Eigen::Index unlabelled = dealt.reading(from, step);
+      const Eigen::Index from = found.measurement_of(row, step);
+      const Eigen::Index unassociated = dealt.measured(from, step);
       const double value = found.history.values(row, step);
       // Where nothing was seen there is no reading that could be another's.
       const bool is_reading = source.history.sensor != Sensor::kVisibility || value != 0.0;
-      if (unlabelled < 0 && (from == row || !is_reading)) continue;
-      AssignedReading one{.step = static_cast<double>(step),
-                          .line = 0,
-                          .given = source.history.names[static_cast<std::size_t>(from)],
-                          .found = source.history.names[static_cast<std::size_t>(row)],
-                          .value = value,
-                          .clear = found.clear(row, step)};
-      if (unlabelled >= 0) {
-        const UnlabelledReading& reading = source.unlabelled[static_cast<std::size_t>(unlabelled)];
-        one.step = reading.number, one.line = reading.line, one.given = kUnlabelledMark;
+      if (unassociated < 0 && (from == row || !is_reading)) continue;
+      AssignedMeasurement one{.step = static_cast<double>(step),
+                              .line = 0,
+                              .given = source.history.names[static_cast<std::size_t>(from)],
+                              .found = source.history.names[static_cast<std::size_t>(row)],
+                              .value = value,
+                              .clear = found.clear(row, step)};
+      if (unassociated >= 0) {
+        const UnassociatedMeasurement& measured =
+            source.unassociated[static_cast<std::size_t>(unassociated)];
+        one.step = measured.number, one.line = measured.line, one.given = kUnassociatedMark;
       }
-      readings.push_back(std::move(one));
+      measurements.push_back(std::move(one));
     }
-  return readings;
+  return measurements;
 }
 
 /// Landmarks that are doubtful at every step: nothing tells them apart to begin with.
@@ -135,7 +137,7 @@ std::vector<std::string> never_certain(const ObservationSource& source, const Ma
 }
 
 void report(const ObservationSource& source, const Mask& doubtful, const Correspondence& found,
-            EstimatedLabels& labels) {
+            EstimatedIds& labels) {
   const auto all = doubtful.count();
   const auto clear = (found.clear && doubtful).count();
   const double unclear = 1.0 - static_cast<double>(clear) / static_cast<double>(all);
@@ -144,8 +146,8 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
       "another landmark than given or had no label (labels.csv). What LPCA leaves unexplained fell "
       "from {:.4f} to {:.4f} of the spread.",
       counted(all, "reading"), 100.0 * (1.0 - unclear),
-      counted(std::ssize(labels.readings), "reading"), found.loss_before, found.loss_after));
-  if (!found.settled)
+      counted(std::ssize(labels.measurements), "reading"), found.loss_before, found.loss_after));
+  if (!found.converged)
     labels.warnings.push_back(
         fmt::format("Labels still changed after {} rounds: they are not settled.", found.rounds));
   if (unclear > kManyUnclear)
@@ -165,25 +167,25 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
 /// @throws IoError naming the line or the step for what cannot be estimated: an entry that is
 ///         missing though there is no reading for it, more readings than landmarks without one,
 ///         a label that is not there; or for fewer than two unsure labels.
-EstimatedLabels estimate_labels(ObservationSource& source, const std::vector<std::string>& unsure) {
-  EstimatedLabels labels;
+EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& unsure) {
+  EstimatedIds labels;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
     throw IoError(source.path, "labels need three landmarks that some readings are labelled with");
   mark_unsure(source, unsure, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
-  labels.readings = assigned(source, dealt, found);
+  labels.measurements = assigned(source, dealt, found);
   report(source, dealt.doubtful, found, labels);
   source.history = found.history;
-  source.unlabelled.clear();
+  source.unassociated.clear();
   return labels;
 }
 
 /// RFC 4180: step,line,given,landmark,value,clear.
-std::string labels_csv(const EstimatedLabels& labels) {
+std::string ids_csv(const EstimatedIds& labels) {
   std::string csv = "step,line,given,landmark,value,clear\r\n";
-  for (const AssignedReading& one : labels.readings)
+  for (const AssignedMeasurement& one : labels.measurements)
     csv += fmt::format("{:.0f},{},{},{},{},{}\r\n", one.step,
                        one.line > 0 ? std::to_string(one.line) : "", csv_field(one.given),
                        csv_field(one.found), csv_number(one.value), one.clear ? 1 : 0);
@@ -192,12 +194,13 @@ std::string labels_csv(const EstimatedLabels& labels) {
 
 MapDraft associate(MapDraft draft, const MapJob& job) {
   auto* source = std::get_if<ObservationSource>(&draft.observed);
-  if (source == nullptr || (source->unlabelled.empty() && job.uncertain_ids.empty())) return draft;
-  const EstimatedLabels labels = estimate_labels(*source, job.uncertain_ids);
+  if (source == nullptr || (source->unassociated.empty() && job.uncertain_ids.empty()))
+    return draft;
+  const EstimatedIds labels = estimate_ids(*source, job.uncertain_ids);
   MapResult& result = draft.result;
   result.remarks.insert(result.remarks.end(), labels.remarks.begin(), labels.remarks.end());
   result.warnings.insert(result.warnings.end(), labels.warnings.begin(), labels.warnings.end());
-  result.files.push_back({std::string(kLabelsFile), labels_csv(labels)});
+  result.files.push_back({std::string(kLabelsFile), ids_csv(labels)});
   return draft;
 }
 

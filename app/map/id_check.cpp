@@ -7,11 +7,11 @@
 
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
+#include "core/association/shared_id.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "core/labels/shared_label.hpp"
 #include "core/records/observations/mrclam.hpp"
 
 namespace mapproof {
@@ -33,7 +33,7 @@ std::string robot_words(const DetectionLog& log, int step) {
 }
 
 /// "from step 12 to step 90 of robot 3", "throughout", "in all scans of robot 3".
-std::string when_words(const LabelFinding& finding, const DetectionLog& log) {
+std::string when_words(const AssociationFinding& finding, const DetectionLog& log) {
   if (finding.to_the_end && finding.from_the_start) return "throughout";
   // Times of all robots' scans are of one clock: whose scan it was says nothing.
   const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
@@ -56,11 +56,11 @@ std::string label(const DetectionLog& log, int landmark) {
 }
 
 /// The places that the source and the files know, anchors' own first; NaN rows: none does.
-Points known_places(const DetectionLog& log, const std::optional<Points>& given_m,
-                    const std::optional<NamedPointsFile>& anchors,
-                    const std::optional<NamedPointsFile>& truth) {
+Points known_positions(const DetectionLog& log, const std::optional<Points>& given_m,
+                       const std::optional<NamedPointsFile>& anchors,
+                       const std::optional<NamedPointsFile>& ground_truth) {
   Points known_m = given_m ? *given_m : Points::Constant(std::ssize(log.names), 2, kNaN);
-  for (const auto* file : {&truth, &anchors}) {
+  for (const auto* file : {&ground_truth, &anchors}) {
     if (!file->has_value()) continue;
     const NamedPoints& points = (*file)->points;
     for (std::size_t k = 0; k < points.names.size(); ++k)
@@ -78,18 +78,18 @@ std::vector<std::string> names_of(const std::vector<int>& landmarks, const Detec
 }
 
 /// What a search for wrong labels leaves to be said besides its findings.
-void add_doubts(const LabelCheck& check, bool repair, LabelOutcome& outcome) {
+void add_doubts(const AssociationCheck& check, bool repair, AssociationOutcome& outcome) {
   const DetectionLog& log = outcome.log;
-  for (const LabelFinding& finding : check.findings)
-    if (finding.untold > 0 || finding.left_out > 0)
+  for (const AssociationFinding& finding : check.findings)
+    if (finding.undetermined > 0 || finding.left_out > 0)
       outcome.remarks.push_back(
           fmt::format("Of {} and {}, {} with nothing else in the scan cannot be told and {}stay as "
                       "they are; {} "
                       "fit neither landmark and {} left out.",
                       printable(label(log, finding.first)), printable(label(log, finding.second)),
-                      counted(finding.untold, "detection"), repair ? "" : "would ",
+                      counted(finding.undetermined, "detection"), repair ? "" : "would ",
                       finding.left_out, repair ? "are" : "would be"));
-  const LabelDoubts& doubts = check.doubts;
+  const AssociationDoubts& doubts = check.doubts;
   if (doubts.grave())
     outcome.warnings.push_back(fmt::format(
         "The scans do not fit one map{}: residual {:.3f} m against {:.3f} m of their own "
@@ -107,9 +107,9 @@ void add_doubts(const LabelCheck& check, bool repair, LabelOutcome& outcome) {
 }
 
 /// Labels that contradict one another. @return The log without those contradictions.
-DetectionLog check_pairs(LabelOutcome& outcome, bool repair) {
-  LabelCheck check = check_labels(outcome.log);
-  for (const LabelFinding& finding : check.findings)
+DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
+  AssociationCheck check = check_association(outcome.log);
+  for (const AssociationFinding& finding : check.findings)
     outcome.facts.push_back({std::string(name(finding.fault)), label(outcome.log, finding.first),
                              label(outcome.log, finding.second), described(finding, outcome.log),
                              finding.loss_before_m, finding.loss_after_m, repair});
@@ -120,11 +120,11 @@ DetectionLog check_pairs(LabelOutcome& outcome, bool repair) {
 }
 
 /// A label that two landmarks bear. @return The log with two labels then.
-DetectionLog check_shared(LabelOutcome& outcome, DetectionLog log, bool repair) {
-  const std::optional<SharedLabel> shared = shared_label(log);
+DetectionLog check_shared(AssociationOutcome& outcome, DetectionLog log, bool repair) {
+  const std::optional<SharedId> shared = shared_id(log);
   if (!shared) return log;
   const std::vector<Eigen::Index> unseen = unseen_in(log);
-  const std::string first = label(log, shared->label);
+  const std::string first = label(log, shared->id);
   std::string second;
   int row = static_cast<int>(log.names.size());
   if (unseen.size() == 1) {
@@ -142,32 +142,32 @@ DetectionLog check_shared(LabelOutcome& outcome, DetectionLog log, bool repair) 
            second.empty() ? "" : ", likely " + printable(second) + ", which none shows",
            shared->loss_before_m, shared->loss_after_m),
        shared->loss_before_m, shared->loss_after_m, repair});
-  if (shared->untold > 0)
-    outcome.remarks.push_back(fmt::format("Of {}, {} cannot be told and {} left out.",
-                                          printable(first), counted(shared->untold, "detection"),
-                                          repair ? "are" : "would be"));
+  if (shared->undetermined > 0)
+    outcome.remarks.push_back(
+        fmt::format("Of {}, {} cannot be told and {} left out.", printable(first),
+                    counted(shared->undetermined, "detection"), repair ? "are" : "would be"));
   outcome.loss_m = shared->loss_after_m;
-  return split_label(log, *shared, row);
+  return split_id(log, *shared, row);
 }
 
 /// Labels that contradict known places throughout. @return The log without that.
-DetectionLog check_places(LabelOutcome& outcome, const DetectionLog& log, const Points& known_m,
-                          bool repair) {
-  AnchorCheck check = check_anchor_labels(log, known_m);
+DetectionLog check_paths(AssociationOutcome& outcome, const DetectionLog& log,
+                         const Points& known_m, bool repair) {
+  AnchorCheck check = check_anchor_ids(log, known_m);
   for (const AnchorExchange& exchange : check.exchanges)
     outcome.facts.push_back({"exchanged", label(log, exchange.first), label(log, exchange.second),
                              described(exchange, log), exchange.misfit_before_m,
                              exchange.misfit_after_m, repair});
-  if (check.places < kFewestKnownPlaces)
+  if (check.positions < kFewestKnownPositions)
     outcome.remarks.push_back(
         fmt::format("An exchange of two labels in all detections would not show: that needs the "
                     "places of {} landmarks or more.",
-                    kFewestKnownPlaces));
+                    kFewestKnownPositions));
   else if (check.exchanges.empty())
     outcome.remarks.push_back(fmt::format(
         "No exchange of labels would fit the {} known places clearly better: missed by {:.3f} m.",
-        check.places, check.misfit_before_m));
-  if (check.places >= kFewestKnownPlaces && check.misfit_after_m > kMissed * outcome.loss_m)
+        check.positions, check.misfit_before_m));
+  if (check.positions >= kFewestKnownPositions && check.misfit_after_m > kMissed * outcome.loss_m)
     outcome.warnings.push_back(fmt::format(
         "Known places are missed by {:.3f} m, far more than the loss of {:.3f} m explains: labels "
         "may be wrong in a way that was not found{}.",
@@ -178,12 +178,12 @@ DetectionLog check_places(LabelOutcome& outcome, const DetectionLog& log, const 
 
 /// Labels that contradict one another. Where a landmark is never seen, that another bears its label
 /// is tried first: it is taken if it leaves nothing else to be found.
-DetectionLog check_scans(LabelOutcome& outcome, bool repair) {
+DetectionLog check_scans(AssociationOutcome& outcome, bool repair) {
   if (!unseen_in(outcome.log).empty()) {
-    LabelOutcome tried{.log = outcome.log};
+    AssociationOutcome tried{.log = outcome.log};
     DetectionLog split = check_shared(tried, outcome.log, repair);
     if (!tried.facts.empty()) {
-      LabelOutcome after{.log = split};
+      AssociationOutcome after{.log = split};
       DetectionLog corrected = check_pairs(after, repair);
       if (after.facts.empty() && after.warnings.empty()) {
         outcome.facts = std::move(tried.facts);
@@ -196,19 +196,19 @@ DetectionLog check_scans(LabelOutcome& outcome, bool repair) {
   return check_shared(outcome, check_pairs(outcome, repair), repair);
 }
 
-void check_and_repair(LabelOutcome& outcome, bool repair, const Points& known_m) {
+void check_and_repair(AssociationOutcome& outcome, bool repair, const Points& known_m) {
   DetectionLog corrected = check_scans(outcome, repair);
-  Points places_m = Points::Constant(std::ssize(corrected.names), 2, kNaN);
-  places_m.topRows(known_m.rows()) = known_m;
-  corrected = check_places(outcome, corrected, places_m, repair);
-  for (const LabelFact& fact : outcome.facts)
+  Points positions_shown_m = Points::Constant(std::ssize(corrected.names), 2, kNaN);
+  positions_shown_m.topRows(known_m.rows()) = known_m;
+  corrected = check_paths(outcome, corrected, positions_shown_m, repair);
+  for (const AssociationFact& fact : outcome.facts)
     outcome.remarks.push_back(fact.sentence + (repair ? "; repaired." : "."));
   if (!outcome.facts.empty() && !repair)
     outcome.remarks.emplace_back("The labels are mapped as they are; --repair-ids corrects them.");
   if (repair) outcome.log = std::move(corrected);
 }
 
-void split_moved(LabelOutcome& outcome) {
+void split_moved(AssociationOutcome& outcome) {
   MovedCheck check = find_moved(outcome.log);
   for (const MovedLandmark& moved : check.moved) {
     outcome.facts.push_back({"moved",
@@ -229,19 +229,20 @@ void split_moved(LabelOutcome& outcome) {
 template <typename Source>
 DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& job,
                          MapResult& result) {
-  LabelOutcome outcome = with_labels_checked(
+  AssociationOutcome outcome = with_association_checked(
       log, {.check = job.check_ids, .repair = job.repair_ids, .find_moved = job.find_moved},
-      known_places(log, source.truth_m, job.known_anchors, job.known_truth));
+      known_positions(log, source.ground_truth_m, job.known_anchors, job.known_ground_truth));
   const std::size_t landmarks = outcome.log.names.size();
-  source.places.resize(landmarks, source.places.empty() ? std::string() : source.places.front());
-  if (source.truth_m) {
-    Points truth_m = Points::Constant(static_cast<Eigen::Index>(landmarks), 2, kNaN);
-    truth_m.topRows(source.truth_m->rows()) = *source.truth_m;
-    source.truth_m = truth_m;
+  source.locations.resize(landmarks,
+                          source.locations.empty() ? std::string() : source.locations.front());
+  if (source.ground_truth_m) {
+    Points ground_truth_m = Points::Constant(static_cast<Eigen::Index>(landmarks), 2, kNaN);
+    ground_truth_m.topRows(source.ground_truth_m->rows()) = *source.ground_truth_m;
+    source.ground_truth_m = ground_truth_m;
   }
   result.remarks.insert(result.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
   result.warnings = std::move(outcome.warnings);
-  result.members.push_back({"labels", labels_json(outcome.facts)});
+  result.members.push_back({"data_association", labels_json(outcome.facts)});
   return std::move(outcome.log);
 }
 
@@ -270,17 +271,18 @@ MapDraft check_ids(MapDraft draft, const MapJob& job) {
 
 const MapStep kIdCheck{check_ids};
 
-LabelOutcome with_labels_checked(const DetectionLog& log, const LabelChoice& choice,
-                                 const Points& known_m) {
-  LabelOutcome outcome{.log = log};
+AssociationOutcome with_association_checked(const DetectionLog& log,
+                                            const AssociationChoice& choice,
+                                            const Points& known_m) {
+  AssociationOutcome outcome{.log = log};
   if (choice.check || choice.repair) check_and_repair(outcome, choice.repair, known_m);
   if (choice.find_moved) split_moved(outcome);
   return outcome;
 }
 
-nlohmann::ordered_json labels_json(const std::vector<LabelFact>& facts) {
+nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts) {
   nlohmann::ordered_json labels = nlohmann::ordered_json::array();
-  for (const LabelFact& fact : facts)
+  for (const AssociationFact& fact : facts)
     labels.push_back({{"what", fact.what},
                       {"first", fact.first},
                       {"second", fact.second},
@@ -291,13 +293,13 @@ nlohmann::ordered_json labels_json(const std::vector<LabelFact>& facts) {
   return labels;
 }
 
-std::string described(const LabelFinding& finding, const DetectionLog& log) {
+std::string described(const AssociationFinding& finding, const DetectionLog& log) {
   const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
   const std::string what =
-      finding.fault == LabelFault::kSwapped
+      finding.fault == AssociationFault::kSwapped
           ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
                         finding.scattered || finding.in_part ? " in single scans" : "")
-      : finding.fault == LabelFault::kWrong
+      : finding.fault == AssociationFault::kWrong
           ? fmt::format("{} looks like {}{}", label(finding.first), label(finding.second),
                         finding.in_part ? " in single scans" : "")
           : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));

@@ -5,15 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/labels/anchor_labels.hpp"
-#include "core/labels/mislabelled.hpp"
-#include "core/labels/moved.hpp"
+#include "core/association/anchor_ids.hpp"
+#include "core/association/association_check.hpp"
+#include "core/association/moved.hpp"
 #include "core/model/detection_log.hpp"
 
 namespace mapproof {
 
 /// What a person wants done about labels.
-struct LabelChoice {
+struct AssociationChoice {
   bool check = false;       ///< Name labels that contradict the others, or known places.
   bool repair = false;      ///< And correct them before mapping.
   bool find_moved = false;  ///< Name landmarks that moved, and map both of their places.
@@ -22,7 +22,7 @@ struct LabelChoice {
 };
 
 /// One thing that was found about labels.
-struct LabelFact {
+struct AssociationFact {
   /// "swapped", "wrong", "mixed", "shared" (by two landmarks), "exchanged" (in all detections),
   /// "moved".
   std::string what;
@@ -35,9 +35,9 @@ struct LabelFact {
 };
 
 /// The log as it is to be mapped, and what was found.
-struct LabelOutcome {
+struct AssociationOutcome {
   DetectionLog log;
-  std::vector<LabelFact> facts = {};
+  std::vector<AssociationFact> facts = {};
   std::vector<std::string> remarks = {};   ///< A sentence each.
   std::vector<std::string> warnings = {};  ///< The same, of what makes the map doubtful.
   double loss_m = 0.0;  ///< Of the pairs, what was found corrected; 0: not checked.
@@ -46,14 +46,14 @@ struct LabelOutcome {
 
 /// Checks, and if that is chosen corrects, the labels of detections with range and bearing.
 /// @param known_m  M x 2; NaN rows: places that are not known.
-LabelOutcome with_labels_checked(const DetectionLog& log, const LabelChoice& choice,
-                                 const Points& known_m);
+AssociationOutcome with_association_checked(const DetectionLog& log,
+                                            const AssociationChoice& choice, const Points& known_m);
 
 /// What was found, for the member "labels" of --json.
-nlohmann::ordered_json labels_json(const std::vector<LabelFact>& facts);
+nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts);
 
 /// A sentence: "7 and 12 look swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
-std::string described(const LabelFinding& finding, const DetectionLog& log);
+std::string described(const AssociationFinding& finding, const DetectionLog& log);
 
 /// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
 std::string described(const MovedLandmark& moved, const DetectionLog& log);

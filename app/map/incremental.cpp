@@ -14,7 +14,7 @@
 #include "core/base/words.hpp"
 #include "core/follow/moved_watch.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/range_slam/factors/online.hpp"
+#include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/records/observations/detection_stream.hpp"
 #include "core/records/observations/observation_stream.hpp"
 
@@ -22,19 +22,19 @@ namespace mapproof {
 namespace {
 
 /// Whether anything ties a map to a frame.
-bool is_tied(const Reference& known) { return !known.anchors.empty() || known.has_truth; }
+bool is_tied(const Reference& known) { return !known.anchors.empty() || known.has_ground_truth; }
 
 /// The steps reference, align and score, of what is known of the landmarks so far.
 /// @return Whether anything is known of them.
 bool align_so_far(MapResult& result, const FollowedTable& table) {
-  const Reference known = known_so_far(result.record, table.anchors, table.truth);
+  const Reference known = known_so_far(result.record, table.anchors, table.ground_truth);
   align(result, known, table.fit);
   return is_tied(known);
 }
 
 /// The step explain: what has to be said of the files of anchors and ground truth in the end.
 void explain_so_far(MapResult& result, const FollowedTable& table) {
-  for (std::string& remark : remarks_of_reference(result.record, table.anchors, table.truth))
+  for (std::string& remark : remarks_of_reference(result.record, table.anchors, table.ground_truth))
     result.remarks.push_back(std::move(remark));
 }
 
@@ -82,7 +82,7 @@ class ValueFollower : public Follower {
     record.statuses = update.embedding.statuses;
     record.certificate = update.embedding.certificate;
     align_so_far(result, table_);
-    if (record.frame != Frame::kTruth) lay_on_last(record.estimate);
+    if (record.frame != Frame::kGroundTruth) lay_on_last(record.estimate);
     return result;
   }
 
@@ -143,14 +143,14 @@ class PairFollower : public Follower {
   }
 
   MapResult last_update() override {
-    LabelOutcome outcome{.log = log_so_far()};
+    AssociationOutcome outcome{.log = log_so_far()};
     if (table_.find_moved) {
       const auto M = static_cast<Eigen::Index>(outcome.log.names.size());
       outcome =
-          with_labels_checked(outcome.log, {.find_moved = true}, Points::Constant(M, 2, kNaN));
+          with_association_checked(outcome.log, {.find_moved = true}, Points::Constant(M, 2, kNaN));
     }
     MapResult result = map_of(outcome.log);
-    result.members.push_back({"labels", labels_json(outcome.facts)});
+    result.members.push_back({"data_association", labels_json(outcome.facts)});
     for (const auto& more : {stream_.remarks(), outcome.remarks})
       result.remarks.insert(result.remarks.end(), more.begin(), more.end());
     explain_so_far(result, table_);
@@ -198,7 +198,7 @@ class PairFollower : public Follower {
   DetectionStream stream_;
   IncrementalLog scans_;
   MovedWatch watch_;
-  Points last_ = Points(0, 2);  ///< Without anchors and truth: the map before.
+  Points last_ = Points(0, 2);  ///< Without anchors and ground truth: the map before.
   std::vector<std::string> last_names_;
 };
 
@@ -229,7 +229,7 @@ class RangeFollower : public Follower {
     for (const Eigen::Index landmark : landmarks_)
       record.names.push_back(stream_.names()[static_cast<std::size_t>(landmark)]);
     record.estimate = Points::Zero(std::ssize(record.names), 2);
-    const Reference known = known_so_far(record, table_.anchors, table_.truth);
+    const Reference known = known_so_far(record, table_.anchors, table_.ground_truth);
     const SpectralMap map =
         known.anchors.size() >= kEnoughAnchors
             ? map_->map({known.anchors, known.positions_m(known.anchors, Eigen::all)})
@@ -293,9 +293,9 @@ class RangeFollower : public Follower {
   FollowedTable table_;
   ObservationStream stream_;
   std::vector<Eigen::Index> landmarks_;  ///< Of the stream's names, those of the first step.
-  std::optional<OnlineSpectralMap> map_;
+  std::optional<IncrementalSpectralMap> map_;
   std::size_t incomplete_ = 0;  ///< Steps that lack one of them.
-  std::optional<Points> last_;  ///< Without anchors and truth: the map before.
+  std::optional<Points> last_;  ///< Without anchors and ground truth: the map before.
 };
 
 }  // namespace

@@ -22,13 +22,13 @@ struct FollowedTable {
   AngleUnit unit = AngleUnit::kRadians;         ///< Of bearings.
   FollowOptions options = {};                   ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
-  std::optional<NamedPointsFile> truth = {};    ///< For scores, of what is known of it so far.
+  std::optional<NamedPointsFile> ground_truth = {};  ///< For scores, of what is known of it so far.
   FrameFit fit = {};
   bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.
 };
 
-/// A growing table as a map. Without anchors or truth each map is aligned to the one before, so
-/// that it does not jump.
+/// A growing table as a map. Without anchors or ground truth each map is aligned to the one before,
+/// so that it does not jump.
 class Follower {
  public:
   virtual ~Follower() = default;

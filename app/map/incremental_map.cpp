@@ -32,10 +32,10 @@ volatile std::sig_atomic_t g_asked = 0;
 extern "C" void ask_to_end(int) { g_asked = 1; }
 
 /// A file that others write to while it is read, a pipe or a device.
-class GrowingFile {
+class StreamedFile {
  public:
   /// @param path  "-": standard input. @throws IoError if it cannot be opened.
-  explicit GrowingFile(const std::string& path);
+  explicit StreamedFile(const std::string& path);
 
   enum class State {
     kMore,      ///< Bytes came.
@@ -76,14 +76,14 @@ class EndSignals {
   struct sigaction terminate_;
 };
 
-GrowingFile::GrowingFile(const std::string& path)
+StreamedFile::StreamedFile(const std::string& path)
     : path_(path), name_(input_name(path)), file_(open_followed(path)) {
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
   regular_ = S_ISREG(status.st_mode);
 }
 
-GrowingFile::State GrowingFile::read(std::string& bytes, double seconds) {
+StreamedFile::State StreamedFile::read(std::string& bytes, double seconds) {
   bytes.clear();
   pollfd wait{.fd = file_.get(), .events = POLLIN, .revents = 0};
   // A regular file is always ready: only others are waited for here.
@@ -104,7 +104,7 @@ GrowingFile::State GrowingFile::read(std::string& bytes, double seconds) {
   return State::kNothing;
 }
 
-bool GrowingFile::replaced() const {
+bool StreamedFile::replaced() const {
   struct stat here {
   }, there{};
   if (::fstat(file_.get(), &here) != 0 || here.st_size < at_) return true;
@@ -153,7 +153,7 @@ class Due {
 
 /// A file that is followed, and what came of it so far.
 struct FollowedFile {
-  GrowingFile file;
+  StreamedFile file;
   Unpacker unpacker;
   std::unique_ptr<Follower> follower;
   std::vector<std::string> remarks = {};  ///< On how it ended.
@@ -167,9 +167,9 @@ bool follow_to_end(FollowedFile& followed, const FollowInterval& every, const En
   Due due(every);
   std::string bytes;
   while (!signals.asked()) {
-    const GrowingFile::State state = followed.file.read(bytes, kWait_s);
-    if (state == GrowingFile::State::kEnd) return true;
-    if (state == GrowingFile::State::kReplaced) {
+    const StreamedFile::State state = followed.file.read(bytes, kWait_s);
+    if (state == StreamedFile::State::kEnd) return true;
+    if (state == StreamedFile::State::kReplaced) {
       followed.remarks.push_back(
           followed.file.name() +
           " was cut short, removed or replaced: the map is that of what was read "
@@ -228,26 +228,27 @@ FollowInterval follow_interval(const std::string& text) {
                  : FollowInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
 }
 
-int write_followed(const FollowOrder& order, const MapPlace& place, const Invocation& invocation) {
-  const MapFolder folder(place.out);
+int write_followed(const FollowOrder& order, const MapPlace& location,
+                   const Invocation& invocation) {
+  const MapFolder folder(location.out);
   const Console& console = invocation.console;
   const EndSignals signals;
-  FollowedFile followed{.file = GrowingFile(order.path),
+  FollowedFile followed{.file = StreamedFile(order.path),
                         .unpacker = Unpacker(input_name(order.path)),
                         .follower = nullptr};
   FollowedTable table = order.table;
   table.source = followed.file.name();
   followed.follower = order.follower(table);
   const bool ended = follow_to_end(followed, order.every, signals, [&](const MapResult& map) {
-    write_map(folder, place, map, false);
+    write_map(folder, location, map, false);
     for (const std::string& remark : map.remarks) console.warning(remark);
     console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
   });
   take_rest(followed, ended);
   const MapResult last = last_map(followed);
-  write_map(folder, place, last);
+  write_map(folder, location, last);
   for (const std::string& remark : last.remarks) console.warning(remark);
-  return report_map(last, place, invocation);
+  return report_map(last, location, invocation);
 }
 
 }  // namespace mapproof

@@ -34,6 +34,7 @@ struct FollowOrder {
 /// @return The command's exit code.
 /// @throws IoError for what cannot be read, or if the folder holds something else, or another
 ///         process writes there.
-int write_followed(const FollowOrder& order, const MapPlace& place, const Invocation& invocation);
+int write_followed(const FollowOrder& order, const MapPlace& location,
+                   const Invocation& invocation);
 
 }  // namespace mapproof

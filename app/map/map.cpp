@@ -22,7 +22,7 @@ FollowOrder follow_order(const MapJob& job) {
                     .unit = job.unit(),
                     .options = {.setting = job.setting, .embedder = job.embedder},
                     .anchors = job.known_anchors,
-                    .truth = job.known_truth,
+                    .ground_truth = job.known_ground_truth,
                     .fit = {.affine = job.affine_fit(),
                             .is_metric = job.is_range_bearing(),
                             .is_rigid = job.is_rigid()},
@@ -31,31 +31,31 @@ FollowOrder follow_order(const MapJob& job) {
           .every = follow_interval(job.every)};
 }
 
-int map_once(MapJob job, const MapPlace& place, const Invocation& invocation) {
+int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
   job.begin = [&](const MapRecord& begun) {
-    check_may_become(place.out, begun, job.chooses_method());
+    check_may_become(location.out, begun, job.chooses_method());
   };
   const MapResult map = make_map(job);
   for (const auto& [what, value] : map.read)
     invocation.console.detail(fmt::format("{}: {}: {}", input_name(job.path), what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
-  write_map(MapFolder(place.out, map.record), place, map);
-  return report_map(map, place, invocation);
+  write_map(MapFolder(location.out, map.record), location, map);
+  return report_map(map, location, invocation);
 }
 
 int run_map(MapJob job, const Invocation& invocation) {
-  const MapPlace place{.out = job.out,
-                       .observations = job.path,
-                       .command = invocation.command,
-                       .page = load_templates(job.templates)};
+  const MapPlace location{.out = job.out,
+                          .observations = job.path,
+                          .command = invocation.command,
+                          .page = load_templates(job.templates)};
   check_map_folder(job.out);
-  std::vector<std::string> inputs = {job.path, job.anchors, job.truth};
+  std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
   refuse_shared_streams(inputs);
   settle(job);
-  return job.follow ? write_followed(follow_order(job), place, invocation)
-                    : map_once(std::move(job), place, invocation);
+  return job.follow ? write_followed(follow_order(job), location, invocation)
+                    : map_once(std::move(job), location, invocation);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ std::string difference(const MapRecord& there, const MapRecord& here) {
   if (there.step != here.step) return fmt::format("{} steps there, {} here", there.step, here.step);
   if (there.names != here.names) return "of other landmarks";
   if (there.anchors != here.anchors) return "with other anchors";
-  if (!same_positions(there.truth_m, here.truth_m)) return "with other known positions";
+  if (!same_positions(there.ground_truth_m, here.ground_truth_m))
+    return "with other known positions";
   return "";
 }
 

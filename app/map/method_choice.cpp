@@ -32,7 +32,7 @@ MethodChoice choose_method(const ObservationHistory& history, Eigen::Index steps
   return choice;
 }
 
-bool told(const MethodChoice& choice, Criterion criterion) {
+bool reported(const MethodChoice& choice, Criterion criterion) {
   return std::ranges::any_of(choice.maps, [&](const JudgedMap& map) {
     return !std::isnan(value_of(map.values, criterion));
   });
@@ -43,7 +43,7 @@ Table ranking_table(const MethodChoice& choice) {
       "ranking", "Candidates, best first", {{"Rank", "", "", ""}, {"Method", "", "", ""}}, {}, {}};
   std::vector<Criterion> shown;
   for (const CriterionInfo& criterion : all_criteria())
-    if (told(choice, criterion.criterion)) {
+    if (reported(choice, criterion.criterion)) {
       shown.push_back(criterion.criterion);
       table.columns.push_back({std::string(criterion.label), "", "",
                                fmt::format("{}; {} is better.", criterion.meaning,
@@ -69,7 +69,7 @@ Section choice_section(const MethodChoice& choice) {
   Section section{"choice", "Why this method", {}};
   section.blocks.emplace_back(Paragraph{{{fmt::format(
       "No method was given: {} were tried, and the best by \"{}\" was taken ({}). None of these "
-      "criteria knows the truth; in simulated worlds this one picked best.",
+      "criteria knows the ground truth; in simulated worlds this one picked best.",
       counted(std::ssize(choice.maps), "candidate"), criterion.label, criterion.meaning)}}});
   section.blocks.emplace_back(ranking_table(choice));
   return section;

@@ -6,7 +6,7 @@
 #include "core/base/words.hpp"
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
-#include "core/missing/gap_pattern.hpp"
+#include "core/missing/missing_pattern.hpp"
 
 namespace mapproof {
 namespace {
@@ -40,30 +40,30 @@ ProximityRule covisible_rule(const std::shared_ptr<DistanceNotes>& notes) {
 
 /// Whether another way than the advised one makes much worse maps: gaps at random spoil covisible
 /// pairs, patterns spoil the others; common steps at random are but a little worse.
-bool worth_a_warning(const GapPattern& pattern, const std::string& way) {
+bool worth_a_warning(const MissingPattern& pattern, const std::string& way) {
   constexpr double kPatterned = 2.0;
   return way == kCovisible || pattern.dispersion > kPatterned;
 }
 
 /// "entries are missing by distance (40 % missing, ...)": why a way is advised.
-std::string advice_words(GapReason why, const GapPattern& pattern) {
+std::string advice_words(StrategyReason why, const MissingPattern& pattern) {
   const std::string numbers = fmt::format(
       "{:.0f} % missing, pairs' common steps {:.1f} standard deviations from chance, rank "
       "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five",
       100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
       100.0 * pattern.few_share);
   switch (why) {
-    case GapReason::kNoGaps:
+    case StrategyReason::kNothingMissing:
       return "nothing is missing";
-    case GapReason::kOfVisibility:
+    case StrategyReason::kOfVisibility:
       return "entries of visibility are not filled in";
-    case GapReason::kHardlyEver:
+    case StrategyReason::kHardlyEver:
       return "many pairs are hardly ever observed together, near ones are (" + numbers + ")";
-    case GapReason::kByDistance:
+    case StrategyReason::kByDistance:
       return "entries are missing by distance (" + numbers + ")";
-    case GapReason::kByAPattern:
+    case StrategyReason::kByAPattern:
       return "entries are missing by a pattern that can be filled in (" + numbers + ")";
-    case GapReason::kAtRandom:
+    case StrategyReason::kAtRandom:
       return "entries are missing as if at random (" + numbers + ")";
   }
   return "";
@@ -111,16 +111,16 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
                       static_cast<double>(steps);
   const bool is_auto = choice.way == kAuto;
-  if (is_auto) choice.way = name(GapWay::kCommonSteps);
+  if (is_auto) choice.way = name(MissingStrategy::kCommonSteps);
   if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
-  const GapPattern pattern = gap_pattern(with_rows(history, rows), steps);
-  const GapAdvice advice = advised_way(pattern, history.sensor);
+  const MissingPattern pattern = missing_pattern(with_rows(history, rows), steps);
+  const StrategyAdvice advice = advised_way(pattern, history.sensor);
   if (is_auto) {
     choice.way = name(advice.way);
-    if (choice.dimensions && advice.way != GapWay::kPpca) choice.dimensions.reset();
+    if (choice.dimensions && advice.way != MissingStrategy::kPpca) choice.dimensions.reset();
     result.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
                                          advice_words(advice.why, pattern)));
-  } else if (const bool both_fill = advice.way == GapWay::kPpca && choice.way == "pca";
+  } else if (const bool both_fill = advice.way == MissingStrategy::kPpca && choice.way == "pca";
              choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
              history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
     result.warnings.push_back(

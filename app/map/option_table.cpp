@@ -67,7 +67,7 @@ const std::vector<MapOption>& all_options() {
       {"--degrees", [](Job job) { return job.degrees; }, {"--degrees"}},
       {"--layout wide", [](Job job) { return job.layout == "wide"; }, {"--layout", "wide"}},
       {"--anchors", [](Job job) { return !job.anchors.empty(); }, {"--anchors"}},
-      {"--ground-truth", [](Job job) { return !job.truth.empty(); }, {"--ground-truth"}},
+      {"--ground-truth", [](Job job) { return !job.ground_truth.empty(); }, {"--ground-truth"}},
       {"--steps", [](Job job) { return job.steps > 0; }, {"--steps", "20"}},
       {"--fit", [](Job job) { return job.fit == "least-squares"; }, {"--fit", "least-squares"}},
       {"--fit rigid", [](Job job) { return job.is_rigid(); }, {"--fit", "rigid"}},

@@ -30,9 +30,9 @@ namespace fs = std::filesystem;
 
 /// "Map of seen.csv", for a report.
 std::string map_title(const std::string& observations) {
-  const bool has_place = !handed_in(observations);
-  return "Map of " + (has_place ? std::filesystem::path(observations).filename().string()
-                                : input_name(observations));
+  const bool has_position = !handed_in(observations);
+  return "Map of " + (has_position ? std::filesystem::path(observations).filename().string()
+                                   : input_name(observations));
 }
 
 /// The map first, as drawn with what is known of it, then the others.
@@ -43,18 +43,19 @@ std::vector<Figure> figures_of(const MapResult& map) {
   return figures;
 }
 
-Report report_of(const MapPlace& place, const MapResult& map, const std::vector<Figure>& figures) {
+Report report_of(const MapPlace& location, const MapResult& map,
+                 const std::vector<Figure>& figures) {
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
   return map_report({.record = map.record,
-                     .title = map_title(place.observations),
+                     .title = map_title(location.observations),
                      .facts = map.facts,
                      .remarks = map.remarks,
                      .warnings = map.warnings,
                      .figure = figure_block(figures.front()),
                      .more_figures = std::move(more),
                      .provenance = build_provenance(),
-                     .command = place.command,
+                     .command = location.command,
                      .more = map.sections});
 }
 
@@ -73,7 +74,7 @@ void remove_stale(const fs::path& out, const MapResult& map) {
 
 nlohmann::ordered_json landmark_json(const MapResult& map, Eigen::Index i) {
   const MapRecord& record = map.record;
-  const std::string unit = record.frame == Frame::kTruth ? "_m" : "";
+  const std::string unit = record.frame == Frame::kGroundTruth ? "_m" : "";
   nlohmann::ordered_json landmark{{"name", record.names[static_cast<std::size_t>(i)]},
                                   {"x" + unit, number_or_null(record.estimate(i, 0))},
                                   {"y" + unit, number_or_null(record.estimate(i, 1))}};
@@ -98,7 +99,7 @@ nlohmann::ordered_json result_json(const MapResult& map, const fs::path& out) {
       {"score", nullptr},
       {"landmarks", nlohmann::ordered_json::array()},
       {"statuses", statuses_json(record.statuses)},
-      {"labels", nlohmann::ordered_json::array()},
+      {"data_association", nlohmann::ordered_json::array()},
       {"remarks", map.remarks},
       {"warnings", map.warnings},
       {"map", (out / kMapFile).string()},
@@ -127,7 +128,7 @@ std::string map_text(const MapResult& map, const fs::path& out) {
 
 }  // namespace
 
-void write_map(const MapFolder& folder, const MapPlace& place, const MapResult& map, bool last) {
+void write_map(const MapFolder& folder, const MapPlace& location, const MapResult& map, bool last) {
   const fs::path& out = folder.path();
   const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
@@ -139,18 +140,18 @@ void write_map(const MapFolder& folder, const MapPlace& place, const MapResult& 
   for (const Figure& figure : figures)
     drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
   if (!last) return;
-  const Report report = report_of(place, map, figures);
+  const Report report = report_of(location, map, figures);
   write_tables(report, out / "tables");
-  write_file(out / "report.html", report_html(report, place.page, [&](const std::string& id) {
+  write_file(out / "report.html", report_html(report, location.page, [&](const std::string& id) {
                const auto found = drawn.find(id);
                return found == drawn.end() ? std::string() : found->second;
              }));
 }
 
-int report_map(const MapResult& map, const MapPlace& place, const Invocation& invocation) {
+int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation) {
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status_words(status)));
-  invocation.console.result(map_text(map, place.out), result_json(map, place.out));
+  invocation.console.result(map_text(map, location.out), result_json(map, location.out));
   return map.record.estimate.array().isNaN().all() ? kNo : kDone;
 }
 

@@ -20,10 +20,10 @@ struct MapPlace {
 /// The step write: map.json, map.csv, figures, and what else the steps contributed.
 /// @param last  With tables and report; else another map of the same observations comes.
 /// @throws IoError.
-void write_map(const MapFolder& folder, const MapPlace& place, const MapResult& map,
+void write_map(const MapFolder& folder, const MapPlace& location, const MapResult& map,
                bool last = true);
 
 /// Shows a map's warnings and its result. @return The command's exit code: kNo if there is no map.
-int report_map(const MapResult& map, const MapPlace& place, const Invocation& invocation);
+int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation);
 
 }  // namespace mapproof

@@ -35,8 +35,8 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
     sources.push_back(read_observations(job.with[k], sensor_named(job.with_kind[k]),
                                         job.table_layout(), job.unit()));
   for (const ObservationSource& source : sources)
-    if (!source.unlabelled.empty())
-      throw IoError(source.path, fmt::format("line {}", source.unlabelled.front().line),
+    if (!source.unassociated.empty())
+      throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),
                     "a reading without a label: not with --with");
   return sources;
 }
@@ -73,10 +73,10 @@ void check_unseen(const ObservationSource& source, const std::vector<Eigen::Inde
                   const MapJob& job, std::vector<std::string>& remarks) {
   if (unseen.empty()) return;
   const auto first = static_cast<std::size_t>(unseen.front());
-  const bool is_log = source.truth_m.has_value();
+  const bool is_log = source.ground_truth_m.has_value();
   if (!job.drop_unseen && !is_log)
     throw IoError(
-        source.path, source.places[first],
+        source.path, source.locations[first],
         fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
                     "to map the others",
                     quoted_name(source.history.names[first]),
@@ -93,7 +93,7 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
   draft.landmarks = {.path = source.path,
                      .names = history.names,
                      .unseen = unseen_landmarks(history, steps),
-                     .truth_m = source.truth_m};
+                     .ground_truth_m = source.ground_truth_m};
   require_neighbours(job, draft.landmarks);
   check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
   MapRecord& record = draft.result.record;
@@ -116,8 +116,10 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
     std::erase_if(log.detections, [&](const Detection& seen) { return seen.step >= job.steps; });
     log.steps = job.steps;
   }
-  draft.landmarks = {
-      .path = source.path, .names = log.names, .unseen = unseen_in(log), .truth_m = source.truth_m};
+  draft.landmarks = {.path = source.path,
+                     .names = log.names,
+                     .unseen = unseen_in(log),
+                     .ground_truth_m = source.ground_truth_m};
   if (!job.is_range_bearing() && !draft.landmarks.unseen.empty())
     throw IoError(source.path,
                   fmt::format("{} of {} landmarks are not in the first {} scans",
@@ -147,14 +149,14 @@ MapDraft check(MapDraft draft, const MapJob& job) {
 
 /// Anchors and ground truth in the rows of the landmarks; then nothing but the map is unknown.
 MapDraft refer(MapDraft draft, const MapJob& job) {
-  draft.reference =
-      reference_of(draft.landmarks, job.known_anchors, job.known_truth, draft.result.remarks);
+  draft.reference = reference_of(draft.landmarks, job.known_anchors, job.known_ground_truth,
+                                 draft.result.remarks);
   // Whether a map of pairs can be fitted to what is known turns out with the map.
   if (!job.begin || job.is_range_bearing()) return draft;
   MapRecord begun = draft.result.record;
   begun.anchors = draft.reference.anchors;
-  if (draft.reference.has_truth || !begun.anchors.empty())
-    begun.truth_m = draft.reference.positions_m;
+  if (draft.reference.has_ground_truth || !begun.anchors.empty())
+    begun.ground_truth_m = draft.reference.positions_m;
   job.begin(begun);
   return draft;
 }

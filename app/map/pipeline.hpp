@@ -68,12 +68,12 @@ std::span<const MapStep* const> map_steps();
 
 /// Maps what a person observed: reads it, and takes the steps.
 ///
-/// A source that holds its own truth (MRCLAM) is aligned, without anchors, to the four landmarks
-/// furthest out along the diagonals of the truth's extent.
+/// A source that holds its own ground truth (MRCLAM) is aligned, without anchors, to the four
+/// landmarks furthest out along the diagonals of the ground truth's extent.
 /// @throws IoError naming file and line for what the readers refuse; anchors that cannot serve
-///         (fewer than three, on one line, unknown, unobserved), a truth about other landmarks,
-///         landmarks never observed (unless dropped or read from a log, where no row can be
-///         removed), K >= M, too few landmarks. @throws InvalidInput as require_compatible().
+///         (fewer than three, on one line, unknown, unobserved), a ground truth about other
+///         landmarks, landmarks never observed (unless dropped or read from a log, where no row can
+///         be removed), K >= M, too few landmarks. @throws InvalidInput as require_compatible().
 MapResult make_map(const MapJob& job);
 
 /// Takes an embedding, its statuses after those of the distances, and its certificate.

@@ -25,21 +25,22 @@ std::map<std::string, Eigen::Index> rows_of(const MappedLandmarks& source) {
 }
 
 /// Positions by landmark, in the rows of the source; NaN where the file has none.
-Points matched_truth(const MappedLandmarks& source, const NamedPointsFile& truth,
-                     std::vector<std::string>& remarks) {
+Points matched_ground_truth(const MappedLandmarks& source, const NamedPointsFile& ground_truth,
+                            std::vector<std::string>& remarks) {
   const auto rows = rows_of(source);
   Points positions = Points::Constant(source.landmarks(), 2, kNaN);
   Eigen::Index matched = 0;
-  for (std::size_t i = 0; i < truth.points.names.size(); ++i) {
-    const auto row = rows.find(truth.points.names[i]);
+  for (std::size_t i = 0; i < ground_truth.points.names.size(); ++i) {
+    const auto row = rows.find(ground_truth.points.names[i]);
     if (row == rows.end()) continue;
-    positions.row(row->second) = truth.points.positions_m.row(static_cast<Eigen::Index>(i));
+    positions.row(row->second) = ground_truth.points.positions_m.row(static_cast<Eigen::Index>(i));
     ++matched;
   }
-  const auto given = std::ssize(truth.points.names);
+  const auto given = std::ssize(ground_truth.points.names);
   if (matched == 0)
-    throw IoError(truth.path, fmt::format("none of its {} names is a landmark of {} ({}, ...)",
-                                          given, source.path, quoted_name(source.names.at(0))));
+    throw IoError(ground_truth.path,
+                  fmt::format("none of its {} names is a landmark of {} ({}, ...)", given,
+                              source.path, quoted_name(source.names.at(0))));
   if (matched < given)
     remarks.push_back(fmt::format(
         "True positions of landmarks that were not observed, not used: {}.", given - matched));
@@ -59,7 +60,7 @@ std::vector<Eigen::Index> matched_anchors(const MappedLandmarks& source,
     const auto row = rows.find(name);
     if (row == rows.end())
       throw IoError(
-          anchors.path, anchors.points.places[i],
+          anchors.path, anchors.points.locations[i],
           fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted_name(name),
                       source.landmarks(), source.path, quoted_name(source.names.at(0))));
     if (std::ranges::binary_search(source.unseen, row->second)) continue;
@@ -78,8 +79,8 @@ std::vector<Eigen::Index> matched_anchors(const MappedLandmarks& source,
   return chosen;
 }
 
-/// The anchors of a source that brings its truth, chosen among the landmarks that were observed;
-/// none, with a remark, if they lie on one line.
+/// The anchors of a source that brings its ground truth, chosen among the landmarks that were
+/// observed; none, with a remark, if they lie on one line.
 std::vector<Eigen::Index> diagonal_anchors_of(const MappedLandmarks& source, Points positions_m,
                                               std::vector<std::string>& remarks) {
   for (const Eigen::Index row : source.unseen) positions_m.row(row).setConstant(kNaN);
@@ -89,15 +90,15 @@ std::vector<Eigen::Index> diagonal_anchors_of(const MappedLandmarks& source, Poi
   return {};
 }
 
-/// Anchors that stand elsewhere in the truth than in their own file.
-void remark_disagreement(const Points& truth_m, const Reference& known,
+/// Anchors that stand elsewhere in the ground truth than in their own file.
+void remark_disagreement(const Points& ground_truth_m, const Reference& known,
                          std::vector<std::string>& remarks) {
   const auto moved = std::ranges::count_if(known.anchors, [&](Eigen::Index row) {
-    return (truth_m.row(row) - known.positions_m.row(row)).norm() > 1e-6;
+    return (ground_truth_m.row(row) - known.positions_m.row(row)).norm() > 1e-6;
   });
   if (moved > 0)
     remarks.push_back(
-        fmt::format("Anchors that the truth puts elsewhere: {}. The anchors' own "
+        fmt::format("Anchors that the ground truth puts elsewhere: {}. The anchors' own "
                     "positions are used.",
                     moved));
 }
@@ -133,31 +134,34 @@ std::optional<NamedPointsFile> read_points(const std::string& path) {
 std::string quoted_name(const std::string& name) { return "\"" + printable(name) + "\""; }
 
 Reference reference_of(const MappedLandmarks& source, const std::optional<NamedPointsFile>& anchors,
-                       const std::optional<NamedPointsFile>& truth,
+                       const std::optional<NamedPointsFile>& ground_truth,
                        std::vector<std::string>& remarks) {
   Reference known{.positions_m = Points::Constant(source.landmarks(), 2, kNaN),
-                  .has_truth = truth.has_value() || source.truth_m.has_value(),
+                  .has_ground_truth = ground_truth.has_value() || source.ground_truth_m.has_value(),
                   .anchors = {}};
-  if (truth) {
-    known.positions_m = matched_truth(source, *truth, remarks);
-  } else if (source.truth_m) {
-    known.positions_m = *source.truth_m;
+  if (ground_truth) {
+    known.positions_m = matched_ground_truth(source, *ground_truth, remarks);
+  } else if (source.ground_truth_m) {
+    known.positions_m = *source.ground_truth_m;
   }
   if (anchors) {
-    const Points truth_m = known.positions_m;
+    const Points ground_truth_m = known.positions_m;
     known.anchors = matched_anchors(source, *anchors, known.positions_m);
-    remark_disagreement(truth_m, known, remarks);
-  } else if (source.truth_m) {
+    remark_disagreement(ground_truth_m, known, remarks);
+  } else if (source.ground_truth_m) {
     known.anchors = diagonal_anchors_of(source, known.positions_m, remarks);
   }
   return known;
 }
 
 Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
-                       const std::optional<NamedPointsFile>& truth) {
+                       const std::optional<NamedPointsFile>& ground_truth) {
   const auto M = static_cast<Eigen::Index>(record.names.size());
-  Reference known{.positions_m = Points::Constant(M, 2, kNaN), .has_truth = false, .anchors = {}};
-  if (truth) known.has_truth = !matched_so_far(record, truth->points, known.positions_m).empty();
+  Reference known{
+      .positions_m = Points::Constant(M, 2, kNaN), .has_ground_truth = false, .anchors = {}};
+  if (ground_truth)
+    known.has_ground_truth =
+        !matched_so_far(record, ground_truth->points, known.positions_m).empty();
   if (!anchors) return known;
   known.anchors = matched_so_far(record, anchors->points, known.positions_m);
   std::erase_if(known.anchors,
@@ -172,7 +176,7 @@ Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& 
 
 std::vector<std::string> remarks_of_reference(const MapRecord& record,
                                               const std::optional<NamedPointsFile>& anchors,
-                                              const std::optional<NamedPointsFile>& truth) {
+                                              const std::optional<NamedPointsFile>& ground_truth) {
   std::vector<std::string> remarks;
   const auto add = [&](const std::optional<NamedPointsFile>& file, const char* what) {
     if (!file) return;
@@ -181,10 +185,10 @@ std::vector<std::string> remarks_of_reference(const MapRecord& record,
                                     listed(names, 11)));
   };
   add(anchors, "Anchors");
-  add(truth, "True positions");
-  if (!truth) return remarks;
+  add(ground_truth, "True positions");
+  if (!ground_truth) return remarks;
   const std::ptrdiff_t known =
-      std::ssize(truth->points.names) - std::ssize(never_seen(record, truth->points));
+      std::ssize(ground_truth->points.names) - std::ssize(never_seen(record, ground_truth->points));
   if (const std::ptrdiff_t left = std::ssize(record.names) - known; left > 0)
     remarks.push_back(
         fmt::format("The true position of {} is not known.", counted(left, "landmark")));

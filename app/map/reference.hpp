@@ -26,8 +26,8 @@ std::optional<NamedPointsFile> read_points(const std::string& path);
 struct MappedLandmarks {
   std::string path;  ///< Of the observations, for errors.
   std::vector<std::string> names;
-  std::vector<Eigen::Index> unseen;  ///< Ascending; they cannot be anchors.
-  std::optional<Points> truth_m;     ///< If the observations bring it; NaN rows: unknown.
+  std::vector<Eigen::Index> unseen;      ///< Ascending; they cannot be anchors.
+  std::optional<Points> ground_truth_m;  ///< If the observations bring it; NaN rows: unknown.
 
   Eigen::Index landmarks() const { return std::ssize(names); }
 };
@@ -35,28 +35,28 @@ struct MappedLandmarks {
 /// What is known of the landmarks' true positions.
 struct Reference {
   Points positions_m;                 ///< M x 2; NaN rows: unknown.
-  bool has_truth = false;             ///< More than the anchors is known: errors can be told.
+  bool has_ground_truth = false;      ///< More than the anchors is known: errors can be told.
   std::vector<Eigen::Index> anchors;  ///< Ascending; empty: the map stays a shape.
 };
 
-/// Matches anchors and truth to the landmarks. Observations that bring their own truth are aligned,
-/// without `anchors`, to the four landmarks furthest out along the diagonals.
+/// Matches anchors and ground truth to the landmarks. Observations that bring their own ground
+/// truth are aligned, without `anchors`, to the four landmarks furthest out along the diagonals.
 /// @throws IoError naming file and line for anchors that cannot serve (fewer than three, on one
-///         line, unknown, unobserved), or a truth about other landmarks.
+///         line, unknown, unobserved), or a ground truth about other landmarks.
 Reference reference_of(const MappedLandmarks& source, const std::optional<NamedPointsFile>& anchors,
-                       const std::optional<NamedPointsFile>& truth,
+                       const std::optional<NamedPointsFile>& ground_truth,
                        std::vector<std::string>& remarks);
 
 /// What files say of the landmarks that a growing map holds so far. Anchors that are not on it are
 /// left out, and all of them, with a status, while those that are do not span the plane.
 /// @param record  Names and estimate are read; statuses are added to.
 Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
-                       const std::optional<NamedPointsFile>& truth);
+                       const std::optional<NamedPointsFile>& ground_truth);
 
 /// What has to be said of the files in the end, a sentence each: names that never came, landmarks
-/// whose truth is not known.
+/// whose ground truth is not known.
 std::vector<std::string> remarks_of_reference(const MapRecord& record,
                                               const std::optional<NamedPointsFile>& anchors,
-                                              const std::optional<NamedPointsFile>& truth);
+                                              const std::optional<NamedPointsFile>& ground_truth);
 
 }  // namespace mapproof

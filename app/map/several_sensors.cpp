@@ -105,16 +105,17 @@ std::vector<std::string> joint_names(const Sources& sources) {
   return names;
 }
 
-/// The truth that comes with the first file that has one, in the rows of `names`.
-std::optional<Points> common_truth(const Sources& sources, const std::vector<std::string>& names) {
+/// The ground truth that comes with the first file that has one, in the rows of `names`.
+std::optional<Points> common_ground_truth(const Sources& sources,
+                                          const std::vector<std::string>& names) {
   const auto source = std::ranges::find_if(
-      sources, [](const ObservationSource& one) { return one.truth_m.has_value(); });
+      sources, [](const ObservationSource& one) { return one.ground_truth_m.has_value(); });
   if (source == sources.end()) return std::nullopt;
-  Points truth_m = Points::Constant(std::ssize(names), 2, kNaN);
+  Points ground_truth_m = Points::Constant(std::ssize(names), 2, kNaN);
   for (std::size_t i = 0; i < source->history.names.size(); ++i)
-    truth_m.row(std::ranges::find(names, source->history.names[i]) - names.begin()) =
-        source->truth_m->row(static_cast<Eigen::Index>(i));
-  return truth_m;
+    ground_truth_m.row(std::ranges::find(names, source->history.names[i]) - names.begin()) =
+        source->ground_truth_m->row(static_cast<Eigen::Index>(i));
+  return ground_truth_m;
 }
 
 /// Rows that no sensor saw, with a remark. @throws IoError unless they are to be dropped or a log
@@ -133,7 +134,7 @@ std::vector<Eigen::Index> unseen_by_all(const Sources& sources, const MapJob& jo
   for (std::size_t i = 0; i < misses.size(); ++i)
     if (misses[i] == static_cast<int>(sources.size())) rows.push_back(static_cast<Eigen::Index>(i));
   if (rows.empty()) return rows;
-  if (!job.drop_unseen && !sources.front().truth_m)
+  if (!job.drop_unseen && !sources.front().ground_truth_m)
     throw IoError(
         sources.front().path,
         fmt::format(
@@ -163,7 +164,7 @@ MapDraft take_common_landmarks(MapDraft draft, const MapJob& job) {
     require_steps(job, source.path, source.history.steps());
   list_sources(*sources, result);
   remark_differences(*sources, names, result);
-  draft.landmarks.truth_m = common_truth(*sources, names);
+  draft.landmarks.ground_truth_m = common_ground_truth(*sources, names);
   for (ObservationSource& source : *sources) {
     source.history = in_rows(source.history, names);
     if (job.steps > 0)
@@ -244,9 +245,10 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
     words = "Whether the joint map is better than the sensors' own cannot be told without a truth.";
   if (const ComparedMap* best = best_alone([](const ComparedMap& map) { return map.mpe_m(); });
       best != nullptr && !std::isnan(joint.mpe_m()))
-    words += fmt::format(" By the truth it is {} the best single one: MPE {} m against {} m of {}.",
-                         comparison(joint.mpe_m(), best->mpe_m(), kMuchMpe * best->mpe_m()),
-                         number_words(joint.mpe_m()), number_words(best->mpe_m()), best->what);
+    words += fmt::format(
+        " By the ground truth it is {} the best single one: MPE {} m against {} m of {}.",
+        comparison(joint.mpe_m(), best->mpe_m(), kMuchMpe * best->mpe_m()),
+        number_words(joint.mpe_m()), number_words(best->mpe_m()), best->what);
   return words;
 }
 
@@ -307,8 +309,8 @@ Section mixed_section(const JointMapResult& mixed) {
                {"Weight", "", "", "In the mean distances that the joint map starts from."},
                {"Share", "", "", "In the weights of the joint map's pairs."},
                {"Continuity", "", "", "Share of all sensors' neighbourhoods that the map keeps."},
-               {"MPE", "m", "", "Where the truth is known."},
-               {"MOE", "%", "", "Where the truth is known."}},
+               {"MPE", "m", "", "Where the ground truth is known."},
+               {"MOE", "%", "", "Where the ground truth is known."}},
               {},
               {}};
   for (std::size_t k = 0; k < mixed.maps.size(); ++k) {
@@ -375,7 +377,7 @@ std::optional<Figure> mixed_figure(const JointMapResult& mixed) {
 }
 
 /// Maps what several sensors observed into one (see mixed_map()), and compares it with each
-/// sensor's own. The first sensor leads: its truth, if it has one.
+/// sensor's own. The first sensor leads: its ground truth, if it has one.
 MapDraft embed_jointly(MapDraft draft, const MapJob& job) {
   const auto* sources = std::get_if<Sources>(&draft.observed);
   if (sources == nullptr) return draft;

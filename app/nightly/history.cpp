@@ -28,16 +28,16 @@ struct HistoryArguments {
 
 int list(HistoryStore& history, const Console& console) {
   std::string text;
-  for (const NightFacts& night : history.nights()) {
-    text += fmt::format("{:>5}  {}  {:<12}{}", night.number, night.started_utc, verdict_word(night),
-                        night.pinned ? "  pinned" : "");
-    for (const StudyNight& study : history.studies(night.number))
+  for (const NightlyFacts& nightly_run : history.nightly_runs()) {
+    text += fmt::format("{:>5}  {}  {:<12}{}", nightly_run.number, nightly_run.started_utc,
+                        verdict_word(nightly_run), nightly_run.pinned ? "  pinned" : "");
+    for (const NightlyStudy& study : history.studies(nightly_run.number))
       text += fmt::format("  {} ({})", study.name, counted(study.runs, "run"));
     text += "\n";
-    for (const NightFinding& finding : history.findings(night.number))
+    for (const NightlyFinding& finding : history.findings(nightly_run.number))
       text += fmt::format("         {}: {}\n", finding.study, finding.sentence);
   }
-  if (text.empty()) text = "no night yet\n";
+  if (text.empty()) text = "no nightly run yet\n";
   // The result of a command; the exported file names its own schema.
   nlohmann::ordered_json object = history_json(history, false);
   object.erase("schema");
@@ -51,25 +51,27 @@ int verify(HistoryStore& history, const fs::path& store, const Console& console)
   std::string text;
   for (const std::string& problem : problems) text += printable(problem, 4000) + "\n";
   if (problems.empty())
-    text = fmt::format("{} and {} are whole\n",
-                       counted(static_cast<long long>(history.nights().size()), "night"),
-                       counted(static_cast<long long>(digests.size()), "figure file"));
+    text =
+        fmt::format("{} and {} are whole\n",
+                    counted(static_cast<long long>(history.nightly_runs().size()), "nightly_run"),
+                    counted(static_cast<long long>(digests.size()), "figure file"));
   console.result(text, {{"whole", problems.empty()}, {"problems", problems}});
   return problems.empty() ? kDone : kNo;
 }
 
 int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Console& console) {
   const FolderLock lock(arguments.store, [&] {
-    console.warning(arguments.store + ": a night is being made in it; waiting for its end");
+    console.warning(arguments.store + ": a nightly run is being made in it; waiting for its end");
   });
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
   std::error_code error;
   if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
     write_history_pages(history, arguments.store, arguments.store, {}, load_templates(), 1);
-  console.result(fmt::format("{} and {} removed\n",
-                             counted(static_cast<long long>(pruned.nights.size()), "night"),
-                             counted(pruned.files, "figure file")),
-                 {{"removed_nights", pruned.nights}, {"removed_files", pruned.files}});
+  console.result(
+      fmt::format("{} and {} removed\n",
+                  counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly_run"),
+                  counted(pruned.files, "figure file")),
+      {{"removed_nights", pruned.nightly_runs}, {"removed_files", pruned.files}});
   return kDone;
 }
 
@@ -84,7 +86,7 @@ int history_of(const HistoryArguments& arguments, const Invocation& invocation) 
   if (arguments.verify) return verify(history, arguments.store, console);
   if (arguments.pin) {
     history.pin(*arguments.pin);
-    console.result(fmt::format("night {} is pinned\n", *arguments.pin),
+    console.result(fmt::format("nightly run {} is pinned\n", *arguments.pin),
                    {{"pinned", *arguments.pin}});
     return kDone;
   }
@@ -100,24 +102,27 @@ int history_of(const HistoryArguments& arguments, const Invocation& invocation) 
 
 Action history_command(CLI::App& app) {
   auto arguments = std::make_shared<HistoryArguments>();
-  app.description("List, check, export or prune the nights of a history");
+  app.description("List, check, export or prune the nightly runs of a history");
   app.footer(
       "Examples:\n"
       "  mapproof history history\n"
       "  mapproof history history --prune last=30,every=7\n"
-      "  mapproof history history --export csv > nights.csv\n\n"
-      "A pinned night is what later ones are compared with: pin one to accept what it changed.\n"
+      "  mapproof history history --export csv > nightly runs.csv\n\n"
+      "A pinned nightly run is what later ones are compared with: pin one to accept what it "
+      "changed.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
   app.add_option("DIR", arguments->store, "Folder of the history")
       ->required()
       ->check(names_folder());
   auto* what = app.add_option_group("what");
-  what->add_option("--prune", arguments->prune,
-                   "Remove all nights but the last N, those whose number K divides, the pinned and "
-                   "what these were compared with: last=N,every=K");
-  what->add_option("--export", arguments->format, "Every value of every night, to standard output")
+  what->add_option(
+      "--prune", arguments->prune,
+      "Remove all nightly runs but the last N, those whose number K divides, the pinned and "
+      "what these were compared with: last=N,every=K");
+  what->add_option("--export", arguments->format,
+                   "Every value of every nightly run, to standard output")
       ->check(CLI::IsMember({"csv", "json"}));
-  what->add_option("--pin", arguments->pin, "Compare with this night from now on")
+  what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
       ->check(CLI::PositiveNumber);
   what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
   what->require_option(0, 1);

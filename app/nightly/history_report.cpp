@@ -6,7 +6,7 @@
 #include "app/study/folder_report.hpp"
 #include "core/base/files.hpp"
 #include "render/output/write_figure.hpp"
-#include "reports/history/judge_night.hpp"
+#include "reports/history/judge_nightly_run.hpp"
 #include "reports/html/report_html.hpp"
 
 namespace mapproof {
@@ -15,16 +15,16 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Writes trends/STUDY/report.html of a study of the last night. @return The trend.
+/// Writes trends/STUDY/report.html of a study of the last nightly run. @return The trend.
 StudyTrend write_trend(HistoryStore& history, const fs::path& store, const fs::path& out,
-                       const StudyNight& study, const IndexFacts& facts, const Templates& page,
+                       const NightlyStudy& study, const IndexFacts& facts, const Templates& page,
                        int jobs) {
-  const NightFacts& tonight = facts.nights.back();
-  StudyTrend trend = history.trend(study.name, study.order_digest, kTrendNights, tonight.number);
-  const bool is_compared = tonight.reference && has_study(history, *tonight.reference, study);
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  StudyTrend trend = history.trend(study.name, study.order_digest, kTrendRuns, this_run.number);
+  const bool is_compared = this_run.reference && has_study(history, *this_run.reference, study);
   const fs::path folder = out / "trends" / study.name;
   HistoryPage shown =
-      trend_page(trend, facts.findings, is_compared, places_from(folder, out, store));
+      trend_page(trend, facts.findings, is_compared, paths_from(folder, out, store));
   const FolderReport report{.folder = folder,
                             .report = std::move(shown.report),
                             .in_company = {},
@@ -40,36 +40,37 @@ StudyTrend write_trend(HistoryStore& history, const fs::path& store, const fs::p
 
 IndexFacts read_facts(HistoryStore& history, const fs::path& store,
                       std::span<const std::string> remarks) {
-  IndexFacts facts{.nights = history.nights(), .remarks = {remarks.begin(), remarks.end()}};
-  for (const NightFacts& night : facts.nights) {
-    facts.findings[night.number] = history.findings(night.number);
-    for (const StudyNight& study : history.studies(night.number))
-      facts.studies[night.number].push_back(study.name);
+  IndexFacts facts{.nightly_runs = history.nightly_runs(),
+                   .remarks = {remarks.begin(), remarks.end()}};
+  for (const NightlyFacts& nightly_run : facts.nightly_runs) {
+    facts.findings[nightly_run.number] = history.findings(nightly_run.number);
+    for (const NightlyStudy& study : history.studies(nightly_run.number))
+      facts.studies[nightly_run.number].push_back(study.name);
   }
-  facts.lost = lost_nights(store, facts.nights);
+  facts.lost = lost_nightly_runs(store, facts.nightly_runs);
   return facts;
 }
 
 }  // namespace
 
-HistoryPlaces places_from(const fs::path& folder, const fs::path& out, const fs::path& store) {
+HistoryFolders paths_from(const fs::path& folder, const fs::path& out, const fs::path& store) {
   const auto to = [&](const fs::path& target) {
     // Neither need be there yet.
     const std::string path =
         fs::relative(fs::absolute(target), fs::absolute(folder)).generic_string();
     return path == "." ? "" : path + "/";
   };
-  return {.pages = to(out), .nights = to(store)};
+  return {.pages = to(out), .nightly_runs = to(store)};
 }
 
 fs::path write_history_pages(HistoryStore& history, const fs::path& store, const fs::path& out,
                              std::span<const std::string> remarks, const Templates& page,
                              int jobs) {
   IndexFacts facts = read_facts(history, store, remarks);
-  if (!facts.nights.empty())
-    for (const StudyNight& study : history.studies(facts.nights.back().number))
+  if (!facts.nightly_runs.empty())
+    for (const NightlyStudy& study : history.studies(facts.nightly_runs.back().number))
       facts.trends.push_back(write_trend(history, store, out, study, facts, page, jobs));
-  const HistoryPage shown = index_page(facts, places_from(out, out, store));
+  const HistoryPage shown = index_page(facts, paths_from(out, out, store));
   HtmlOptions options{.figure_folder = "", .table_folder = ""};
   options.link_words = shown.link_words;
   const auto drawing = [&](const std::string& id) {

@@ -11,14 +11,14 @@
 namespace mapproof {
 
 /// Where a history's pages lie as seen from one in `folder`.
-HistoryPlaces places_from(const std::filesystem::path& folder, const std::filesystem::path& out,
+HistoryFolders paths_from(const std::filesystem::path& folder, const std::filesystem::path& out,
                           const std::filesystem::path& store);
 
-/// Writes index.html and, of every study of the last night, trends/STUDY/report.html with its
+/// Writes index.html and, of every study of the last nightly run, trends/STUDY/report.html with its
 /// figures, anew from the history.
-/// @param store    Where nights/ lies, and what is left of nights that were lost.
+/// @param store    Where nightly_runs/ lies, and what is left of nightly runs that were lost.
 /// @param out      For the pages: the store or another folder.
-/// @param remarks  On the last night.
+/// @param remarks  On the last nightly run.
 /// @return The path of index.html. @throws IoError.
 std::filesystem::path write_history_pages(HistoryStore& history, const std::filesystem::path& store,
                                           const std::filesystem::path& out,

@@ -25,9 +25,9 @@
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
-#include "reports/history/judge_night.hpp"
-#include "reports/history/night_scores.hpp"
-#include "reports/history/night_standing.hpp"
+#include "reports/history/judge_nightly_run.hpp"
+#include "reports/history/nightly_scores.hpp"
+#include "reports/history/nightly_standing.hpp"
 #include "reports/history/object_folder.hpp"
 
 namespace mapproof {
@@ -56,12 +56,12 @@ std::optional<int> asked_reference(const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number < 1)
-    throw InvalidInput("--reference: \"" + printable(text) + "\" is not a night's number and not " +
-                       kLastGood);
+    throw InvalidInput("--reference: \"" + printable(text) +
+                       "\" is not a nightly run's number and not " + kLastGood);
   return number;
 }
 
-NightFacts begun(int number, int jobs, const std::string& command) {
+NightlyFacts begun(int number, int jobs, const std::string& command) {
   char host[256] = "";
   utsname system{};
   return {.number = number,
@@ -85,10 +85,10 @@ int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int 
 }
 
 /// What each study is, from its records.
-std::vector<StudyNight> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder) {
-  std::vector<StudyNight> studies;
+std::vector<NightlyStudy> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder) {
+  std::vector<NightlyStudy> studies;
   for (const StudyOrder& order : orders)
-    studies.push_back(read_study_night(folder / order.name, order.name));
+    studies.push_back(read_nightly_study(folder / order.name, order.name));
   return studies;
 }
 
@@ -108,21 +108,22 @@ fs::path out_of(const NightlyArguments& arguments) {
   return arguments.out.empty() ? arguments.store : arguments.out;
 }
 
-/// Draws the report of each study of a night that has been judged, and keeps its figures.
+/// Draws the report of each study of a nightly run that has been judged, and keeps its figures.
 /// @return Whether all scenes could be drawn.
-bool write_all(Night& night, HistoryStore& history, const fs::path& folder, const Templates& page,
-               const NightlyArguments& arguments, const Invocation& invocation) {
+bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& folder,
+               const Templates& page, const NightlyArguments& arguments,
+               const Invocation& invocation) {
   const ObjectFolder objects(fs::path(arguments.store) / "objects");
-  const bool begins = history.nights().empty();
-  const LostNights lost = begins ? lost_nights(arguments.store, {}) : LostNights{};
+  const bool begins = history.nightly_runs().empty();
+  const LostNightlyRuns lost = begins ? lost_nightly_runs(arguments.store, {}) : LostNightlyRuns{};
   bool scenes_drawn = true;
-  for (StudyNight& study : night.studies) {
+  for (NightlyStudy& study : nightly_run.studies) {
     FolderReport report =
         read_folder_report(folder / study.name, invocation.command, invocation.command);
     const bool is_compared =
-        night.facts.reference && has_study(history, *night.facts.reference, study);
-    NightLinks links(places_from(folder / study.name, out_of(arguments), arguments.store));
-    add_night(report.report, night, study.name, is_compared, lost, links);
+        nightly_run.facts.reference && has_study(history, *nightly_run.facts.reference, study);
+    NightlyLinks links(paths_from(folder / study.name, out_of(arguments), arguments.store));
+    add_nightly_run(report.report, nightly_run, study.name, is_compared, lost, links);
     report.link_words = links.words();
     scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
@@ -130,11 +131,11 @@ bool write_all(Night& night, HistoryStore& history, const fs::path& folder, cons
   return scenes_drawn;
 }
 
-int exit_code(NightVerdict verdict) {
+int exit_code(NightlyVerdict verdict) {
   switch (verdict) {
-    case NightVerdict::kGood:
+    case NightlyVerdict::kGood:
       return kDone;
-    case NightVerdict::kCost:
+    case NightlyVerdict::kCost:
       return kCostGrew;
     default:
       return kNo;
@@ -142,18 +143,19 @@ int exit_code(NightVerdict verdict) {
 }
 
 /// The first findings of each study, and where all of them stand.
-std::string night_text(const Night& night, const std::vector<std::string>& remarks,
-                       const fs::path& pages) {
-  std::string text = fmt::format("night {}: {}\n", night.facts.number,
-                                 verdict_sentence(night.facts, night.findings.size()));
-  for (const StudyNight& study : night.studies) {
+std::string nightly_text(const NightlyRun& nightly_run, const std::vector<std::string>& remarks,
+                         const fs::path& pages) {
+  std::string text = fmt::format("nightly run {}: {}\n", nightly_run.facts.number,
+                                 verdict_sentence(nightly_run.facts, nightly_run.findings.size()));
+  for (const NightlyStudy& study : nightly_run.studies) {
     std::size_t count = 0;
-    for (const NightFinding& finding : night.findings)
-      if (finding.study == study.name && ++count <= kMostTold)
+    for (const NightlyFinding& finding : nightly_run.findings)
+      if (finding.study == study.name && ++count <= kMostReported)
         text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
-    if (count > kMostTold)
-      text += fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostTold,
-                          (pages / "trends" / study.name / "report.html").string());
+    if (count > kMostReported)
+      text +=
+          fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostReported,
+                      (pages / "trends" / study.name / "report.html").string());
   }
   for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);
   return text;
@@ -175,33 +177,35 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   HistoryStore history = HistoryStore::open(store);
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
-  Night night{.facts = begun(next_night(history, store), arguments.jobs, invocation.command)};
+  NightlyRun nightly_run{
+      .facts = begun(next_nightly_run(history, store), arguments.jobs, invocation.command)};
   if (asked) {  // Refused before hours of work.
-    night.studies = planned_studies(orders);
-    reference_night(history, night, asked);
+    nightly_run.studies = planned_studies(orders);
+    reference_nightly_run(history, nightly_run, asked);
   }
-  const fs::path folder = night_folder(store, night.facts.number);
-  begin_night(folder, orders, console);
+  const fs::path folder = nightly_folder(store, nightly_run.facts.number);
+  begin_nightly_run(folder, orders, console);
   const int made = make_all(orders, folder, arguments.jobs, invocation.command, console);
   if (made != kDone) {
-    console.warning(
-        fmt::format("night {}: not recorded, since a study was not finished", night.facts.number));
+    console.warning(fmt::format("nightly run {}: not recorded, since a study was not finished",
+                                nightly_run.facts.number));
     return made;
   }
-  night.studies = read_all(orders, folder);
-  const std::vector<std::string> remarks = judge_night(history, night, asked);
-  const bool scenes_drawn = write_all(night, history, folder, page, arguments, invocation);
-  night.facts.ended_utc = now_utc();
-  history.append(night);
-  end_night(folder, night);
+  nightly_run.studies = read_all(orders, folder);
+  const std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
+  const bool scenes_drawn = write_all(nightly_run, history, folder, page, arguments, invocation);
+  nightly_run.facts.ended_utc = now_utc();
+  history.append(nightly_run);
+  end_nightly_run(folder, nightly_run);
   const fs::path index =
       write_history_pages(history, store, out_of(arguments), remarks, page, arguments.jobs);
 
-  nlohmann::ordered_json object = night_value(night.facts, night.findings);
+  nlohmann::ordered_json object = nightly_value(nightly_run.facts, nightly_run.findings);
   object["remarks"] = remarks;
   object["index"] = index.string();
-  console.result(night_text(night, remarks, out_of(arguments)) + index.string() + "\n", object);
-  return scenes_drawn ? exit_code(night.facts.verdict) : kInternal;
+  console.result(nightly_text(nightly_run, remarks, out_of(arguments)) + index.string() + "\n",
+                 object);
+  return scenes_drawn ? exit_code(nightly_run.facts.verdict) : kInternal;
 }
 
 }  // namespace
@@ -225,9 +229,10 @@ Action nightly_command(CLI::App& app) {
       ->required()
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
-  app.add_option("--reference", arguments->reference,
-                 "Night to compare with: its number, refused if it had other settings or another "
-                 "seed, or last-good (the pinned one if there is one)")
+  app.add_option(
+         "--reference", arguments->reference,
+         "Nightly run to compare with: its number, refused if it had other settings or another "
+         "seed, or last-good (the pinned one if there is one)")
       ->capture_default_str();
   app.add_option("--profile", arguments->order.profile,
                  "Profile of those experiments that have it");

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path order_file(const fs::path& folder) { return folder / "order.txt"; }
-fs::path end_file(const fs::path& folder) { return folder / "night.json"; }
+fs::path end_file(const fs::path& folder) { return folder / "nightly_run.json"; }
 
 std::string order_text(const std::vector<StudyOrder>& orders) {
   std::string text;
@@ -25,7 +25,7 @@ std::string order_text(const std::vector<StudyOrder>& orders) {
   return text;
 }
 
-/// The number of a finished night's folder; 0 for any other.
+/// The number of a finished nightly run's folder; 0 for any other.
 int finished_number(const fs::path& folder) {
   const std::string name = folder.filename().string();
   int number = 0;
@@ -48,29 +48,29 @@ std::vector<std::string> names_in(const fs::path& folder) {
 
 }  // namespace
 
-int next_night(HistoryStore& history, const fs::path& store) {
+int next_nightly_run(HistoryStore& history, const fs::path& store) {
   int last = history.last_number();
   std::error_code error;
-  for (fs::directory_iterator entry(store / "nights", error), end; !error && entry != end;
+  for (fs::directory_iterator entry(store / "nightly_runs", error), end; !error && entry != end;
        entry.increment(error))
     last = std::max(last, finished_number(entry->path()));
   return last + 1;
 }
 
-void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
-                 const Console& console) {
+void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& orders,
+                       const Console& console) {
   const std::string text = order_text(orders);
   std::error_code error;
   if (fs::exists(folder, error)) {
     std::string left;
     if (fs::exists(order_file(folder), error)) left = read_file(order_file(folder));
     if (left == text) {
-      console.warning(folder.string() + ": goes on where a night that was stopped left it");
+      console.warning(folder.string() + ": goes on where a nightly run that was stopped left it");
       remove_leftovers(folder);
       return;
     }
     console.warning(folder.string() +
-                    ": what a stopped night of other experiments left is removed");
+                    ": what a stopped nightly run of other experiments left is removed");
     fs::remove_all(folder, error);
     if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
   }
@@ -78,25 +78,26 @@ void begin_night(const fs::path& folder, const std::vector<StudyOrder>& orders,
   write_file(order_file(folder), text);
 }
 
-void end_night(const fs::path& folder, const Night& night) {
-  write_file(end_file(folder), night_json(night));
+void end_nightly_run(const fs::path& folder, const NightlyRun& nightly_run) {
+  write_file(end_file(folder), nightly_json(nightly_run));
 }
 
-LostNights lost_nights(const fs::path& store, std::span<const NightFacts> known) {
-  LostNights lost;
+LostNightlyRuns lost_nightly_runs(const fs::path& store, std::span<const NightlyFacts> known) {
+  LostNightlyRuns lost;
   for (const std::string& name : names_in(store))
     if (name.starts_with("history.sqlite.damaged-") && !name.ends_with("-journal") &&
         !name.ends_with("-wal") && !name.ends_with("-shm"))
       lost.kept_as.push_back(name);
   if (lost.kept_as.empty()) return lost;
-  for (const std::string& name : names_in(store / "nights")) {
-    const fs::path night = store / "nights" / name;
-    const int number = finished_number(night);
-    if (number == 0 || std::ranges::find(known, number, &NightFacts::number) != known.end())
+  for (const std::string& name : names_in(store / "nightly_runs")) {
+    const fs::path nightly_run = store / "nightly_runs" / name;
+    const int number = finished_number(nightly_run);
+    if (number == 0 || std::ranges::find(known, number, &NightlyFacts::number) != known.end())
       continue;
     std::error_code error;
-    for (const std::string& study : names_in(night))
-      if (fs::exists(night / study / "report.html", error)) lost.reports[number].push_back(study);
+    for (const std::string& study : names_in(nightly_run))
+      if (fs::exists(nightly_run / study / "report.html", error))
+        lost.reports[number].push_back(study);
   }
   return lost;
 }

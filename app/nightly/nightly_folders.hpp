@@ -12,22 +12,25 @@
 
 namespace mapproof {
 
-/// The number tonight gets: after all in the history and all finished folders, so that a history
-/// that was begun anew takes none again. @throws IoError.
-int next_night(HistoryStore& history, const std::filesystem::path& store);
+/// The number this nightly run gets: after all in the history and all finished folders, so that a
+/// history that was begun anew takes none again. @throws IoError.
+int next_nightly_run(HistoryStore& history, const std::filesystem::path& store);
 
-/// Makes the folder of a night, or takes that of a night of the same orders that was killed, whose
-/// runs then need not be made again; what a night of other orders left is removed. @throws IoError.
-void begin_night(const std::filesystem::path& folder, const std::vector<StudyOrder>& orders,
-                 const Console& console);
+/// Makes the folder of a nightly run, or takes that of a nightly run of the same orders that was
+/// killed, whose runs then need not be made again; what a nightly run of other orders left is
+/// removed. @throws IoError.
+void begin_nightly_run(const std::filesystem::path& folder, const std::vector<StudyOrder>& orders,
+                       const Console& console);
 
-/// Notes in the folder what the night found; its presence says that the night was finished.
+/// Notes in the folder what the nightly run found; its presence says that the nightly run was
+/// finished.
 /// @throws IoError.
-void end_night(const std::filesystem::path& folder, const Night& night);
+void end_nightly_run(const std::filesystem::path& folder, const NightlyRun& nightly_run);
 
-/// What is left of nights that no history knows any more, since theirs was damaged: empty if none
-/// was.
+/// What is left of nightly runs that no history knows any more, since theirs was damaged: empty if
+/// none was.
 /// @param known  Those that the history has.
-LostNights lost_nights(const std::filesystem::path& store, std::span<const NightFacts> known);
+LostNightlyRuns lost_nightly_runs(const std::filesystem::path& store,
+                                  std::span<const NightlyFacts> known);
 
 }  // namespace mapproof

@@ -11,7 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/study_folder.hpp"
-#include "reports/history/night_scores.hpp"
+#include "reports/history/nightly_scores.hpp"
 
 namespace mapproof {
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Two studies of a night that share their name would share their folder and their history.
+/// Two studies of a nightly run that share their name would share their folder and their history.
 /// @throws InvalidInput.
 [[noreturn]] void refuse_same_name(const StudyOrder& order, const std::string& first,
                                    const std::string& second) {
@@ -56,8 +56,8 @@ std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& expe
   return orders;
 }
 
-std::vector<StudyNight> planned_studies(const std::vector<StudyOrder>& orders) {
-  std::vector<StudyNight> studies;
+std::vector<NightlyStudy> planned_studies(const std::vector<StudyOrder>& orders) {
+  std::vector<NightlyStudy> studies;
   for (const StudyOrder& order : orders)
     studies.push_back(
         {.name = order.name, .order_digest = order_digest(study_json(order), order.name)});
@@ -68,8 +68,8 @@ int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
                const std::string& command, const Console& console) {
   const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
   try {
-    // No thread runs yet that the copy would lack. A night that is killed takes its study with it:
-    // its locks are free at once.
+    // No thread runs yet that the copy would lack. A nightly run that is killed takes its study
+    // with it: its locks are free at once.
     ChildProcess process([&] { return exit_code_of(make, order.name + ": "); });
     const ProcessEnd end = process.wait();
     if (end.signal == 0) return end.exit_code;

@@ -30,7 +30,7 @@ struct SlamArguments {
   std::string known;
   std::optional<std::string> templates;
   RangeLogOptions log;
-  std::string truth;
+  std::string ground_truth;
   std::string true_landmarks;
   std::string odometry;
   bool follow = false;
@@ -106,7 +106,7 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
 /// Refuses what is of a log that is there as a whole.
 void require_followable(const SlamArguments& arguments) {
   for (const auto& [value, option] : {std::pair(&arguments.odometry, "--odometry"),
-                                      {&arguments.truth, "--ground-truth"},
+                                      {&arguments.ground_truth, "--ground-truth"},
                                       {&arguments.log.name, "--name"}})
     if (!value->empty())
       throw InvalidInput(fmt::format(
@@ -119,7 +119,7 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
   require_followable(arguments);
   return write_followed({.path = arguments.data,
                          .table = {.anchors = read_points(arguments.known),
-                                   .truth = read_points(arguments.true_landmarks),
+                                   .ground_truth = read_points(arguments.true_landmarks),
                                    .fit = {.is_metric = true, .is_rigid = true}},
                          .follower = range_follower,
                          .every = follow_interval(arguments.every)},
@@ -137,10 +137,10 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
     return follow_ranges(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
-  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.truth,
+  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.ground_truth,
                                    arguments.true_landmarks, arguments.odometry});
   arguments.log.odometry_file = arguments.odometry;
-  arguments.log.truth_file = arguments.truth;
+  arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
   RangeLog log = read_range_log(arguments.data, arguments.log);
   std::optional<KnownLandmarks> known;
@@ -186,7 +186,7 @@ Action slam_command(CLI::App& app) {
   app.add_option(
       "--known-landmarks", arguments->known,
       "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
-  app.add_option("--ground-truth,--truth", arguments->truth,
+  app.add_option("--ground-truth,--truth", arguments->ground_truth,
                  "True path, to compute errors: CSV with t, x, y, heading");
   app.add_option(
       "--ground-truth-landmarks", arguments->true_landmarks,

@@ -28,8 +28,8 @@ std::string slam_record_text(const SlamRecord& record) {
                 ? ""
                 : ": " + status_words(record.estimate.statuses.back()));
   if (record.errors.empty())
-    return method +
-           fmt::format("  {} poses, no truth to hold them against", record.estimate.path.size());
+    return method + fmt::format("  {} poses, no ground truth to hold them against",
+                                record.estimate.path.size());
   const TrajectoryError& error = record.errors.front();
   return method +
          fmt::format("  mean error {:.3f} m, alignment {}", error.mean_m, name(error.alignment));

@@ -115,33 +115,33 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   return all;
 }
 
-void add_pictures(const StudyFigures& figures, FolderReport& report) {
+void add_images(const StudyFigures& figures, FolderReport& report) {
   for (const Figure* figure : all_figures(figures)) report.figures.push_back(*figure);
   for (const Scene* scene : all_scenes(figures)) report.scenes.push_back(*scene);
   for (const Film* film : all_films(figures)) report.films.push_back(*film);
 }
 
-Pictures pictures_of(const FolderReport& report) {
-  Pictures pictures;
-  for (const Figure& figure : report.figures) pictures.figures.push_back(&figure);
-  for (const Scene& scene : report.scenes) pictures.scenes.push_back(&scene);
-  return pictures;
+Images images_of(const FolderReport& report) {
+  Images images;
+  for (const Figure& figure : report.figures) images.figures.push_back(&figure);
+  for (const Scene& scene : report.scenes) images.scenes.push_back(&scene);
+  return images;
 }
 
-Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::path& folder, int jobs,
-                     SceneClient& client) {
+Drawn write_images(const Images& images, const Theme& theme, const fs::path& folder, int jobs,
+                   SceneClient& client) {
   Drawn drawn;
-  for (const Figure* figure : pictures.figures) drawn.svg[figure->id];  // None in parallel.
-  for (const Scene* scene : pictures.scenes) drawn.svg[scene->id];
+  for (const Figure* figure : images.figures) drawn.svg[figure->id];  // None in parallel.
+  for (const Scene* scene : images.scenes) drawn.svg[scene->id];
   const auto draw_figures = [&] {
-    parallel_for(pictures.figures.size(), [&](std::size_t i) {
-      const Figure& figure = *pictures.figures[i];
+    parallel_for(images.figures.size(), [&](std::size_t i) {
+      const Figure& figure = *images.figures[i];
       drawn.svg.at(figure.id) = write_figure(figure, theme, folder);
     });
   };
   const auto draw_scenes = [&] {
     try {
-      for (const Scene* scene : pictures.scenes)
+      for (const Scene* scene : images.scenes)
         drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
     } catch (const SceneError& error) {
       drawn.scene_error = error.what();
@@ -155,7 +155,7 @@ Drawn write_pictures(const Pictures& pictures, const Theme& theme, const fs::pat
 fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
   SceneClient client;
   const Drawn drawn =
-      write_pictures(pictures_of(report), report_theme(), report.folder / "figures", jobs, client);
+      write_images(images_of(report), report_theme(), report.folder / "figures", jobs, client);
   Report shown = report.report;
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, report.folder / "tables");

@@ -50,28 +50,28 @@ std::vector<std::filesystem::path> study_folders(const std::filesystem::path& fo
 FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
 
 /// Adds all figures, scenes and films of a study.
-void add_pictures(const StudyFigures& figures, FolderReport& report);
+void add_images(const StudyFigures& figures, FolderReport& report);
 
 /// What is drawn: no two have one id.
-struct Pictures {
+struct Images {
   std::vector<const Figure*> figures;
   std::vector<const Scene*> scenes;
 };
 
 /// All of a report's.
-Pictures pictures_of(const FolderReport& report);
+Images images_of(const FolderReport& report);
 
 /// What was drawn.
 struct Drawn {
-  std::map<std::string, std::string> svg;  ///< The text of each SVG file by its picture's id.
+  std::map<std::string, std::string> svg;  ///< The text of each SVG file by its image's id.
   std::string renderer;                    ///< What drew the scenes; empty if there are none.
   std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
 
-/// Draws the pictures into `folder`: figures several at a time, scenes one by one beside them.
+/// Draws the images into `folder`: figures several at a time, scenes one by one beside them.
 /// @throws IoError.
-Drawn write_pictures(const Pictures& pictures, const Theme& theme,
-                     const std::filesystem::path& folder, int jobs, SceneClient& client);
+Drawn write_images(const Images& images, const Theme& theme, const std::filesystem::path& folder,
+                   int jobs, SceneClient& client);
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
 /// folder.

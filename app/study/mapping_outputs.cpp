@@ -35,7 +35,7 @@ FolderReport mapping_report(const fs::path& folder, const std::string& command) 
                                               .figures = figures,
                                               .command = command}),
                       .runs = study.runs.size()};
-  add_pictures(figures, report);
+  add_images(figures, report);
   report.in_company = report.report.sections;
   for (Section& section : report.in_company)
     section.title = "Map building: " + lower_first(section.title);

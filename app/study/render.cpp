@@ -23,10 +23,10 @@ struct RenderArguments {
   int jobs = 1;
 };
 
-std::vector<std::string> ids_of(const Pictures& pictures) {
+std::vector<std::string> ids_of(const Images& images) {
   std::vector<std::string> ids;
-  for (const Figure* figure : pictures.figures) ids.push_back(figure->id);
-  for (const Scene* scene : pictures.scenes) ids.push_back(scene->id);
+  for (const Figure* figure : images.figures) ids.push_back(figure->id);
+  for (const Scene* scene : images.scenes) ids.push_back(scene->id);
   return ids;
 }
 
@@ -39,12 +39,12 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& ids) {
 }
 
 /// Those of the ids that were asked for, all if none was.
-Pictures chosen_pictures(const RenderArguments& arguments, const FolderReport& view) {
-  const Pictures all = pictures_of(view);
+Images chosen_images(const RenderArguments& arguments, const FolderReport& view) {
+  const Images all = images_of(view);
   if (arguments.ids.empty()) return all;
-  Pictures chosen;
+  Images chosen;
   for (const std::string& id : without_repeats(arguments.ids)) {
-    const auto is_it = [&id](const auto* picture) { return picture->id == id; };
+    const auto is_it = [&id](const auto* image) { return image->id == id; };
     const std::size_t before = chosen.figures.size() + chosen.scenes.size();
     std::ranges::copy_if(all.figures, std::back_inserter(chosen.figures), is_it);
     std::ranges::copy_if(all.scenes, std::back_inserter(chosen.scenes), is_it);
@@ -76,14 +76,14 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   const std::vector<const Film*> films = chosen_films(arguments, view);
   // Animations alone, if nothing else was named.
   const bool only_films = !films.empty() && arguments.ids.empty();
-  const Pictures pictures = only_films ? Pictures{} : chosen_pictures(arguments, view);
+  const Images images = only_films ? Images{} : chosen_images(arguments, view);
   const bool paper = arguments.theme == "paper";
   const std::filesystem::path folder = arguments.out.empty()
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
   SceneClient client;  // One program draws scenes and films.
-  const Drawn drawn = write_pictures(pictures, theme, folder, arguments.jobs, client);
+  const Drawn drawn = write_images(images, theme, folder, arguments.jobs, client);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   for (const Film* film : films) write_animation(*film, theme, folder, client);
 
@@ -91,7 +91,7 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
                                 {"folder", folder.string()},
                                 {"figures", nlohmann::ordered_json::array()}};
   std::string text;
-  for (const std::string& id : ids_of(pictures)) {
+  for (const std::string& id : ids_of(images)) {
     object["figures"].push_back(id);
     text += (folder / (id + ".svg")).string() + "\n";
   }

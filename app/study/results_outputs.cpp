@@ -15,8 +15,9 @@ std::vector<GivenPath> aligned_paths(const std::filesystem::path& folder) {
     if (path.alignment == Alignment::kNone) continue;
     SlamEstimate estimate;
     estimate.path = path.path;
-    const auto map = path_alignment(path.path, *path.truth, path.alignment);
-    if (const auto error = trajectory_error(estimate, *path.truth, std::nullopt, path.alignment))
+    const auto map = path_alignment(path.path, *path.ground_truth, path.alignment);
+    if (const auto error =
+            trajectory_error(estimate, *path.ground_truth, std::nullopt, path.alignment))
       path.rms_m = error->rmse_m;
     if (map) path.path.positions_m = (*map)(path.path.positions_m);
   }
@@ -50,7 +51,7 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
                       .report = results_report(input),
                       .in_company = results_sections(input),
                       .runs = view.runs()};
-  add_pictures(figures, result);
+  add_images(figures, result);
   return result;
 }
 

@@ -66,7 +66,7 @@ FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
                       .in_company = slam_sections(input),
                       .runs = study.runs.size(),
                       .missing = study.missing};
-  add_pictures(figures, result);
+  add_images(figures, result);
   return result;
 }
 

@@ -9,7 +9,7 @@
 #include "core/records/studies/trial_store.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/trial_blocks.hpp"
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -96,7 +96,7 @@ FolderReport trials_report(const std::filesystem::path& folder, const std::strin
                       .report = results_report(input),
                       .in_company = results_sections(input),
                       .runs = study.parts.size()};
-  add_pictures(figures, result);
+  add_images(figures, result);
   return result;
 }
 

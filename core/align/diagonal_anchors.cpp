@@ -5,11 +5,11 @@
 
 namespace mapproof {
 
-std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m) {
+std::vector<Eigen::Index> diagonal_anchors(const Points& ground_truth_m) {
   std::vector<Eigen::Index> known;
-  for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
-    if (truth_m.row(i).allFinite()) known.push_back(i);
-  const Points positions = truth_m(known, Eigen::all);
+  for (Eigen::Index i = 0; i < ground_truth_m.rows(); ++i)
+    if (ground_truth_m.row(i).allFinite()) known.push_back(i);
+  const Points positions = ground_truth_m(known, Eigen::all);
   std::vector<Eigen::Index> chosen;
   for (const Eigen::RowVector2d& diagonal : {Eigen::RowVector2d(-1, -1), Eigen::RowVector2d(1, -1),
                                              Eigen::RowVector2d(1, 1), Eigen::RowVector2d(-1, 1)}) {

@@ -8,6 +8,6 @@ namespace mapproof {
 
 /// The four landmarks furthest out along the diagonals of the extent, all different, ascending;
 /// rows with NaN are left out.
-std::vector<Eigen::Index> diagonal_anchors(const Points& truth_m);
+std::vector<Eigen::Index> diagonal_anchors(const Points& ground_truth_m);
 
 }  // namespace mapproof

@@ -12,8 +12,8 @@ namespace mapproof {
 IoError::IoError(const std::string& path, const std::string& what)
     : std::runtime_error(printable(path, 300) + ": " + what) {}
 
-IoError::IoError(const std::string& path, const std::string& place, const std::string& what)
-    : std::runtime_error(printable(path, 300) + ": " + place + ": " + what) {}
+IoError::IoError(const std::string& path, const std::string& location, const std::string& what)
+    : std::runtime_error(printable(path, 300) + ": " + location + ": " + what) {}
 
 std::string printable(const std::string& text, std::size_t limit) {
   std::string out;

@@ -15,11 +15,11 @@ class InvalidInput : public std::invalid_argument {
 class IoError : public std::runtime_error {
  public:
   IoError(const std::string& path, const std::string& what);
-  IoError(const std::string& path, const std::string& place, const std::string& what);
+  IoError(const std::string& path, const std::string& location, const std::string& what);
 };
 
-/// `text` fit for one line of a terminal: what is hidden (see utf8.hpp) as \u{NNNN}, bytes that are no
-/// UTF-8 as \xNN, at most `limit` characters, the rest as "...".
+/// `text` fit for one line of a terminal: what is hidden (see utf8.hpp) as \u{NNNN}, bytes that are
+/// no UTF-8 as \xNN, at most `limit` characters, the rest as "...".
 std::string printable(const std::string& text, std::size_t limit = 80);
 
 }  // namespace mapproof

@@ -21,7 +21,7 @@ std::string reason() { return std::strerror(errno); }
 
 /// Where the file itself is that a path names: behind links, so that these stay.
 /// @throws IoError for what is there and no regular file: it cannot be replaced.
-fs::path replaceable_place(const fs::path& path) {
+fs::path replaceable_path(const fs::path& path) {
   if (handed_in(path))
     throw IoError(path.string(), "is a stream, no file that can be written at once");
   struct stat facts {};
@@ -67,15 +67,15 @@ void make_folder(const fs::path& path) {
 
 void write_file(const fs::path& path, std::string_view bytes) {
   if (path.has_parent_path()) make_folder(path.parent_path());
-  const fs::path place = replaceable_place(path);
-  fs::path beside = place;
+  const fs::path location = replaceable_path(path);
+  fs::path beside = location;
   beside += ".part-" + std::to_string(::getpid());
   try {
     Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
     if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
     if (!write_all(file, bytes) || !file.close())
       throw IoError(path.string(), "cannot be written: " + reason());
-    if (::rename(beside.c_str(), place.c_str()) != 0)
+    if (::rename(beside.c_str(), location.c_str()) != 0)
       throw IoError(path.string(), "cannot be put in place: " + reason());
   } catch (...) {
     ::unlink(beside.c_str());

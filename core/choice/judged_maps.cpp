@@ -31,10 +31,10 @@ void combine(std::vector<JudgedMap>& maps) {
   std::vector<double> sums(maps.size(), 0.0);
   int criteria = 0;
   for (const CriterionInfo& one : all_criteria()) {
-    const bool told = std::ranges::all_of(maps, [&](const JudgedMap& map) {
+    const bool reported = std::ranges::all_of(maps, [&](const JudgedMap& map) {
       return !map.mapped || !std::isnan(value_of(map.values, one.criterion));
     });
-    if (one.criterion == Criterion::kCombined || !told) continue;
+    if (one.criterion == Criterion::kCombined || !reported) continue;
     const std::vector<std::size_t> order = ranked(maps, one.criterion);
     for (std::size_t rank = 0; rank < order.size(); ++rank)
       sums[order[rank]] += static_cast<double>(rank + 1);
@@ -153,12 +153,13 @@ void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index s
 
 /// Fills in the criteria that need the one map alone.
 void MapJudge::judge(JudgedMap& map, const CertaintyFrame& frame) const {
-  const Points places = map.positions(seen_, Eigen::all);
-  const auto n = static_cast<int>(places.rows());
-  value_of(map.values, Criterion::kStress) = normalised_stress(distances_, places);
-  value_of(map.values, Criterion::kResidualVariance) = residual_variance(along_the_graph_, places);
+  const Points positions = map.positions(seen_, Eigen::all);
+  const auto n = static_cast<int>(positions.rows());
+  value_of(map.values, Criterion::kStress) = normalised_stress(distances_, positions);
+  value_of(map.values, Criterion::kResidualVariance) =
+      residual_variance(along_the_graph_, positions);
   if (const int neighbours = std::min(kNeighbourhood, n / 4); neighbours > 0) {
-    const NeighbourhoodsKept kept = neighbourhoods_kept(distances_, places, neighbours);
+    const NeighbourhoodsKept kept = neighbourhoods_kept(distances_, positions, neighbours);
     value_of(map.values, Criterion::kTrustworthiness) = kept.trustworthiness;
     value_of(map.values, Criterion::kContinuity) = kept.continuity;
   }

@@ -160,23 +160,23 @@ class SomeWeights {
 
 /// Minimizes the stress from the start until it falls no more.
 template <typename Problem>
-Embedding lowered(const Problem& problem, const Points& start, const SmacofOptions& options) {
+Embedding minimized(const Problem& problem, const Points& start, const SmacofOptions& options) {
   Embedding result;
   result.coordinates = start;
   double before = 0.0;
   Points next = problem.step(start, before);
-  bool settled = before <= 1e-28 * problem.scale();
-  while (!settled && result.iterations < options.max_iterations) {
+  bool converged = before <= 1e-28 * problem.scale();
+  while (!converged && result.iterations < options.max_iterations) {
     ++result.iterations;
     double stress = 0.0;
     result.coordinates.swap(next);
     next = problem.step(result.coordinates, stress);
-    settled =
+    converged =
         before - stress <= options.relative_fall * before || stress <= 1e-28 * problem.scale();
     before = stress;
   }
   result.stress = problem.scale() > 0.0 ? before / problem.scale() : 0.0;
-  if (!settled)
+  if (!converged)
     result.statuses.push_back(status_of<StatusReason::kStressFalling>(options.max_iterations));
   return result;
 }
@@ -200,8 +200,9 @@ void check(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights, con
 Embedding smacof(const Eigen::MatrixXd& distances, const Eigen::MatrixXd& weights,
                  const Points& start, const SmacofOptions& options) {
   check(distances, weights, start, options);
-  Embedding result = weights.size() == 0 ? lowered(EqualWeights(distances), start, options)
-                                         : lowered(SomeWeights(distances, weights), start, options);
+  Embedding result = weights.size() == 0
+                         ? minimized(EqualWeights(distances), start, options)
+                         : minimized(SomeWeights(distances, weights), start, options);
   if (planarity(result.coordinates) <= kFlatPlanarity)
     result.statuses.push_back(status_of<StatusReason::kFlatMap>());
   return result;

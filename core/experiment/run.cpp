@@ -271,7 +271,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
                                       .origin = FromSensor{history.sensor, setting},
                                       .step = step,
                                       .names = history.names,
-                                      .truth_m = run.world.landmarks_m,
+                                      .ground_truth_m = run.world.landmarks_m,
                                       .anchors = run.anchors},
                                      std::move(map)));
   }

@@ -6,15 +6,15 @@
 
 namespace mapproof {
 
-ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
+ScoredMap scored_map(const Embedding& embedding, const Points& ground_truth_m,
                      const std::vector<Eigen::Index>& anchors, AffineFit fit) {
-  AlignedMap aligned = align_to_anchors(embedding.coordinates, truth_m, anchors, fit);
+  AlignedMap aligned = align_to_anchors(embedding.coordinates, ground_truth_m, anchors, fit);
   ScoredMap map{.positions_m = std::move(aligned.positions_m),
-                .frame = aligned.aligned ? Frame::kTruth : Frame::kSimilarity,
+                .frame = aligned.aligned ? Frame::kGroundTruth : Frame::kSimilarity,
                 .statuses = embedding.statuses,
                 .score = std::nullopt};
   map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
-  if (aligned.aligned) map.score = score_map(map.positions_m, truth_m, anchors, fit);
+  if (aligned.aligned) map.score = score_map(map.positions_m, ground_truth_m, anchors, fit);
   return map;
 }
 
@@ -25,7 +25,7 @@ MapRecord map_record(MapSource source, ScoredMap map) {
           .frame = map.frame,
           .names = std::move(source.names),
           .estimate = std::move(map.positions_m),
-          .truth_m = std::move(source.truth_m),
+          .ground_truth_m = std::move(source.ground_truth_m),
           .anchors = std::move(source.anchors),
           .statuses = std::move(map.statuses),
           .certificate = std::nullopt,

@@ -16,24 +16,24 @@ namespace mapproof {
 /// A map in the frame of its anchors, with its score if it could be tied to them.
 struct ScoredMap {
   Points positions_m;  ///< M x 2; NaN rows: the landmark has no position.
-  Frame frame = Frame::kTruth;
+  Frame frame = Frame::kGroundTruth;
   std::vector<Status> statuses;  ///< Of the embedding and of the alignment.
   std::optional<Score> score;
 };
 
 /// Aligns an embedding to the anchors and scores it against the ground truth.
-/// @param truth_m  M x 2.
-ScoredMap scored_map(const Embedding& embedding, const Points& truth_m,
+/// @param ground_truth_m  M x 2.
+ScoredMap scored_map(const Embedding& embedding, const Points& ground_truth_m,
                      const std::vector<Eigen::Index>& anchors, AffineFit fit);
 
 /// What a map was made of; the rest of its record is its ScoredMap.
 struct MapSource {
   std::string id;  ///< MapRecord::id.
   MapOrigin origin;
-  int step = 0;                       ///< Number of observations used, N.
-  std::vector<std::string> names;     ///< M.
-  std::optional<Points> truth_m;      ///< M x 2; NaN rows: ground truth unknown.
-  std::vector<Eigen::Index> anchors;  ///< Rows of the landmarks with known position.
+  int step = 0;                          ///< Number of observations used, N.
+  std::vector<std::string> names;        ///< M.
+  std::optional<Points> ground_truth_m;  ///< M x 2; NaN rows: ground truth unknown.
+  std::vector<Eigen::Index> anchors;     ///< Rows of the landmarks with known position.
 };
 
 /// The record of a map, without a certificate.

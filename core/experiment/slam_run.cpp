@@ -56,9 +56,9 @@ std::vector<Alignment> alignments_from(Alignment first) {
   }
 }
 
-std::vector<double> pose_errors(const Trajectory& path, const Trajectory& truth) {
+std::vector<double> pose_errors(const Trajectory& path, const Trajectory& ground_truth) {
   const Eigen::VectorXd errors =
-      (positions_at(truth, path.time_s) - path.positions_m).rowwise().norm();
+      (positions_at(ground_truth, path.time_s) - path.positions_m).rowwise().norm();
   return {errors.begin(), errors.end()};
 }
 
@@ -144,7 +144,7 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
     } catch (const InvalidInput&) {
       return;  // The first one has the reason.
     }
-    score_against_truth(record, run.log, first_alignment(method, run.log, options));
+    score_against_ground_truth(record, run.log, first_alignment(method, run.log, options));
     run.starts.push_back(start_of(record, number));
   }
 }
@@ -180,7 +180,7 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
     result.timings.push_back({.run = id, .method = method, .seconds = seconds});
     if (record.estimate.landmark_cov_m2.empty())
       record.estimate.landmark_cov_m2 = estimates.landmark_covariances(method, record.estimate);
-    score_against_truth(record, run.log, first_alignment(method, run.log, options));
+    score_against_ground_truth(record, run.log, first_alignment(method, run.log, options));
     if (is_refinement(method) && options.random_starts > 0)
       run.starts.push_back(start_of(record, 1));
     run.records.push_back(std::move(record));
@@ -189,20 +189,21 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
   run.windows = estimates.windows();
   if (std::ranges::find(options.methods, SlamMethod::kSpectral) != options.methods.end())
     run.upgrade = estimates.upgrade();
-  if (!run.log.truth) lay_on_first(run, options);
+  if (!run.log.ground_truth) lay_on_first(run, options);
   return result;
 }
 
-void score_against_truth(SlamRecord& record, const RangeLog& log, Alignment first) {
+void score_against_ground_truth(SlamRecord& record, const RangeLog& log, Alignment first) {
   SlamEstimate& estimate = record.estimate;
-  if (!log.truth || estimate.path.size() == 0) return;
-  const std::optional<Similarity> motion = path_alignment(estimate.path, *log.truth, first);
+  if (!log.ground_truth || estimate.path.size() == 0) return;
+  const std::optional<Similarity> motion = path_alignment(estimate.path, *log.ground_truth, first);
   if (!motion) return;
   for (const Alignment alignment : alignments_from(first))
-    if (const auto error = trajectory_error(estimate, *log.truth, log.true_landmarks, alignment))
+    if (const auto error =
+            trajectory_error(estimate, *log.ground_truth, log.true_landmarks, alignment))
       record.errors.push_back(*error);
   if (first != Alignment::kNone) move(estimate, *motion);
-  record.error_m = pose_errors(estimate.path, *log.truth);
+  record.error_m = pose_errors(estimate.path, *log.ground_truth);
 }
 
 void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror) {
@@ -333,8 +334,8 @@ const Trajectory& SlamEstimates::reckoned() {
 const WindowOptions& SlamEstimates::window() {
   if (window_) return *window_;
   const auto landmarks = static_cast<Eigen::Index>(log_.landmarks.size());
-  const WindowSearch search = choose_window(
-      readings_by_landmark(log_.ranges, landmarks, reckoned()), reckoned(), reckoned().time_s);
+  const WindowSearch search = choose_window(ranges_by_landmark(log_.ranges, landmarks, reckoned()),
+                                            reckoned(), reckoned().time_s);
   curve_ = summary(search);
   window_ = search.options;
   return *window_;

@@ -38,7 +38,7 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
 
 /// Aligns an estimate to the ground truth of a log by `first` and computes its errors, under this
 /// and every weaker alignment that is meaningful. Nothing without ground truth.
-void score_against_truth(SlamRecord& record, const RangeLog& log, Alignment first);
+void score_against_ground_truth(SlamRecord& record, const RangeLog& log, Alignment first);
 
 /// Aligns an estimate to a path, rigidly, with reflection if it is free.
 void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror);

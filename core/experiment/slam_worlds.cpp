@@ -33,9 +33,10 @@ RangeLog log_of(const RangeWorld& world) {
     for (Eigen::Index n = 0; n < world.ranges_m.rows(); ++n)
       log.ranges.push_back(
           {.time_s = static_cast<double>(t), .landmark = n, .range_m = world.ranges_m(n, t)});
-  log.truth = Trajectory{.time_s = Eigen::VectorXd::LinSpaced(T, 0.0, static_cast<double>(T - 1)),
-                         .positions_m = world.positions_m,
-                         .heading_rad = world.heading_rad};
+  log.ground_truth =
+      Trajectory{.time_s = Eigen::VectorXd::LinSpaced(T, 0.0, static_cast<double>(T - 1)),
+                 .positions_m = world.positions_m,
+                 .heading_rad = world.heading_rad};
   log.true_landmarks = world.landmarks_m;
   return log;
 }
@@ -46,14 +47,14 @@ Eigen::MatrixXd centred(const Eigen::MatrixXd& rows) {
 }
 
 /// Aligns a map to the ground truth by all landmarks, and scores it.
-void fit_and_score(RangeHistoryMap& map, const Points& coordinates, const Points& truth_m) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(truth_m.rows()));
+void fit_and_score(RangeHistoryMap& map, const Points& coordinates, const Points& ground_truth_m) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(ground_truth_m.rows()));
   std::iota(all.begin(), all.end(), Eigen::Index{0});
-  AlignedMap aligned = align_to_anchors(coordinates, truth_m, all, AffineFit::kLeastSquares);
+  AlignedMap aligned = align_to_anchors(coordinates, ground_truth_m, all, AffineFit::kLeastSquares);
   map.statuses.insert(map.statuses.end(), aligned.statuses.begin(), aligned.statuses.end());
   map.positions_m = std::move(aligned.positions_m);
   if (aligned.aligned)
-    map.score = score_map(map.positions_m, truth_m, {}, AffineFit::kLeastSquares);
+    map.score = score_map(map.positions_m, ground_truth_m, {}, AffineFit::kLeastSquares);
 }
 
 MethodSetting setting_of(const Embedder& embedder, Method method, int neighbours) {

@@ -84,10 +84,10 @@ void PairSums::add_values(const std::vector<StepEntry>& entries) {
 }
 
 std::vector<Eigen::Index> PairSums::seen() const {
-  const Eigen::MatrixXd& told = sensor_ == Sensor::kVisibility ? products_ : counts_;
+  const Eigen::MatrixXd& reported = sensor_ == Sensor::kVisibility ? products_ : counts_;
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < landmarks(); ++i)
-    if (told(i, i) > 0.0) rows.push_back(i);
+    if (reported(i, i) > 0.0) rows.push_back(i);
   return rows;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/labels/moved.hpp"
+#include "core/association/moved.hpp"
 #include "core/model/detection_log.hpp"
 
 namespace mapproof {

@@ -105,8 +105,8 @@ std::vector<Bridge> shortest_bridges(const std::vector<int>& piece, int pieces,
 
 void insert_edge(Graph& graph, Eigen::Index from, Eigen::Index to, double length) {
   std::vector<Edge>& edges = graph[static_cast<std::size_t>(from)];
-  const auto place = std::ranges::lower_bound(edges, to, {}, &Edge::to);
-  edges.insert(place, {to, length});
+  const auto position = std::ranges::lower_bound(edges, to, {}, &Edge::to);
+  edges.insert(position, {to, length});
 }
 
 /// The shortest edge that leaves a group, and its start; `to` is negative if none is finite.

@@ -95,7 +95,7 @@ class Builder : public nlohmann::json_sax<Json> {
 
   template <typename Value>
   bool put(Value&& value) {
-    place() = std::forward<Value>(value);
+    location() = std::forward<Value>(value);
     return true;
   }
 
@@ -104,7 +104,7 @@ class Builder : public nlohmann::json_sax<Json> {
       problem = fmt::format("nested deeper than {} levels", kDepth);
       return false;
     }
-    Json& value = place();
+    Json& value = location();
     value = std::move(empty);
     stack_.push_back(&value);
     return true;
@@ -116,7 +116,7 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   /// Where the next value goes. Only the innermost container grows, so outer pointers stay good.
-  Json& place() {
+  Json& location() {
     if (stack_.empty()) return root;
     if (stack_.back()->is_object()) return *slot_;
     return stack_.back()->get_ref<Json::array_t&>().emplace_back();
@@ -380,7 +380,7 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
   if (good) return {source, std::move(builder.root)};
   const std::size_t stopped = static_cast<std::size_t>(seen - text.data());
   const std::size_t offset = builder.offset.value_or(stopped == 0 ? 0 : stopped - 1);
-  throw IoError(source, place_of(text, offset), builder.problem);
+  throw IoError(source, location_of(text, offset), builder.problem);
 }
 
 std::string schema_name_in(std::string_view text) {

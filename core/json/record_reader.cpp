@@ -96,11 +96,11 @@ std::int64_t read_integer(const JsonCursor& json, const FieldRule& rule, std::in
   return json.integer(least, most);
 }
 
-JsonCursor place_of(const JsonCursor& json, std::string_view pointer) {
+JsonCursor location_of(const JsonCursor& json, std::string_view pointer) {
   const std::string key(pointer.substr(0, pointer.find('/')));
   const auto found = json.is_object() ? json.find(key) : json.element(std::stoul(key));
   if (!found || key.size() == pointer.size()) return found.value_or(json);
-  return place_of(*found, pointer.substr(key.size() + 1));
+  return location_of(*found, pointer.substr(key.size() + 1));
 }
 
 void refuse_order(const JsonCursor& json, double number, double before) {

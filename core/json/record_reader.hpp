@@ -27,7 +27,7 @@ std::vector<JsonCursor> read_items(const JsonCursor& json, const FieldRule& rule
 std::int64_t read_integer(const JsonCursor& json, const FieldRule& rule, std::int64_t least,
                           std::int64_t most);
 /// Below `json` as far as the pointer leads: a key that was left out is not there.
-JsonCursor place_of(const JsonCursor& json, std::string_view pointer);
+JsonCursor location_of(const JsonCursor& json, std::string_view pointer);
 [[noreturn]] void refuse_order(const JsonCursor& json, double number, double before);
 [[noreturn]] void refuse_tag(const JsonCursor& tag, const std::vector<std::string_view>& known);
 
@@ -55,10 +55,10 @@ class Reader : public FieldVisitor {
     visit(reader);
   }
   void refuse(std::string_view pointer, std::string_view what) {
-    place_of(json_, pointer).fail(std::string(what));
+    location_of(json_, pointer).fail(std::string(what));
   }
   void refuse(std::string_view pointer, std::size_t item, std::string_view what) {
-    place_of(json_, pointer).element(item).fail(std::string(what));
+    location_of(json_, pointer).element(item).fail(std::string(what));
   }
 
  private:

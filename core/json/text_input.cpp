@@ -61,7 +61,7 @@ std::string line_of(std::string_view text, std::size_t offset, std::size_t first
   return fmt::format("line {}", first_line + ends);
 }
 
-std::string place_of(std::string_view text, std::size_t offset) {
+std::string location_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const std::size_t last = before.rfind('\n');
   const std::size_t column =

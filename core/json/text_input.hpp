@@ -18,7 +18,7 @@ std::string_view checked_text(std::string_view text, const std::string& source,
 std::string line_of(std::string_view text, std::size_t offset, std::size_t first_line = 1);
 
 /// "line 7, column 12": columns count bytes.
-std::string place_of(std::string_view text, std::size_t offset);
+std::string location_of(std::string_view text, std::size_t offset);
 
 /// A decimal number that fills the whole of `cell`, whatever the locale; infinities and NaN by
 /// name count as numbers. Empty if it is none, or lies outside the range of a double.

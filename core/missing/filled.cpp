@@ -87,7 +87,7 @@ void whiten(const Moments& moments, LowRankModel& model) {
   model.loadings = model.loadings * Eigen::MatrixXd(factor.matrixL());
 }
 
-constexpr std::array kNames = {std::string_view("common-steps"), std::string_view("ppca"),
+constexpr std::array kNames = {std::string_view("pairwise-complete"), std::string_view("ppca"),
                                std::string_view("pca"), std::string_view("mean")};
 
 /// The missing rows of a group.
@@ -284,8 +284,8 @@ RegularisedPca regularised_pca(const Features& matrix, const RegularisedPcaOptio
   const Eigen::MatrixXd known = Eigen::MatrixXd::Zero(q, q);
   RegularisedPca result{.model = balanced_start(matrix, options), .losses = {}, .statuses = {}};
   LowRankModel& model = result.model;
-  bool settled = false;
-  while (!settled && std::ssize(result.losses) < options.max_iterations) {
+  bool converged = false;
+  while (!converged && std::ssize(result.losses) < options.max_iterations) {
     Moments moments(matrix.values.rows(), q);
     for (const ColumnGroup& group : groups)
       moments.add(matrix, group, fit_group(matrix, group, model), known);
@@ -293,11 +293,11 @@ RegularisedPca regularised_pca(const Features& matrix, const RegularisedPcaOptio
     for (Eigen::Index i = 0; i < matrix.values.rows(); ++i)
       loss += moments.regress(i, model.ridge, model) +
               model.ridge * model.loadings.row(i).squaredNorm();
-    settled = !result.losses.empty() &&
-              result.losses.back() - loss <= options.least_fall * result.losses.back();
+    converged = !result.losses.empty() &&
+                result.losses.back() - loss <= options.least_fall * result.losses.back();
     result.losses.push_back(loss);
   }
-  if (!settled)
+  if (!converged)
     result.statuses.push_back(status_of<StatusReason::kLossFalling>(options.max_iterations));
   return result;
 }
@@ -311,21 +311,21 @@ Ppca ppca(const Features& matrix, const PpcaOptions& options) {
   Ppca result;
   LowRankModel next = pairwise_start(matrix, options.dimensions);
   const double floor = least_noise(matrix);
-  bool settled = false;
+  bool converged = false;
   for (int iteration = 0;; ++iteration) {
     Moments moments(matrix.values.rows(), options.dimensions);
     const double likelihood = expect(matrix, groups, next, moments);
     if (iteration > 0) {
       result.rises.push_back(likelihood - result.log_likelihood);
-      settled = result.rises.back() <= options.least_rise * entries;
+      converged = result.rises.back() <= options.least_rise * entries;
     }
     result.log_likelihood = likelihood;
     result.model = next;
-    if (settled || iteration == options.max_iterations) break;
+    if (converged || iteration == options.max_iterations) break;
     maximise(moments, entries, floor, next);
     whiten(moments, next);
   }
-  if (!settled)
+  if (!converged)
     result.statuses.push_back(status_of<StatusReason::kLikelihoodRising>(options.max_iterations));
   return result;
 }
@@ -347,13 +347,14 @@ FilledProximities filled_proximities(const ObservationHistory& history, Eigen::I
     return result;
   }
   result.model = fitted_model(matrix, options, result.statuses);
-  result.proximities = filled_from(matrix, history.sensor, result.model, GapDistances::kOfFilled);
+  result.proximities =
+      filled_from(matrix, history.sensor, result.model, CompletedDistances::kOfFilled);
   return result;
 }
 
 Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankModel& model,
-                        GapDistances distances) {
-  Filled filled = fill(matrix, model, distances == GapDistances::kExpected);
+                        CompletedDistances distances) {
+  Filled filled = fill(matrix, model, distances == CompletedDistances::kExpected);
   // Squared ranges are centred on their mean over time, which missing data had moved.
   if (sensor == Sensor::kRange)
     filled.values.colwise() -= Eigen::VectorXd(filled.values.rowwise().mean());

@@ -160,7 +160,7 @@ struct FilledProximities {
 };
 
 /// Which squared distances a model of missing data gives.
-enum class GapDistances {
+enum class CompletedDistances {
   kOfFilled,  ///< Those of the filled values.
   /// PPCA: their expectation under the posterior, longer by the variance of what was filled in.
   /// Worse maps resulted: the model's noise is the residual of its few dimensions, and that is much
@@ -171,7 +171,7 @@ enum class GapDistances {
 /// Proximities of histories whose missing data are filled from a model of them (see features).
 /// @note O(E q^2 + C q^3) for E observed entries; kExpected also O(M^2 q) for each column.
 Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankModel& model,
-                        GapDistances distances);
+                        CompletedDistances distances);
 
 /// Proximities of all pairs of landmarks, co-visible or not, from histories whose missing data are
 /// filled. Without missing data, and for kCommonSteps, they are those of proximities().

@@ -304,10 +304,10 @@ JointMap best_joint_map(const std::vector<Eigen::MatrixXd>& distances,
   double least = kInfinity;
   for (const Points& start : starts) {
     JointMap map = joint_map(distances, start, options);
-    const Points& places = map.embedding.coordinates;
+    const Points& positions = map.embedding.coordinates;
     const bool has_order =
-        places.allFinite() && size_of(places.rowwise() - places.colwise().mean()) > 0.0;
-    const double misfit = has_order ? order_misfit(distances, places) : HUGE_VAL;
+        positions.allFinite() && size_of(positions.rowwise() - positions.colwise().mean()) > 0.0;
+    const double misfit = has_order ? order_misfit(distances, positions) : HUGE_VAL;
     if (!best.shares.empty() && misfit >= least) continue;
     least = misfit;
     best = std::move(map);

@@ -12,7 +12,7 @@ namespace mapproof {
 struct GivenPath {
   std::string id;
   Trajectory path;
-  std::optional<Trajectory> truth = {};
+  std::optional<Trajectory> ground_truth = {};
   Alignment alignment = Alignment::kNone;  ///< To the ground truth, before it is drawn.
   std::optional<double> rms_m = {};        ///< Distance from the ground truth once that is done.
 };

@@ -12,7 +12,8 @@ namespace {
 constexpr std::array kPlacementNames = {std::string_view("walls"), std::string_view("random"),
                                         std::string_view("cluster")};
 
-constexpr std::array kFrameNames = {std::string_view("truth"), std::string_view("similarity")};
+constexpr std::array kFrameNames = {std::string_view("ground_truth"),
+                                    std::string_view("similarity")};
 
 }  // namespace
 

@@ -29,12 +29,12 @@ std::string_view name(AnchorPlacement placement);
 
 /// The frame that a map's coordinates are in.
 enum class Frame {
-  kTruth,       ///< Metres, aligned to the anchors by an affine map.
+  kGroundTruth,  ///< Metres, aligned to the anchors by an affine map.
   kSimilarity,  ///< No anchors, or none that could tie the map to the ground truth: the shape alone
                 ///< is meaningful; translation, rotation, scale and reflection are arbitrary.
 };
 
-/// The name used in files: "truth", "similarity".
+/// The name used in files: "ground truth", "similarity".
 std::string_view name(Frame frame);
 
 /// An embedding of what one sensor observed.
@@ -78,11 +78,11 @@ struct MapRecord {
   std::string id;  ///< Slash-separated, e.g. "layout-1-pose-2/bearing/isomap-K9/2000".
   MapOrigin origin;
   int step = 0;  ///< Number of observations used, N.
-  Frame frame = Frame::kTruth;
-  std::vector<std::string> names;     ///< M.
-  Points estimate;                    ///< M x 2, m if frame is kTruth; NaN rows: not mapped.
-  std::optional<Points> truth_m;      ///< M x 2; NaN rows: ground truth unknown.
-  std::vector<Eigen::Index> anchors;  ///< Rows whose true position was given.
+  Frame frame = Frame::kGroundTruth;
+  std::vector<std::string> names;  ///< M.
+  Points estimate;                 ///< M x 2, m if frame is kGroundTruth; NaN rows: not mapped.
+  std::optional<Points> ground_truth_m;  ///< M x 2; NaN rows: ground truth unknown.
+  std::vector<Eigen::Index> anchors;     ///< Rows whose true position was given.
   std::vector<Status> statuses;
   std::optional<Certificate> certificate;  ///< Of a semidefinite program on user data.
   std::optional<Score> score;  ///< If there is a ground truth and the map could be scored.

@@ -11,7 +11,7 @@
 namespace mapproof {
 
 /// One measured distance from the robot to a landmark.
-struct RangeReading {
+struct RangeMeasurement {
   double time_s = 0.0;
   Eigen::Index landmark = 0;  ///< Row in RangeLog::landmarks.
   double range_m = 0.0;
@@ -53,14 +53,14 @@ struct StartPose {
 /// What a robot recorded on its way: odometry and ranges, and the ground truth where it was
 /// surveyed.
 struct RangeLog {
-  std::string name;                    ///< For titles, e.g. "Plaza 1".
-  std::vector<std::string> landmarks;  ///< Names, N of them, all different.
-  std::vector<RangeReading> ranges;    ///< Ascending in time.
-  StartPose start;                     ///< Zero where the log has none: the frame is then its own.
-  std::vector<Motion> odometry;        ///< Ascending in time; empty: no odometry.
-  std::optional<Trajectory> truth;     ///< The surveyed path.
-  std::optional<Points> true_landmarks;  ///< N x 2, m; NaN rows: not surveyed.
-  std::vector<std::string> remarks;      ///< What the reader did or noticed, a sentence each.
+  std::string name;                      ///< For titles, e.g. "Plaza 1".
+  std::vector<std::string> landmarks;    ///< Names, N of them, all different.
+  std::vector<RangeMeasurement> ranges;  ///< Ascending in time.
+  StartPose start;               ///< Zero where the log has none: the frame is then its own.
+  std::vector<Motion> odometry;  ///< Ascending in time; empty: no odometry.
+  std::optional<Trajectory> ground_truth;  ///< The surveyed path.
+  std::optional<Points> true_landmarks;    ///< N x 2, m; NaN rows: not surveyed.
+  std::vector<std::string> remarks;        ///< What the reader did or noticed, a sentence each.
 };
 
 }  // namespace mapproof

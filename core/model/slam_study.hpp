@@ -63,8 +63,8 @@ std::optional<SlamMethod> slam_method_named(std::string_view name);
 /// What one method made of one log.
 struct SlamRecord {
   SlamMethod method = SlamMethod::kSpectral;
-  /// In the frame of its first alignment, the truth's if there is one; without a ground truth
-  /// aligned rigidly to the run's first record, so that paths can be drawn over one another.
+  /// In the frame of its first alignment, the ground truth's if there is one; without a ground
+  /// truth aligned rigidly to the run's first record, so that paths can be drawn over one another.
   SlamEstimate estimate;
   std::vector<TrajectoryError> errors;  ///< Under each alignment tried, the first the method's own.
   std::vector<double>
@@ -92,7 +92,7 @@ struct RefinementStart {
 struct PublishedDrive {
   double length_km = 0.0;
   long poses = 0;
-  long readings = 0;
+  long measurements = 0;
 };
 
 /// Everything made of one log: what figures and tables need.

@@ -16,7 +16,7 @@ struct Features {
 /// @throws InvalidInput unless 1 <= steps <= history.steps().
 void require_steps(const ObservationHistory& history, Eigen::Index steps);
 
-/// Visibility: the 0/1 entries, normalised later over common steps [yairi2007, eq. 7].
+/// Visibility: the 0/1 entries, normalised later pairwise-complete [yairi2007, eq. 7].
 /// Bearing: unit direction vectors, not normalised [yairi2007, section 4.4.1].
 /// Range: squared ranges less each landmark's mean over time, which are affine in its position.
 ///

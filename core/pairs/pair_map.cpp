@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/graph/components.hpp"
-#include "core/pairs/handedness.hpp"
+#include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_graph.hpp"
 #include "core/pairs/pair_solution.hpp"
 
@@ -98,10 +98,10 @@ PairProblem problem_of(const std::vector<MeasuredPair>& pairs,
 }
 
 /// The orientations of triples of the group alone, in its rows.
-std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
-                               const std::vector<Eigen::Index>& group) {
-  std::vector<SeenTurn> result;
-  for (SeenTurn one : turns) {
+std::vector<SeenOrientation> turns_of(const std::vector<SeenOrientation>& turns,
+                                      const std::vector<Eigen::Index>& group) {
+  std::vector<SeenOrientation> result;
+  for (SeenOrientation one : turns) {
     const auto is_in = [&](int& landmark) {
       const auto row = std::ranges::lower_bound(group, landmark);
       const bool found = row != group.end() && *row == landmark;
@@ -115,15 +115,15 @@ std::vector<SeenTurn> turns_of(const std::vector<SeenTurn>& turns,
 
 /// The map of the group's rows; its pairs' precisions become the final ones.
 /// @param start  Of the group; empty: none.
-Embedding solve(PairProblem& problem, const Points& start, const std::vector<SeenTurn>& turns,
-                const PairMapOptions& options) {
+Embedding solve(PairProblem& problem, const Points& start,
+                const std::vector<SeenOrientation>& turns, const PairMapOptions& options) {
   if (!options.refined) return path_map(problem, shares_by_triangles(problem));
-  PairSolution best =
-      start.rows() > 0 && start.allFinite()
-          ? lowered(problem, start,
-                    without_gross(problem, start, shares_by_triangles(problem), options.tolerance),
-                    Width::kNarrow, options)
-          : searched(problem, turns, options);
+  PairSolution best = start.rows() > 0 && start.allFinite()
+                          ? minimized(problem, start,
+                                      without_gross(problem, start, shares_by_triangles(problem),
+                                                    options.tolerance),
+                                      Width::kNarrow, options)
+                          : searched(problem, turns, options);
   for (std::size_t k = 0; k < best.left.size(); ++k) problem.pairs[k].precision *= best.left[k];
   return best.map;
 }
@@ -131,7 +131,7 @@ Embedding solve(PairProblem& problem, const Points& start, const std::vector<See
 }  // namespace
 
 PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::string>& names,
-                 const PairMapOptions& options, const std::vector<SeenTurn>& turns) {
+                 const PairMapOptions& options, const std::vector<SeenOrientation>& turns) {
   check(pairs, names.size(), options);
   PairMap result;
   result.embedding.coordinates.setConstant(std::ssize(names), 2, kNaN);

@@ -6,7 +6,7 @@
 
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
-#include "core/pairs/handedness.hpp"
+#include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_distances.hpp"
 #include "core/pairs/pair_solution.hpp"
 
@@ -33,7 +33,8 @@ struct PairMap {
 /// @throws InvalidInput if the bounds above are broken.
 /// @note O(M^3) time for the start, and reweightings + 1 runs of SMACOF.
 PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::string>& names,
-                 const PairMapOptions& options = {}, const std::vector<SeenTurn>& turns = {});
+                 const PairMapOptions& options = {},
+                 const std::vector<SeenOrientation>& turns = {});
 
 /// The pair map of the scans, reflected so that its landmarks have the orientation that the scans
 /// show, bearings being counter-clockwise.

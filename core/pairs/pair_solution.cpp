@@ -29,7 +29,8 @@ constexpr double kAgreed = 0.02;        ///< Share of the scans that disagree wi
 class Judge {
  public:
   /// @param width  Residual of which a pair costs half of the most.
-  Judge(const std::vector<MeasuredPair>& pairs, const std::vector<SeenTurn>& turns, double width)
+  Judge(const std::vector<MeasuredPair>& pairs, const std::vector<SeenOrientation>& turns,
+        double width)
       : pairs_(pairs), turns_(turns), width_(width) {}
 
   /// Whether hardly any scan disagrees.
@@ -50,7 +51,7 @@ class Judge {
 
  private:
   const std::vector<MeasuredPair>& pairs_;
-  const std::vector<SeenTurn>& turns_;
+  const std::vector<SeenOrientation>& turns_;
   double width_;
 };
 
@@ -87,14 +88,14 @@ Points folded(Points map, const std::vector<Eigen::Index>& rows, Eigen::Index a,
 /// Unfolds the map: distances alone leave landmarks on the wrong side of a line.
 class Unfolding {
  public:
-  Unfolding(PairProblem& problem, const std::vector<SeenTurn>& turns, const Judge& judge,
+  Unfolding(PairProblem& problem, const std::vector<SeenOrientation>& turns, const Judge& judge,
             const PairMapOptions& options)
       : problem_(problem), turns_(turns), judge_(judge), options_(options) {}
 
   /// The unfolded map, one or two folds at a time, as long as that helps.
   PairSolution of(PairSolution best) {
     for (int round = 0; round < kMostFolds; ++round) {
-      std::vector<PairSolution> others = folded_anew(best);
+      std::vector<PairSolution> others = refolded(best);
       const auto cost = [&](const PairSolution& one) { return judge_.cost(one); };
       std::ranges::sort(others, {}, cost);
       others.resize(std::min(others.size(), kTriedTurns));
@@ -102,7 +103,7 @@ class Unfolding {
       if (once == 0) break;
       if (cost(others.front()) >= cost(best))
         for (std::size_t k = 0; k < once; ++k)
-          for (PairSolution& twice : folded_anew(others[k])) others.push_back(std::move(twice));
+          for (PairSolution& twice : refolded(others[k])) others.push_back(std::move(twice));
       PairSolution& least = *std::ranges::min_element(others, {}, cost);
       if (cost(least) >= cost(best)) break;
       best = std::move(least);
@@ -114,27 +115,27 @@ class Unfolding {
   /// Maps in which a landmark, with those connected to it, is reflected across the line through two
   /// others with which the scans show the opposite orientation, and whose stress is minimized
   /// again.
-  std::vector<PairSolution> folded_anew(const PairSolution& from) {
+  std::vector<PairSolution> refolded(const PairSolution& from) {
     const Points& map = from.map.coordinates;
-    std::vector<SeenTurn> wrong = turned_otherwise(turns_, map);
-    std::ranges::stable_sort(wrong, std::ranges::greater(), &SeenTurn::scans);
+    std::vector<SeenOrientation> wrong = turned_otherwise(turns_, map);
+    std::ranges::stable_sort(wrong, std::ranges::greater(), &SeenOrientation::scans);
     wrong.resize(std::min(wrong.size(), kTriedTurns));
     std::set<std::vector<Eigen::Index>> tried;
     std::vector<PairSolution> result;
-    for (const SeenTurn& one : wrong)
+    for (const SeenOrientation& one : wrong)
       for (const auto& [moved, a, b] : {std::array{one.first, one.second, one.third},
                                         std::array{one.second, one.first, one.third},
                                         std::array{one.third, one.first, one.second}}) {
         const std::vector<Eigen::Index> rows = hanging_on(problem_, moved, a, b);
         if (!tried.insert(rows).second) continue;
         const Points start = folded(map, rows, a, b);
-        result.push_back(lowered_widely(problem_, start, options_));
+        result.push_back(minimized_widely(problem_, start, options_));
       }
     return result;
   }
 
   PairProblem& problem_;
-  const std::vector<SeenTurn>& turns_;
+  const std::vector<SeenOrientation>& turns_;
   const Judge& judge_;
   const PairMapOptions& options_;
 };
@@ -217,8 +218,8 @@ double usual_residual(const std::vector<double>& residuals) {
   return std::max(kLeastResidual, 1.4826 * median(residuals));
 }
 
-PairSolution lowered(PairProblem& problem, const Points& start, std::vector<double> left,
-                     Width width, const PairMapOptions& options) {
+PairSolution minimized(PairProblem& problem, const Points& start, std::vector<double> left,
+                       Width width, const PairMapOptions& options) {
   weigh(problem, left);
   Embedding map = smacof(problem.distances, problem.weights, start, options.smacof);
   for (int round = 0; round < options.reweightings; ++round) {
@@ -232,11 +233,11 @@ PairSolution lowered(PairProblem& problem, const Points& start, std::vector<doub
   return {std::move(map), std::move(left), std::move(off), width};
 }
 
-PairSolution lowered_widely(PairProblem& problem, const Points& start,
-                            const PairMapOptions& options) {
+PairSolution minimized_widely(PairProblem& problem, const Points& start,
+                              const PairMapOptions& options) {
   std::vector<double> left =
       shares(residuals(problem, start), width_in(Width::kWide, 0) * options.tolerance);
-  return lowered(problem, start, std::move(left), Width::kWide, options);
+  return minimized(problem, start, std::move(left), Width::kWide, options);
 }
 
 PairSolution polished(PairProblem& problem, const PairSolution& rough,
@@ -294,7 +295,7 @@ Embedding path_map(const PairProblem& problem, const std::vector<double>& left) 
   return isomap(starting_graph(problem.pairs, left, n));
 }
 
-PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
+PairSolution searched(PairProblem& problem, const std::vector<SeenOrientation>& turns,
                       const PairMapOptions& options) {
   const std::vector<std::vector<double>> starts = first_shares(problem);
   PairMapOptions rough = options;  // Decides which map it will be.
@@ -305,7 +306,7 @@ PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
   for (const Width width : {Width::kNarrow, Width::kWide})
     for (const std::vector<double>& left : starts) {
       solutions.push_back(
-          lowered(problem, path_map(problem, left).coordinates, left, width, rough));
+          minimized(problem, path_map(problem, left).coordinates, left, width, rough));
       usual = std::min(usual, usual_residual(solutions.back().residuals));
       if (solutions.size() == 1 &&
           Judge(problem.pairs, turns, kGross * options.tolerance * usual).is_agreed(solutions[0]))

@@ -7,7 +7,7 @@
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
 #include "core/model/trial_study.hpp"
-#include "core/pairs/handedness.hpp"
+#include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_distances.hpp"
 
 namespace mapproof {
@@ -68,12 +68,12 @@ double usual_residual(const std::vector<double>& residuals);
 
 /// Least stress from a start, with weights that follow the residuals [geman1985].
 /// @param left  Initial shares of the weights.
-PairSolution lowered(PairProblem& problem, const Points& start, std::vector<double> left,
-                     Width width, const PairMapOptions& options);
+PairSolution minimized(PairProblem& problem, const Points& start, std::vector<double> left,
+                       Width width, const PairMapOptions& options);
 
 /// The same from a map that is folded somewhere, however large its residuals are.
-PairSolution lowered_widely(PairProblem& problem, const Points& start,
-                            const PairMapOptions& options);
+PairSolution minimized_widely(PairProblem& problem, const Points& start,
+                              const PairMapOptions& options);
 
 /// The same in the last width alone, with the full precision of stress.
 PairSolution polished(PairProblem& problem, const PairSolution& rough,
@@ -100,7 +100,7 @@ inline constexpr double kGross = 4.0;  ///< Tolerances from which on a pair is w
 /// map that most scans agree with, in distance and in orientation of landmarks. Folds that
 /// distances alone leave are removed.
 /// @param turns  In the problem's rows; may be empty.
-PairSolution searched(PairProblem& problem, const std::vector<SeenTurn>& turns,
+PairSolution searched(PairProblem& problem, const std::vector<SeenOrientation>& turns,
                       const PairMapOptions& options);
 
 }  // namespace mapproof

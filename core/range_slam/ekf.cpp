@@ -23,13 +23,13 @@ constexpr Eigen::Index kScale = 3;  ///< In the state: x, y, heading, range scal
 /// Nearer than this a landmark has no direction.
 constexpr double kNearestRange_m = 1e-9;
 /// Measurements that a first position needs.
-constexpr std::size_t kReadingsToStart = 5;
+constexpr std::size_t kMeasurementsToStart = 5;
 /// Share of the initial way after which a landmark without a position is tried again.
 constexpr double kNextTry = 0.5;
 
 /// A landmark that waits for its first position.
 struct Waiting {
-  std::vector<RangeReading> readings;
+  std::vector<RangeMeasurement> measurements;
   double next_try_m = 0.0;  ///< Way at which it is tried again.
 };
 
@@ -76,19 +76,19 @@ class Filter {
     way_m_ += std::hypot(forward, left);
   }
 
-  void take(const RangeReading& reading) {
-    const auto landmark = static_cast<std::size_t>(reading.landmark);
+  void take(const RangeMeasurement& measured) {
+    const auto landmark = static_cast<std::size_t>(measured.landmark);
     if (is_placed_[landmark])
-      update(reading);
+      update(measured);
     else
-      waiting_[landmark].readings.push_back(reading);
+      waiting_[landmark].measurements.push_back(measured);
   }
 
   void record(Eigen::Index row) {
     path_.positions_m.row(row) = x_.head<2>().transpose();
     path_.heading_rad(row) = x_(2);
     for (std::size_t n = 0; n < waiting_.size(); ++n)
-      if (!is_placed_[n] && way_m_ >= waiting_[n].next_try_m) place(n, row);
+      if (!is_placed_[n] && way_m_ >= waiting_[n].next_try_m) position(n, row);
   }
 
   Eigen::Matrix2d position_covariance() const { return P_.topLeftCorner<2, 2>(); }
@@ -109,15 +109,15 @@ class Filter {
                                                 : Eigen::Matrix2d(Eigen::Matrix2d::Constant(nan)));
     }
     estimate.range_scale = x_(kScale);
-    tell_unplaced(log_, is_placed_, estimate.statuses);
+    report_unplaced(log_, is_placed_, estimate.statuses);
     if (2 * gated_ > updates_)
       estimate.statuses.push_back(status_of<StatusReason::kFilterLost>(gated_, updates_));
     return estimate;
   }
 
  private:
-  void update(const RangeReading& reading) {
-    const Eigen::Index at = 4 + 2 * reading.landmark;
+  void update(const RangeMeasurement& measured) {
+    const Eigen::Index at = 4 + 2 * measured.landmark;
     const Eigen::Vector2d gap = x_.head<2>() - x_.segment<2>(at);
     const double distance = gap.norm();
     ++updates_;
@@ -127,7 +127,7 @@ class Filter {
         P_.leftCols<2>() * slope - P_.middleCols<2>(at) * slope + P_.col(kScale) * distance;
     const double S = slope.dot(PHt.head<2>() - PHt.segment<2>(at)) + distance * PHt(kScale) +
                      options_.range_sigma_m * options_.range_sigma_m;
-    const double error = reading.range_m - x_(kScale) * distance;
+    const double error = measured.range_m - x_(kScale) * distance;
     if (error * error > options_.gate * S) {
       ++gated_;
       return;
@@ -137,14 +137,15 @@ class Filter {
   }
 
   /// The first position of a landmark, from its measurements along the path up to `row`.
-  void place(std::size_t landmark, Eigen::Index row) {
+  void position(std::size_t landmark, Eigen::Index row) {
     Waiting& waiting = waiting_[landmark];
     waiting.next_try_m = way_m_ + kNextTry * options_.initial_way_m;
-    if (waiting.readings.size() < kReadingsToStart) return;
+    if (waiting.measurements.size() < kMeasurementsToStart) return;
     RangeLog part;
     part.landmarks = {log_.landmarks[landmark]};
-    for (const RangeReading& reading : waiting.readings)
-      part.ranges.push_back({.time_s = reading.time_s, .landmark = 0, .range_m = reading.range_m});
+    for (const RangeMeasurement& measured : waiting.measurements)
+      part.ranges.push_back(
+          {.time_s = measured.time_s, .landmark = 0, .range_m = measured.range_m});
     const Trajectory so_far{.time_s = path_.time_s.head(row + 1),
                             .positions_m = path_.positions_m.topRows(row + 1),
                             .heading_rad = {}};
@@ -159,17 +160,17 @@ class Filter {
     // The variance that the measurements leave, and that of the path at them.
     P_.block<2, 2>(at, at) = information.inverse() + P_.topLeftCorner<2, 2>();
     is_placed_[landmark] = true;
-    waiting.readings.clear();
+    waiting.measurements.clear();
   }
 
-  Eigen::Matrix2d information_at(const Eigen::RowVector2d& place, const RangeLog& part,
+  Eigen::Matrix2d information_at(const Eigen::RowVector2d& position, const RangeLog& part,
                                  const Trajectory& path) const {
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-    for (const RangeReading& reading : part.ranges) {
-      const auto after = std::lower_bound(path.time_s.begin(), path.time_s.end(), reading.time_s) -
+    for (const RangeMeasurement& measured : part.ranges) {
+      const auto after = std::lower_bound(path.time_s.begin(), path.time_s.end(), measured.time_s) -
                          path.time_s.begin();
       const Eigen::Vector2d gap =
-          (place - path.positions_m.row(std::min<Eigen::Index>(after, path.size() - 1)))
+          (position - path.positions_m.row(std::min<Eigen::Index>(after, path.size() - 1)))
               .transpose();
       if (gap.norm() > kNearestRange_m)
         information += gap * gap.transpose() / gap.squaredNorm() /

@@ -36,12 +36,12 @@ Eigen::MatrixXd to_metres(const Eigen::RowVectorXd& center, double unit) {
 }  // namespace
 
 SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLandmarks& known) {
-  return map_from_known_places(factors, known.rows, known.positions_m);
+  return map_from_known_positions(factors, known.rows, known.positions_m);
 }
 
-SpectralMap map_from_known_places(const Factorization& factors,
-                                  const std::vector<Eigen::Index>& rows,
-                                  const Eigen::MatrixXd& positions_m) {
+SpectralMap map_from_known_positions(const Factorization& factors,
+                                     const std::vector<Eigen::Index>& rows,
+                                     const Eigen::MatrixXd& positions_m) {
   check(factors, rows, positions_m);
   const Eigen::Index rank = positions_m.cols() + 2;
   const bool in_plane = rank == 4;

@@ -36,9 +36,9 @@ SpectralMap map_from_known_landmarks(const Factorization& factors, const KnownLa
 /// @param factors      Of rank d + 2 or more.
 /// @param rows         In the map, all different.
 /// @param positions_m  As many as rows, x d; finite.
-SpectralMap map_from_known_places(const Factorization& factors,
-                                  const std::vector<Eigen::Index>& rows,
-                                  const Eigen::MatrixXd& positions_m);
+SpectralMap map_from_known_positions(const Factorization& factors,
+                                     const std::vector<Eigen::Index>& rows,
+                                     const Eigen::MatrixXd& positions_m);
 
 /// Why known landmarks cannot be used with n landmarks: a position for each of some different
 /// rows is needed; empty if nothing.

@@ -24,29 +24,29 @@ std::optional<Status> on_a_line(const Points& points) {
 
 }  // namespace
 
-void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmarks) {
+void check_ranges(const std::vector<RangeMeasurement>& ranges, Eigen::Index landmarks) {
   double last_s = -HUGE_VAL;
-  for (const RangeReading& reading : ranges) {
-    if (reading.landmark < 0 || reading.landmark >= landmarks)
+  for (const RangeMeasurement& measured : ranges) {
+    if (measured.landmark < 0 || measured.landmark >= landmarks)
       throw InvalidInput("a range is to none of the landmarks");
-    if (!(reading.range_m >= 0.0 && reading.range_m < kLongest_m))
+    if (!(measured.range_m >= 0.0 && measured.range_m < kLongest_m))
       throw InvalidInput(fmt::format("ranges must be at least 0 and below {:g} m", kLongest_m));
-    if (!std::isfinite(reading.time_s) || reading.time_s < last_s)
+    if (!std::isfinite(measured.time_s) || measured.time_s < last_s)
       throw InvalidInput("the times of ranges must be finite and ascend");
-    last_s = reading.time_s;
+    last_s = measured.time_s;
   }
 }
 
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s) {
   std::vector<bool> is_heard(log.landmarks.size(), false);
-  for (const RangeReading& reading : log.ranges)
-    if (reading.time_s >= first_s && reading.time_s <= last_s)
-      is_heard[static_cast<std::size_t>(reading.landmark)] = true;
+  for (const RangeMeasurement& measured : log.ranges)
+    if (measured.time_s >= first_s && measured.time_s <= last_s)
+      is_heard[static_cast<std::size_t>(measured.landmark)] = true;
   return is_heard;
 }
 
-void tell_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
-                   std::vector<Status>& statuses) {
+void report_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
+                     std::vector<Status>& statuses) {
   std::vector<std::string> names;
   for (std::size_t n = 0; n < is_placed.size(); ++n)
     if (!is_placed[n]) names.push_back(log.landmarks[n]);

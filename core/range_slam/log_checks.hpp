@@ -12,7 +12,7 @@ namespace mapproof {
 
 /// @throws InvalidInput unless the ranges are from 0 to below 1e9 m, of landmarks 0 to
 ///         `landmarks` - 1, and ascend in time.
-void check_ranges(const std::vector<RangeReading>& ranges, Eigen::Index landmarks);
+void check_ranges(const std::vector<RangeMeasurement>& ranges, Eigen::Index landmarks);
 
 /// Points of a planarity up to this are so near one line that ranges to or from them hardly
 /// distinguish its two sides.
@@ -28,7 +28,7 @@ std::optional<Status> path_on_a_line(const Points& positions_m);
 std::vector<bool> heard_between(const RangeLog& log, double first_s, double last_s);
 
 /// kLandmarkUnseen with the names of the landmarks that are not placed, if there are any.
-void tell_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
-                   std::vector<Status>& statuses);
+void report_unplaced(const RangeLog& log, const std::vector<bool>& is_placed,
+                     std::vector<Status>& statuses);
 
 }  // namespace mapproof

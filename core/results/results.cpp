@@ -9,11 +9,11 @@
 namespace mapproof {
 namespace {
 
-auto place_of(const Result& result) {
+auto location_of(const Result& result) {
   return std::tie(result.at, result.method, result.quantity, result.run, result.subject);
 }
 
-auto place_of(const RunOutcome& outcome) {
+auto location_of(const RunOutcome& outcome) {
   return std::tie(outcome.at, outcome.method, outcome.run);
 }
 
@@ -29,12 +29,12 @@ Condition condition(std::string setup, std::vector<Level> levels) {
   return {.setup = std::move(setup), .levels = std::move(levels)};
 }
 
-bool comes_before(const Result& a, const Result& b) { return place_of(a) < place_of(b); }
+bool comes_before(const Result& a, const Result& b) { return location_of(a) < location_of(b); }
 
 void sort_results(Results& results) {
   std::ranges::stable_sort(results.rows, comes_before);
   std::ranges::stable_sort(results.outcomes, [](const RunOutcome& a, const RunOutcome& b) {
-    return place_of(a) < place_of(b);
+    return location_of(a) < location_of(b);
   });
 }
 

@@ -31,14 +31,14 @@ struct Count {
 };
 
 /// Of the triples that the offset `first` forms with all after it.
-MAPPROOF_VECTORISED Count count_turns(Offsets truth, Offsets estimate, Eigen::Index first,
+MAPPROOF_VECTORISED Count count_turns(Offsets ground_truth, Offsets estimate, Eigen::Index first,
                                       Eigen::Index count) {
-  const double tx = truth.x[first], ty = truth.y[first];
+  const double tx = ground_truth.x[first], ty = ground_truth.y[first];
   const double ex = estimate.x[first], ey = estimate.y[first];
   std::int64_t judged = 0;
   std::int64_t wrong = 0;
   for (Eigen::Index k = first + 1; k < count; ++k) {
-    const double turn = tx * truth.y[k] - ty * truth.x[k];
+    const double turn = tx * ground_truth.y[k] - ty * ground_truth.x[k];
     const double found = ex * estimate.y[k] - ey * estimate.x[k];
     const bool counts = std::abs(turn) > kStraight;
     const bool right = ((turn > 0.0) & (found > 0.0)) | ((turn < 0.0) & (found < 0.0));
@@ -48,31 +48,33 @@ MAPPROOF_VECTORISED Count count_turns(Offsets truth, Offsets estimate, Eigen::In
   return {judged, wrong};
 }
 
-void check(const Points& estimate, const Points& truth, const std::vector<Eigen::Index>& anchors) {
-  if (estimate.rows() != truth.rows())
+void check(const Points& estimate, const Points& ground_truth,
+           const std::vector<Eigen::Index>& anchors) {
+  if (estimate.rows() != ground_truth.rows())
     throw InvalidInput(fmt::format("the map has {} landmarks, the ground truth {}", estimate.rows(),
-                                   truth.rows()));
+                                   ground_truth.rows()));
   for (const Eigen::Index anchor : anchors)
-    if (anchor < 0 || anchor >= truth.rows())
+    if (anchor < 0 || anchor >= ground_truth.rows())
       throw InvalidInput(
-          fmt::format("anchor {} is not among the {} landmarks", anchor, truth.rows()));
+          fmt::format("anchor {} is not among the {} landmarks", anchor, ground_truth.rows()));
 }
 
 }  // namespace
 
-double orientation_error_percent(const Points& truth, const Points& estimate) {
-  const Eigen::Index n = truth.rows();
+double orientation_error_percent(const Points& ground_truth, const Points& estimate) {
+  const Eigen::Index n = ground_truth.rows();
   if (estimate.rows() != n) throw InvalidInput("ground truth and estimate differ in size");
   std::int64_t judged = 0;
   std::int64_t wrong = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     // Of length one, so that each turn's value is a sine; NaN where two points coincide.
-    const Points t = (truth.bottomRows(n - i - 1).rowwise() - truth.row(i)).rowwise().normalized();
+    const Points t =
+        (ground_truth.bottomRows(n - i - 1).rowwise() - ground_truth.row(i)).rowwise().normalized();
     const Points e = estimate.bottomRows(n - i - 1).rowwise() - estimate.row(i);
-    const Offsets to_truth{t.col(0).data(), t.col(1).data()};
+    const Offsets to_ground_truth{t.col(0).data(), t.col(1).data()};
     const Offsets to_estimate{e.col(0).data(), e.col(1).data()};
     for (Eigen::Index j = 0; j < t.rows(); ++j) {
-      const Count found = count_turns(to_truth, to_estimate, j, t.rows());
+      const Count found = count_turns(to_ground_truth, to_estimate, j, t.rows());
       judged += found.judged;
       wrong += found.wrong;
     }
@@ -105,17 +107,17 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
   return result;
 }
 
-std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
+std::optional<Score> score_map(const Points& estimate_m, const Points& ground_truth_m,
                                const std::vector<Eigen::Index>& anchors, AffineFit fit) {
-  check(estimate_m, truth_m, anchors);
+  check(estimate_m, ground_truth_m, anchors);
   std::vector<Eigen::Index> both;
-  for (Eigen::Index i = 0; i < truth_m.rows(); ++i)
-    if (estimate_m.row(i).allFinite() && truth_m.row(i).allFinite()) both.push_back(i);
+  for (Eigen::Index i = 0; i < ground_truth_m.rows(); ++i)
+    if (estimate_m.row(i).allFinite() && ground_truth_m.row(i).allFinite()) both.push_back(i);
   if (both.size() < 3) return std::nullopt;
 
   const Points estimate = estimate_m(both, Eigen::all);
-  const Points truth = truth_m(both, Eigen::all);
-  const Eigen::VectorXd errors = (estimate - truth).rowwise().norm();
+  const Points ground_truth = ground_truth_m(both, Eigen::all);
+  const Eigen::VectorXd errors = (estimate - ground_truth).rowwise().norm();
   double sum = 0.0;
   int count = 0;
   for (std::size_t row = 0; row < both.size(); ++row)
@@ -126,17 +128,19 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
   const double nan = kNaN;
   Score score;
   score.mpe_m = count > 0 ? sum / count : nan;
-  score.moe_percent = orientation_error_percent(truth, estimate);
+  score.moe_percent = orientation_error_percent(ground_truth, estimate);
   // Not 100 less the other: triples that the map flattens are wrong in both orientations.
   const Points mirrored = estimate.rowwise().reverse();
   score.moe_unmirrored_percent =
       score.moe_percent > 50.0
-          ? std::min(score.moe_percent, orientation_error_percent(truth, mirrored))
+          ? std::min(score.moe_percent, orientation_error_percent(ground_truth, mirrored))
           : score.moe_percent;
-  score.mpe_all_fitted_m =
-      planarity(estimate) > kFlatPlanarity
-          ? (fit_affine(estimate, truth, fit)(estimate) - truth).rowwise().norm().mean()
-          : nan;
+  score.mpe_all_fitted_m = planarity(estimate) > kFlatPlanarity
+                               ? (fit_affine(estimate, ground_truth, fit)(estimate) - ground_truth)
+                                     .rowwise()
+                                     .norm()
+                                     .mean()
+                               : nan;
   return score;
 }
 

@@ -15,11 +15,11 @@ namespace mapproof {
 /// to 1e-12 of the sine at their first landmark, do not count; a triple that the estimate flattens
 /// counts as wrong.
 ///
-/// @param truth, estimate  n x 2, finite, row by row the same landmarks.
+/// @param ground truth, estimate  n x 2, finite, row by row the same landmarks.
 /// @return NaN if there is no triple to judge.
 /// @throws InvalidInput if the sizes differ.
 /// @note O(n^3) time.
-double orientation_error_percent(const Points& truth, const Points& estimate);
+double orientation_error_percent(const Points& ground_truth, const Points& estimate);
 
 /// An embedding brought into the frame of its anchors.
 struct AlignedMap {
@@ -40,7 +40,7 @@ AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,
 /// @return Empty if fewer than 3 landmarks can be compared. Single numbers are NaN where they are
 ///         undefined (see score.hpp).
 /// @throws InvalidInput if the rows differ in number, or an anchor is none of them.
-std::optional<Score> score_map(const Points& estimate_m, const Points& truth_m,
+std::optional<Score> score_map(const Points& estimate_m, const Points& ground_truth_m,
                                const std::vector<Eigen::Index>& anchors, AffineFit fit);
 
 }  // namespace mapproof

@@ -14,19 +14,20 @@ namespace {
 struct CommonPoses {
   Eigen::VectorXd time_s;
   Points estimate_m;
-  Points truth_m;
+  Points ground_truth_m;
 };
 
-CommonPoses common_poses(const Trajectory& path, const Trajectory& truth) {
-  if (const std::string problem = times_problem(truth); !problem.empty())
+CommonPoses common_poses(const Trajectory& path, const Trajectory& ground_truth) {
+  if (const std::string problem = times_problem(ground_truth); !problem.empty())
     throw InvalidInput(problem);
-  const Points estimate_m = positions_at(path, truth.time_s);
+  const Points estimate_m = positions_at(path, ground_truth.time_s);
   std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < truth.size(); ++i)
-    if (estimate_m.row(i).allFinite() && truth.positions_m.row(i).allFinite()) rows.push_back(i);
-  return {.time_s = truth.time_s(rows),
+  for (Eigen::Index i = 0; i < ground_truth.size(); ++i)
+    if (estimate_m.row(i).allFinite() && ground_truth.positions_m.row(i).allFinite())
+      rows.push_back(i);
+  return {.time_s = ground_truth.time_s(rows),
           .estimate_m = estimate_m(rows, Eigen::all),
-          .truth_m = truth.positions_m(rows, Eigen::all)};
+          .ground_truth_m = ground_truth.positions_m(rows, Eigen::all)};
 }
 
 struct Tenths {
@@ -57,10 +58,10 @@ Tenths tenths_of(const Eigen::VectorXd& time_s, const Eigen::VectorXd& error_m) 
 }
 
 std::optional<double> landmark_error(const Similarity& map, const Points& estimate_m,
-                                     const Points& truth_m) {
-  if (estimate_m.rows() != truth_m.rows())
+                                     const Points& ground_truth_m) {
+  if (estimate_m.rows() != ground_truth_m.rows())
     throw InvalidInput("the landmarks of estimate and ground truth differ in number");
-  const Eigen::VectorXd gaps_m = (map(estimate_m) - truth_m).rowwise().norm();
+  const Eigen::VectorXd gaps_m = (map(estimate_m) - ground_truth_m).rowwise().norm();
   double sum = 0.0;
   int count = 0;
   for (const double gap_m : gaps_m) {
@@ -74,21 +75,21 @@ std::optional<double> landmark_error(const Similarity& map, const Points& estima
 
 }  // namespace
 
-std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& truth,
+std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& ground_truth,
                                          Alignment alignment) {
-  const CommonPoses poses = common_poses(path, truth);
+  const CommonPoses poses = common_poses(path, ground_truth);
   if (poses.time_s.size() < 2) return std::nullopt;
-  return fit_similarity(poses.estimate_m, poses.truth_m, alignment);
+  return fit_similarity(poses.estimate_m, poses.ground_truth_m, alignment);
 }
 
 std::optional<TrajectoryError> trajectory_error(const SlamEstimate& estimate,
-                                                const Trajectory& truth,
+                                                const Trajectory& ground_truth,
                                                 const std::optional<Points>& true_landmarks,
                                                 Alignment alignment) {
-  const CommonPoses poses = common_poses(estimate.path, truth);
+  const CommonPoses poses = common_poses(estimate.path, ground_truth);
   if (poses.time_s.size() < 2) return std::nullopt;
-  const Similarity map = fit_similarity(poses.estimate_m, poses.truth_m, alignment);
-  const Eigen::VectorXd error_m = (map(poses.estimate_m) - poses.truth_m).rowwise().norm();
+  const Similarity map = fit_similarity(poses.estimate_m, poses.ground_truth_m, alignment);
+  const Eigen::VectorXd error_m = (map(poses.estimate_m) - poses.ground_truth_m).rowwise().norm();
   const Tenths tenths = tenths_of(poses.time_s, error_m);
   TrajectoryError error{
       .alignment = alignment,

@@ -7,11 +7,11 @@
 
 namespace mapproof {
 
-/// The map from the frame of `path` to that of `truth` which an error is taken after: fitted over
-/// the true poses within the time of `path`, at their times. Landmarks are not used.
+/// The map from the frame of `path` to that of `ground truth` which an error is taken after: fitted
+/// over the true poses within the time of `path`, at their times. Landmarks are not used.
 /// @return Empty if the two have fewer than 2 poses in common.
 /// @throws InvalidInput for a times_problem() of either path.
-std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& truth,
+std::optional<Similarity> path_alignment(const Trajectory& path, const Trajectory& ground_truth,
                                          Alignment alignment);
 
 /// Position errors at the times of the true poses that lie within the time of the estimate, whose
@@ -24,7 +24,7 @@ std::optional<Similarity> path_alignment(const Trajectory& path, const Trajector
 /// @throws InvalidInput as above, or if the landmarks differ in number.
 /// @note O(T log T).
 std::optional<TrajectoryError> trajectory_error(const SlamEstimate& estimate,
-                                                const Trajectory& truth,
+                                                const Trajectory& ground_truth,
                                                 const std::optional<Points>& true_landmarks,
                                                 Alignment alignment);
 

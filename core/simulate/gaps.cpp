@@ -45,7 +45,7 @@ Losses occlusion_losses(const World& world, const Path& path) {
   return losses;
 }
 
-ObservationHistory with_gaps(ObservationHistory history, const Losses& losses, double share) {
+ObservationHistory with_missing(ObservationHistory history, const Losses& losses, double share) {
   if (!(share >= 0.0 && share < 1.0))
     throw InvalidInput("the share of missing data must be in [0, 1)");
   if (losses.rows() != history.landmarks() || losses.cols() != history.steps())

@@ -24,6 +24,6 @@ Losses occlusion_losses(const World& world, const Path& path);
 /// range, or landmarks of such a width, that this share is missing.
 /// @param share  In [0, 1); rounded to whole entries.
 /// @throws InvalidInput if it is not, or the sizes differ.
-ObservationHistory with_gaps(ObservationHistory history, const Losses& losses, double share);
+ObservationHistory with_missing(ObservationHistory history, const Losses& losses, double share);
 
 }  // namespace mapproof

@@ -22,7 +22,7 @@ void check(const RangeFlightOptions& o) {
   if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("heading changes must not be negative");
 }
 
-Eigen::RowVector3d uniform_place(const RangeFlightOptions& options, Random& random) {
+Eigen::RowVector3d uniform_position(const RangeFlightOptions& options, Random& random) {
   const double x = random.uniform(-options.half_width_m, options.half_width_m);
   const double y = random.uniform(-options.half_width_m, options.half_width_m);
   return {x, y, random.uniform(0.0, options.height_m)};
@@ -40,7 +40,7 @@ bool is_inside(const Eigen::RowVector3d& place, const RangeFlightOptions& option
 
 SpacePoints fly(const RangeFlightOptions& options, Random& random) {
   SpacePoints positions_m(options.steps, 3);
-  Eigen::RowVector3d position = uniform_place(options, random);
+  Eigen::RowVector3d position = uniform_position(options, random);
   Eigen::RowVector3d direction = normal_vector(random).normalized();
   for (Eigen::Index t = 0; t < options.steps; ++t) {
     positions_m.row(t) = position;
@@ -124,7 +124,7 @@ RangeFlight simulate_range_flight(const RangeFlightOptions& options, std::uint64
   RangeFlight flight;
   flight.landmarks_m.resize(options.landmarks, 3);
   for (Eigen::Index n = 0; n < options.landmarks; ++n)
-    flight.landmarks_m.row(n) = uniform_place(options, random);
+    flight.landmarks_m.row(n) = uniform_position(options, random);
   flight.positions_m = fly(options, random);
   flight.ranges_m = simulated_ranges(flight.landmarks_m, flight.positions_m, options.noise, random);
   return flight;

@@ -169,13 +169,13 @@ using Places = std::vector<std::optional<Affine>>;
 /// From one map outward along the tree.
 Places placed_from(int root, const std::vector<Overlap>& overlaps,
                    const std::vector<std::size_t>& tree, std::size_t maps) {
-  Places places(maps);
-  places[static_cast<std::size_t>(root)] = Affine{};
+  Places positions(maps);
+  positions[static_cast<std::size_t>(root)] = Affine{};
   for (bool grew = true; grew;) {
     grew = false;
     for (const std::size_t k : tree) {
-      auto& first = places[static_cast<std::size_t>(overlaps[k].first)];
-      auto& second = places[static_cast<std::size_t>(overlaps[k].second)];
+      auto& first = positions[static_cast<std::size_t>(overlaps[k].first)];
+      auto& second = positions[static_cast<std::size_t>(overlaps[k].second)];
       if (first.has_value() == second.has_value()) continue;
       if (first)
         second = after(*first, overlaps[k].to_first);
@@ -184,7 +184,7 @@ Places placed_from(int root, const std::vector<Overlap>& overlaps,
       grew = true;
     }
   }
-  return places;
+  return positions;
 }
 
 /// The tree that holds most landmarks, from its largest map.
@@ -195,16 +195,16 @@ Places largest_tree(const std::vector<Submap>& maps, const std::vector<Overlap>&
   std::vector<bool> tried(maps.size(), false);
   for (std::size_t g = 0; g < maps.size(); ++g) {
     if (tried[g]) continue;
-    Places places = placed_from(static_cast<int>(g), overlaps, tree, maps.size());
+    Places positions = placed_from(static_cast<int>(g), overlaps, tree, maps.size());
     std::size_t landmarks = 0;
     for (std::size_t h = 0; h < maps.size(); ++h)
-      if (places[h]) {
+      if (positions[h]) {
         tried[h] = true;
         landmarks += maps[h].landmarks.size();
       }
     if (landmarks <= most) continue;
     most = landmarks;
-    best = std::move(places);
+    best = std::move(positions);
   }
   return best;
 }
@@ -371,14 +371,14 @@ SubmapJoin join_of(const Overlap& overlap, const std::vector<Submap>& maps) {
                   .residual = kNaN,
                   .in_tree = false};
   if (!first.placed || !second.placed) return join;
-  Points places(join.shared, 2);
+  Points positions(join.shared, 2);
   double squares = 0.0;
   for (int k = 0; k < join.shared; ++k) {
     const auto& [i, j] = overlap.shared[static_cast<std::size_t>(k)];
-    places.row(k) = first.positions.row(i);
+    positions.row(k) = first.positions.row(i);
     squares += (first.positions.row(i) - second.positions.row(j)).squaredNorm();
   }
-  join.residual = std::sqrt(squares / join.shared) / std::max(radius_of(places), 1e-300);
+  join.residual = std::sqrt(squares / join.shared) / std::max(radius_of(positions), 1e-300);
   return join;
 }
 
@@ -405,14 +405,14 @@ JoinResult join_submaps(std::vector<Submap> maps, JoinKind kind, Eigen::Index la
   const JoinKind left = kind == JoinKind::kAffine ? kind : JoinKind::kRigid;
   const std::vector<Overlap> overlaps = overlaps_of(maps, left);
   const std::vector<std::size_t> tree = spanning_tree(overlaps, maps.size());
-  const Places places = largest_tree(maps, overlaps, tree);
+  const Places positions = largest_tree(maps, overlaps, tree);
 
   JoinResult result;
   int left_out = 0;
   for (std::size_t g = 0; g < maps.size(); ++g) {
-    maps[g].placed = places[g].has_value();
-    if (places[g]) maps[g].positions = (*places[g])(maps[g].positions);
-    left_out += places[g] ? 0 : 1;
+    maps[g].placed = positions[g].has_value();
+    if (positions[g]) maps[g].positions = (*positions[g])(maps[g].positions);
+    left_out += positions[g] ? 0 : 1;
   }
   result.joined.positions = refined(maps, left, landmarks);
   for (std::size_t k = 0; k < overlaps.size(); ++k) {

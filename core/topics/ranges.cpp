@@ -109,10 +109,10 @@ void read_ranges(const fs::path& folder, const std::string&, const ContentsAsked
       contents.points[record_name(condition(map.squared ? "histories/squared" : "histories/range"),
                                   map.setting ? slug(*map.setting) : "spectral", "")] = {
           .quantity = "landmark_m",
-          .frame = Frame::kTruth,
+          .frame = Frame::kGroundTruth,
           .names = {},
           .points = map.positions_m,
-          .truth = study.histories->landmarks_m};
+          .ground_truth = study.histories->landmarks_m};
   contents.results = results_of(study);
   if (asked.seconds) contents.seconds = seconds_of(read_slam_timings(folder));
 }

@@ -20,10 +20,10 @@ namespace mapproof {
 namespace {
 
 /// Whether a point is in the ellipse about a position.
-bool covers(const MapCertainty& certainty, Eigen::Index i, const Eigen::RowVector2d& place,
+bool covers(const MapCertainty& certainty, Eigen::Index i, const Eigen::RowVector2d& position,
             const Eigen::RowVector2d& point) {
   const Eigen::Matrix2d& C = certainty.covariances[static_cast<std::size_t>(i)];
-  const Eigen::RowVector2d off = point - place;
+  const Eigen::RowVector2d off = point - position;
   const Eigen::Matrix2d adjugate =
       (Eigen::Matrix2d() << C(1, 1), -C(0, 1), -C(1, 0), C(0, 0)).finished();
   return C.allFinite() &&
@@ -71,10 +71,11 @@ TrialDesign certainty_design(const TrialExperiment& experiment) {
     design.series.push_back({slug(setting), label(setting)});
   design.quantities = {
       study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
-      study_quantity("truth_covered_percent", "Ground truth in the ellipse", "%", Better::kHigher),
+      study_quantity("ground_truth_covered_percent", "Ground truth in the ellipse", "%",
+                     Better::kHigher),
       study_quantity("bias_m", "Mean map from the ground truth", "m", Better::kLower),
       study_quantity("spread_m", "Maps from the mean map (RMS)", "m", Better::kLower),
-      study_quantity("told_m", "Maps from the mean map by the ellipses (RMS)", "m",
+      study_quantity("predicted_m", "Maps from the mean map by the ellipses (RMS)", "m",
                      Better::kLower)};
   return design;
 }
@@ -115,10 +116,10 @@ class WalkedWorld {
     return {.at = {},
             .series = slug(setting),
             .values = {{"mean_covered_percent", found.mean_percent},
-                       {"truth_covered_percent", found.truth_percent},
+                       {"ground_truth_covered_percent", found.ground_truth_percent},
                        {"bias_m", found.bias_m},
                        {"spread_m", found.spread_m},
-                       {"told_m", found.told_m}},
+                       {"predicted_m", found.predicted_m}},
             .statuses = {}};
   }
 
@@ -136,10 +137,10 @@ class WalkedWorld {
                             .origin = FromSensor{history.sensor, setting},
                             .step = static_cast<int>(history.steps()),
                             .names = history.names,
-                            .truth_m = frame_.positions_m,
+                            .ground_truth_m = frame_.positions_m,
                             .anchors = frame_.anchors},
                            {.positions_m = placed.value_or(embedding.coordinates),
-                            .frame = placed ? Frame::kTruth : Frame::kSimilarity,
+                            .frame = placed ? Frame::kGroundTruth : Frame::kSimilarity,
                             .statuses = embedding.statuses,
                             .score = std::nullopt});
     if (!placed) return shown;
@@ -213,35 +214,35 @@ Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertaint
                   const CertaintyFrame& frame) {
   const Eigen::Index M = frame.positions_m.rows();
   const Points mean = mean_map(maps, M);
-  double judged = 0.0, places = 0.0, landmarks = 0.0;
+  double judged = 0.0, positions = 0.0, landmarks = 0.0;
   Coverage sum;
   for (Eigen::Index i = 0; i < M; ++i) {
     if (std::ranges::find(frame.anchors, i) != frame.anchors.end()) continue;
     if (!mean.row(i).allFinite()) continue;
-    const Eigen::RowVector2d truth = frame.positions_m.row(i);
-    sum.bias_m += (mean.row(i) - truth).norm();
+    const Eigen::RowVector2d ground_truth = frame.positions_m.row(i);
+    sum.bias_m += (mean.row(i) - ground_truth).norm();
     landmarks += 1.0;
     for (const Points& map : maps)
       if (map.row(i).allFinite()) {
         sum.spread_m += (map.row(i) - mean.row(i)).squaredNorm();
-        places += 1.0;
+        positions += 1.0;
       }
     for (std::size_t w = 0; w < certainties.size(); ++w) {
       const MapCertainty& certainty = certainties[w];
       if (!certainty.covariances[static_cast<std::size_t>(i)].allFinite()) continue;
       if (!maps[w].row(i).allFinite()) continue;
-      sum.told_m += certainty.covariances[static_cast<std::size_t>(i)].trace();
+      sum.predicted_m += certainty.covariances[static_cast<std::size_t>(i)].trace();
       sum.mean_percent += covers(certainty, i, maps[w].row(i), mean.row(i)) ? 100.0 : 0.0;
-      sum.truth_percent += covers(certainty, i, maps[w].row(i), truth) ? 100.0 : 0.0;
+      sum.ground_truth_percent += covers(certainty, i, maps[w].row(i), ground_truth) ? 100.0 : 0.0;
       judged += 1.0;
     }
   }
   // Without maps or ellipses these are 0 / 0, NaN.
   return {.mean_percent = sum.mean_percent / judged,
-          .truth_percent = sum.truth_percent / judged,
+          .ground_truth_percent = sum.ground_truth_percent / judged,
           .bias_m = sum.bias_m / landmarks,
-          .spread_m = std::sqrt(sum.spread_m / places),
-          .told_m = std::sqrt(sum.told_m / judged)};
+          .spread_m = std::sqrt(sum.spread_m / positions),
+          .predicted_m = std::sqrt(sum.predicted_m / judged)};
 }
 
 const Topic kCertaintyTopic = {.name = "certainty",

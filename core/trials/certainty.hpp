@@ -22,11 +22,11 @@ std::vector<ObservationHistory> walked_histories(const World& world, const WalkO
 
 /// The distribution of the maps of many walks, and how well the ellipses of single ones cover it.
 struct Coverage {
-  double mean_percent = 0.0;   ///< Of landmarks whose mean is in the ellipse.
-  double truth_percent = 0.0;  ///< Of those whose true position is.
-  double bias_m = 0.0;         ///< Mean distance of the mean map from the ground truth.
-  double spread_m = 0.0;       ///< Root mean square distance of a map from the mean map.
-  double told_m = 0.0;         ///< The same by the ellipses' covariances.
+  double mean_percent = 0.0;          ///< Of landmarks whose mean is in the ellipse.
+  double ground_truth_percent = 0.0;  ///< Of those whose true position is.
+  double bias_m = 0.0;                ///< Mean distance of the mean map from the ground truth.
+  double spread_m = 0.0;              ///< Root mean square distance of a map from the mean map.
+  double predicted_m = 0.0;           ///< The same by the ellipses' covariances.
 };
 
 /// The maps of all histories in the frame of the anchors; those that cannot be aligned to it are

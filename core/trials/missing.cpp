@@ -10,7 +10,7 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
-#include "core/missing/gap_pattern.hpp"
+#include "core/missing/missing_pattern.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/trials/topics.hpp"
@@ -92,10 +92,10 @@ std::map<std::string, double> values_of(const ScoredMap& map) {
 }
 
 /// One history with missing data, mapped with every strategy.
-class GappedHistory {
+class IncompleteHistory {
  public:
-  GappedHistory(const TrialContext& context, const ObservationHistory& history,
-                const TrialSetup& setup, double level, TrialPart& part)
+  IncompleteHistory(const TrialContext& context, const ObservationHistory& history,
+                    const TrialSetup& setup, double level, TrialPart& part)
       : context_(context), setup_(setup), level_(level), part_(part), all_(history.landmarks()) {
     const std::vector<Eigen::Index> unseen = unseen_landmarks(history, history.steps());
     for (Eigen::Index i = 0; i < all_; ++i)
@@ -120,8 +120,9 @@ class GappedHistory {
   /// The trial of the strategy that the pattern of missing data suggests, once more under its own
   /// name. For bearings that is never covisible pairs.
   void add_advised() {
-    const GapAdvice advice = advised_way(gap_pattern(history_, steps()), history_.sensor);
-    const Filling filling = advice.way == GapWay::kPpca ? Filling::kPpca : Filling::kCommonSteps;
+    const StrategyAdvice advice = advised_way(missing_pattern(history_, steps()), history_.sensor);
+    const Filling filling =
+        advice.way == MissingStrategy::kPpca ? Filling::kPpca : Filling::kCommonSteps;
     const std::string id = series_id(filling, smacof_of(context_.experiment));
     const auto found = std::ranges::find_if(
         part_.trials, [&](const Trial& trial) { return trial.series == id && trial.at == at(); });
@@ -146,7 +147,7 @@ class GappedHistory {
     }
     if (filling != Filling::kPpca) return;
     Embedder expected(filled_from(features(history_, steps()), history_.sensor, filled.model,
-                                  GapDistances::kExpected));
+                                  CompletedDistances::kExpected));
     add(kExpected, expected.embed(smacof), filled.statuses);
   }
 
@@ -178,7 +179,7 @@ class GappedHistory {
                                              .origin = FromSensor{history_.sensor, setting},
                                              .step = static_cast<int>(steps()),
                                              .names = landmark_names(all_),
-                                             .truth_m = context_.world->landmarks_m,
+                                             .ground_truth_m = context_.world->landmarks_m,
                                              .anchors = context_.anchors},
                                             map),
                           .pairs = {},
@@ -213,7 +214,8 @@ TrialPart make_missing(const TrialContext& context) {
   for (const TrialSetup& setup : plan.setups) {
     const Losses losses = losses_of(setup, context, random);
     for (const double level : levels_of(setup))
-      GappedHistory(context, with_gaps(history, losses, level / 100.0), setup, level, part).map();
+      IncompleteHistory(context, with_missing(history, losses, level / 100.0), setup, level, part)
+          .map();
   }
   return part;
 }

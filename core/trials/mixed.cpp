@@ -90,8 +90,8 @@ class MixedTrials {
 
  private:
   void record(const std::string& series, const Embedding& embedding) {
-    const Points& truth = context_.world->landmarks_m;
-    const AlignedMap map = align_to_anchors(embedding.coordinates, truth, context_.anchors,
+    const Points& ground_truth = context_.world->landmarks_m;
+    const AlignedMap map = align_to_anchors(embedding.coordinates, ground_truth, context_.anchors,
                                             AffineFit::kLeastDistances);
     Trial trial{
         .at = at_,
@@ -102,8 +102,8 @@ class MixedTrials {
         .statuses = embedding.statuses};
     trial.statuses.insert(trial.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.aligned)
-      if (const auto score =
-              score_map(map.positions_m, truth, context_.anchors, AffineFit::kLeastDistances)) {
+      if (const auto score = score_map(map.positions_m, ground_truth, context_.anchors,
+                                       AffineFit::kLeastDistances)) {
         trial.values["mpe_m"] = score->mpe_m;
         trial.values["moe_percent"] = score->moe_percent;
       }

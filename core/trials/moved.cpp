@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "core/association/moved.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/random.hpp"
-#include "core/labels/moved.hpp"
 #include "core/model/detection_log.hpp"
 #include "core/model/world.hpp"
 #include "core/simulate/sensors.hpp"

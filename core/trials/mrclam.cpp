@@ -15,6 +15,9 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/align/rigid.hpp"
+#include "core/association/anchor_ids.hpp"
+#include "core/association/association_check.hpp"
+#include "core/association/shared_id.hpp"
 #include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
@@ -25,9 +28,6 @@
 #include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
-#include "core/labels/anchor_labels.hpp"
-#include "core/labels/mislabelled.hpp"
-#include "core/labels/shared_label.hpp"
 #include "core/linalg/planarity.hpp"
 #include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
@@ -44,13 +44,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Real scans some of whose landmark IDs were made wrong.
-struct SpoiltLabels {
+struct SpoiltIds {
   std::string id;  ///< "swapped", "misnamed".
   DetectionLog log;
 };
 
 /// The number of faults found, and the corrected log.
-struct CorrectedLabels {
+struct CorrectedIds {
   int faults = 0;
   DetectionLog log;
 };
@@ -94,7 +94,7 @@ DetectionLog misnamed(DetectionLog log, int a, int b) {
 /// An ID swap in half of the scans, drawn at random; and one landmark called by another's name in
 /// all of them. The landmarks are among those seen most, so that the fault has weight.
 /// @return Empty for fewer than 6 landmarks.
-std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t seed) {
+std::vector<SpoiltIds> spoilt_ids(const DetectionLog& log, std::uint64_t seed) {
   const std::vector<int> order = by_detections(log);
   if (order.size() < 6) return {};
   return {{"swapped", swapped_in_half(log, order[1], order[4], seed)},
@@ -104,21 +104,21 @@ std::vector<SpoiltLabels> spoilt_labels(const DetectionLog& log, std::uint64_t s
 /// IDs that contradict one another, that two landmarks share, or that known positions contradict,
 /// corrected as `mapproof map --repair-ids` does.
 /// @param known_m  M x 2; empty: no position is known.
-CorrectedLabels corrected_log(const DetectionLog& log, const std::optional<Points>& known_m) {
-  CorrectedLabels corrected{.faults = 0, .log = log};
+CorrectedIds corrected_log(const DetectionLog& log, const std::optional<Points>& known_m) {
+  CorrectedIds corrected{.faults = 0, .log = log};
   const std::vector<Eigen::Index> unseen = unseen_in(log);
   if (unseen.size() == 1)
-    if (const auto shared = shared_label(log)) {
+    if (const auto shared = shared_id(log)) {
       ++corrected.faults;
-      corrected.log = split_label(log, *shared, static_cast<int>(unseen.front()));
+      corrected.log = split_id(log, *shared, static_cast<int>(unseen.front()));
     }
-  LabelCheck check = check_labels(corrected.log);
+  AssociationCheck check = check_association(corrected.log);
   corrected.faults += static_cast<int>(check.findings.size());
   corrected.log = std::move(check.repaired);
   if (!known_m) return corrected;
-  AnchorCheck places = check_anchor_labels(corrected.log, *known_m);
-  corrected.faults += static_cast<int>(places.exchanges.size());
-  corrected.log = std::move(places.repaired);
+  AnchorCheck positions = check_anchor_ids(corrected.log, *known_m);
+  corrected.faults += static_cast<int>(positions.exchanges.size());
+  corrected.log = std::move(positions.repaired);
   return corrected;
 }
 
@@ -195,7 +195,7 @@ using Clock = std::chrono::steady_clock;
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
 constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
-constexpr const char* kLabels = "labels";
+constexpr const char* kLabels = "association";
 
 /// Series of scans with wrong data association, as they are and corrected.
 constexpr std::pair<const char*, const char*> kSpoilt[] = {
@@ -251,23 +251,23 @@ struct RealSet {
 };
 
 std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
-  if (!source.truth_m) return {};
-  Points known = Points::Constant(source.truth_m->rows(), 2, kNaN);
+  if (!source.ground_truth_m) return {};
+  Points known = Points::Constant(source.ground_truth_m->rows(), 2, kNaN);
   for (const Detection& seen : source.log.detections)
-    known.row(seen.landmark) = source.truth_m->row(seen.landmark);
+    known.row(seen.landmark) = source.ground_truth_m->row(seen.landmark);
   const std::vector<Eigen::Index> anchors = diagonal_anchors(known);
   if (anchors.size() < 3 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity) return {};
   return anchors;
 }
 
 /// Mean distance from the ground truth after the best rotation, reflection and translation.
-double rigid_error(const Points& map, const Points& truth_m) {
+double rigid_error(const Points& map, const Points& ground_truth_m) {
   std::vector<Eigen::Index> both;
   for (Eigen::Index i = 0; i < map.rows(); ++i)
-    if (map.row(i).allFinite() && truth_m.row(i).allFinite()) both.push_back(i);
+    if (map.row(i).allFinite() && ground_truth_m.row(i).allFinite()) both.push_back(i);
   if (both.size() < 3) return kNaN;
   const Points from = map(both, Eigen::all);
-  const Points to = truth_m(both, Eigen::all);
+  const Points to = ground_truth_m(both, Eigen::all);
   return (fit_similarity(from, to, Alignment::kRigidWithReflection)(from) - to)
       .rowwise()
       .norm()
@@ -318,18 +318,19 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
       .origin = way.method ? MapOrigin(FromSensor{way.sensor, made.setting}) : FromPairs{},
       .step = set.source.log.steps,
       .names = set.source.log.names,
-      .truth_m = std::nullopt,
+      .ground_truth_m = std::nullopt,
       .anchors = set.anchors};
   // Without anchors there is no frame in which the ground truth could be shown; the map of measured
   // pairs is in metres all the same.
   if (set.anchors.empty())
-    return map_record(std::move(source), {.positions_m = made.embedding.coordinates,
-                                          .frame = way.method ? Frame::kSimilarity : Frame::kTruth,
-                                          .statuses = made.embedding.statuses,
-                                          .score = std::nullopt});
-  source.truth_m = set.source.truth_m;
+    return map_record(std::move(source),
+                      {.positions_m = made.embedding.coordinates,
+                       .frame = way.method ? Frame::kSimilarity : Frame::kGroundTruth,
+                       .statuses = made.embedding.statuses,
+                       .score = std::nullopt});
+  source.ground_truth_m = set.source.ground_truth_m;
   return map_record(std::move(source),
-                    scored_map(made.embedding, *set.source.truth_m, set.anchors, kFit));
+                    scored_map(made.embedding, *set.source.ground_truth_m, set.anchors, kFit));
 }
 
 /// @param trial  Its setup and series are given.
@@ -347,7 +348,8 @@ Trial scored_trial(Trial trial, const RealWay& way, const RealSet& set, const Ma
   }
   if (way.method) return trial;
   trial.values["pair_m"] = median_residual(own, made.pairs);
-  if (set.source.truth_m) trial.values["rigid_m"] = rigid_error(own, *set.source.truth_m);
+  if (set.source.ground_truth_m)
+    trial.values["rigid_m"] = rigid_error(own, *set.source.ground_truth_m);
   return trial;
 }
 
@@ -372,7 +374,7 @@ void add_way(const RealWay& way, const RealSet& set, const TrialContext& context
   if (is_last && replicates > 0)
     shown.certainty = pair_certainty(
         set.source.log,
-        {set.anchors.empty() ? shown.map.estimate : *set.source.truth_m, set.anchors,
+        {set.anchors.empty() ? shown.map.estimate : *set.source.ground_truth_m, set.anchors,
          set.anchors.empty()},
         {.replicates = std::max(kFewestReplicates, replicates),
          .block = static_cast<Eigen::Index>(std::min<double>(
@@ -396,10 +398,10 @@ void add_labels(const RealSet& set, const TrialContext& context, TrialPart& part
         scored_trial({.at = condition(kLabels), .series = series, .values = {}, .statuses = {}},
                      way, other, made, record_of(way, other, made)));
   };
-  for (const SpoiltLabels& spoilt : spoilt_labels(set.source.log, context.seed)) {
+  for (const SpoiltIds& spoilt : spoilt_ids(set.source.log, context.seed)) {
     add(spoilt.id, spoilt.log, Clock::now());
     const Clock::time_point start = Clock::now();
-    const CorrectedLabels corrected = corrected_log(spoilt.log, set.source.truth_m);
+    const CorrectedIds corrected = corrected_log(spoilt.log, set.source.ground_truth_m);
     add(spoilt.id + "-corrected", corrected.log, start);
     part.trials.back().values["faults"] = corrected.faults;
   }

@@ -142,13 +142,15 @@ TrialPart make_submaps(const TrialContext& context) {
         add_level(context, setup, level, history, trials);
         continue;
       }
-      const ObservationHistory gapped = with_gaps(history, losses, level / 100.0);
-      add_level(context, setup, level, gapped, trials);
+      const ObservationHistory incomplete = with_missing(history, losses, level / 100.0);
+      add_level(context, setup, level, incomplete, trials);
       Way way{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()}, .whole = true};
       way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
-      trials.add(condition_at(setup, level), gapped, settings_of(context.experiment).front(), way);
+      trials.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
+                 way);
       way.whole = false;
-      trials.add(condition_at(setup, level), gapped, settings_of(context.experiment).front(), way);
+      trials.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
+                 way);
     }
   return part;
 }

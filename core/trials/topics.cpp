@@ -7,8 +7,8 @@ namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
-      &kCertaintyTopic, &kChoiceTopic, &kLabelsTopic, &kMissingTopic, &kMixedTopic,
-      &kMovedTopic,     &kMrclamTopic, &kOnlineTopic, &kSubmapsTopic, &kSweepTopic,
+      &kCertaintyTopic, &kChoiceTopic, &kAssociationTopic, &kMissingTopic, &kMixedTopic,
+      &kMovedTopic,     &kMrclamTopic, &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,
   };
   return kTopics;
 }

@@ -17,7 +17,7 @@ extern const Topic kChoiceTopic;
 
 /// Wrong data association: bearings with confused landmark IDs, entry by entry or row by row over
 /// stretches; the association is estimated with the map, against the share that is confused.
-extern const Topic kLabelsTopic;
+extern const Topic kAssociationTopic;
 
 /// Missing entries: bearings missing at random, beyond a sensor's limited range, and behind other
 /// landmarks; missing data are filled or left, and mapped, against the share that is missing.
@@ -36,7 +36,7 @@ extern const Topic kMovedTopic;
 extern const Topic kMrclamTopic;
 
 /// How far incremental maps lie from those of the whole history, and the cost of each.
-extern const Topic kOnlineTopic;
+extern const Topic kIncrementalTopic;
 
 /// Sub-maps compared with the whole map: by their size, by their overlap, and where a sensor of
 /// limited range leaves data missing.

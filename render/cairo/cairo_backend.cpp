@@ -78,7 +78,7 @@ Image to_image(const Drawing& drawing) {
   image.width = static_cast<int>(std::lround(std::min(drawing.width * scale, 1e6)));
   image.height = static_cast<int>(std::lround(std::min(drawing.height * scale, 1e6)));
   if (image.width < 1 || image.height < 1 || image.width > 20000 || image.height > 20000)
-    throw InvalidInput("figure " + drawing.id + ": no picture is " + std::to_string(image.width) +
+    throw InvalidInput("figure " + drawing.id + ": no image is " + std::to_string(image.width) +
                        " x " + std::to_string(image.height) + " pixels");
   const Colour paper = drawing.background;
   image.pixels.assign(static_cast<std::size_t>(image.width) * image.height,

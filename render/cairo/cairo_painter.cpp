@@ -158,8 +158,9 @@ class Painter {
         pixels, CAIRO_FORMAT_RGB24, image.width, image.height, 4 * image.width));
     check(cairo_surface_status(surface.get()));
     cairo_save(context_);
-    cairo_translate(context_, raster.place.x0, raster.place.y0);
-    cairo_scale(context_, raster.place.width() / image.width, raster.place.height() / image.height);
+    cairo_translate(context_, raster.position.x0, raster.position.y0);
+    cairo_scale(context_, raster.position.width() / image.width,
+                raster.position.height() / image.height);
     cairo_set_source_surface(context_, surface.get(), 0.0, 0.0);
     cairo_pattern_set_filter(cairo_get_source(context_), CAIRO_FILTER_NEAREST);
     cairo_paint(context_);

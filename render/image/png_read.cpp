@@ -255,10 +255,10 @@ void flatten(const unsigned char* p, bool is_deep, int y, PngFile& file) {
     std::uint32_t pixel = 0;
     for (int c = 0; c < 3; ++c) pixel = pixel << 8 | over_white(value[c], value[3], most);
     file.image.row(y)[x] = pixel;
-    std::uint64_t told = 0xFFFF;
+    std::uint64_t reported = 0xFFFF;
     for (const int shift : {0, 8, 16})
-      told |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
-    if (exact != told) {
+      reported |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
+    if (exact != reported) {
       mix(file.finer_digest, static_cast<std::uint64_t>(y) << 32 | static_cast<unsigned>(x));
       mix(file.finer_digest, exact);
     }

@@ -42,9 +42,9 @@ Image halved(const Image& image) {
 constexpr int kSamples = 4;
 
 /// The place moved to whole pixels, so that none is drawn twice.
-Box on_pixels(const Box& place, double per_point) {
+Box on_pixels(const Box& position, double per_point) {
   const auto whole = [per_point](double at) { return std::round(at * per_point) / per_point; };
-  return {whole(place.x0), whole(place.y0), whole(place.x1), whole(place.y1)};
+  return {whole(position.x0), whole(position.y0), whole(position.x1), whole(position.y1)};
 }
 
 /// How much finer the poster is; 1 where it would be larger than an image can be.
@@ -81,9 +81,9 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     auto* screen = std::get_if<Raster>(&drawn.screen.items[i].what);
     if (screen == nullptr) continue;
     auto* poster = std::get_if<Raster>(&drawn.poster.items[i].what);
-    screen->place = poster->place = on_pixels(screen->place, per_point);
-    const auto width = static_cast<int>(std::lround(screen->place.width() * per_point));
-    const auto height = static_cast<int>(std::lround(screen->place.height() * per_point));
+    screen->position = poster->position = on_pixels(screen->position, per_point);
+    const auto width = static_cast<int>(std::lround(screen->position.width() * per_point));
+    const auto height = static_cast<int>(std::lround(screen->position.height() * per_point));
     auto fine = std::make_shared<Image>(
         client.draw(scene, screen->source, scale * width, scale * height, kSamples, theme));
     screen->image = scale == 1 ? fine : std::make_shared<Image>(halved(*fine));

@@ -273,12 +273,12 @@ double AxesLayout::label_lines(const Axes& axes) const {
 /// How far texts at points reach over the sides of the frame.
 Margins AxesLayout::overhang(const Box& frame) const {
   Margins m;
-  const PanelMap places = map(frame);
+  const PanelMap positions = map(frame);
   for (const Layer& layer : panel_.layers) {
     const auto* texts = std::get_if<Texts>(&layer);
     if (texts == nullptr) continue;
     for (std::size_t i = 0; i < texts->x.size(); ++i) {
-      const auto line = placed_text(*texts, i, places, theme_);
+      const auto line = placed_text(*texts, i, positions, theme_);
       if (!line) continue;
       const Box ink = ink_box(*line).grown(theme_.hairline_pt);
       m.left = std::max(m.left, frame.x0 - ink.x0);

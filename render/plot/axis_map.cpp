@@ -48,9 +48,9 @@ struct Spans {
     see(cells.x.low, cells.y.low);
     see(cells.x.high, cells.y.high);
   }
-  void operator()(const Picture& picture) {
-    see(picture.x.low, picture.y.low);
-    see(picture.x.high, picture.y.high);
+  void operator()(const ImageLayer& image) {
+    see(image.x.low, image.y.low);
+    see(image.x.high, image.y.high);
   }
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i) see(texts.x[i], texts.y[i]);
@@ -98,8 +98,8 @@ AxisMap::AxisMap(Scale scale, Range limits, double start_pt, double end_pt)
 }
 
 double AxisMap::operator()(double value) const {
-  const double place = scale_ == Scale::kLog ? std::log10(value) : value;
-  return start_pt_ + (place - low_) * points_per_unit_;
+  const double position = scale_ == Scale::kLog ? std::log10(value) : value;
+  return start_pt_ + (position - low_) * points_per_unit_;
 }
 
 PanelLimits panel_limits(const Panel& panel) {

@@ -32,7 +32,7 @@ enum class Role {
   kMarker,
   kMarkLabel,
   kCellText,  ///< On a cell, in black or white, whichever reads better there.
-  kPicture,
+  kImage,
   kLeader,  ///< From a mark's label to its mark.
   kLegendBox,
   kLegendText,
@@ -75,8 +75,8 @@ struct TextLine {
 
 /// A raster image; without pixels it is not drawn.
 struct Raster {
-  Box place;
-  std::size_t source = 0;  ///< See Picture.
+  Box position;
+  std::size_t source = 0;  ///< See ImageLayer.
   std::shared_ptr<const Image> image;
 };
 

@@ -174,16 +174,16 @@ class Inspector {
     return values(texts.y, panel.y, "y");
   }
 
-  std::string layer(const Picture& picture, const Panel& panel) {
+  std::string layer(const ImageLayer& image, const Panel& panel) {
     if (!is_linear(panel)) return "needs linear axes";
-    if (!is_range(picture.x) || !is_range(picture.y)) return "x, y: not finite and ascending";
-    if (!same_size(picture.clear_x.size(), {picture.clear_y.size(), picture.clear_by.size()}))
+    if (!is_range(image.x) || !is_range(image.y)) return "x, y: not finite and ascending";
+    if (!same_size(image.clear_x.size(), {image.clear_y.size(), image.clear_by.size()}))
       return "clear_y, clear_by: not as long as clear_x";
     for (const auto& [name, part] :
-         {std::pair{"clear_x", &picture.clear_x}, std::pair{"clear_y", &picture.clear_y},
-          std::pair{"clear_by", &picture.clear_by}})
+         {std::pair{"clear_x", &image.clear_x}, std::pair{"clear_y", &image.clear_y},
+          std::pair{"clear_by", &image.clear_by}})
       if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
-    return std::ranges::any_of(picture.clear_by, [](double by) { return by < 0.0; })
+    return std::ranges::any_of(image.clear_by, [](double by) { return by < 0.0; })
                ? "clear_by: negative"
                : "";
   }

@@ -181,7 +181,7 @@ struct Texts {
 };
 
 /// The position of a raster image, and what in it labels must not cover.
-struct Picture {
+struct ImageLayer {
   Range x = {};
   Range y = {};
   std::size_t source = 0;             ///< Index of the image, for the painter.
@@ -189,11 +189,11 @@ struct Picture {
   std::vector<double> clear_y = {};   ///< As many.
   std::vector<double> clear_by = {};  ///< As many: half their sides, >= 0.
 
-  bool operator==(const Picture&) const = default;
+  bool operator==(const ImageLayer&) const = default;
 };
 
 using Layer = std::variant<Band, Segments, Polyline, Scatter, PointLabels, Area, Ellipses, Cells,
-                           Texts, Picture>;
+                           Texts, ImageLayer>;
 
 struct Axis {
   std::string label = {};  ///< With its unit: "MPE [m]".

@@ -225,16 +225,16 @@ void fields(Visitor& v, Texts& texts) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, Picture& picture) {
+void fields(Visitor& v, ImageLayer& image) {
   using namespace figure_rules;
-  v.tag("kind", "picture");
-  v.about("Where a raster picture is painted, and squares in it that stay free of labels.");
-  v.field("x", picture.x);
-  v.field("y", picture.y);
-  v.field("source", picture.source, kCount);
-  v.field("clear_x", picture.clear_x, kNumbers);
-  v.field("clear_y", picture.clear_y, kNumbers);
-  v.field("clear_by", picture.clear_by,
+  v.tag("kind", "image");
+  v.about("Where a raster image is painted, and squares in it that stay free of labels.");
+  v.field("x", image.x);
+  v.field("y", image.y);
+  v.field("source", image.source, kCount);
+  v.field("clear_x", image.clear_x, kNumbers);
+  v.field("clear_y", image.clear_y, kNumbers);
+  v.field("clear_by", image.clear_by,
           {.description = "Half their sides.", .minimum = 0.0, .nullable = true});
 }
 

@@ -331,7 +331,7 @@ class CellGrid {
 std::size_t columns_within(const Figure& figure, double width, const Theme& theme) {
   const std::size_t count = figure.panels.size();
   const std::size_t most = figure.columns == 0 ? count : std::min(figure.columns, count);
-  const bool narrow = !std::ranges::any_of(figure.panels, has_picture) &&
+  const bool narrow = !std::ranges::any_of(figure.panels, has_image) &&
                       (figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare));
   const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt +
                        (figure.arrows.empty() ? 0.0 : kArrowWidth * theme.font_pt);

@@ -101,11 +101,11 @@ class Painter {
       drawing_.add(Role::kCellText, panel_, std::move(line));
   }
 
-  void operator()(const Picture& picture) {
-    drawing_.add(Role::kPicture, panel_,
-                 Raster{{map_.x(picture.x.low), map_.y(picture.y.high), map_.x(picture.x.high),
-                         map_.y(picture.y.low)},
-                        picture.source,
+  void operator()(const ImageLayer& image) {
+    drawing_.add(Role::kImage, panel_,
+                 Raster{{map_.x(image.x.low), map_.y(image.y.high), map_.x(image.x.high),
+                         map_.y(image.y.low)},
+                        image.source,
                         nullptr});
   }
 
@@ -195,9 +195,9 @@ Shape filled_shape(Fill fill, Ink ink, const Theme& theme) {
   return shape;
 }
 
-bool has_picture(const Panel& panel) {
+bool has_image(const Panel& panel) {
   return std::ranges::any_of(
-      panel.layers, [](const Layer& layer) { return std::holds_alternative<Picture>(layer); });
+      panel.layers, [](const Layer& layer) { return std::holds_alternative<ImageLayer>(layer); });
 }
 
 std::vector<double> dash_lengths(Dash dash, double width_pt) {

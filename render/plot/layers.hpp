@@ -10,7 +10,7 @@ namespace mapproof {
 void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& map,
                  const Theme& theme, Drawing& drawing);
 
-bool has_picture(const Panel& panel);
+bool has_image(const Panel& panel);
 
 /// The lengths of a dash, in points; empty for a solid line.
 std::vector<double> dash_lengths(Dash dash, double width_pt);

@@ -86,8 +86,8 @@ std::string_view name(Role role) {
       return "mark-label";
     case Role::kCellText:
       return "cell-text";
-    case Role::kPicture:
-      return "picture";
+    case Role::kImage:
+      return "image";
     case Role::kLeader:
       return "leader";
     case Role::kLegendBox:

@@ -28,8 +28,8 @@ const std::string& label_of(const Layer& layer) {
 /// Draws what stands for a layer into the sample's box.
 class SamplePainter {
  public:
-  SamplePainter(const Theme& theme, const Box& place, std::size_t panel, Drawing& drawing)
-      : theme_(theme), place_(place), panel_(panel), drawing_(drawing) {}
+  SamplePainter(const Theme& theme, const Box& position, std::size_t panel, Drawing& drawing)
+      : theme_(theme), place_(position), panel_(panel), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
     draw_line(line.ink, line.dash, line.width);
@@ -51,7 +51,7 @@ class SamplePainter {
   }
   void operator()(const PointLabels&) {}
   void operator()(const Texts&) {}
-  void operator()(const Picture&) {}
+  void operator()(const ImageLayer&) {}
   void operator()(const Area& area) {
     Shape shape = filled_shape(area.fill, area.ink, theme_);
     if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);
@@ -165,15 +165,15 @@ std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) c
   for (const Point at :
        {Point{right, top}, Point{left, top}, Point{right, bottom}, Point{left, bottom},
         Point{right, centre}, Point{left, centre}, Point{middle, top}, Point{middle, bottom}}) {
-    const Box place{at.x, at.y, at.x + extent.x, at.y + extent.y};
-    if (!data.hit(place.grown(0.7 * gap))) return place;
+    const Box position{at.x, at.y, at.x + extent.x, at.y + extent.y};
+    if (!data.hit(position.grown(0.7 * gap))) return position;
   }
   return std::nullopt;
 }
 
-void Legend::draw_box(const Box& place, std::size_t panel_index, Drawing& drawing) const {
+void Legend::draw_box(const Box& position, std::size_t panel_index, Drawing& drawing) const {
   Shape box;
-  box.path.add_box(place.grown(0.5 * theme_.space_pt));
+  box.path.add_box(position.grown(0.5 * theme_.space_pt));
   box.fill = theme_.background;
   box.stroke = Stroke{mix(theme_.text, theme_.background, 0.3), theme_.hairline_pt, {}};
   drawing.add(Role::kLegendBox, panel_index, std::move(box));
@@ -200,10 +200,10 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
   }
 }
 
-void Legend::draw_sample(const LegendEntry& entry, const Box& place, std::size_t panel_index,
+void Legend::draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                          Drawing& drawing) const {
   for (const Layer* layer : entry.layers)
-    std::visit(SamplePainter(theme_, place, panel_index, drawing), *layer);
+    std::visit(SamplePainter(theme_, position, panel_index, drawing), *layer);
 }
 
 }  // namespace mapproof

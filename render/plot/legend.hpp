@@ -29,12 +29,12 @@ class Legend {
   /// A corner or edge inside `frame` where no data is covered; the corners first. Empty if all are.
   std::optional<Box> free_place(const Box& frame, const Obstacles& data) const;
   /// Hides the grid behind a legend inside the frame, and separates it from the data by a border.
-  void draw_box(const Box& place, std::size_t panel_index, Drawing& drawing) const;
+  void draw_box(const Box& position, std::size_t panel_index, Drawing& drawing) const;
   /// @param at  The upper left corner.
   void draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const;
 
  private:
-  void draw_sample(const LegendEntry& entry, const Box& place, std::size_t panel_index,
+  void draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                    Drawing& drawing) const;
 
   const Theme& theme_;

@@ -98,17 +98,17 @@ void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMa
       const Box ink = line.shaped.ink;
       const double gap = 0.25 * theme.space_pt;
       const Point size{ink.width() * em + 2 * gap, ink.height() * em + 2 * gap};
-      const auto place = find_place(at, size, frame.grown(-gap), taken, texts, theme);
-      if (!place) continue;
-      line.at = {place->box.x0 + gap - ink.x0 * em, place->box.y0 + gap - ink.y0 * em};
-      if (place->far) {
-        Shape leader = leader_line(at, nearest_in(place->box.grown(-0.5 * gap), at), theme);
+      const auto position = find_place(at, size, frame.grown(-gap), taken, texts, theme);
+      if (!position) continue;
+      line.at = {position->box.x0 + gap - ink.x0 * em, position->box.y0 + gap - ink.y0 * em};
+      if (position->far) {
+        Shape leader = leader_line(at, nearest_in(position->box.grown(-0.5 * gap), at), theme);
         leader.stroke->colour = theme.of(labels->ink);
         taken.lines.push_back({leader.path.points[0], leader.path.points[1], theme.hairline_pt});
         drawing.add(Role::kLeader, panel_index, std::move(leader)).clipped = true;
       }
-      taken.boxes.push_back(place->box);
-      texts.push_back(place->box);
+      taken.boxes.push_back(position->box);
+      texts.push_back(position->box);
       drawing.add(Role::kMarkLabel, panel_index, std::move(line));
     }
   }

@@ -73,11 +73,11 @@ class Collector {
         {map_.x(cells.x.low), map_.y(cells.y.high), map_.x(cells.x.high), map_.y(cells.y.low)});
   }
 
-  void operator()(const Picture& picture) {
-    for (std::size_t i = 0; i < picture.clear_x.size(); ++i) {
-      const double by = picture.clear_by[i];
-      const Point low = map_(picture.clear_x[i] - by, picture.clear_y[i] - by);
-      const Point high = map_(picture.clear_x[i] + by, picture.clear_y[i] + by);
+  void operator()(const ImageLayer& image) {
+    for (std::size_t i = 0; i < image.clear_x.size(); ++i) {
+      const double by = image.clear_by[i];
+      const Point low = map_(image.clear_x[i] - by, image.clear_y[i] - by);
+      const Point high = map_(image.clear_x[i] + by, image.clear_y[i] + by);
       if (!std::isnan(low.x + low.y + high.x + high.y))
         found_.boxes.push_back({low.x, high.y, high.x, low.y});
     }

@@ -144,9 +144,9 @@ class Arranger {
     const Arrangement right = beside(room);
     if (area(right) >= 0.97 * area(inside)) return right;
     const Obstacles data = data_obstacles(panel_, layout_.map(inside.axes.frame), theme_);
-    if (const auto place = legend_.free_place(inside.axes.frame, data);
-        place && !has_picture(panel_)) {
-      inside.legend_at = Point{place->x0, place->y0};
+    if (const auto position = legend_.free_place(inside.axes.frame, data);
+        position && !has_image(panel_)) {
+      inside.legend_at = Point{position->x0, position->y0};
       return inside;
     }
     const Arrangement under = below(room);
@@ -264,10 +264,10 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
   if (arrangement.legend_at) {
     const Point at = *arrangement.legend_at;
     const Point extent = legend.size(arrangement.legend_columns);
-    const Box place{at.x, at.y, at.x + extent.x, at.y + extent.y};
-    if (frame.overlaps(place)) legend.draw_box(place, panel_index, drawing);
+    const Box position{at.x, at.y, at.x + extent.x, at.y + extent.y};
+    if (frame.overlaps(position)) legend.draw_box(position, panel_index, drawing);
     legend.draw(at, arrangement.legend_columns, panel_index, drawing);
-    taken.boxes.push_back(place);
+    taken.boxes.push_back(position);
   }
   draw_mark_labels(panel, panel_index, map, frame, std::move(taken), theme, drawing);
 }

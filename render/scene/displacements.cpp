@@ -14,13 +14,13 @@ constexpr double kRadiusShare = 0.0035;
 
 }  // namespace
 
-Displacements displacements(const Points& truth_m, const Points& estimate_m, double side_m) {
+Displacements displacements(const Points& ground_truth_m, const Points& estimate_m, double side_m) {
   Displacements found;
   found.arrows.radius = kRadiusShare * side_m;
   found.arrows.arrow = true;
   const double lift = kLiftShare * side_m;
-  for (Eigen::Index i = 0; i < truth_m.rows(); ++i) {
-    if (!truth_m.row(i).allFinite()) continue;
+  for (Eigen::Index i = 0; i < ground_truth_m.rows(); ++i) {
+    if (!ground_truth_m.row(i).allFinite()) continue;
     if (!estimate_m.row(i).allFinite()) {
       ++found.missing;
       continue;
@@ -30,10 +30,10 @@ Displacements displacements(const Points& truth_m, const Points& estimate_m, dou
       ++found.far;
       continue;
     }
-    found.arrows.from.push_back(on_floor(truth_m.row(i), lift));
+    found.arrows.from.push_back(on_floor(ground_truth_m.row(i), lift));
     found.arrows.to.push_back(on_floor(estimate_m.row(i), lift));
     found.drawn.push_back(i);
-    found.errors_m.push_back((estimate_m.row(i) - truth_m.row(i)).norm());
+    found.errors_m.push_back((estimate_m.row(i) - ground_truth_m.row(i)).norm());
   }
   return found;
 }

@@ -28,7 +28,7 @@ void require_usable(const FormingSceneSpec& spec) {
     const MapRecord& map = spec.maps[i];
     if (map.estimate.rows() != landmarks)
       throw InvalidInput("forming_scene: a map is not of the world's landmarks");
-    if (map.frame != Frame::kTruth)
+    if (map.frame != Frame::kGroundTruth)
       throw InvalidInput("forming_scene: a map is not in the frame of the ground truth");
     if (i > 0 && map.step <= spec.maps[i - 1].step)
       throw InvalidInput("forming_scene: the steps do not ascend");

@@ -24,7 +24,8 @@ struct FormingSceneSpec {
 /// to where the map has each, coloured by its length. Estimates far outside the room have no arrow;
 /// a note counts them.
 /// @throws InvalidInput if there is no map, the steps do not ascend, a map is not in the frame of
-///         the truth or not of the world's landmarks, or lengths are not positive and finite.
+///         the ground truth or not of the world's landmarks, or lengths are not positive and
+///         finite.
 Scene forming_scene(const FormingSceneSpec& spec);
 
 /// The same as an animation: a frame for each map, all of one layout; what has no arrow is counted

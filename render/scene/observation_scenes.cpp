@@ -23,7 +23,7 @@ constexpr double kManifoldAspect = 1.25;  // Two views share a page.
 
 void require_usable(const ManifoldSceneSpec& spec) {
   const Eigen::Index rows = spec.manifold.coordinates.rows();
-  if (spec.truth_m.rows() != rows)
+  if (spec.ground_truth_m.rows() != rows)
     throw InvalidInput("manifold_scene: not as many true positions as coordinates");
   if (!(spec.side_m > 0.0 && std::isfinite(spec.side_m)))
     throw InvalidInput("manifold_scene: the room's side is not a length");
@@ -41,7 +41,7 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
   for (Eigen::Index i = 0; i < spec.manifold.coordinates.rows(); ++i) {
     if (!spec.manifold.coordinates.row(i).allFinite()) continue;
     spheres.at.emplace_back(spec.manifold.coordinates.row(i).transpose());
-    const double value = spec.truth_m(i, axis);
+    const double value = spec.ground_truth_m(i, axis);
     spheres.tones.values.push_back(std::isfinite(value) ? value : kNaN);
   }
   return spheres;
@@ -135,7 +135,7 @@ class MeasurementScene {
     SceneLabels labels;
     for (std::size_t i = 0; i < named.size(); ++i) {
       add_angle(named[i], i);
-      labels.at.push_back(place(named[i], landmark_height(seen_m_)));
+      labels.at.push_back(position(named[i], landmark_height(seen_m_)));
       labels.text.push_back(
           fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
     }
@@ -213,7 +213,7 @@ class MeasurementScene {
       if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end())
         continue;
       rods.from.push_back(lifted(robot_, eye()));
-      rods.to.push_back(place(i, eye()));
+      rods.to.push_back(position(i, eye()));
     }
     if (rods.from.empty()) rods.label.clear();
     return rods;
@@ -229,7 +229,7 @@ class MeasurementScene {
       arc.points.push_back(lifted(p, eye()));
     scene_.parts.emplace_back(std::move(arc));
     scene_.parts.emplace_back(Rods{.from = {lifted(robot_, eye())},
-                                   .to = {place(row, eye())},
+                                   .to = {position(row, eye())},
                                    .radius = 0.003 * seen_m_,
                                    .style = style});
   }
@@ -261,7 +261,7 @@ class MeasurementScene {
   double lift(int layer) const { return 0.0012 * seen_m_ * layer; }
   /// Where the robot observes from.
   double eye() const { return 0.5 * landmark_height(seen_m_); }
-  Point3 place(Eigen::Index row, double height) const {
+  Point3 position(Eigen::Index row, double height) const {
     return on_floor(m_.world.landmarks_m.row(row), height);
   }
   std::size_t count(View view) const {

@@ -18,8 +18,8 @@ struct ManifoldSceneSpec {
   std::string title;
   std::string caption;
   ObservationManifold manifold;
-  Points truth_m;       ///< M x 2.
-  double side_m = 0.0;  ///< Of the room.
+  Points ground_truth_m;  ///< M x 2.
+  double side_m = 0.0;    ///< Of the room.
   std::vector<std::string> record_ids;
 };
 

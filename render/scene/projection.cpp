@@ -53,20 +53,20 @@ Projection::Projection(const Camera& camera)
       parallel_(camera.parallel),
       half_(camera.parallel ? camera.height / 2.0 : std::tan(camera.angle_rad / 2.0)) {}
 
-double Projection::units_per_length(const Point3& place) const {
+double Projection::units_per_length(const Point3& position) const {
   if (parallel_) return 1.0 / half_;
-  const double ahead = depth(place);
+  const double ahead = depth(position);
   return ahead > 0.0 ? 1.0 / (half_ * ahead) : kNaN;
 }
 
-Point Projection::operator()(const Point3& place) const {
-  const double scale = units_per_length(place);
-  const Point3 offset = place - eye_;
+Point Projection::operator()(const Point3& position) const {
+  const double scale = units_per_length(position);
+  const Point3 offset = position - eye_;
   return {offset.dot(right_) * scale, offset.dot(up_) * scale};
 }
 
-double Projection::size_at(const Point3& place, double length) const {
-  return length * units_per_length(place);
+double Projection::size_at(const Point3& position, double length) const {
+  return length * units_per_length(position);
 }
 
 Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool parallel,

@@ -69,17 +69,17 @@ constexpr double kGreatestCoordinate =
     1e9;  // Single precision, which a graphics library takes, bears it.
 constexpr double kLeastAngle = 1e-6;
 
-bool is_place(const Point3& p) {
+bool is_position(const Point3& p) {
   return p.allFinite() && p.cwiseAbs().maxCoeff() <= kGreatestCoordinate;
 }
 
-std::string places(const std::vector<Point3>& points, const char* name) {
+std::string positions(const std::vector<Point3>& points, const char* name) {
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!is_place(points[i])) return fmt::format("{}/{}: not finite, or beyond 1e9", name, i);
+    if (!is_position(points[i])) return fmt::format("{}/{}: not finite, or beyond 1e9", name, i);
   return {};
 }
 
-bool is_direction(const Point3& p) { return is_place(p) && p.norm() > 1e-12; }
+bool is_direction(const Point3& p) { return is_position(p) && p.norm() > 1e-12; }
 
 bool is_range(const Range& range) {
   return std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high;
@@ -110,7 +110,7 @@ std::string style_problem(const Any& part, std::size_t count) {
 }
 
 std::string part_problem(const Surface& surface) {
-  if (std::string what = places(surface.points, "points"); !what.empty()) return what;
+  if (std::string what = positions(surface.points, "points"); !what.empty()) return what;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     for (const std::uint32_t corner : surface.triangles[i])
       if (corner >= surface.points.size())
@@ -119,27 +119,27 @@ std::string part_problem(const Surface& surface) {
 }
 
 std::string part_problem(const Tube& tube) {
-  if (std::string what = places(tube.points, "points"); !what.empty()) return what;
+  if (std::string what = positions(tube.points, "points"); !what.empty()) return what;
   if (!is_length(tube.radius)) return "radius: not in (0, 1e9]";
   return style_problem(tube, tube.points.size());
 }
 
 std::string part_problem(const Rods& rods) {
   if (rods.from.size() != rods.to.size()) return "to: not as many as from";
-  if (std::string what = places(rods.from, "from"); !what.empty()) return what;
-  if (std::string what = places(rods.to, "to"); !what.empty()) return what;
+  if (std::string what = positions(rods.from, "from"); !what.empty()) return what;
+  if (std::string what = positions(rods.to, "to"); !what.empty()) return what;
   if (!is_length(rods.radius)) return "radius: not in (0, 1e9]";
   return style_problem(rods, rods.from.size());
 }
 
 std::string part_problem(const Spheres& spheres) {
-  if (std::string what = places(spheres.at, "at"); !what.empty()) return what;
+  if (std::string what = positions(spheres.at, "at"); !what.empty()) return what;
   if (!is_length(spheres.radius)) return "radius: not in (0, 1e9]";
   return style_problem(spheres, spheres.at.size());
 }
 
 std::string part_problem(const Field& field) {
-  if (std::string what = places(field.points, "points"); !what.empty()) return what;
+  if (std::string what = positions(field.points, "points"); !what.empty()) return what;
   if (field.points.size() < 3) return "points: fewer than three";
   std::vector<std::pair<double, double>> plan;
   for (const Point3& p : field.points) plan.emplace_back(p.x(), p.y());
@@ -156,7 +156,7 @@ std::string part_problem(const Field& field) {
 }
 
 std::string problem_of(const Camera& camera) {
-  if (!is_place(camera.eye) || !is_place(camera.target)) return "eye, target: not finite";
+  if (!is_position(camera.eye) || !is_position(camera.target)) return "eye, target: not finite";
   const Point3 forward = camera.target - camera.eye;
   if (!is_direction(forward)) return "eye: at the target";
   if (!is_direction(camera.up)) return "up: no direction";
@@ -170,7 +170,7 @@ std::string problem_of(const Camera& camera) {
 }
 
 std::string rule_problem(const Rule& rule) {
-  if (!is_place(rule.from) || !is_place(rule.to)) return "from, to: not finite";
+  if (!is_position(rule.from) || !is_position(rule.to)) return "from, to: not finite";
   if (!is_direction(rule.to - rule.from)) return "to: at from";
   if (!is_direction(rule.away)) return "away: no direction";
   return is_range(rule.range) ? "" : "range: not finite and ascending";
@@ -183,7 +183,7 @@ std::string view_problem(const Shot& view, std::size_t parts) {
   for (std::size_t i = 0; i < view.labels.size(); ++i) {
     if (view.labels[i].at.size() != view.labels[i].text.size())
       return fmt::format("labels/{}/text: not as many as at", i);
-    if (std::string what = places(view.labels[i].at, "at"); !what.empty())
+    if (std::string what = positions(view.labels[i].at, "at"); !what.empty())
       return fmt::format("labels/{}/{}", i, what);
   }
   for (std::size_t i = 0; i < view.rules.size(); ++i)

@@ -95,7 +95,7 @@ struct Field {
 
 using Part = std::variant<Surface, Tube, Rods, Spheres, Field>;
 
-/// Where the scene is seen from. The picture shows `height` at the target's distance if parallel,
+/// Where the scene is seen from. The image shows `height` at the target's distance if parallel,
 /// else `angle_rad`, from its lower to its upper edge, and `aspect` times that across.
 struct Camera {
   Point3 eye = {0.0, -1.0, 0.0};
@@ -117,7 +117,7 @@ struct Light {
   bool operator==(const Light&) const = default;
 };
 
-/// Texts beside points, placed in the picture where they cover nothing; one that fits nowhere is
+/// Texts beside points, placed in the image where they cover nothing; one that fits nowhere is
 /// left out.
 struct SceneLabels {
   std::vector<Point3> at = {};
@@ -139,7 +139,7 @@ struct Rule {
   bool operator==(const Rule&) const = default;
 };
 
-/// One picture of the scene.
+/// One image of the scene.
 struct Shot {
   std::string title = {};
   Camera camera = {};

@@ -16,12 +16,12 @@
 namespace mapproof {
 namespace {
 
-/// The axes of a view as they stand in its picture: lines, ticks and texts that cover each other
+/// The axes of a view as they stand in its image: lines, ticks and texts that cover each other
 /// nowhere. Ticks become fewer until their labels are apart; where two axes meet, the label of the
 /// second is left out if it has no room.
 class RuleLayers {
  public:
-  /// @param em  Height of a tick's label in the units of the picture (see Projection).
+  /// @param em  Height of a tick's label in the units of the image (see Projection).
   RuleLayers(const Projection& project, double em) : project_(project), em_(em) {}
 
   /// The layers of one more axis; none if it is seen end on or from behind the eye.
@@ -56,7 +56,7 @@ bool overlap(const Box& a, const Box& b) {
   return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-/// From the axis to its labels in the picture: across the axis, on the side of `away`.
+/// From the axis to its labels in the image: across the axis, on the side of `away`.
 Point direction(const Rule& rule, const Projection& project) {
   const Point from = project(rule.from), to = project(rule.to);
   const Point3 middle = (rule.from + rule.to) / 2.0;
@@ -77,13 +77,13 @@ Align align_of(Point outward) {
 
 RuleLayers::Text RuleLayers::text_at(Point at, Point outward, double ems, Align align,
                                      const std::string& text) const {
-  const Point place{at.x + ems * em_ * outward.x, at.y + ems * em_ * outward.y};
+  const Point position{at.x + ems * em_ * outward.x, at.y + ems * em_ * outward.y};
   const double width = shape_text(text).advance * em_;
   const double before = align == Align::kStart ? 0.0 : align == Align::kMiddle ? width / 2 : width;
   const double gap = kApart / 2.0 * em_;
-  const Box box{place.x - before - gap, place.y - em_ / 2.0, place.x - before + width + gap,
-                place.y + em_ / 2.0};
-  return {place, text, box};
+  const Box box{position.x - before - gap, position.y - em_ / 2.0,
+                position.x - before + width + gap, position.y + em_ / 2.0};
+  return {position, text, box};
 }
 
 bool RuleLayers::is_free(const Box& box) const {
@@ -145,7 +145,7 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
 }
 
 constexpr int kMostClear = 12;    // Squares along a rod.
-constexpr double kMostEm = 0.22;  // Of a picture's half height.
+constexpr double kMostEm = 0.22;  // Of an image's half height.
 
 Fill fill_of(const Style& style) {
   return style.share * style.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
@@ -179,7 +179,7 @@ class LegendLayer {
   Layer operator()(const Field& part) const { return ramp(part.label); }
 
  private:
-  /// Outside the picture, so that it is in nobody's way.
+  /// Outside the image, so that it is in nobody's way.
   static Layer ramp(const std::string& label) {
     constexpr Range kOutside = {90.0, 91.0};
     return Cells{.label = label, .x = kOutside, .y = kOutside, .ramp = Ramp::kViridis};
@@ -195,13 +195,13 @@ class ViewPanel {
     panel_.bare = panel_.equal_aspect = true;
     panel_.x.limits = Range{-aspect, aspect};
     panel_.y.limits = Range{-1.0, 1.0};
-    picture_ = {.x = *panel_.x.limits, .y = *panel_.y.limits, .source = index};
+    image_ = {.x = *panel_.x.limits, .y = *panel_.y.limits, .source = index};
   }
 
   Panel make() {
     for (std::size_t i = 0; i < scene_.parts.size(); ++i)
       if (shows(view_, i)) add_part(scene_.parts[i]);
-    panel_.layers.insert(panel_.layers.begin(), picture_);
+    panel_.layers.insert(panel_.layers.begin(), image_);
     RuleLayers rules(project_, em_);
     for (const Rule& rule : view_.rules)
       for (Layer& layer : rules.add(rule)) panel_.layers.push_back(std::move(layer));
@@ -237,9 +237,9 @@ class ViewPanel {
   void add_clear(const Point3& at, double radius) {
     const Point p = project_(at);
     if (!is_finite(p)) return;
-    picture_.clear_x.push_back(p.x);
-    picture_.clear_y.push_back(p.y);
-    picture_.clear_by.push_back(project_.size_at(at, radius));
+    image_.clear_x.push_back(p.x);
+    image_.clear_y.push_back(p.y);
+    image_.clear_by.push_back(project_.size_at(at, radius));
   }
 
   void add_labels(const SceneLabels& labels) {
@@ -258,11 +258,11 @@ class ViewPanel {
   const Shot& view_;
   Projection project_;
   double em_;
-  Picture picture_;
+  ImageLayer image_;
   Panel panel_;
 };
 
-/// @param em  Height of a tick's label in the units of a picture.
+/// @param em  Height of a tick's label in the units of an image.
 Figure figure_with(const Scene& scene, double em) {
   Figure figure{.id = scene.id,
                 .title = scene.title,
@@ -284,7 +284,7 @@ Figure figure_with(const Scene& scene, double em) {
 
 Figure scene_figure(const Scene& scene, const Theme& theme) {
   require_valid(scene);
-  // How large the pictures become depends on what stands around them, and that on the labels'
+  // How large the images become depends on what stands around them, and that on the labels'
   // distance: three times is enough.
   double em = 2.0 * theme.tick_font_pt / theme.height_pt;
   Figure figure = figure_with(scene, em);

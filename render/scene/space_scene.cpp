@@ -39,11 +39,11 @@ std::vector<Point3> as_points(const SpacePoints& rows) {
   return points;
 }
 
-/// The truth, about which the box is.
-std::vector<Point3> true_places(const SpaceRun& run) {
-  std::vector<Point3> places = as_points(run.landmarks_m);
-  for (const Point3& p : as_points(run.positions_m)) places.push_back(p);
-  return places;
+/// The ground truth, about which the box is.
+std::vector<Point3> true_positions(const SpaceRun& run) {
+  std::vector<Point3> positions = as_points(run.landmarks_m);
+  for (const Point3& p : as_points(run.positions_m)) positions.push_back(p);
+  return positions;
 }
 
 /// What errors are lengthened by: the least of 1, 2, 5, 10, ... with which the mean is seen.
@@ -57,7 +57,7 @@ double round_factor(double mean_m, double size) {
 class SpaceScene {
  public:
   explicit SpaceScene(const SpaceSceneSpec& spec)
-      : spec_(spec), run_(spec.run), box_(true_places(spec.run)) {
+      : spec_(spec), run_(spec.run), box_(true_positions(spec.run)) {
     scene_.id = spec.id;
     scene_.title = spec.title;
     scene_.record_ids = spec.record_ids;
@@ -70,7 +70,7 @@ class SpaceScene {
   }
 
   Scene make() {
-    add_truth();
+    add_ground_truth();
     const std::size_t shared = scene_.parts.size();
     for (const SpaceRecord& record : run_.records) add_view(record, shared);
     describe();
@@ -79,7 +79,7 @@ class SpaceScene {
   }
 
  private:
-  void add_truth() {
+  void add_ground_truth() {
     scene_.parts.emplace_back(box_.edges());
     Rods stalks{.radius = 0.0018 * box_.size(), .style = {.ink = Ink::kMuted, .share = 0.6}};
     for (const Point3& p : as_points(run_.landmarks_m)) {
@@ -166,11 +166,11 @@ class SpaceScene {
   Rods errors_of(const SpaceEstimate& estimate) const {
     Rods rods{.radius = 0.0035 * box_.size(), .style = {.ink = Ink::kSeries2}};
     for (Eigen::Index n = 0; n < run_.landmarks_m.rows(); ++n) {
-      const Point3 truth = run_.landmarks_m.row(n).transpose();
-      const Point3 error = estimate.landmarks_m.row(n).transpose() - truth;
+      const Point3 ground_truth = run_.landmarks_m.row(n).transpose();
+      const Point3 error = estimate.landmarks_m.row(n).transpose() - ground_truth;
       if (!error.allFinite() || factor_ * error.norm() > box_.size()) continue;
-      rods.from.push_back(truth);
-      rods.to.push_back(truth + factor_ * error);
+      rods.from.push_back(ground_truth);
+      rods.to.push_back(ground_truth + factor_ * error);
     }
     return rods;
   }
@@ -218,7 +218,7 @@ bool has_space_scene(const SpaceRun& run) {
   if (!run.landmarks_m.allFinite() || !run.positions_m.allFinite()) return false;
   const double farthest =
       std::max(run.landmarks_m.cwiseAbs().maxCoeff(), run.positions_m.cwiseAbs().maxCoeff());
-  const CloudBox box(true_places(run));
+  const CloudBox box(true_positions(run));
   return farthest <= kFarthest_m && box.size() > kLeastSize * std::max(farthest, 1.0);
 }
 

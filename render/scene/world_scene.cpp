@@ -30,10 +30,11 @@ struct Sample {
 
 std::vector<Sample> samples_of(const MapRecord& map) {
   std::vector<Sample> samples;
-  if (!map.truth_m || map.frame != Frame::kTruth || map.truth_m->rows() != map.estimate.rows())
+  if (!map.ground_truth_m || map.frame != Frame::kGroundTruth ||
+      map.ground_truth_m->rows() != map.estimate.rows())
     return samples;
   for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) {
-    const Eigen::RowVector2d at = map.truth_m->row(i);
+    const Eigen::RowVector2d at = map.ground_truth_m->row(i);
     const double error = (map.estimate.row(i) - at).norm();
     const auto above = [&at](const Sample& one) { return one.at_m == at; };
     if (at.allFinite() && std::isfinite(error) && std::ranges::none_of(samples, above))

@@ -252,8 +252,8 @@ class SvgWriter {
     if (raster.image == nullptr) return;
     out_ += "<image" + own;
     if (item.mark && !open_mark_) mark_attributes(*item.mark);
-    box_attributes(raster.place);
-    const double dpi = 72.0 * raster.image->width / raster.place.width();
+    box_attributes(raster.position);
+    const double dpi = 72.0 * raster.image->width / raster.position.width();
     attribute("data-dpi", std::round(dpi));
     out_ += " preserveAspectRatio=\"none\" href=\"data:image/png;base64,";
     append_base64(out_, encode_png(*raster.image, {.dpi = dpi, .texts = {}}));

@@ -172,20 +172,20 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
 
   unsigned count = 0;
   const hb_glyph_info_t* infos = hb_buffer_get_glyph_infos(buffer, &count);
-  const hb_glyph_position_t* places = hb_buffer_get_glyph_positions(buffer, &count);
+  const hb_glyph_position_t* positions = hb_buffer_get_glyph_positions(buffer, &count);
   shaped.runs.push_back({stretch.begin, shaped.glyphs.size(), stretch.right_to_left,
                          clusters_of({infos, count}, stretch)});
   for (unsigned i = 0; i < count; ++i) {
     const Glyph glyph{infos[i].codepoint,
-                      shaped.advance + places[i].x_offset / FontFacts::kUnitsPerEm,
-                      -places[i].y_offset / FontFacts::kUnitsPerEm};
+                      shaped.advance + positions[i].x_offset / FontFacts::kUnitsPerEm,
+                      -positions[i].y_offset / FontFacts::kUnitsPerEm};
     const Box ink = glyph_ink(glyph.index);
     if (ink.width() > 0.0) {
       const Box placed = ink.moved(glyph.x, glyph.y);
       shaped.ink = shaped.ink.width() > 0.0 ? shaped.ink.united(placed) : placed;
     }
     shaped.glyphs.push_back(glyph);
-    shaped.advance += places[i].x_advance / FontFacts::kUnitsPerEm;
+    shaped.advance += positions[i].x_advance / FontFacts::kUnitsPerEm;
   }
 }
 

@@ -15,9 +15,9 @@ constexpr std::array<Colour, 10> kViridis = {
 
 Colour viridis(double share) {
   if (!(share > 0.0)) return kViridis.front();
-  const double place = std::min(share, 1.0) * (kViridis.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), kViridis.size() - 2);
-  return mix(kViridis[below + 1], kViridis[below], place - static_cast<double>(below));
+  const double position = std::min(share, 1.0) * (kViridis.size() - 1);
+  const auto below = std::min(static_cast<std::size_t>(position), kViridis.size() - 2);
+  return mix(kViridis[below + 1], kViridis[below], position - static_cast<double>(below));
 }
 
 }  // namespace mapproof

@@ -44,12 +44,12 @@ Colour toned_colour(const Style& style, const Tones& tones, std::size_t i,
   return viridis((tones.values[i] - tones.limits.low) / (tones.limits.high - tones.limits.low));
 }
 
-vtkNew<vtkPoints> points_of(const std::vector<Point3>& places) {
+vtkNew<vtkPoints> points_of(const std::vector<Point3>& positions) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i)
-    points->SetPoint(static_cast<vtkIdType>(i), places[i].data());
+  points->SetNumberOfPoints(static_cast<vtkIdType>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    points->SetPoint(static_cast<vtkIdType>(i), positions[i].data());
   return points;
 }
 
@@ -148,19 +148,21 @@ Props part_props(const Surface& surface, const SceneRequest& request) {
 }
 
 Props part_props(const Tube& tube, const SceneRequest& request) {
-  std::vector<Point3> places;
+  std::vector<Point3> positions;
   ColourList colours;
   for (std::size_t i = 0; i < tube.points.size(); ++i) {
-    if (!places.empty() && (tube.points[i] - places.back()).norm() < 1e-9 * tube.radius) continue;
-    places.push_back(tube.points[i]);
+    if (!positions.empty() && (tube.points[i] - positions.back()).norm() < 1e-9 * tube.radius)
+      continue;
+    positions.push_back(tube.points[i]);
     colours.add(toned_colour(tube.style, tube.tones, i, request));
   }
-  if (places.size() < 2) return {};
+  if (positions.size() < 2) return {};
   vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(places));
+  data->SetPoints(points_of(positions));
   vtkNew<vtkCellArray> lines;
-  lines->InsertNextCell(static_cast<int>(places.size()));
-  for (std::size_t i = 0; i < places.size(); ++i) lines->InsertCellPoint(static_cast<vtkIdType>(i));
+  lines->InsertNextCell(static_cast<int>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    lines->InsertCellPoint(static_cast<vtkIdType>(i));
   data->SetLines(lines);
   if (!tube.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
   vtkNew<vtkTubeFilter> filter;

@@ -18,12 +18,12 @@ inline EnumNames enum_names(Outcome) { return names_up_to(Outcome::kChanged, "ou
 inline EnumNames enum_names(Presence) { return names_up_to(Presence::kCurrent, "presence"); }
 inline EnumNames enum_names(ChangeKind) { return names_up_to(ChangeKind::kData, "change"); }
 inline EnumNames enum_names(ItemKind) { return names_up_to(ItemKind::kDocument, "item_kind"); }
-inline EnumNames enum_names(PictureState) {
-  return names_up_to(PictureState::kUnreadable, "picture_state");
+inline EnumNames enum_names(ImageState) {
+  return names_up_to(ImageState::kUnreadable, "image_state");
 }
 
 inline auto as_tuple(Point& at) { return std::tie(at.x, at.y); }
-inline auto as_tuple(PictureSize& size) { return std::tie(size.width, size.height); }
+inline auto as_tuple(ImageSize& size) { return std::tie(size.width, size.height); }
 
 namespace record_rules {
 
@@ -93,7 +93,7 @@ void fields(Visitor& v, PointsDiff& points) {
   v.field("beyond", points.beyond, kMany);
   v.field("lost", points.lost, kMany);
   v.field("gained", points.gained, kMany);
-  v.field("truth_differs", points.truth_differs);
+  v.field("ground_truth_differs", points.ground_truth_differs);
   v.field("baseline_error", points.baseline_error, kFinite);
   v.field("current_error", points.current_error, kFinite);
   v.field("moves", points.moves);
@@ -157,7 +157,7 @@ void fields(Visitor& v, RecordDiff& diff) {
 template <typename Visitor>
 void fields(Visitor& v, FigureChange& change) {
   v.field("kind", change.kind);
-  v.field("place", change.place);
+  v.field("location", change.location);
   v.field("what", change.what);
   v.field("baseline", change.baseline);
   v.field("current", change.current);
@@ -166,7 +166,7 @@ void fields(Visitor& v, FigureChange& change) {
 template <typename Visitor>
 void fields(Visitor& v, MarkMove& move) {
   using namespace record_rules;
-  v.field("place", move.place);
+  v.field("location", move.location);
   v.field("mark", move.mark);
   v.field("landmark", move.landmark);
   v.field("curve", move.curve);
@@ -246,10 +246,10 @@ void fields(Visitor& v, SvgDiff& svg) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, PictureFile& file) {
-  v.type("picture");
+void fields(Visitor& v, ImageFile& file) {
+  v.type("image");
   std::string baseline = file.baseline.generic_string(), current = file.current.generic_string();
-  std::optional<PictureState> state;
+  std::optional<ImageState> state;
   if (!baseline.empty() && !current.empty()) state = file.diff.state;
   v.field("format", file.format, {.description = "png, svg or pdf."});
   v.field("baseline_key", file.baseline_key);
@@ -276,7 +276,7 @@ void fields(Visitor& v, DiffItem& item) {
   v.field("cause", item.judgement.cause);
   v.field("records", item.records);
   v.field("figure", item.figure);
-  v.field("pictures", item.pictures);
+  v.field("images", item.images);
   v.field("documents", item.documents);
 }
 

@@ -76,13 +76,13 @@ std::string diff_text(const DiffResult& result, DiffWords words) {
   if (words == DiffWords::kFailures && result.passes) return "";
   std::string text;
   for (const DiffItem& item : result.items) {
-    const Judgement& told = item.judgement;
-    if (told.verdict == Verdict::kIdentical || (words == DiffWords::kFailures && item.passes))
+    const Judgement& reported = item.judgement;
+    if (reported.verdict == Verdict::kIdentical || (words == DiffWords::kFailures && item.passes))
       continue;
     // A cause that refers to records begins with the id itself.
-    const std::string head = told.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
-    text +=
-        fmt::format("{:<22}  {}\n", label(told.verdict), printable(head + told.cause, kLongest));
+    const std::string head = reported.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
+    text += fmt::format("{:<22}  {}\n", label(reported.verdict),
+                        printable(head + reported.cause, kLongest));
   }
   for (const std::string& remark : result.remarks) text += printable(remark, kLongest) + "\n";
   return text +
@@ -97,22 +97,23 @@ std::string diff_junit(const DiffResult& result) {
   out += fmt::format("<testsuites name=\"mapproof diff\" {} time=\"0\">\n", totals);
   out += fmt::format("  <testsuite name=\"mapproof diff\" {} skipped=\"0\" time=\"0\">\n", totals);
   for (const DiffItem& item : result.items) {
-    const Judgement& told = item.judgement;
+    const Judgement& reported = item.judgement;
     out += fmt::format("    <testcase name=\"{}\" classname=\"mapproof.{}\" time=\"0\"",
                        xml(item.id), name(item.kind));
-    if (told.verdict == Verdict::kIdentical) {
+    if (reported.verdict == Verdict::kIdentical) {
       out += "/>\n";
       continue;
     }
-    const std::string message = xml(printable(told.cause, kLongest));
+    const std::string message = xml(printable(reported.cause, kLongest));
     out += ">\n";
     if (!item.passes) {
-      const char* element = told.verdict == Verdict::kUnreadable ? "error" : "failure";
-      out += fmt::format("      <{} type=\"{}\" message=\"{}: {}\">{}</{}>\n", element,
-                         name(told.verdict), label(told.verdict), message, message, element);
+      const char* element = reported.verdict == Verdict::kUnreadable ? "error" : "failure";
+      out +=
+          fmt::format("      <{} type=\"{}\" message=\"{}: {}\">{}</{}>\n", element,
+                      name(reported.verdict), label(reported.verdict), message, message, element);
     }
     out += fmt::format("      <system-out>{}: {}</system-out>\n    </testcase>\n",
-                       label(told.verdict), message);
+                       label(reported.verdict), message);
   }
   if (!result.remarks.empty()) {
     out += "    <system-out>";
@@ -142,7 +143,7 @@ std::string diff_markdown(const DiffResult& result) {
 }
 
 std::string ctest_lines(const DiffResult& result) {
-  constexpr int kMostPictures = 10;
+  constexpr int kMostImages = 10;
   std::string out;
   const std::vector<int> counts = counts_of(result);
   for (std::size_t v = 0; v < kVerdicts.size(); ++v)
@@ -152,10 +153,10 @@ std::string ctest_lines(const DiffResult& result) {
   int shown = 0;
   for (const DiffItem& item : result.items) {
     if (item.passes) continue;
-    for (const PictureFile& picture : item.pictures) {
-      if (picture.format != "png" || shown >= 2 * kMostPictures) continue;
+    for (const ImageFile& image : item.images) {
+      if (image.format != "png" || shown >= 2 * kMostImages) continue;
       for (const auto& [side, path] :
-           {std::pair("baseline", picture.baseline), std::pair("current", picture.current)})
+           {std::pair("baseline", image.baseline), std::pair("current", image.current)})
         if (!path.empty() && ++shown)
           out += fmt::format(
               "<CTestMeasurementFile type=\"image/png\" name=\"{} {}\">{}</CTestMeasurementFile>\n",

@@ -21,7 +21,7 @@ std::string change_of_words(const std::string& a, const std::string& b) {
 }
 
 /// "Cairo 1.16.0 → 1.18.0": the renderers of both, from the files or else from the studies.
-std::string renderers_text(const PictureDiff& diff, const RecordContext& context) {
+std::string renderers_text(const ImageDiff& diff, const RecordContext& context) {
   if (diff.baseline_renderer != diff.current_renderer)
     return "drawn by " + change_of_words(diff.baseline_renderer, diff.current_renderer);
   for (const RecordDiff* records : context.records)
@@ -34,53 +34,53 @@ std::string renderers_text(const PictureDiff& diff, const RecordContext& context
 }
 
 /// Whether one renderer drew both, as far as files and studies record it.
-bool same_renderer(const std::vector<PictureFile>& files, const RecordContext& context) {
+bool same_renderer(const std::vector<ImageFile>& files, const RecordContext& context) {
   for (const RecordDiff* records : context.records)
     for (const SettingChange& change : records->provenance)
       for (const char* library : {"mapproof", "Cairo", "FreeType", "HarfBuzz"})
         if (change.pointer == library) return false;
-  return std::ranges::all_of(files, [](const PictureFile& file) {
+  return std::ranges::all_of(files, [](const ImageFile& file) {
     return file.diff.baseline_renderer == file.diff.current_renderer;
   });
 }
 
 /// Whether an SVG shows changed styles: colours, texts or elements; or changed positions, where the
 /// renderer is the same.
-bool changes_style(const PictureFile& file, bool same_renderer) {
-  if (!file.diff.svg || file.diff.state != PictureState::kDifferent) return false;
+bool changes_style(const ImageFile& file, bool same_renderer) {
+  if (!file.diff.svg || file.diff.state != ImageState::kDifferent) return false;
   const SvgDiff& svg = *file.diff.svg;
   return same_renderer || svg.style + svg.text + svg.structure > 0;
 }
 
-bool is_visible(const PictureFile& file) { return file.diff.state == PictureState::kDifferent; }
+bool is_visible(const ImageFile& file) { return file.diff.state == ImageState::kDifferent; }
 
-const PictureFile* first_with(const std::vector<PictureFile>& files, auto holds) {
+const ImageFile* first_with(const std::vector<ImageFile>& files, auto holds) {
   const auto found = std::ranges::find_if(files, holds);
   return found == files.end() ? nullptr : &*found;
 }
 
 /// The judgement of files that exist on only one side or cannot be read.
-std::optional<Judgement> judge_presence(const std::vector<PictureFile>& files) {
-  const auto there = [](const PictureFile& f) { return !f.baseline.empty() && !f.current.empty(); };
-  if (const PictureFile* bad = first_with(files, [&](const PictureFile& f) {
-        return there(f) && f.diff.state == PictureState::kUnreadable;
+std::optional<Judgement> judge_presence(const std::vector<ImageFile>& files) {
+  const auto there = [](const ImageFile& f) { return !f.baseline.empty() && !f.current.empty(); };
+  if (const ImageFile* bad = first_with(files, [&](const ImageFile& f) {
+        return there(f) && f.diff.state == ImageState::kUnreadable;
       }))
     return Judgement{Verdict::kUnreadable, true, bad->format + ": " + bad->diff.reason};
-  if (const PictureFile* gone =
-          first_with(files, [](const PictureFile& f) { return f.current.empty(); }))
+  if (const ImageFile* gone =
+          first_with(files, [](const ImageFile& f) { return f.current.empty(); }))
     return Judgement{Verdict::kMissing, true, "its " + gone->format + " is missing"};
-  if (const PictureFile* added =
-          first_with(files, [](const PictureFile& f) { return f.baseline.empty(); }))
+  if (const ImageFile* added =
+          first_with(files, [](const ImageFile& f) { return f.baseline.empty(); }))
     return Judgement{Verdict::kNew, true, "its " + added->format + " is not in the baseline"};
   return std::nullopt;
 }
 
 /// The reasons of the visible differences: first of SVGs, which name what changed, then of the
 /// other formats, which give the amount.
-std::string words_alone(const std::vector<PictureFile>& files) {
+std::string words_alone(const std::vector<ImageFile>& files) {
   std::string words;
   for (const bool is_svg : {true, false})
-    for (const PictureFile& file : files) {
+    for (const ImageFile& file : files) {
       if (!is_visible(file) || (file.format == "svg") != is_svg) continue;
       if (words.empty())
         words = fmt::format("{}, by its {} alone: {}", file.format,
@@ -95,22 +95,21 @@ std::string words_alone(const std::vector<PictureFile>& files) {
 }
 
 /// Judges images without a value.
-Judgement judge_alone(const std::vector<PictureFile>& files) {
+Judgement judge_alone(const std::vector<ImageFile>& files) {
   if (std::ranges::any_of(files, is_visible)) return {Verdict::kChanged, true, words_alone(files)};
-  if (const PictureFile* near = first_with(files, [](const PictureFile& f) {
-        return f.diff.state == PictureState::kWithinTolerance;
-      }))
+  if (const ImageFile* near = first_with(
+          files, [](const ImageFile& f) { return f.diff.state == ImageState::kWithinTolerance; }))
     return {Verdict::kWithinTolerance, false, near->format + ": " + near->diff.reason};
   return {};
 }
 
 /// Judges images whose figure's value is equal or within tolerance.
-Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& files,
+Judgement judge_drawing(const Judgement& value, const std::vector<ImageFile>& files,
                         const RecordContext& context) {
   const char* equal = value.verdict == Verdict::kIdentical ? "equal" : "equal within tolerance";
   const bool same = same_renderer(files, context);
-  if (const PictureFile* style =
-          first_with(files, [&](const PictureFile& file) { return changes_style(file, same); })) {
+  if (const ImageFile* style =
+          first_with(files, [&](const ImageFile& file) { return changes_style(file, same); })) {
     const SvgChange* first =
         style->diff.svg->changes.empty() ? nullptr : &style->diff.svg->changes[0];
     return {
@@ -120,11 +119,11 @@ Judgement judge_drawing(const Judgement& value, const std::vector<PictureFile>& 
                                         first->baseline, first->current)
                           : "")};
   }
-  const PictureFile* file = first_with(files, is_visible);
+  const ImageFile* file = first_with(files, is_visible);
   const bool visible = file != nullptr;
   if (!visible)
     file = first_with(
-        files, [](const PictureFile& f) { return f.diff.state == PictureState::kWithinTolerance; });
+        files, [](const ImageFile& f) { return f.diff.state == ImageState::kWithinTolerance; });
   if (file == nullptr) return {};
   return {Verdict::kRenderer, visible,
           fmt::format("the figure's value is {}, its {} is rendered differently: {}; {}", equal,
@@ -139,8 +138,8 @@ std::string_view name(ItemKind kind) {
       return "records";
     case ItemKind::kFigure:
       return "figure";
-    case ItemKind::kPicture:
-      return "picture";
+    case ItemKind::kImage:
+      return "image";
     case ItemKind::kDocument:
       return "document";
   }
@@ -154,23 +153,22 @@ std::vector<int> counts_of(const DiffResult& result) {
   return counts;
 }
 
-Judgement judge_pictures(const Judgement& value, bool has_value,
-                         const std::vector<PictureFile>& pictures, const RecordContext& context) {
-  if (const auto presence = judge_presence(pictures)) {
+Judgement judge_images(const Judgement& value, bool has_value, const std::vector<ImageFile>& images,
+                       const RecordContext& context) {
+  if (const auto presence = judge_presence(images)) {
     const Verdict verdict = heavier(presence->verdict, value.verdict);
     return verdict == presence->verdict ? *presence : value;
   }
-  if (!has_value) return judge_alone(pictures);
+  if (!has_value) return judge_alone(images);
   if (value.verdict > Verdict::kWithinTolerance && value.visible) {
-    Judgement told = value;
-    const bool unmoved =
-        !pictures.empty() && std::ranges::all_of(pictures, [](const PictureFile& file) {
-          return file.diff.state == PictureState::kIdentical;
-        });
-    if (unmoved) told.cause += "; its images are the same: they do not show this value";
-    return told;
+    Judgement reported = value;
+    const bool unmoved = !images.empty() && std::ranges::all_of(images, [](const ImageFile& file) {
+      return file.diff.state == ImageState::kIdentical;
+    });
+    if (unmoved) reported.cause += "; its images are the same: they do not show this value";
+    return reported;
   }
-  const Judgement drawing = judge_drawing(value, pictures, context);
+  const Judgement drawing = judge_drawing(value, images, context);
   // An invisible difference does not replace a difference of the value.
   const bool says_more = value.verdict == Verdict::kIdentical || drawing.visible;
   return says_more && drawing.verdict > value.verdict ? drawing : value;

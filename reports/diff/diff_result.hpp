@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reports/diff/figures/figure_diff.hpp"
-#include "reports/diff/images/picture_changes.hpp"
+#include "reports/diff/images/image_changes.hpp"
 #include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/records/record_tie.hpp"
 #include "reports/diff/verdict/verdict.hpp"
@@ -14,27 +14,27 @@
 namespace mapproof {
 
 /// An image file of an item.
-struct PictureFile {
+struct ImageFile {
   std::string format;        ///< "png", "svg", "pdf".
   std::string baseline_key;  ///< Which of several valid baselines; empty: the plain one.
   std::filesystem::path baseline, current;  ///< Empty: missing.
-  PictureDiff diff;                         ///< Set if both files exist.
+  ImageDiff diff;                           ///< Set if both files exist.
 };
 
 enum class ItemKind {
   kRecords,   ///< The records of a study, or of one map.
   kFigure,    ///< A figure with its value, and its images.
-  kPicture,   ///< Images without a value.
+  kImage,     ///< Images without a value.
   kDocument,  ///< A table or a report's page, which follow from records and figures.
 };
 
-/// "records", "figure", "picture", "document".
+/// "records", "figure", "image", "document".
 std::string_view name(ItemKind kind);
 
 /// One thing that was compared.
 struct DiffItem {
   std::string id;  ///< "fig-7", "records"; below folders with '/'.
-  ItemKind kind = ItemKind::kPicture;
+  ItemKind kind = ItemKind::kImage;
   Judgement judgement;
   bool passes = false;  ///< The exit code depends on it.
   std::optional<RecordDiff> records;
@@ -42,7 +42,7 @@ struct DiffItem {
   /// The files of the values that were compared, if there are any. A page draws nothing again, but
   /// its tables name what these files show.
   std::filesystem::path baseline_figure, current_figure;
-  std::vector<PictureFile> pictures;
+  std::vector<ImageFile> images;
   std::vector<OtherDiff> documents;  ///< For a document: its files whose bytes differ.
 };
 
@@ -62,7 +62,7 @@ std::vector<int> counts_of(const DiffResult& result);
 /// Combines the judgement of a figure's value with what its images show. Without a value the images
 /// alone decide.
 /// @param has_value  Whether the figure's value was compared.
-Judgement judge_pictures(const Judgement& value, bool has_value,
-                         const std::vector<PictureFile>& pictures, const RecordContext& context);
+Judgement judge_images(const Judgement& value, bool has_value, const std::vector<ImageFile>& images,
+                       const RecordContext& context);
 
 }  // namespace mapproof

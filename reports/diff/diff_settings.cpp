@@ -20,8 +20,8 @@ std::string tolerance_problem(const std::string& name) {
   return problem_of({.id = name, .label = name});
 }
 
-PictureOptions DiffSettings::pictures_of(const std::string& id) const {
-  PictureOptions options = pictures;
+ImageOptions DiffSettings::images_of(const std::string& id) const {
+  ImageOptions options = images;
   for (const IgnoredRegion& region : ignored)
     if (region.id == "*" || region.id == id) options.ignored.push_back(region.box);
   return options;
@@ -31,12 +31,12 @@ DiffSettings parse_diff_settings(std::string_view text, const std::string& sourc
   return from_json_text<DiffSettings>(text, source);
 }
 
-std::string problem_of(const PictureOptions& given) {
+std::string problem_of(const ImageOptions& given) {
   for (const PixelBox& box : given.ignored)
     if (box.width < 1 || box.height < 1) return "ignored: a box needs a width and a height above 0";
   BoundsVisitor bounds;
-  PictureOptions options = given;
-  picture_option_fields(bounds, options);
+  ImageOptions options = given;
+  image_option_fields(bounds, options);
   return bounds.problem;
 }
 

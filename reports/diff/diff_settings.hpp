@@ -11,7 +11,7 @@
 #include "core/json/fields.hpp"
 #include "reports/diff/diff_fields.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
-#include "reports/diff/images/picture_changes.hpp"
+#include "reports/diff/images/image_changes.hpp"
 #include "reports/diff/records/record_diff.hpp"
 
 namespace mapproof {
@@ -26,12 +26,12 @@ struct IgnoredRegion {
 struct DiffSettings {
   RecordOptions records;
   FigureOptions figures;
-  PictureOptions pictures;
+  ImageOptions images;
   std::vector<IgnoredRegion> ignored;
   std::vector<Verdict> allowed;
 
   /// The options for the images of one item, with its ignored regions.
-  PictureOptions pictures_of(const std::string& id) const;
+  ImageOptions images_of(const std::string& id) const;
 };
 
 /// Reads mapproof-diff.json (docs/diff.md, docs/schemas/diff_settings.schema.json).
@@ -91,7 +91,7 @@ void record_option_fields(Visitor& v, RecordOptions& options) {
 }
 
 template <typename Visitor>
-void picture_option_fields(Visitor& v, PictureOptions& options) {
+void image_option_fields(Visitor& v, ImageOptions& options) {
   using namespace record_rules;
   v.field("noise", options.noise, up_to(64.0));
   v.field("mean_noise", options.mean_noise, up_to(64.0));
@@ -136,8 +136,7 @@ void fields(Visitor& v, DiffSettings& settings) {
   };
   v.group("figures", visit_figures, kOptional);
   v.group(
-      "pictures", [&](auto& pictures) { picture_option_fields(pictures, settings.pictures); },
-      kOptional);
+      "images", [&](auto& images) { image_option_fields(images, settings.images); }, kOptional);
   v.field("ignore", settings.ignored, {.max_items = 10'000, .key = Key::kOptional});
   v.field("allow", settings.allowed, {.max_items = kVerdicts.size(), .key = Key::kOptional});
 }
@@ -160,6 +159,6 @@ void fields(Visitor& v, ApprovalsFile& file) {
 }
 
 /// Names the first field that cannot be used; empty if none.
-std::string problem_of(const PictureOptions& options);
+std::string problem_of(const ImageOptions& options);
 
 }  // namespace mapproof

@@ -61,9 +61,8 @@ const DiffItem* owner_of(const fs::path& own, const fs::path& current, const Dif
 const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
   if (const DiffItem* owner = owner_of(item.baseline_figure, item.current_figure, item, files))
     return owner;
-  for (const PictureFile& picture : item.pictures)
-    if (const DiffItem* owner = owner_of(picture.baseline, picture.current, item, files))
-      return owner;
+  for (const ImageFile& image : item.images)
+    if (const DiffItem* owner = owner_of(image.baseline, image.current, item, files)) return owner;
   return nullptr;
 }
 
@@ -74,7 +73,7 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
   for (const DiffItem& item : items) {
     if (!is_suspect(item)) continue;
     add(files, item, item.baseline_figure);
-    for (const PictureFile& picture : item.pictures) add(files, item, picture.baseline);
+    for (const ImageFile& image : item.images) add(files, item, image.baseline);
   }
   std::vector<std::pair<DiffItem*, std::string>> words;
   std::map<std::string, std::string> renamed;
@@ -90,12 +89,13 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
     if (is_rename) renamed[owner->id] = item.id;
   }
   for (auto& [item, text] : words) {
-    Judgement& told = item->judgement;
+    Judgement& reported = item->judgement;
     // Neither a renderer nor a style caused it: it is a different image.
-    told.cause = told.verdict == Verdict::kRenderer ? text : told.cause + "; " + text;
-    if (told.verdict != Verdict::kNew) told.verdict = heavier(told.verdict, Verdict::kChanged);
-    told.visible = true;
-    item->passes = passes(told, allowed);
+    reported.cause = reported.verdict == Verdict::kRenderer ? text : reported.cause + "; " + text;
+    if (reported.verdict != Verdict::kNew)
+      reported.verdict = heavier(reported.verdict, Verdict::kChanged);
+    reported.visible = true;
+    item->passes = passes(reported, allowed);
   }
   for (DiffItem& item : items)
     if (const auto to = renamed.find(item.id);
@@ -104,16 +104,16 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
 }
 
 /// Folders of records, by the id of their item: the path itself, or those directly below it.
-std::map<std::string, fs::path> record_places(const fs::path& path) {
-  std::map<std::string, fs::path> places;
+std::map<std::string, fs::path> record_locations(const fs::path& path) {
+  std::map<std::string, fs::path> locations;
   std::error_code error;
-  if (holds_records(path)) places["records"] = path;
-  if (!fs::is_directory(path, error) || !places.empty()) return places;
+  if (holds_records(path)) locations["records"] = path;
+  if (!fs::is_directory(path, error) || !locations.empty()) return locations;
   for (fs::directory_iterator entry(path, error), end; !error && entry != end;
        entry.increment(error))
     if (entry->is_directory(error) && holds_records(entry->path()))
-      places["records/" + entry->path().filename().string()] = entry->path();
-  return places;
+      locations["records/" + entry->path().filename().string()] = entry->path();
+  return locations;
 }
 
 DiffItem compare_records(const std::string& id, const fs::path& baseline, const fs::path& current,
@@ -160,7 +160,7 @@ void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& se
 
 std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& current,
                                    const DiffSettings& settings) {
-  const auto before = record_places(baseline), after = record_places(current);
+  const auto before = record_locations(baseline), after = record_locations(current);
   std::vector<DiffItem> items;
   for (const auto& [id, path] : before) {
     const auto other = after.find(id);
@@ -198,11 +198,11 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
   const ItemFiles& x = baseline.begin()->second;
   const ItemFiles& y = current.begin()->second;
   const bool same_kind =
-      x.figure.empty() == y.figure.empty() && x.pictures.size() == y.pictures.size() &&
+      x.figure.empty() == y.figure.empty() && x.images.size() == y.images.size() &&
       std::ranges::equal(x.documents, y.documents, {}, &decltype(x.documents)::value_type::first,
                          &decltype(x.documents)::value_type::first) &&
-      std::ranges::equal(x.pictures, y.pictures, {}, &decltype(x.pictures)::value_type::first,
-                         &decltype(x.pictures)::value_type::first);
+      std::ranges::equal(x.images, y.images, {}, &decltype(x.images)::value_type::first,
+                         &decltype(x.images)::value_type::first);
   if (!same_kind)
     throw InvalidInput(a.string() + " and " + b.string() +
                        " are files of different kinds: they cannot be compared");
@@ -211,9 +211,9 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
 /// "fig-7.png": what a single file is called.
 std::string file_id(const fs::path& path) { return item_name(path, path.parent_path()).id; }
 
-std::vector<DiffItem> picture_items(ItemList baseline, const ItemList& current,
-                                    const std::string& name, const RecordContext& context,
-                                    const DiffSettings& settings) {
+std::vector<DiffItem> image_items(ItemList baseline, const ItemList& current,
+                                  const std::string& name, const RecordContext& context,
+                                  const DiffSettings& settings) {
   join_keyed(baseline, current);
   std::set<std::string> ids;
   for (const ItemList* side : {static_cast<const ItemList*>(&baseline), &current})
@@ -276,7 +276,7 @@ Judgement judge_whole(const DiffResult& result) {
 void remark_not_compared(const std::vector<DiffItem>& items, DiffResult& result) {
   std::vector<std::string> names;
   for (const DiffItem& item : items)
-    for (const PictureFile& file : item.pictures)
+    for (const ImageFile& file : item.images)
       if (is_not_compared(file.format)) names.push_back(printable(item.id) + "." + file.format);
   if (!names.empty())
     result.remarks.push_back("Compared only by their bytes:  " + listed(names, 12) + ".");
@@ -330,12 +330,11 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   }
   const std::size_t lacking = lacks_report ? before.size() : 0;
   if (lacks_report) before.clear();
-  std::vector<DiffItem> pictures =
-      picture_items(before, after, file_id(current), context, settings);
-  name_swapped(pictures, settings.allowed);
-  remark_not_compared(pictures, result);
-  remark_ignored(pictures, settings, result);
-  std::ranges::move(pictures, std::back_inserter(result.items));
+  std::vector<DiffItem> images = image_items(before, after, file_id(current), context, settings);
+  name_swapped(images, settings.allowed);
+  remark_not_compared(images, result);
+  remark_ignored(images, settings, result);
+  std::ranges::move(images, std::back_inserter(result.items));
   if (lacks_report) result.items.push_back(missing_report(lacking, result.current, settings));
   add_documents(result.items, before, after, file_id(current), settings);
   if (result.items.empty())
@@ -355,10 +354,10 @@ DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
       "baseline", {Verdict::kMissing, true,
                    fmt::format("there is no baseline {}; the candidate is kept in {}",
                                printable(result.baseline), printable(result.current))}));
-  for (const auto& [id, path] : record_places(current))
+  for (const auto& [id, path] : record_locations(current))
     result.items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
   const ItemList after = list_items(current);
-  std::ranges::move(picture_items({}, after, file_id(current), {}, settings),
+  std::ranges::move(image_items({}, after, file_id(current), {}, settings),
                     std::back_inserter(result.items));
   add_documents(result.items, {}, after, file_id(current), settings);
   for (DiffItem& item : result.items)

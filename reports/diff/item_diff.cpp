@@ -18,7 +18,7 @@
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/figures/figure_log.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/image_diff.hpp"
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
@@ -34,10 +34,10 @@ constexpr std::size_t kMostSceneNames = 3;
 
 /// The kind of a change under a key of a part or of the scene. Lights and rules have `from` and
 /// `to` as well.
-ChangeKind kind_of(std::string_view key, std::string_view place) {
-  const bool is_part = place.starts_with("part ");
+ChangeKind kind_of(std::string_view key, std::string_view location) {
+  const bool is_part = location.starts_with("part ");
   if (is_part && std::ranges::find(kData, key) != kData.end()) return ChangeKind::kData;
-  if (place == "scene" && std::ranges::find(kWords, key) != kWords.end())
+  if (location == "scene" && std::ranges::find(kWords, key) != kWords.end())
     return ChangeKind::kMetadata;
   return ChangeKind::kStyle;
 }
@@ -51,15 +51,15 @@ class SceneComparer {
  public:
   SceneComparer(const FigureOptions& options, FigureLog& log) : options_(options), log_(log) {}
 
-  void compare(const ParsedJson& a, const ParsedJson& b, const std::string& place) {
+  void compare(const ParsedJson& a, const ParsedJson& b, const std::string& location) {
     for (const auto& [key, value] : a.items()) {
       if (key == "schema" || key == "records") continue;
-      if (key == "parts" && place == "scene")
+      if (key == "parts" && location == "scene")
         compare_parts(value, b.at(key));
       else if (value.is_object())
-        compare(value, b.at(key), place);
+        compare(value, b.at(key), location);
       else
-        compare_value(value, b.at(key), place, key);
+        compare_value(value, b.at(key), location, key);
     }
   }
 
@@ -67,17 +67,18 @@ class SceneComparer {
   void compare_parts(const ParsedJson& a, const ParsedJson& b) {
     for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i) {
       const ParsedJson& part = i < a.size() ? a[i] : b[i];
-      const std::string place = fmt::format("part {}, {}", i + 1, text_of(part.at("kind")));
+      const std::string location = fmt::format("part {}, {}", i + 1, text_of(part.at("kind")));
       const bool both = i < a.size() && i < b.size() && a[i].at("kind") == b[i].at("kind");
       if (both)
-        compare(a[i], b[i], place);
+        compare(a[i], b[i], location);
       else
-        log_.change(ChangeKind::kData, place, "part", i < a.size() ? text_of(a[i].at("kind")) : "",
+        log_.change(ChangeKind::kData, location, "part",
+                    i < a.size() ? text_of(a[i].at("kind")) : "",
                     i < b.size() ? text_of(b[i].at("kind")) : "");
     }
   }
 
-  void compare_value(const ParsedJson& a, const ParsedJson& b, const std::string& place,
+  void compare_value(const ParsedJson& a, const ParsedJson& b, const std::string& location,
                      const std::string& key) {
     Difference difference;
     walk(a, b, difference);
@@ -85,12 +86,12 @@ class SceneComparer {
     if (difference.count == 0) return;
     const std::string what =
         difference.count == 1 ? key : fmt::format("{}, {} values", key, difference.count);
-    ChangeKind kind = kind_of(key, place);
+    ChangeKind kind = kind_of(key, location);
     // Texts are not data, but the numbers in them are.
     if (kind == ChangeKind::kMetadata && a.is_string() && b.is_string() &&
         !same_numbers(text_of(a), text_of(b)))
       kind = ChangeKind::kData;
-    log_.change(kind, place, what, difference.baseline, difference.current);
+    log_.change(kind, location, what, difference.baseline, difference.current);
   }
 
   struct Difference {
@@ -113,7 +114,7 @@ class SceneComparer {
     if (difference.count++ > 0) return;
     if (a.is_number() && b.is_number()) {
       std::tie(difference.baseline, difference.current) =
-          told_apart(a.get<double>(), b.get<double>(), 6);
+          distinguished(a.get<double>(), b.get<double>(), 6);
       return;
     }
     difference.baseline = short_text(a);
@@ -162,10 +163,10 @@ std::string producer_of(std::string_view bytes) {
 /// contain. Files that two versions of the library wrote are within tolerance; the reason names
 /// both versions.
 /// @throws IoError if either cannot be read.
-PictureDiff pdf_diff(const std::filesystem::path& baseline, const std::filesystem::path& current) {
+ImageDiff pdf_diff(const std::filesystem::path& baseline, const std::filesystem::path& current) {
   const std::string before = read_input(baseline, kMostBytes);
   const std::string after = read_input(current, kMostBytes);
-  PictureDiff diff;
+  ImageDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();
   for (const auto& [name, bytes] :
@@ -176,14 +177,14 @@ PictureDiff pdf_diff(const std::filesystem::path& baseline, const std::filesyste
   diff.baseline_renderer = producer_of(before);
   diff.current_renderer = producer_of(after);
   if (before == after) {
-    diff.state = PictureState::kIdentical;
+    diff.state = ImageState::kIdentical;
     diff.reason = "the files are equal";
   } else if (diff.baseline_renderer != diff.current_renderer) {
-    diff.state = PictureState::kWithinTolerance;
+    diff.state = ImageState::kWithinTolerance;
     diff.reason =
         fmt::format("written by {} \u2192 {}", diff.baseline_renderer, diff.current_renderer);
   } else {
-    diff.state = PictureState::kDifferent;
+    diff.state = ImageState::kDifferent;
     diff.reason = "its bytes differ";
   }
   return diff;
@@ -197,15 +198,15 @@ Figure read_figure(const std::filesystem::path& path) {
 
 /// Compares images of a format that nothing here decodes: equal bytes are equal images; other
 /// images cannot be compared.
-PictureDiff bytes_diff(const std::string& format, const std::filesystem::path& baseline,
-                       const std::filesystem::path& current) {
+ImageDiff bytes_diff(const std::string& format, const std::filesystem::path& baseline,
+                     const std::filesystem::path& current) {
   const std::string before = read_input(baseline, kLargestFigure);
   const std::string after = read_input(current, kLargestFigure);
-  PictureDiff diff;
+  ImageDiff diff;
   diff.baseline_bytes = before.size();
   diff.current_bytes = after.size();
   if (before == after) {
-    diff.state = PictureState::kIdentical;
+    diff.state = ImageState::kIdentical;
     diff.reason = "the files are equal";
     return diff;
   }
@@ -215,53 +216,53 @@ PictureDiff bytes_diff(const std::string& format, const std::filesystem::path& b
 
 /// Compares two files. A file that cannot be read makes its image unreadable and stops nothing
 /// else.
-PictureDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
-                          const std::filesystem::path& current, const PictureOptions& options) {
+ImageDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
+                        const std::filesystem::path& current, const ImageOptions& options) {
   try {
     if (is_not_compared(format)) return bytes_diff(format, baseline, current);
-    return format == "pdf" ? pdf_diff(baseline, current) : picture_diff(baseline, current, options);
+    return format == "pdf" ? pdf_diff(baseline, current) : image_diff(baseline, current, options);
   } catch (const IoError& error) {
-    PictureDiff diff;
-    diff.state = PictureState::kUnreadable;
+    ImageDiff diff;
+    diff.state = ImageState::kUnreadable;
     diff.reason = error.what();
     return diff;
   }
 }
 
 /// Compares with the plain baseline and the other valid ones, and keeps the one that differs least.
-PictureFile compare_picture(const std::string& format,
-                            const std::map<std::string, std::filesystem::path>& baselines,
-                            const std::filesystem::path& current, const PictureOptions& options) {
-  PictureFile best;
+ImageFile compare_image(const std::string& format,
+                        const std::map<std::string, std::filesystem::path>& baselines,
+                        const std::filesystem::path& current, const ImageOptions& options) {
+  ImageFile best;
   bool first = true;
   for (const auto& [key, baseline] : baselines) {
-    PictureFile file{.format = format,
-                     .baseline_key = key,
-                     .baseline = baseline,
-                     .current = current,
-                     .diff = readable_diff(format, baseline, current, options)};
+    ImageFile file{.format = format,
+                   .baseline_key = key,
+                   .baseline = baseline,
+                   .current = current,
+                   .diff = readable_diff(format, baseline, current, options)};
     if (first || file.diff.state < best.diff.state) best = std::move(file);
     first = false;
-    if (best.diff.state == PictureState::kIdentical) break;
+    if (best.diff.state == ImageState::kIdentical) break;
   }
   return best;
 }
 
 /// Compares the images of both sides, format by format.
-std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemFiles& current,
-                                          const PictureOptions& options) {
-  std::vector<PictureFile> files;
+std::vector<ImageFile> compare_images(const ItemFiles& baseline, const ItemFiles& current,
+                                      const ImageOptions& options) {
+  std::vector<ImageFile> files;
   std::set<std::string> formats;
   for (const ItemFiles* side : {&baseline, &current})
-    for (const auto& [format, by_key] : side->pictures) formats.insert(format);
+    for (const auto& [format, by_key] : side->images) formats.insert(format);
   for (const std::string& format : formats) {
-    const auto before = baseline.pictures.find(format), after = current.pictures.find(format);
-    if (before != baseline.pictures.end() && after != current.pictures.end())
+    const auto before = baseline.images.find(format), after = current.images.find(format);
+    if (before != baseline.images.end() && after != current.images.end())
       files.push_back(
-          compare_picture(format, before->second, after->second.begin()->second, options));
-    else if (before != baseline.pictures.end())
+          compare_image(format, before->second, after->second.begin()->second, options));
+    else if (before != baseline.images.end())
       files.push_back({format, "", before->second.begin()->second, {}, {}});
-    else if (after != current.pictures.end())
+    else if (after != current.images.end())
       files.push_back({format, "", {}, after->second.begin()->second, {}});
   }
   return files;
@@ -269,9 +270,9 @@ std::vector<PictureFile> compare_pictures(const ItemFiles& baseline, const ItemF
 
 /// An item of one side only.
 DiffItem lone_item(DiffItem item, const ItemFiles& files, bool is_new) {
-  item.kind = files.figure.empty() ? ItemKind::kPicture : ItemKind::kFigure;
+  item.kind = files.figure.empty() ? ItemKind::kImage : ItemKind::kFigure;
   (is_new ? item.current_figure : item.baseline_figure) = files.figure;
-  item.pictures = is_new ? compare_pictures({}, files, {}) : compare_pictures(files, {}, {});
+  item.images = is_new ? compare_images({}, files, {}) : compare_images(files, {}, {});
   item.judgement = {is_new ? Verdict::kNew : Verdict::kMissing, true,
                     is_new ? "is not in the baseline" : "is not in the current"};
   return item;
@@ -286,10 +287,10 @@ std::vector<std::string> records_of(const Figure& a, const Figure& b) {
 
 /// The images of a figure that varies follow from values that vary. The values are judged, not the
 /// styles of the images.
-void leave_to_value(std::vector<PictureFile>& pictures) {
-  for (PictureFile& file : pictures) {
-    if (file.diff.state != PictureState::kDifferent) continue;
-    file.diff.state = PictureState::kWithinTolerance;
+void leave_to_value(std::vector<ImageFile>& images) {
+  for (ImageFile& file : images) {
+    if (file.diff.state != ImageState::kDifferent) continue;
+    file.diff.state = ImageState::kWithinTolerance;
     file.diff.reason = "varies from run to run: not judged";
   }
 }
@@ -335,10 +336,10 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
 
 /// The bytes of a PDF change with its figure's value, however small that change is.
 void leave_pdf_to_value(DiffItem& item) {
-  for (PictureFile& file : item.pictures)
+  for (ImageFile& file : item.images)
     if (item.figure && !item.figure->equal && file.format == "pdf" &&
-        file.diff.state == PictureState::kDifferent)
-      file.diff.state = PictureState::kWithinTolerance;
+        file.diff.state == ImageState::kDifferent)
+      file.diff.state = ImageState::kWithinTolerance;
 }
 
 }  // namespace
@@ -369,13 +370,13 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
     item.current_figure = current->figure;
     const bool some = !baseline->figure.empty() || !current->figure.empty();
     const bool both = !baseline->figure.empty() && !current->figure.empty();
-    item.kind = some ? ItemKind::kFigure : ItemKind::kPicture;
-    item.pictures = compare_pictures(*baseline, *current, settings.pictures_of(id));
+    item.kind = some ? ItemKind::kFigure : ItemKind::kImage;
+    item.images = compare_images(*baseline, *current, settings.images_of(id));
     if (both) compare_values(item, context, settings);
     leave_pdf_to_value(item);
-    if (item.figure && item.figure->masked > 0) leave_to_value(item.pictures);
+    if (item.figure && item.figure->masked > 0) leave_to_value(item.images);
     if (item.judgement.verdict != Verdict::kUnreadable)
-      item.judgement = judge_pictures(item.judgement, both, item.pictures, context);
+      item.judgement = judge_images(item.judgement, both, item.images, context);
     if (some && !both)
       item.judgement = {heavier(item.judgement.verdict,
                                 current->figure.empty() ? Verdict::kMissing : Verdict::kNew),

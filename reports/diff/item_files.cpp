@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMostFiles = 100'000;
 enum class KindClass {
   kFigure,    ///< The value from which an image was drawn.
-  kPicture,   ///< An image that is compared.
+  kImage,     ///< An image that is compared.
   kOther,     ///< An image that nothing here decodes.
   kDocument,  ///< A table or a page, which follows from records.
 };
@@ -29,19 +29,14 @@ struct Kind {
       {};  ///< The first bytes of all such files, and of no others; empty: none.
 };
 
-constexpr std::array kKinds = {Kind{"figure.json", KindClass::kFigure},
-                               Kind{"scene.json", KindClass::kFigure},
-                               Kind{"png", KindClass::kPicture, "\x89PNG"},
-                               Kind{"svg", KindClass::kPicture, "<"},
-                               Kind{"pdf", KindClass::kPicture, "%PDF-"},
-                               Kind{"jpg", KindClass::kOther, "\xFF\xD8\xFF"},
-                               Kind{"jpeg", KindClass::kOther},
-                               Kind{"gif", KindClass::kOther, "GIF8"},
-                               Kind{"webp", KindClass::kOther, "RIFF"},
-                               Kind{"tif", KindClass::kOther, "II*"},
-                               Kind{"tiff", KindClass::kOther},
-                               Kind{"bmp", KindClass::kOther},
-                               Kind{"eps", KindClass::kOther, "%!PS"}};
+constexpr std::array kKinds = {
+    Kind{"figure.json", KindClass::kFigure},   Kind{"scene.json", KindClass::kFigure},
+    Kind{"png", KindClass::kImage, "\x89PNG"}, Kind{"svg", KindClass::kImage, "<"},
+    Kind{"pdf", KindClass::kImage, "%PDF-"},   Kind{"jpg", KindClass::kOther, "\xFF\xD8\xFF"},
+    Kind{"jpeg", KindClass::kOther},           Kind{"gif", KindClass::kOther, "GIF8"},
+    Kind{"webp", KindClass::kOther, "RIFF"},   Kind{"tif", KindClass::kOther, "II*"},
+    Kind{"tiff", KindClass::kOther},           Kind{"bmp", KindClass::kOther},
+    Kind{"eps", KindClass::kOther, "%!PS"}};
 
 KindClass class_of(std::string_view kind) {
   const auto found = std::ranges::find(kKinds, kind, &Kind::ending);
@@ -53,9 +48,9 @@ void add(ItemList& items, const ItemName& name, const fs::path& file) {
     case KindClass::kFigure:
       items[name.id].figure = file;
       break;
-    case KindClass::kPicture:
+    case KindClass::kImage:
     case KindClass::kOther:
-      items[name.id].pictures[name.kind][""] = file;
+      items[name.id].images[name.kind][""] = file;
       break;
     case KindClass::kDocument:
       items[name.id].documents[name.kind] = file;
@@ -70,8 +65,8 @@ std::string document_kind(const fs::path& file) {
   return is_table && file.parent_path().filename() == "tables" ? extension.substr(1) : "";
 }
 
-bool is_picture(std::string_view kind) {
-  return class_of(kind) == KindClass::kPicture || class_of(kind) == KindClass::kOther;
+bool is_image(std::string_view kind) {
+  return class_of(kind) == KindClass::kImage || class_of(kind) == KindClass::kOther;
 }
 
 /// The kind of a single file by its first bytes; empty: none that is compared.
@@ -126,7 +121,7 @@ ItemList list_items(const fs::path& path) {
     const ItemName name = item_name(entry->path(), path);
     // A folder with the name of an image may have replaced one: reading it reports the error.
     const bool is_folder = entry->is_directory(unknown);
-    if (name.kind.empty() || (is_folder && !is_picture(name.kind))) continue;
+    if (name.kind.empty() || (is_folder && !is_image(name.kind))) continue;
     if (++files > kMostFiles)
       throw IoError(path.string(), "holds more than 100,000 images: compare folders below it");
     add(items, name, entry->path());
@@ -144,9 +139,9 @@ void join_keyed(ItemList& baseline, const ItemList& current) {
       continue;
     }
     ItemFiles& whole = baseline[item->first.substr(0, at)];
-    for (const auto& [format, files] : item->second.pictures)
+    for (const auto& [format, files] : item->second.images)
       for (const auto& [none, file] : files)
-        whole.pictures[format][item->first.substr(at + 1)] = file;
+        whole.images[format][item->first.substr(at + 1)] = file;
     item = baseline.erase(item);
   }
 }

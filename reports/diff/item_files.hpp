@@ -13,7 +13,7 @@ struct ItemFiles {
   std::filesystem::path figure;  ///< ID.figure.json or ID.scene.json; empty: none.
   /// By format ("png", "svg", "pdf", and those that are not compared: "jpg", "gif", …) and baseline
   /// key. The plain file has the key "".
-  std::map<std::string, std::map<std::string, std::filesystem::path>> pictures;
+  std::map<std::string, std::map<std::string, std::filesystem::path>> images;
   /// Files of a table or a page, by format: "csv", "md", "tex", "html". The item then has no
   /// others.
   std::map<std::string, std::filesystem::path> documents;

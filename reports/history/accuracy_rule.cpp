@@ -131,7 +131,7 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
   std::map<std::string, RunPairs> last;
   for (const SeriesId* series : steps) {
     const auto& before = evidence.reference->scores.at(*series);
-    const auto& after = evidence.tonight.at(*series);
+    const auto& after = evidence.this_run.at(*series);
     add_step(all, losses, quantity, before, after);
     Losses of_last;
     if (series == steps.back()) add_step(last, of_last, quantity, before, after);
@@ -147,7 +147,7 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     std::tie(comparison.differences, comparison.unit) =
         unit_means(runs, rules.least_layouts, evidence.draws_groups);
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
-    comparison.after = known_median(evidence.tonight.at(*steps.back()));
+    comparison.after = known_median(evidence.this_run.at(*steps.back()));
     if (std::cmp_less(comparison.differences.size(), rules.least_units))
       work.too_few.insert(shown);
     else
@@ -176,7 +176,7 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
   };
   const auto base = [&](const SeriesId& series) { return method_of(without_levels(series)); };
   std::set<std::string> setups, methods, quantities, subjects;
-  for (const auto& [series, values] : evidence.tonight) {
+  for (const auto& [series, values] : evidence.this_run) {
     setups.insert(series.sensor);
     methods.insert(base(series));
     quantities.insert(series.quantity);
@@ -186,7 +186,7 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
   for (const auto& [series, values] : evidence.reference->scores) {
     const Quantity* quantity = evidence.trend.quantities.find(series.quantity);
     if (quantity == nullptr || quantity->nightly == NightlyRule::kDuration) continue;
-    if (evidence.tonight.contains(series) || std::ranges::none_of(values, is_known)) continue;
+    if (evidence.this_run.contains(series) || std::ranges::none_of(values, is_known)) continue;
     const auto [subject, shown] = [&, &series = series]() -> std::pair<std::string, std::string> {
       const StudyLabels& labels = evidence.trend.labels;
       if (!setups.contains(series.sensor)) {
@@ -213,8 +213,8 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
 
 Work compare_all(const StudyEvidence& evidence, const RegressionRules& rules) {
   std::map<Family, std::vector<const SeriesId*>> families;
-  for (const auto& [series, values] : evidence.tonight) {
-    if (!is_accuracy(rule_of(series, evidence.trend.quantities, evidence.tonight))) continue;
+  for (const auto& [series, values] : evidence.this_run) {
+    if (!is_accuracy(rule_of(series, evidence.trend.quantities, evidence.this_run))) continue;
     if (!evidence.reference->scores.contains(series)) continue;
     families[{series.sensor, series.method, series.quantity}].push_back(&series);
   }
@@ -246,48 +246,48 @@ std::string range_words(const Quantity& quantity, double low, double high) {
 
 std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.2g}", p); }
 
-NightFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
-                        std::size_t tests, const StudyEvidence& evidence) {
+NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
+                          std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
   const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.unit);
   return {.study = evidence.trend.name,
-          .rule = NightRule::kAccuracy,
+          .rule = HistoryRule::kAccuracy,
           .subject = comparison.subject,
           .quantity = quantity.id,
-          .since = evidence.trend.nights.back().number,
+          .since = evidence.trend.nightly_runs.back().number,
           .sentence = fmt::format(
               "{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {:.4g} → "
               "{}{}; {}, {} corrected for {}",
               comparison.shown, quantity.label, worse_words(quantity, change.shift),
-              evidence.reference->night, interval, comparison.before,
+              evidence.reference->nightly_run, interval, comparison.before,
               with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
               comparison.has_steps ? " at the last step" : "", units, p_text(p),
               counted(static_cast<long long>(tests), "test"))};
 }
 
-NightFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
+NightlyFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
   return {
       .study = evidence.trend.name,
-      .rule = NightRule::kLostResults,
+      .rule = HistoryRule::kLostResults,
       .subject = losses.subject,
       .quantity = losses.quantity->id,
-      .since = evidence.trend.nights.back().number,
+      .since = evidence.trend.nightly_runs.back().number,
       .sentence = fmt::format(
           "{}: {} of the {} results of nightly run {} no longer come out, {} do that did not; {}",
-          losses.shown, losses.lost, losses.of, evidence.reference->night, losses.gained,
+          losses.shown, losses.lost, losses.of, evidence.reference->nightly_run, losses.gained,
           p_text(p))};
 }
 
-NightFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {
+NightlyFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {
   return {.study = evidence.trend.name,
-          .rule = NightRule::kLostResults,
+          .rule = HistoryRule::kLostResults,
           .subject = vanished.subject,
           .quantity = vanished.quantity,
-          .since = evidence.trend.nights.back().number,
+          .since = evidence.trend.nightly_runs.back().number,
           .sentence = fmt::format(
               "{}: no result any more, where nightly run {} had {} ({})", vanished.shown,
-              evidence.reference->night,
+              evidence.reference->nightly_run,
               vanished.series == 1 ? "one series" : fmt::format("{} series", vanished.series),
               listed({vanished.quantities.begin(), vanished.quantities.end()}, 4))};
 }
@@ -325,12 +325,12 @@ void judge_losses(const Work& work, std::span<const double> p, const StudyEviden
   if (lost > 0)
     outcome.remarks.push_back(fmt::format(
         "{}: {} of nightly run {} no longer come out, of {}; too few of each to be judged",
-        evidence.trend.name, counted(lost, "result"), evidence.reference->night,
+        evidence.trend.name, counted(lost, "result"), evidence.reference->nightly_run,
         first_of(methods)));
   if (!work.other_runs.empty())
-    outcome.remarks.push_back(
-        fmt::format("{}: no run in common with nightly run {} for {}; not compared",
-                    evidence.trend.name, evidence.reference->night, first_of(work.other_runs)));
+    outcome.remarks.push_back(fmt::format(
+        "{}: no run in common with nightly run {} for {}; not compared", evidence.trend.name,
+        evidence.reference->nightly_run, first_of(work.other_runs)));
 }
 
 }  // namespace
@@ -370,14 +370,14 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
   }
   for (const Losses& losses : work.losses) p.push_back(sign_p(losses.lost, losses.gained));
   p = holm(p);
-  std::set<std::pair<std::string, std::string>> told;
+  std::set<std::pair<std::string, std::string>> reported;
   for (std::size_t i = 0; i < changes.size(); ++i) {
     const Comparison& comparison = work.comparisons[i];
     const double least = comparison.quantity->nightly == NightlyRule::kRatio ? rules.least_ratio
                                                                              : rules.least_points;
     if (p[i] > rules.alpha || changes[i].shift < least) continue;
     // Of one method the last step speaks for the mean over the steps.
-    if (!told.insert({comparison.method, comparison.quantity->id}).second) continue;
+    if (!reported.insert({comparison.method, comparison.quantity->id}).second) continue;
     outcome.findings.push_back(finding_of(comparison, changes[i], p[i], tests, evidence));
   }
   judge_losses(work, std::span(p).subspan(changes.size()), evidence, rules, outcome);

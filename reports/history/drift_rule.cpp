@@ -14,56 +14,58 @@ namespace {
 
 /// A series without the nightly runs that have no value.
 struct Known {
-  NightSeries series = {};
+  NightlySeries series = {};
   std::vector<double> values = {};
-  std::vector<int> nights = {};
+  std::vector<int> nightly_runs = {};
   ChangePoint change = {};
 };
 
 /// @param same_machine_alone  Whether other machines' nightly runs are left out.
-void add_known(std::vector<Known>& all, NightSeries series, const StudyTrend& trend,
-               bool same_machine_alone, int least_nights) {
+void add_known(std::vector<Known>& all, NightlySeries series, const StudyTrend& trend,
+               bool same_machine_alone, int least_nightly_runs) {
   Known known{.series = std::move(series)};
-  for (std::size_t i = 0; i < trend.nights.size(); ++i) {
+  for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i) {
     if (!std::isfinite(known.series.values[i])) continue;
-    if (same_machine_alone && !same_machine(trend.nights[i], trend.nights.back())) continue;
+    if (same_machine_alone && !same_machine(trend.nightly_runs[i], trend.nightly_runs.back()))
+      continue;
     known.values.push_back(known.series.values[i]);
-    known.nights.push_back(trend.nights[i].number);
+    known.nightly_runs.push_back(trend.nightly_runs[i].number);
   }
-  if (std::cmp_less(known.values.size(), least_nights)) return;
+  if (std::cmp_less(known.values.size(), least_nightly_runs)) return;
   known.change = rise_in(known.values);
   all.push_back(std::move(known));
 }
 
 std::vector<Known> known_series(const StudyTrend& trend, const RegressionRules& rules) {
   std::vector<Known> all;
-  const int least = rules.least_drift_nights;
-  for (NightSeries& series : accuracy_series(trend, rules))
+  const int least = rules.least_drift_nightly_runs;
+  for (NightlySeries& series : accuracy_series(trend, rules))
     add_known(all, std::move(series), trend, false, least);
-  std::vector<std::size_t> nights;
-  for (std::size_t i = 0; i < trend.nights.size(); ++i)
-    if (same_machine(trend.nights[i], trend.nights.back())) nights.push_back(i);
-  for (NightSeries& series : seconds_series(trend, nights, rules)) {
+  std::vector<std::size_t> nightly_runs;
+  for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
+    if (same_machine(trend.nightly_runs[i], trend.nightly_runs.back())) nightly_runs.push_back(i);
+  for (NightlySeries& series : seconds_series(trend, nightly_runs, rules)) {
     // A drift is found below the limit of a single nightly run.
     series.least = std::log1p(0.5 * rules.least_slowdown);
     add_known(all, std::move(series), trend, true, least);
   }
-  for (NightSeries& series : memory_series(trend, rules))
+  for (NightlySeries& series : memory_series(trend, rules))
     add_known(all, std::move(series), trend, true, least);
   return all;
 }
 
 /// Whether another rule reports it already.
-bool is_told(const std::vector<NightFinding>& found, const NightSeries& series) {
-  return std::ranges::any_of(found, [&](const NightFinding& finding) {
+bool is_reported(const std::vector<NightlyFinding>& found, const NightlySeries& series) {
+  return std::ranges::any_of(found, [&](const NightlyFinding& finding) {
     return finding.quantity == series.quantity && finding.subject.starts_with(series.subject);
   });
 }
 
-NightFinding finding_of(const Known& known, double p, std::size_t tests, const StudyTrend& trend) {
-  const NightSeries& series = known.series;
-  const bool accuracy = series.rule == NightRule::kAccuracy;
-  const int since = known.nights[static_cast<std::size_t>(known.change.first)];
+NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
+                          const StudyTrend& trend) {
+  const NightlySeries& series = known.series;
+  const bool accuracy = series.rule == HistoryRule::kAccuracy;
+  const int since = known.nightly_runs[static_cast<std::size_t>(known.change.first)];
   const std::string change =
       accuracy ? worse_words(trend.quantities.at(series.quantity), known.change.rise)
                : change_words(known.change.rise, series.ratio,
@@ -71,7 +73,7 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
   const std::string label =
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
   return {.study = trend.name,
-          .rule = accuracy ? NightRule::kAccuracyDrift : NightRule::kCostDrift,
+          .rule = accuracy ? HistoryRule::kAccuracyDrift : HistoryRule::kCostDrift,
           .subject = series.subject,
           .quantity = series.quantity,
           .since = since,
@@ -85,7 +87,7 @@ NightFinding finding_of(const Known& known, double p, std::size_t tests, const S
 }  // namespace
 
 RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& rules,
-                         const std::vector<NightFinding>& found) {
+                         const std::vector<NightlyFinding>& found) {
   RuleOutcome outcome;
   const std::vector<Known> all = known_series(evidence.trend, rules);
   std::vector<double> p;
@@ -93,7 +95,7 @@ RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& r
   p = holm(p);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (p[i] <= rules.alpha && all[i].change.rise >= all[i].series.least &&
-        !is_told(found, all[i].series))
+        !is_reported(found, all[i].series))
       outcome.findings.push_back(finding_of(all[i], p[i], all.size(), evidence.trend));
   return outcome;
 }

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// What made a nightly run; nothing if another version wrote it in another way.
-Provenance provenance_of(const NightFacts& facts) {
+Provenance provenance_of(const NightlyFacts& facts) {
   try {
     return from_json_text<Provenance>(facts.provenance, "provenance");
   } catch (const IoError&) {
@@ -25,21 +25,22 @@ Provenance provenance_of(const NightFacts& facts) {
   }
 }
 
-NightFile file_of(const NightFacts& facts, const std::vector<NightFinding>& findings) {
+NightlyFile file_of(const NightlyFacts& facts, const std::vector<NightlyFinding>& findings) {
   return {.facts = facts, .provenance = provenance_of(facts), .findings = findings};
 }
 
 /// Puts what made a nightly run into its JSON as it was written at the time; text that is not JSON
 /// stays text.
-void put_provenance(ordered_json& night, const std::string& text) {
+void put_provenance(ordered_json& nightly_run, const std::string& text) {
   ordered_json parsed = ordered_json::parse(text, nullptr, false);
-  night["provenance"] = parsed.is_discarded() ? ordered_json(text) : std::move(parsed);
+  nightly_run["provenance"] = parsed.is_discarded() ? ordered_json(text) : std::move(parsed);
 }
 
-ExportedStudy exported(HistoryStore& history, int night, StudyNight study, bool with_scores) {
+ExportedStudy exported(HistoryStore& history, int nightly_run, NightlyStudy study,
+                       bool with_scores) {
   ExportedStudy whole{.study = std::move(study), .with_scores = with_scores};
   if (!with_scores) return whole;
-  for (const auto& [series, values] : history.scores(night, whole.study.name)) {
+  for (const auto& [series, values] : history.scores(nightly_run, whole.study.name)) {
     ExportedSeries one{.id = series};
     for (const RunValue& run : values) one.runs[run.run] = run.value;
     whole.scores.push_back(std::move(one));
@@ -52,13 +53,13 @@ ExportedStudy exported(HistoryStore& history, int night, StudyNight study, bool 
 std::string history_csv(HistoryStore& history) {
   std::string text =
       "night,started_utc,study,sensor,method,step,quantity,run,value,sensor_label,method_label\r\n";
-  for (const NightFacts& night : history.nights())
-    for (const StudyNight& study : history.studies(night.number))
-      for (const auto& [series, values] : history.scores(night.number, study.name)) {
-        const std::string head =
-            fmt::format("{},{},{},{},{},{},{},", night.number, csv_field(night.started_utc),
-                        csv_field(study.name), csv_field(series.sensor), csv_field(series.method),
-                        series.step, csv_field(series.quantity));
+  for (const NightlyFacts& nightly_run : history.nightly_runs())
+    for (const NightlyStudy& study : history.studies(nightly_run.number))
+      for (const auto& [series, values] : history.scores(nightly_run.number, study.name)) {
+        const std::string head = fmt::format(
+            "{},{},{},{},{},{},{},", nightly_run.number, csv_field(nightly_run.started_utc),
+            csv_field(study.name), csv_field(series.sensor), csv_field(series.method), series.step,
+            csv_field(series.quantity));
         const std::string labels =
             fmt::format(",{},{}\r\n", csv_field(shown_setup(study.labels, series.sensor)),
                         csv_field(shown_method(study.labels, series.method)));
@@ -69,11 +70,11 @@ std::string history_csv(HistoryStore& history) {
   return text;
 }
 
-std::string night_json(const Night& night) {
-  return to_json_text(file_of(night.facts, night.findings));
+std::string nightly_json(const NightlyRun& nightly_run) {
+  return to_json_text(file_of(nightly_run.facts, nightly_run.findings));
 }
 
-ordered_json night_value(const NightFacts& facts, const std::vector<NightFinding>& findings) {
+ordered_json nightly_value(const NightlyFacts& facts, const std::vector<NightlyFinding>& findings) {
   ordered_json value = to_json_value(file_of(facts, findings));
   value.erase("schema");
   put_provenance(value, facts.provenance);
@@ -82,15 +83,15 @@ ordered_json night_value(const NightFacts& facts, const std::vector<NightFinding
 
 ordered_json history_json(HistoryStore& history, bool with_scores) {
   ExportedHistory whole;
-  for (const NightFacts& night : history.nights()) {
-    ExportedNight& one = whole.nights.emplace_back();
-    one.night = file_of(night, history.findings(night.number));
-    for (StudyNight& study : history.studies(night.number))
-      one.studies.push_back(exported(history, night.number, std::move(study), with_scores));
+  for (const NightlyFacts& nightly_run : history.nightly_runs()) {
+    ExportedNightlyRun& one = whole.nightly_runs.emplace_back();
+    one.nightly_run = file_of(nightly_run, history.findings(nightly_run.number));
+    for (NightlyStudy& study : history.studies(nightly_run.number))
+      one.studies.push_back(exported(history, nightly_run.number, std::move(study), with_scores));
   }
   ordered_json value = to_json_value(whole);
-  for (std::size_t i = 0; i < whole.nights.size(); ++i)
-    put_provenance(value["nights"][i], whole.nights[i].night.facts.provenance);
+  for (std::size_t i = 0; i < whole.nightly_runs.size(); ++i)
+    put_provenance(value["nightly_runs"][i], whole.nightly_runs[i].nightly_run.facts.provenance);
   return value;
 }
 

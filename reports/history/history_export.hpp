@@ -11,35 +11,38 @@
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 
-// The fields of night.json and of an exported history (core/json/fields.hpp): both are written
-// alone.
+// The fields of nightly_run.json and of an exported history (core/json/fields.hpp): both are
+// written alone.
 
 /// What a nightly run is called: verdict_word().
-enum class NightWord { kGood, kCost, kAccuracy, kNotCompared };
+enum class NightlyWord { kGood, kCost, kAccuracy, kNotCompared };
 
-inline std::string_view name(NightWord word) {
-  return word == NightWord::kNotCompared ? verdict_word({}) : name(static_cast<NightVerdict>(word));
+inline std::string_view name(NightlyWord word) {
+  return word == NightlyWord::kNotCompared ? verdict_word({})
+                                           : name(static_cast<NightlyVerdict>(word));
 }
 
-inline EnumNames enum_names(NightWord) {
-  return names_up_to(NightWord::kNotCompared, "night_verdict");
+inline EnumNames enum_names(NightlyWord) {
+  return names_up_to(NightlyWord::kNotCompared, "nightly_verdict");
 }
 
-inline EnumNames enum_names(NightRule) { return names_up_to(NightRule::kCostDrift, "night_rule"); }
+inline EnumNames enum_names(HistoryRule) {
+  return names_up_to(HistoryRule::kCostDrift, "history_rule");
+}
 
-/// night.json in a nightly run's folder.
-struct NightFile {
-  NightFacts facts = {};
+/// nightly_run.json in a nightly run's folder.
+struct NightlyFile {
+  NightlyFacts facts = {};
   Provenance provenance = {};  ///< Replaces the text in the facts.
-  std::vector<NightFinding> findings = {};
+  std::vector<NightlyFinding> findings = {};
 };
 
 template <typename Visitor>
-void fields(Visitor& v, NightFinding& finding) {
+void fields(Visitor& v, NightlyFinding& finding) {
   v.type("finding");
   v.field("study", finding.study);
   v.field("rule", finding.rule);
@@ -53,14 +56,15 @@ void fields(Visitor& v, NightFinding& finding) {
 
 /// The fields of a nightly run, in either file.
 template <typename Visitor>
-void night_fields(Visitor& v, NightFile& night) {
+void nightly_fields(Visitor& v, NightlyFile& nightly_run) {
   using namespace record_rules;
-  NightFacts& facts = night.facts;
-  v.field("night", facts.number, {.description = "Its index in the order, from 1.", .minimum = 0});
+  NightlyFacts& facts = nightly_run.facts;
+  v.field("nightly_run", facts.number,
+          {.description = "Its index in the order, from 1.", .minimum = 0});
   v.field("started_utc", facts.started_utc, {.description = "ISO 8601."});
   v.field("ended_utc", facts.ended_utc);
   v.field("command", facts.command, {.max_bytes = 1'000'000});
-  v.field("provenance", night.provenance);
+  v.field("provenance", nightly_run.provenance);
   v.field("host", facts.host);
   v.field("processor", facts.processor);
   v.field("cores", facts.cores, kCount);
@@ -68,19 +72,19 @@ void night_fields(Visitor& v, NightFile& night) {
   v.field("reference", facts.reference,
           {.description = "The nightly run it was compared with.", .minimum = 0});
   v.field("pinned", facts.pinned);
-  NightWord word = facts.verdict == NightVerdict::kGood && !facts.reference
-                       ? NightWord::kNotCompared
-                       : static_cast<NightWord>(facts.verdict);
+  NightlyWord word = facts.verdict == NightlyVerdict::kGood && !facts.reference
+                         ? NightlyWord::kNotCompared
+                         : static_cast<NightlyWord>(facts.verdict);
   v.field("verdict", word);
-  v.field("findings", night.findings);
+  v.field("findings", nightly_run.findings);
 }
 
 template <typename Visitor>
-void fields(Visitor& v, NightFile& night) {
-  v.file(
-      "mapproof.night",
-      "night.json of mapproof nightly: where and when a nightly run was made, and what got worse.");
-  night_fields(v, night);
+void fields(Visitor& v, NightlyFile& nightly_run) {
+  v.file("mapproof.nightly_run",
+         "nightly_run.json of mapproof nightly: where and when a nightly run was made, and what "
+         "got worse.");
+  nightly_fields(v, nightly_run);
 }
 
 /// The values of a series in an exported history.
@@ -91,19 +95,19 @@ struct ExportedSeries {
 
 /// A study of a nightly run in an exported history.
 struct ExportedStudy {
-  StudyNight study = {};
+  NightlyStudy study = {};
   std::vector<ExportedSeries> scores = {};
   bool with_scores = true;
 };
 
-struct ExportedNight {
-  NightFile night = {};
+struct ExportedNightlyRun {
+  NightlyFile nightly_run = {};
   std::vector<ExportedStudy> studies = {};
 };
 
 /// What `history --export json` writes.
 struct ExportedHistory {
-  std::vector<ExportedNight> nights = {};
+  std::vector<ExportedNightlyRun> nightly_runs = {};
 };
 
 template <typename Visitor>
@@ -127,8 +131,8 @@ void fields(Visitor& v, ExportedSeries& series) {
 template <typename Visitor>
 void fields(Visitor& v, ExportedStudy& exported) {
   using namespace record_rules;
-  v.type("night_study");
-  StudyNight& study = exported.study;
+  v.type("nightly_study");
+  NightlyStudy& study = exported.study;
   v.field("name", study.name);
   v.field("kind", study.kind, {.description = "The schema of its study.json."});
   v.field("order_digest", study.order_digest,
@@ -153,32 +157,32 @@ void fields(Visitor& v, ExportedStudy& exported) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, ExportedNight& night) {
-  v.type("night");
-  night_fields(v, night.night);
-  v.field("studies", night.studies);
+void fields(Visitor& v, ExportedNightlyRun& nightly_run) {
+  v.type("nightly_run");
+  nightly_fields(v, nightly_run.nightly_run);
+  v.field("studies", nightly_run.studies);
 }
 
 template <typename Visitor>
 void fields(Visitor& v, ExportedHistory& history) {
   v.file("mapproof.history", "Every value of every nightly run: mapproof history --export json.");
-  v.field("nights", history.nights);
+  v.field("nightly_runs", history.nightly_runs);
 }
 
-/// Every value of every nightly run as CSV [rfc4180]: night, started_utc, study, sensor, method,
-/// step, quantity, run, value, and what setup and method are called; a value that is missing is an
-/// empty cell. @throws IoError.
+/// Every value of every nightly run as CSV [rfc4180]: nightly run, started_utc, study, sensor,
+/// method, step, quantity, run, value, and what setup and method are called; a value that is
+/// missing is an empty cell. @throws IoError.
 std::string history_csv(HistoryStore& history);
 
 /// Nightly runs with their facts, findings and studies (docs/schemas/history.schema.json), without
 /// the values of runs; with them if asked. @throws IoError.
 nlohmann::ordered_json history_json(HistoryStore& history, bool with_scores);
 
-/// The text of night.json (docs/schemas/night.schema.json).
-std::string night_json(const Night& night);
+/// The text of nightly_run.json (docs/schemas/nightly_run.schema.json).
+std::string nightly_json(const NightlyRun& nightly_run);
 
 /// One nightly run's facts and findings, for what holds them among others: without a schema.
-nlohmann::ordered_json night_value(const NightFacts& facts,
-                                   const std::vector<NightFinding>& findings);
+nlohmann::ordered_json nightly_value(const NightlyFacts& facts,
+                                     const std::vector<NightlyFinding>& findings);
 
 }  // namespace mapproof

@@ -15,7 +15,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/words.hpp"
-#include "reports/history/night_standing.hpp"
+#include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/report.hpp"
 
@@ -29,11 +29,11 @@ Cell number(double value, int decimals) {
   return NumberCell{value, decimals};
 }
 
-std::string words_of(const NightFacts& night) {
-  switch (night.verdict) {
-    case NightVerdict::kGood:
-      return std::string(verdict_word(night));
-    case NightVerdict::kCost:
+std::string words_of(const NightlyFacts& nightly_run) {
+  switch (nightly_run.verdict) {
+    case NightlyVerdict::kGood:
+      return std::string(verdict_word(nightly_run));
+    case NightlyVerdict::kCost:
       return "slower or larger";
     default:
       return "accuracy worse";
@@ -74,17 +74,17 @@ Gallery gallery_of(const std::vector<Figure>& figures) {
 }
 
 /// The findings of a nightly run.
-std::span<const NightFinding> found_on(int night, const NightFindings& findings) {
-  const auto found = findings.find(night);
-  return found == findings.end() ? std::span<const NightFinding>{} : found->second;
+std::span<const NightlyFinding> found_on(int nightly_run, const NightlyFindings& findings) {
+  const auto found = findings.find(nightly_run);
+  return found == findings.end() ? std::span<const NightlyFinding>{} : found->second;
 }
 
 /// Which nightly runs the page shows.
-Paragraph nights_shown(const StudyTrend& trend) {
+Paragraph nightly_runs_shown(const StudyTrend& trend) {
   return {{{fmt::format(
       "{} from nightly run {} on are shown: those with the same settings as the last.",
-      counted(static_cast<long long>(trend.nights.size()), "nightly run"),
-      trend.nights.front().number)}}};
+      counted(static_cast<long long>(trend.nightly_runs.size()), "nightly run"),
+      trend.nightly_runs.front().number)}}};
 }
 
 /// "all nightly runs, trends of tiny, report of nightly run 9, which it was compared with".
@@ -107,9 +107,9 @@ Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
 std::vector<Figure> course(const IndexFacts& facts) {
   std::vector<const StudyTrend*> trends;
   for (const StudyTrend& trend : facts.trends) trends.push_back(&trend);
-  const auto found = found_on(facts.nights.back().number, facts.findings);
+  const auto found = found_on(facts.nightly_runs.back().number, facts.findings);
   std::ranges::stable_partition(trends, [&](const StudyTrend* trend) {
-    return std::ranges::find(found, trend->name, &NightFinding::study) != found.end();
+    return std::ranges::find(found, trend->name, &NightlyFinding::study) != found.end();
   });
   const bool among_others = trends.size() > 1;
   std::vector<Figure> figures;
@@ -124,7 +124,7 @@ std::vector<Figure> course(const IndexFacts& facts) {
 }
 
 /// A warning on nightly runs that were lost, with what is left of them; nothing if none was.
-std::optional<Callout> told_of(const LostNights& lost) {
+std::optional<Callout> reported_of(const LostNightlyRuns& lost) {
   if (lost.kept_as.empty()) return std::nullopt;
   const bool one = lost.kept_as.size() == 1;
   std::string text = fmt::format(
@@ -132,9 +132,9 @@ std::optional<Callout> told_of(const LostNights& lost) {
       "that. ",
       one ? "It is" : "They are", listed(lost.kept_as, 4));
   text += lost.reports.empty()
-              ? "No report of its nightly runs is left in nights/."
+              ? "No report of its nightly runs is left in nightly_runs/."
               : fmt::format(
-                    "The reports of {} from before that are still in nights/; they are "
+                    "The reports of {} from before that are still in nightly_runs/; they are "
                     "listed at the end of this page.",
                     counted(static_cast<long long>(lost.reports.size()), "nightly run"));
   return Callout{Callout::Tone::kWarning,
@@ -142,14 +142,14 @@ std::optional<Callout> told_of(const LostNights& lost) {
                  {{{text}}}};
 }
 
-Section last_section(const IndexFacts& facts, NightLinks& links) {
+Section last_section(const IndexFacts& facts, NightlyLinks& links) {
   Section last{"last", "The last nightly run", {}};
-  const NightFacts& tonight = facts.nights.back();
-  if (auto damage = told_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
-  if (const auto made = facts.studies.find(tonight.number); made != facts.studies.end())
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  if (auto damage = reported_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
+  if (const auto made = facts.studies.find(this_run.number); made != facts.studies.end())
     for (const std::string& study : made->second)
       last.blocks.emplace_back(Paragraph{{{study + ": ", Emphasis::kStrong},
-                                          links.report(tonight.number, study),
+                                          links.report(this_run.number, study),
                                           {", "},
                                           links.trends(study)}});
   BulletList list;
@@ -158,35 +158,36 @@ Section last_section(const IndexFacts& facts, NightLinks& links) {
   return last;
 }
 
-Section lost_section(const LostNights& lost, NightLinks& links) {
+Section lost_section(const LostNightlyRuns& lost, NightlyLinks& links) {
   BulletList list;
-  for (const auto& [night, studies] : lost.reports)
+  for (const auto& [nightly_run, studies] : lost.reports)
     for (const std::string& study : studies)
-      list.items.push_back({{{study + ": ", Emphasis::kStrong}, links.report(night, study)}});
+      list.items.push_back({{{study + ": ", Emphasis::kStrong}, links.report(nightly_run, study)}});
   return {"lost", "Nightly runs of a damaged history", {std::move(list)}};
 }
 
 }  // namespace
 
-Phrase NightLinks::link(const std::string& path, const std::string& words) {
+Phrase NightlyLinks::link(const std::string& path, const std::string& words) {
   words_[path] = words;
   return {path, Emphasis::kFile};
 }
 
-Phrase NightLinks::index() { return link(places_.pages + "index.html", "all nightly runs"); }
+Phrase NightlyLinks::index() { return link(places_.pages + "index.html", "all nightly runs"); }
 
-Phrase NightLinks::trends(const std::string& study) {
+Phrase NightlyLinks::trends(const std::string& study) {
   return link(fmt::format("{}trends/{}/report.html", places_.pages, study), "trends of " + study);
 }
 
-Phrase NightLinks::report(int night, const std::string& study) {
-  return link(fmt::format("{}nights/{:04}/{}/report.html", places_.nights, night, study),
-              fmt::format("report of nightly run {}", night));
+Phrase NightlyLinks::report(int nightly_run, const std::string& study) {
+  return link(
+      fmt::format("{}nightly_runs/{:04}/{}/report.html", places_.nightly_runs, nightly_run, study),
+      fmt::format("report of nightly run {}", nightly_run));
 }
 
-Phrase NightLinks::folder(int night) {
-  return link(fmt::format("{}nights/{:04}/", places_.nights, night),
-              fmt::format("folder of nightly run {}", night));
+Phrase NightlyLinks::folder(int nightly_run) {
+  return link(fmt::format("{}nightly_runs/{:04}/", places_.nightly_runs, nightly_run),
+              fmt::format("folder of nightly run {}", nightly_run));
 }
 
 std::string to_the_minute(const std::string& utc) {
@@ -194,9 +195,10 @@ std::string to_the_minute(const std::string& utc) {
   return utc.substr(0, 10) + " " + utc.substr(11, 5);
 }
 
-Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
-                   const NightStudies& studies, NightLinks& links) {
-  Table table{.id = "nights",
+Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
+                         const NightlyFindings& findings, const NightlyStudies& studies,
+                         NightlyLinks& links) {
+  Table table{.id = "nightly-runs",
               .caption = "Every nightly run, the last one first.",
               .columns = {{"Nightly run", "", "",
                            "Its number: the order of nightly runs, whatever clocks say"},
@@ -209,28 +211,29 @@ Table nights_table(std::span<const NightFacts> nights, const NightFindings& find
                            "The report of that nightly run; its folder if there are several"}},
               .rows = {},
               .notes = {}};
-  for (const NightFacts& night : nights | std::views::reverse) {
-    const auto found = findings.find(night.number);
+  for (const NightlyFacts& nightly_run : nightly_runs | std::views::reverse) {
+    const auto found = findings.find(nightly_run.number);
     const std::size_t count = found == findings.end() ? 0 : found->second.size();
-    const auto made = studies.find(night.number);
+    const auto made = studies.find(nightly_run.number);
     const Phrase place = made != studies.end() && made->second.size() == 1
-                             ? links.report(night.number, made->second.front())
-                             : links.folder(night.number);
+                             ? links.report(nightly_run.number, made->second.front())
+                             : links.folder(nightly_run.number);
     // What got worse is marked by weight as well, not by its text alone.
     const Emphasis weight =
-        night.verdict == NightVerdict::kGood ? Emphasis::kPlain : Emphasis::kStrong;
-    const Cell against = night.reference ? Cell{number(*night.reference, 0)} : Cell{MissingCell{}};
+        nightly_run.verdict == NightlyVerdict::kGood ? Emphasis::kPlain : Emphasis::kStrong;
+    const Cell against =
+        nightly_run.reference ? Cell{number(*nightly_run.reference, 0)} : Cell{MissingCell{}};
     table.rows.push_back(
-        {{number(night.number, 0), text(to_the_minute(night.started_utc)),
-          TextCell{words_of(night) + (night.pinned ? ", pinned" : ""), weight},
-          number(static_cast<double>(count), 0), against, TextCell{night.host, Emphasis::kData},
-          TextCell{place.text, place.emphasis}},
-         fmt::format("nightly run {}", night.number)});
+        {{number(nightly_run.number, 0), text(to_the_minute(nightly_run.started_utc)),
+          TextCell{words_of(nightly_run) + (nightly_run.pinned ? ", pinned" : ""), weight},
+          number(static_cast<double>(count), 0), against,
+          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis}},
+         fmt::format("nightly run {}", nightly_run.number)});
   }
   return table;
 }
 
-Table findings_table(const NightFindings& findings, const std::string& study) {
+Table findings_table(const NightlyFindings& findings, const std::string& study) {
   Table table{.id = "findings",
               .caption = "What got worse, the last nightly run first.",
               .columns = {{"Nightly run", "", "", ""},
@@ -240,12 +243,12 @@ Table findings_table(const NightFindings& findings, const std::string& study) {
                           {"Finding", "", "", ""}},
               .rows = {},
               .notes = {}};
-  for (const auto& [night, of_night] : findings | std::views::reverse)
-    for (const NightFinding& finding : of_night)
+  for (const auto& [nightly_run, of_nightly_run] : findings | std::views::reverse)
+    for (const NightlyFinding& finding : of_nightly_run)
       if (finding.study == study)
-        table.rows.push_back({{number(night, 0), number(finding.since, 0),
+        table.rows.push_back({{number(nightly_run, 0), number(finding.since, 0),
                                text(std::string(name(finding.rule))), text(finding.sentence)},
-                              fmt::format("nightly run {}", night)});
+                              fmt::format("nightly run {}", nightly_run)});
   return table;
 }
 
@@ -275,23 +278,23 @@ Table accuracy_table(const StudyTrend& trend) {
   return table;
 }
 
-HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared,
-                       const HistoryPlaces& places) {
+HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
+                       const HistoryFolders& places) {
   HistoryPage page;
-  NightLinks links(places);
+  NightlyLinks links(places);
   page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", by nightly run";
-  page.report.subtitle =
-      fmt::format("Nightly runs {} to {}", trend.nights.front().number, trend.nights.back().number);
-  const NightFacts& tonight = trend.nights.back();
+  page.report.subtitle = fmt::format("Nightly runs {} to {}", trend.nightly_runs.front().number,
+                                     trend.nightly_runs.back().number);
+  const NightlyFacts& this_run = trend.nightly_runs.back();
   page.report.opening.standing =
-      study_standing(tonight, found_on(tonight.number, findings), trend.name, is_compared);
+      study_standing(this_run, found_on(this_run.number, findings), trend.name, is_compared);
   std::optional<Phrase> reference;
-  if (is_compared && tonight.reference) reference = links.report(*tonight.reference, trend.name);
+  if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
   page.report.opening.findings.push_back(
-      ways({links.index(), links.report(tonight.number, trend.name)}, reference));
+      ways({links.index(), links.report(this_run.number, trend.name)}, reference));
   page.report.sections.push_back(
-      {"trends", "Trends", {nights_shown(trend), gallery_of(page.figures)}});
+      {"trends", "Trends", {nightly_runs_shown(trend), gallery_of(page.figures)}});
   page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
@@ -299,40 +302,43 @@ HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, b
   return page;
 }
 
-HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places) {
+HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places) {
   HistoryPage page;
   Report& report = page.report;
   report.title = "Nightly runs";
-  if (facts.nights.empty()) {
+  if (facts.nightly_runs.empty()) {
     report.sections.push_back(
         {"last", "The last nightly run", {Paragraph{{{"No nightly run was recorded yet."}}}}});
     return page;
   }
-  NightLinks links(places);
-  const NightFacts& tonight = facts.nights.back();
-  report.subtitle = fmt::format("{}, the last begun {} UTC",
-                                counted(static_cast<long long>(facts.nights.size()), "nightly run"),
-                                to_the_minute(tonight.started_utc));
-  report.opening.standing = night_standing(tonight, found_on(tonight.number, facts.findings));
+  NightlyLinks links(places);
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  report.subtitle =
+      fmt::format("{}, the last begun {} UTC",
+                  counted(static_cast<long long>(facts.nightly_runs.size()), "nightly run"),
+                  to_the_minute(this_run.started_utc));
+  report.opening.standing = nightly_standing(this_run, found_on(this_run.number, facts.findings));
   report.sections.push_back(last_section(facts, links));
   page.figures = course(facts);
   if (!page.figures.empty())
     report.sections.push_back(
         {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
-  report.sections.push_back({"nights",
-                             "All nightly runs",
-                             {nights_table(facts.nights, facts.findings, facts.studies, links)}});
+  report.sections.push_back(
+      {"nightly-runs",
+       "All nightly runs",
+       {nightly_runs_table(facts.nightly_runs, facts.findings, facts.studies, links)}});
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
 }
 
-void add_night(Report& report, const Night& night, const std::string& study, bool is_compared,
-               const LostNights& lost, NightLinks& links) {
+void add_nightly_run(Report& report, const NightlyRun& nightly_run, const std::string& study,
+                     bool is_compared, const LostNightlyRuns& lost, NightlyLinks& links) {
   Opening& opening = report.opening;
-  opening.standing = study_standing(night.facts, night.findings, study, is_compared);
+  opening.standing = study_standing(nightly_run.facts, nightly_run.findings, study, is_compared);
   std::optional<Phrase> reference;
-  if (is_compared && night.facts.reference) reference = links.report(*night.facts.reference, study);
+  if (is_compared && nightly_run.facts.reference)
+    reference = links.report(*nightly_run.facts.reference, study);
   std::vector<Paragraph> head = {ways({links.index(), links.trends(study)}, reference)};
   if (!lost.kept_as.empty()) {
     opening.standing->worse = true;

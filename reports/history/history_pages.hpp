@@ -7,7 +7,7 @@
 
 #include "render/plot/figure.hpp"
 #include "reports/history/history_pages.hpp"
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 #include "reports/history/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
@@ -15,21 +15,21 @@ namespace mapproof {
 
 /// Where the pages of a history lie, as seen from one of them: folders that end in '/', or empty
 /// for the page's own.
-struct HistoryPlaces {
-  std::string pages = {};   ///< Of index.html and trends/.
-  std::string nights = {};  ///< Of nights/.
+struct HistoryFolders {
+  std::string pages = {};         ///< Of index.html and trends/.
+  std::string nightly_runs = {};  ///< Of nightly_runs/.
 };
 
 /// Links from one page of a history to the others, and what they are called.
-class NightLinks {
+class NightlyLinks {
  public:
-  explicit NightLinks(HistoryPlaces places) : places_(std::move(places)) {}
+  explicit NightlyLinks(HistoryFolders places) : places_(std::move(places)) {}
 
   Phrase index();
   Phrase trends(const std::string& study);
-  Phrase report(int night, const std::string& study);
+  Phrase report(int nightly_run, const std::string& study);
   /// The folder of a nightly run of several studies.
-  Phrase folder(int night);
+  Phrase folder(int nightly_run);
 
   /// The text of every link that was requested, by its path (see HtmlOptions::link_words).
   const std::map<std::string, std::string>& words() const { return words_; }
@@ -37,12 +37,12 @@ class NightLinks {
  private:
   Phrase link(const std::string& path, const std::string& words);
 
-  HistoryPlaces places_;
+  HistoryFolders places_;
   std::map<std::string, std::string> words_;
 };
 
 /// Names of the studies by nightly run.
-using NightStudies = std::map<int, std::vector<std::string>>;
+using NightlyStudies = std::map<int, std::vector<std::string>>;
 
 /// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; any other text unchanged.
 std::string to_the_minute(const std::string& utc);
@@ -50,11 +50,12 @@ std::string to_the_minute(const std::string& utc);
 /// One row per nightly run, the last one first.
 /// @param studies  Of each nightly run: its report is linked where there is one study, else its
 /// folder.
-Table nights_table(std::span<const NightFacts> nights, const NightFindings& findings,
-                   const NightStudies& studies, NightLinks& links);
+Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
+                         const NightlyFindings& findings, const NightlyStudies& studies,
+                         NightlyLinks& links);
 
 /// One row per finding of those nightly runs, the last nightly run first.
-Table findings_table(const NightFindings& findings, const std::string& study);
+Table findings_table(const NightlyFindings& findings, const std::string& study);
 
 /// The values of each method in the last nightly run, in the one before and in the first.
 Table accuracy_table(const StudyTrend& trend);
@@ -67,20 +68,20 @@ struct HistoryPage {
 };
 
 /// Nightly runs of histories that were damaged and set aside: they are in no history any more.
-struct LostNights {
+struct LostNightlyRuns {
   std::vector<std::string> kept_as;  ///< File names: "history.sqlite.damaged-1".
-  NightStudies reports;              ///< The studies of each whose reports are still there.
+  NightlyStudies reports;            ///< The studies of each whose reports are still there.
 };
 
 /// All that the index shows.
 struct IndexFacts {
-  std::vector<NightFacts> nights = {};
-  NightFindings findings = {};
-  NightStudies studies = {};              ///< Of the nightly runs whose reports are to be linked.
+  std::vector<NightlyFacts> nightly_runs = {};
+  NightlyFindings findings = {};
+  NightlyStudies studies = {};            ///< Of the nightly runs whose reports are to be linked.
   std::vector<std::string> remarks = {};  ///< What could not be judged of the last nightly run, or
                                           ///< is only suspected.
   std::vector<StudyTrend> trends = {};    ///< Of the last nightly run's studies.
-  LostNights lost = {};
+  LostNightlyRuns lost = {};
 };
 
 /// One study over the nightly runs: what was found, accuracy, seconds and memory of what
@@ -88,19 +89,19 @@ struct IndexFacts {
 /// @param trend        At least one nightly run.
 /// @param is_compared  Whether the last one's reference run has the study, ordered in the same
 ///                     way.
-HistoryPage trend_page(const StudyTrend& trend, const NightFindings& findings, bool is_compared,
-                       const HistoryPlaces& places);
+HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
+                       const HistoryFolders& places);
 
 /// The verdict on the last nightly run, a figure or two of the trends, and all nightly runs, the
 /// last one first.
-HistoryPage index_page(const IndexFacts& facts, const HistoryPlaces& places);
+HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places);
 
 /// Puts the verdict on a study's nightly run at the head of its report, with links to related
 /// pages.
 /// @param is_compared  As for trend_page().
 /// @param lost         Not empty: reported, since the history was found damaged in that nightly
 /// run.
-void add_night(Report& report, const Night& night, const std::string& study, bool is_compared,
-               const LostNights& lost, NightLinks& links);
+void add_nightly_run(Report& report, const NightlyRun& nightly_run, const std::string& study,
+                     bool is_compared, const LostNightlyRuns& lost, NightlyLinks& links);
 
 }  // namespace mapproof

@@ -41,35 +41,38 @@ PruneRule parse_prune_rule(const std::string& text) {
   return {*last, *every};
 }
 
-std::vector<int> nights_to_remove(std::span<const NightFacts> nights, const PruneRule& rule) {
+std::vector<int> nightly_runs_to_remove(std::span<const NightlyFacts> nightly_runs,
+                                        const PruneRule& rule) {
   std::set<int> kept;
-  for (std::size_t i = 0; i < nights.size(); ++i) {
-    const bool is_last = nights.size() - i <= static_cast<std::size_t>(rule.last);
-    const bool is_every = rule.every > 0 && nights[i].number % rule.every == 0;
-    if (is_last || is_every || nights[i].pinned) kept.insert(nights[i].number);
+  for (std::size_t i = 0; i < nightly_runs.size(); ++i) {
+    const bool is_last = nightly_runs.size() - i <= static_cast<std::size_t>(rule.last);
+    const bool is_every = rule.every > 0 && nightly_runs[i].number % rule.every == 0;
+    if (is_last || is_every || nightly_runs[i].pinned) kept.insert(nightly_runs[i].number);
   }
-  for (const NightFacts& night : nights)
-    if (kept.contains(night.number) && night.reference) kept.insert(*night.reference);
+  for (const NightlyFacts& nightly_run : nightly_runs)
+    if (kept.contains(nightly_run.number) && nightly_run.reference)
+      kept.insert(*nightly_run.reference);
   std::vector<int> removed;
-  for (const NightFacts& night : nights)
-    if (!kept.contains(night.number)) removed.push_back(night.number);
+  for (const NightlyFacts& nightly_run : nightly_runs)
+    if (!kept.contains(nightly_run.number)) removed.push_back(nightly_run.number);
   return removed;
 }
 
-fs::path night_folder(const fs::path& store, int night) {
-  return store / "nights" / fmt::format("{:04}", night);
+fs::path nightly_folder(const fs::path& store, int nightly_run) {
+  return store / "nightly_runs" / fmt::format("{:04}", nightly_run);
 }
 
 Pruned prune(HistoryStore& history, const fs::path& store, const PruneRule& rule) {
   Pruned pruned;
-  pruned.nights = nights_to_remove(history.nights(), rule);
-  for (const int night : pruned.nights) {
+  pruned.nightly_runs = nightly_runs_to_remove(history.nightly_runs(), rule);
+  for (const int nightly_run : pruned.nightly_runs) {
     std::error_code error;
-    fs::remove_all(night_folder(store, night), error);
+    fs::remove_all(nightly_folder(store, nightly_run), error);
     if (error)
-      throw IoError(night_folder(store, night).string(), "cannot be removed: " + error.message());
+      throw IoError(nightly_folder(store, nightly_run).string(),
+                    "cannot be removed: " + error.message());
   }
-  history.remove(pruned.nights);
+  history.remove(pruned.nightly_runs);
   pruned.files = ObjectFolder(store / "objects").remove_others(history.digests());
   history.compact();
   return pruned;

@@ -20,16 +20,17 @@ PruneRule parse_prune_rule(const std::string& text);
 
 /// The nightly runs that the rule removes, ascending. Pinned references, and those that a kept
 /// nightly run was compared with, stay.
-std::vector<int> nights_to_remove(std::span<const NightFacts> nights, const PruneRule& rule);
+std::vector<int> nightly_runs_to_remove(std::span<const NightlyFacts> nightly_runs,
+                                        const PruneRule& rule);
 
 /// What pruning did.
 struct Pruned {
-  std::vector<int> nights;
+  std::vector<int> nightly_runs;
   int files = 0;  ///< Figures that no nightly run names any more.
 };
 
-/// The folder of a nightly run in a store: "nights/0012".
-std::filesystem::path night_folder(const std::filesystem::path& store, int night);
+/// The folder of a nightly run in a store: "nightly_runs/0012".
+std::filesystem::path nightly_folder(const std::filesystem::path& store, int nightly_run);
 
 /// Removes the folders of nightly runs, then the nightly runs and the figures that no other nightly
 /// run has. After a kill or an error in between, the next prune finishes it. @throws IoError.

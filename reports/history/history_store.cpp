@@ -18,23 +18,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kNightColumns =
+constexpr const char* kNightlyColumns =
     "number, started_utc, ended_utc, command, provenance, host, processor, cores, jobs, reference, "
     "pinned, verdict";
 
-NightFacts read_facts(const Statement& row, const fs::path& path) {
-  NightFacts facts{.number = static_cast<int>(row.integer(0)),
-                   .started_utc = row.text(1),
-                   .ended_utc = row.text(2),
-                   .command = row.text(3),
-                   .provenance = row.text(4),
-                   .host = row.text(5),
-                   .processor = row.text(6),
-                   .cores = static_cast<int>(row.integer(7)),
-                   .jobs = static_cast<int>(row.integer(8))};
+NightlyFacts read_facts(const Statement& row, const fs::path& path) {
+  NightlyFacts facts{.number = static_cast<int>(row.integer(0)),
+                     .started_utc = row.text(1),
+                     .ended_utc = row.text(2),
+                     .command = row.text(3),
+                     .provenance = row.text(4),
+                     .host = row.text(5),
+                     .processor = row.text(6),
+                     .cores = static_cast<int>(row.integer(7)),
+                     .jobs = static_cast<int>(row.integer(8))};
   if (!row.is_null(9)) facts.reference = static_cast<int>(row.integer(9));
   facts.pinned = row.integer(10) != 0;
-  const auto verdict = night_verdict_named(row.text(11));
+  const auto verdict = nightly_verdict_named(row.text(11));
   if (!verdict)
     throw DamagedFile(path.string(), fmt::format("nightly run {} has the unknown verdict \"{}\"",
                                                  facts.number, printable(row.text(11))));
@@ -142,24 +142,25 @@ HistoryStore HistoryStore::open_existing(const fs::path& store) {
   return HistoryStore(std::move(database));
 }
 
-std::vector<NightFacts> HistoryStore::nights() {
-  Statement rows(*database_, fmt::format("SELECT {} FROM nights ORDER BY number", kNightColumns));
-  std::vector<NightFacts> nights;
-  while (rows.step()) nights.push_back(read_facts(rows, database_->path()));
-  return nights;
+std::vector<NightlyFacts> HistoryStore::nightly_runs() {
+  Statement rows(*database_,
+                 fmt::format("SELECT {} FROM nightly_runs ORDER BY number", kNightlyColumns));
+  std::vector<NightlyFacts> nightly_runs;
+  while (rows.step()) nightly_runs.push_back(read_facts(rows, database_->path()));
+  return nightly_runs;
 }
 
-std::vector<NightFinding> HistoryStore::findings(int night) {
+std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
   Statement rows(*database_,
                  "SELECT study, kind, subject, quantity, since, sentence FROM findings "
-                 "WHERE night = ? ORDER BY id");
-  rows.bind(night);
-  std::vector<NightFinding> findings;
+                 "WHERE nightly_run = ? ORDER BY id");
+  rows.bind(nightly_run);
+  std::vector<NightlyFinding> findings;
   while (rows.step()) {
     const auto rule = rule_named(rows.text(1));
     if (!rule)
       throw DamagedFile(database_->path().string(),
-                        fmt::format("nightly run {} has the unknown finding \"{}\"", night,
+                        fmt::format("nightly run {} has the unknown finding \"{}\"", nightly_run,
                                     printable(rows.text(1))));
     findings.push_back({.study = rows.text(0),
                         .rule = *rule,
@@ -171,17 +172,17 @@ std::vector<NightFinding> HistoryStore::findings(int night) {
   return findings;
 }
 
-std::vector<StudyNight> HistoryStore::studies(int night) {
+std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
   Statement rows(*database_,
                  "SELECT id, name, kind, order_digest, runs, seconds, peak_memory_mib FROM studies "
-                 "WHERE night = ? ORDER BY id");
-  rows.bind(night);
-  std::vector<StudyNight> studies;
+                 "WHERE nightly_run = ? ORDER BY id");
+  rows.bind(nightly_run);
+  std::vector<NightlyStudy> studies;
   while (rows.step()) {
-    StudyNight study{.name = rows.text(1),
-                     .kind = rows.text(2),
-                     .order_digest = rows.text(3),
-                     .runs = static_cast<int>(rows.integer(4))};
+    NightlyStudy study{.name = rows.text(1),
+                       .kind = rows.text(2),
+                       .order_digest = rows.text(3),
+                       .runs = static_cast<int>(rows.integer(4))};
     if (!rows.is_null(5)) study.seconds = rows.real(5);
     if (!rows.is_null(6)) study.peak_memory_mib = rows.real(6);
     Statement files(*database_,
@@ -195,12 +196,13 @@ std::vector<StudyNight> HistoryStore::studies(int night) {
   return studies;
 }
 
-Scores HistoryStore::scores(int night, const std::string& study) {
-  Statement rows(*database_,
-                 "SELECT r.name, r.unit, s.sensor, s.method, s.step, s.quantity, v.value "
-                 "FROM studies t JOIN scores v ON v.study = t.id JOIN series s ON s.id = v.series "
-                 "JOIN runs r ON r.id = v.run WHERE t.night = ? AND t.name = ? ORDER BY r.name");
-  rows.bind(night).bind(study);
+Scores HistoryStore::scores(int nightly_run, const std::string& study) {
+  Statement rows(
+      *database_,
+      "SELECT r.name, r.unit, s.sensor, s.method, s.step, s.quantity, v.value "
+      "FROM studies t JOIN scores v ON v.study = t.id JOIN series s ON s.id = v.series "
+      "JOIN runs r ON r.id = v.run WHERE t.nightly_run = ? AND t.name = ? ORDER BY r.name");
+  rows.bind(nightly_run).bind(study);
   Scores scores;
   while (rows.step())
     scores[{rows.text(2), rows.text(3), static_cast<int>(rows.integer(4)), rows.text(5)}].push_back(
@@ -212,19 +214,20 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
                                int until) {
   StudyTrend trend{.name = study};
   std::map<std::int64_t, std::size_t> place;  // Of a row of studies.
-  Statement rows(*database_,
-                 fmt::format("SELECT {}, s.id, s.peak_memory_mib FROM nights n JOIN studies s ON "
-                             "s.night = n.number WHERE s.name = ? AND s.order_digest = ? AND "
-                             "n.number <= ? ORDER BY n.number DESC LIMIT ?",
-                             kNightColumns));
+  Statement rows(
+      *database_,
+      fmt::format("SELECT {}, s.id, s.peak_memory_mib FROM nightly_runs n JOIN studies s ON "
+                  "s.nightly_run = n.number WHERE s.name = ? AND s.order_digest = ? AND "
+                  "n.number <= ? ORDER BY n.number DESC LIMIT ?",
+                  kNightlyColumns));
   rows.bind(study).bind(order_digest).bind(until).bind(most);
   std::vector<std::int64_t> ids;
   while (rows.step()) {
-    trend.nights.push_back(read_facts(rows, database_->path()));
+    trend.nightly_runs.push_back(read_facts(rows, database_->path()));
     ids.push_back(rows.integer(12));
     trend.peak_memory_mib.push_back(rows.real(13));
   }
-  std::ranges::reverse(trend.nights);
+  std::ranges::reverse(trend.nightly_runs);
   std::ranges::reverse(ids);
   std::ranges::reverse(trend.peak_memory_mib);
   if (!ids.empty()) trend.quantities = read_quantities(*database_, ids.back());
@@ -250,15 +253,15 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& orde
   return trend;
 }
 
-void HistoryStore::append(const Night& night) {
-  const NightFacts& facts = night.facts;
+void HistoryStore::append(const NightlyRun& nightly_run) {
+  const NightlyFacts& facts = nightly_run.facts;
   if (facts.number <= last_number())
     throw InvalidInput(
         fmt::format("nightly run {} is not after nightly run {}", facts.number, last_number()));
   Transaction transaction(*database_);
-  Statement insert(*database_, fmt::format("INSERT INTO nights ({}) VALUES "
+  Statement insert(*database_, fmt::format("INSERT INTO nightly_runs ({}) VALUES "
                                            "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                                           kNightColumns));
+                                           kNightlyColumns));
   insert.bind(facts.number).bind(facts.started_utc).bind(facts.ended_utc).bind(facts.command);
   insert.bind(facts.provenance).bind(facts.host).bind(facts.processor);
   insert.bind(facts.cores).bind(facts.jobs);
@@ -267,11 +270,12 @@ void HistoryStore::append(const Night& night) {
   else
     insert.bind_null();
   insert.bind(0).bind(name(facts.verdict)).run();
-  for (const StudyNight& study : night.studies) append_study(facts.number, study);
-  Statement found(*database_,
-                  "INSERT INTO findings (night, study, kind, subject, quantity, since, sentence) "
-                  "VALUES (?, ?, ?, ?, ?, ?, ?)");
-  for (const NightFinding& finding : night.findings)
+  for (const NightlyStudy& study : nightly_run.studies) append_study(facts.number, study);
+  Statement found(
+      *database_,
+      "INSERT INTO findings (nightly_run, study, kind, subject, quantity, since, sentence) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?)");
+  for (const NightlyFinding& finding : nightly_run.findings)
     found.bind(facts.number)
         .bind(finding.study)
         .bind(name(finding.rule))
@@ -283,11 +287,15 @@ void HistoryStore::append(const Night& night) {
   transaction.commit();
 }
 
-void HistoryStore::append_study(int night, const StudyNight& study) {
+void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
   Statement insert(*database_,
-                   "INSERT INTO studies (night, name, kind, order_digest, runs, seconds, "
+                   "INSERT INTO studies (nightly_run, name, kind, order_digest, runs, seconds, "
                    "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
-  insert.bind(night).bind(study.name).bind(study.kind).bind(study.order_digest).bind(study.runs);
+  insert.bind(nightly_run)
+      .bind(study.name)
+      .bind(study.kind)
+      .bind(study.order_digest)
+      .bind(study.runs);
   insert.bind(study.seconds.value_or(kNaN)).bind(study.peak_memory_mib.value_or(kNaN)).run();
   const std::int64_t id = database_->last_row();
   Statement declare(
@@ -338,20 +346,20 @@ void HistoryStore::append_study(int night, const StudyNight& study) {
     figure.bind(id).bind(file.file).bind(file.digest).bind(file.bytes).run();
 }
 
-void HistoryStore::pin(int night) {
+void HistoryStore::pin(int nightly_run) {
   Transaction transaction(*database_);
-  Statement find(*database_, "SELECT 1 FROM nights WHERE number = ?");
-  if (!find.bind(night).step())
-    throw InvalidInput(fmt::format("there is no nightly run {}", night));
+  Statement find(*database_, "SELECT 1 FROM nightly_runs WHERE number = ?");
+  if (!find.bind(nightly_run).step())
+    throw InvalidInput(fmt::format("there is no nightly run {}", nightly_run));
   find.run();
-  Statement(*database_, "UPDATE nights SET pinned = (number = ?)").bind(night).run();
+  Statement(*database_, "UPDATE nightly_runs SET pinned = (number = ?)").bind(nightly_run).run();
   transaction.commit();
 }
 
-void HistoryStore::remove(const std::vector<int>& nights) {
+void HistoryStore::remove(const std::vector<int>& nightly_runs) {
   Transaction transaction(*database_);
-  Statement gone(*database_, "DELETE FROM nights WHERE number = ?");
-  for (const int night : nights) gone.bind(night).run();
+  Statement gone(*database_, "DELETE FROM nightly_runs WHERE number = ?");
+  for (const int nightly_run : nightly_runs) gone.bind(nightly_run).run();
   database_->execute(
       "DELETE FROM series WHERE id NOT IN (SELECT series FROM trends);"
       "DELETE FROM runs WHERE id NOT IN (SELECT run FROM scores);");
@@ -369,8 +377,8 @@ std::vector<std::string> HistoryStore::digests() {
 
 int HistoryStore::last_number() {
   Statement row(*database_,
-                "SELECT max(coalesce((SELECT max(number) FROM nights), 0), "
-                "coalesce((SELECT seq FROM sqlite_sequence WHERE name = 'nights'), 0))");
+                "SELECT max(coalesce((SELECT max(number) FROM nightly_runs), 0), "
+                "coalesce((SELECT seq FROM sqlite_sequence WHERE name = 'nightly_runs'), 0))");
   return row.step() ? static_cast<int>(row.integer(0)) : 0;
 }
 

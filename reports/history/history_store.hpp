@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reports/history/database.hpp"
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 
@@ -32,13 +32,13 @@ class HistoryStore {
   const std::vector<std::string>& remarks() const { return remarks_; }
 
   /// All, in order of number. @throws IoError.
-  std::vector<NightFacts> nights();
+  std::vector<NightlyFacts> nightly_runs();
   /// Of one nightly run, in the order they were found. @throws IoError.
-  std::vector<NightFinding> findings(int night);
+  std::vector<NightlyFinding> findings(int nightly_run);
   /// Of one nightly run, without its values. @throws IoError.
-  std::vector<StudyNight> studies(int night);
+  std::vector<NightlyStudy> studies(int nightly_run);
   /// The values of a study of that nightly run; empty if it has none of that name. @throws IoError.
-  Scores scores(int night, const std::string& study);
+  Scores scores(int nightly_run, const std::string& study);
 
   /// The study over the last `most` nightly runs that had this order, up to and with `until`.
   /// @throws IoError.
@@ -46,13 +46,13 @@ class HistoryStore {
 
   /// Adds a nightly run under its number, in one transaction. @throws IoError; InvalidInput if the
   /// number is taken or not above all others.
-  void append(const Night& night);
+  void append(const NightlyRun& nightly_run);
 
   /// Pins one nightly run and no other. @throws InvalidInput if it is not there; IoError.
-  void pin(int night);
+  void pin(int nightly_run);
 
   /// Removes nightly runs in one transaction. @throws IoError.
-  void remove(const std::vector<int>& nights);
+  void remove(const std::vector<int>& nightly_runs);
 
   /// Frees the space of what was removed; needs as much in the meantime. @throws IoError.
   void compact();
@@ -68,7 +68,7 @@ class HistoryStore {
 
  private:
   explicit HistoryStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
-  void append_study(int night, const StudyNight& study);
+  void append_study(int nightly_run, const NightlyStudy& study);
 
   std::unique_ptr<Database> database_;
   std::vector<std::string> remarks_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 
@@ -23,29 +23,29 @@ struct RegressionRules {
   int least_units = 3;    ///< With fewer pairs a series is judged over nightly runs.
   int least_layouts = 6;  ///< With as many or more, their means are the units.
   int least_lost = 3;     ///< Lost results of a series; fewer count if all are lost.
-  double least_lost_share = 0.25;  ///< Of its results.
-  int least_good_nights = 4;       ///< Seconds and memory: nightly runs that define what is usual.
-  int most_good_nights = 20;       ///< At most, the last ones.
-  int least_drift_nights = 12;     ///< Change points are searched from so many nightly runs on.
+  double least_lost_share = 0.25;   ///< Of its results.
+  int least_good_nightly_runs = 4;  ///< Seconds and memory: nightly runs that define what is usual.
+  int most_good_nightly_runs = 20;  ///< At most, the last ones.
+  int least_drift_nightly_runs = 12;  ///< Change points are searched from so many nightly runs on.
 };
 
 /// The values of the reference nightly run.
 struct ReferenceScores {
-  int night = 0;
+  int nightly_run = 0;
   Scores scores = {};
 };
 
 /// A study of this nightly run, and what it is compared with.
 struct StudyEvidence {
   StudyTrend trend = {};  ///< From the pinned reference on, if there is one; this nightly run last.
-  Scores tonight = {};
+  Scores this_run = {};
   std::optional<ReferenceScores> reference = {};  ///< Empty: no nightly run to compare with.
   bool draws_groups = false;  ///< A table of results: groups are the units, however few.
 };
 
 /// What the rules found.
 struct RuleOutcome {
-  std::vector<NightFinding> findings = {};
+  std::vector<NightlyFinding> findings = {};
   std::vector<std::string> remarks = {};  ///< What could not be judged, or is only suspected yet.
 };
 
@@ -67,11 +67,11 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
 /// trend; p corrected by Holm.
 /// @param found  What other rules found of this nightly run: it is not reported twice.
 RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& rules,
-                         const std::vector<NightFinding>& found);
+                         const std::vector<NightlyFinding>& found);
 
 /// One number per nightly run of each thing that is judged over nightly runs; NaN: none.
-struct NightSeries {
-  NightRule rule = NightRule::kSeconds;  ///< Of a step; a drift's is made of it.
+struct NightlySeries {
+  HistoryRule rule = HistoryRule::kSeconds;  ///< Of a step; a drift's is made of it.
   std::string subject = {};
   std::string shown = {};  ///< The subject, for readers.
   std::string quantity = {};
@@ -84,18 +84,18 @@ struct NightSeries {
 /// The seconds of each method, what is common to all taken off, and the common part last (where
 /// there are four methods or more; else each method as it is).
 /// @param usual  The nightly runs, counted from 0, that define what is usual.
-std::vector<NightSeries> seconds_series(const StudyTrend& trend,
-                                        const std::vector<std::size_t>& usual,
-                                        const RegressionRules& rules);
+std::vector<NightlySeries> seconds_series(const StudyTrend& trend,
+                                          const std::vector<std::size_t>& usual,
+                                          const RegressionRules& rules);
 
 /// Empty if no nightly run knows it.
-std::vector<NightSeries> memory_series(const StudyTrend& trend, const RegressionRules& rules);
+std::vector<NightlySeries> memory_series(const StudyTrend& trend, const RegressionRules& rules);
 
 /// Levels (see level_of) at the last step of each method.
-std::vector<NightSeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules);
+std::vector<NightlySeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules);
 
 /// The nightly runs before this one that were good and on the same machine, the last ones.
-std::vector<std::size_t> usual_nights(const StudyTrend& trend, const RegressionRules& rules);
+std::vector<std::size_t> usual_nightly_runs(const StudyTrend& trend, const RegressionRules& rules);
 
 /// "12 % higher", "0.8 points higher" of a change in a series' own values.
 std::string change_words(double change, bool ratio, const std::string& word);

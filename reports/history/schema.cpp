@@ -13,7 +13,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/results/quantity.hpp"
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 namespace {
@@ -148,7 +148,16 @@ INSERT OR IGNORE INTO labels (study, kind, id, label)
         WHERE u.kind IN ('mapproof.results_study', 'mapproof.trial_study'))));
 )";
 
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4};
+/// Nightly runs were called nights.
+constexpr const char* kVersion5 = R"(
+ALTER TABLE nights RENAME TO nightly_runs;
+ALTER TABLE studies RENAME COLUMN night TO nightly_run;
+ALTER TABLE findings RENAME COLUMN night TO nightly_run;
+DROP INDEX findings_by_night;
+CREATE INDEX findings_by_nightly_run ON findings(nightly_run);
+)";
+
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);
@@ -164,7 +173,7 @@ void make_tables_from(Database& database, int from, int version) {
   transaction.commit();
 }
 
-/// "nights.number" of every column there is. Names, since how a statement is written down is
+/// "nightly_runs.number" of every column there is. Names, since how a statement is written down is
 /// SQLite's.
 std::set<std::string> columns_of(Database& database) {
   Statement rows(database,
@@ -208,7 +217,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Far from where numbers would run over.
-constexpr std::int64_t kMostNights = 100'000'000;
+constexpr std::int64_t kMostNightlyRuns = 100'000'000;
 
 /// What SQLite does not ask: a last page that was cut is read as if zeros stood at its end.
 std::string damage_of_length(Database& database, const fs::path& path) {
@@ -245,15 +254,15 @@ std::string damage_of_quantities(Database& database) {
 /// What SQLite's check cannot find: bytes that changed into names and numbers without meaning.
 std::string damage_of_rows(Database& database) {
   if (version_of(database) != schema_version()) return "";
-  Statement nights(database, "SELECT number, verdict FROM nights");
-  while (nights.step()) {
-    if (nights.integer(0) < 1 || nights.integer(0) > kMostNights)
-      return fmt::format("there is no nightly run {}", nights.integer(0));
-    if (!night_verdict_named(nights.text(1)))
-      return fmt::format("nightly run {} has the unknown verdict \"{}\"", nights.integer(0),
-                         printable(nights.text(1)));
+  Statement nightly_runs(database, "SELECT number, verdict FROM nightly_runs");
+  while (nightly_runs.step()) {
+    if (nightly_runs.integer(0) < 1 || nightly_runs.integer(0) > kMostNightlyRuns)
+      return fmt::format("there is no nightly run {}", nightly_runs.integer(0));
+    if (!nightly_verdict_named(nightly_runs.text(1)))
+      return fmt::format("nightly run {} has the unknown verdict \"{}\"", nightly_runs.integer(0),
+                         printable(nightly_runs.text(1)));
   }
-  Statement findings(database, "SELECT night, kind FROM findings");
+  Statement findings(database, "SELECT nightly_run, kind FROM findings");
   while (findings.step())
     if (!rule_named(findings.text(1)))
       return fmt::format("nightly run {} has the unknown finding \"{}\"", findings.integer(0),

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 

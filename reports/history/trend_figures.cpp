@@ -37,7 +37,7 @@ std::string id_of(const std::string& name) {
 }
 
 /// Over the nightly runs; infinite if none has a value.
-double level_over_nights(const std::vector<double>& values) {
+double level_over_nightly_runs(const std::vector<double>& values) {
   std::vector<double> known;
   std::ranges::copy_if(values, std::back_inserter(known),
                        [](double v) { return std::isfinite(v); });
@@ -45,24 +45,26 @@ double level_over_nights(const std::vector<double>& values) {
 }
 
 /// A trend with what was found of it.
-struct Told {
+struct Reported {
   const StudyTrend& trend;
-  std::vector<std::pair<std::size_t, const NightFinding*>>
+  std::vector<std::pair<std::size_t, const NightlyFinding*>>
       findings;  ///< By the index of the nightly run.
-  const TrendPlace& place;
+  const TrendLocation& place;
 };
 
-Told told_of(const StudyTrend& trend, const NightFindings& findings, const TrendPlace& place) {
-  Told told{trend, {}, place};
-  for (std::size_t i = 0; i < trend.nights.size(); ++i)
-    if (const auto night = findings.find(trend.nights[i].number); night != findings.end())
-      for (const NightFinding& finding : night->second)
-        if (finding.study == trend.name) told.findings.emplace_back(i, &finding);
-  return told;
+Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
+                     const TrendLocation& place) {
+  Reported reported{trend, {}, place};
+  for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
+    if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
+        nightly_run != findings.end())
+      for (const NightlyFinding& finding : nightly_run->second)
+        if (finding.study == trend.name) reported.findings.emplace_back(i, &finding);
+  return reported;
 }
 
 /// Whether a finding is about this line: about its method, or about all.
-bool is_about(const NightFinding& finding, const SeriesId& id) {
+bool is_about(const NightlyFinding& finding, const SeriesId& id) {
   if (finding.quantity != id.quantity) return false;
   const std::string method = method_of(id);
   return finding.subject == "all methods" || finding.subject == method ||
@@ -70,8 +72,8 @@ bool is_about(const NightFinding& finding, const SeriesId& id) {
 }
 
 /// Whether one is about it by name.
-bool is_found(const Told& told, const SeriesId& id) {
-  return std::ranges::any_of(told.findings, [&](const auto& found) {
+bool is_found(const Reported& reported, const SeriesId& id) {
+  return std::ranges::any_of(reported.findings, [&](const auto& found) {
     return found.second->subject != "all methods" && is_about(*found.second, id);
   });
 }
@@ -83,27 +85,28 @@ struct Line {
 };
 
 /// The last step of each setting that has values.
-std::vector<Line> all_settings(const Told& told, const std::string& sensor,
+std::vector<Line> all_settings(const Reported& reported, const std::string& sensor,
                                const std::string& quantity) {
   std::map<std::string, Line> last;  // Series ascend by step.
-  for (const auto& [id, values] : told.trend.medians)
+  for (const auto& [id, values] : reported.trend.medians)
     if (id.sensor == sensor && id.quantity == quantity)
-      last[id.method] = {id, &values, is_found(told, id)};
+      last[id.method] = {id, &values, is_found(reported, id)};
   std::vector<Line> lines;
   for (const auto& [method, line] : last)
-    if (std::isfinite(level_over_nights(*line.values))) lines.push_back(line);
+    if (std::isfinite(level_over_nightly_runs(*line.values))) lines.push_back(line);
   return lines;
 }
 
 /// Of each method the setting that was best over the nightly runs, and all that have findings: one
 /// that got worse may have been the best. In the order of their names.
-std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
+std::vector<Line> shown_settings(const Reported& reported, const std::string& sensor,
                                  const std::string& quantity) {
-  const std::vector<Line> all = all_settings(told, sensor, quantity);
+  const std::vector<Line> all = all_settings(reported, sensor, quantity);
   std::map<std::string, const Line*> best;
-  const bool higher = told.trend.quantities.at(quantity).better == Better::kHigher;
+  const bool higher = reported.trend.quantities.at(quantity).better == Better::kHigher;
   const auto is_better = [&](const Line& a, const Line& b) {
-    const double level = level_over_nights(*a.values), other = level_over_nights(*b.values);
+    const double level = level_over_nightly_runs(*a.values),
+                 other = level_over_nightly_runs(*b.values);
     return higher ? level > other : level < other;
   };
   const auto is_variation = [&](const std::string& method) {
@@ -114,7 +117,7 @@ std::vector<Line> shown_settings(const Told& told, const std::string& sensor,
   };
   for (const Line& line : all) {
     if (is_variation(line.id.method)) continue;
-    const Line*& known = best[base_method(told.trend.labels, line.id.method)];
+    const Line*& known = best[base_method(reported.trend.labels, line.id.method)];
     if (known == nullptr || is_better(line, *known)) known = &line;
   }
   std::vector<Line> lines;
@@ -132,36 +135,41 @@ ErrorPanel panel_of(const StudyTrend& trend) {
   panel.x.label = "nightly run";
   panel.x.whole = true;
   // A single nightly run, too, has an axis.
-  const double first = trend.nights.front().number;
-  panel.x.limits = Range{first - 0.5, std::max<double>(trend.nights.back().number, first) + 0.5};
+  const double first = trend.nightly_runs.front().number;
+  panel.x.limits =
+      Range{first - 0.5, std::max<double>(trend.nightly_runs.back().number, first) + 0.5};
   return panel;
 }
 
-std::vector<double> night_numbers(const StudyTrend& trend) {
+std::vector<double> nightly_numbers(const StudyTrend& trend) {
   std::vector<double> x;
-  for (const NightFacts& night : trend.nights) x.push_back(night.number);
+  for (const NightlyFacts& nightly_run : trend.nightly_runs) x.push_back(nightly_run.number);
   return x;
 }
 
 /// A mark at each nightly run's value of a line that a finding is about.
 template <typename Predicate>
-void mark_findings(const Told& told, const std::string& label, const std::vector<double>& values,
-                   const Predicate& is_about_it, ErrorPanel& panel) {
+void mark_findings(const Reported& reported, const std::string& label,
+                   const std::vector<double>& values, const Predicate& is_about_it,
+                   ErrorPanel& panel) {
   std::set<std::size_t> marked;
-  for (const auto& [night, finding] : told.findings)
-    if (is_about_it(*finding) && std::isfinite(values[night]) && marked.insert(night).second)
-      panel.points.push_back({.label = kFound,
-                              .line = label,
-                              .x = static_cast<double>(told.trend.nights[night].number),
-                              .y = values[night]});
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (is_about_it(*finding) && std::isfinite(values[nightly_run]) &&
+        marked.insert(nightly_run).second)
+      panel.points.push_back(
+          {.label = kFound,
+           .line = label,
+           .x = static_cast<double>(reported.trend.nightly_runs[nightly_run].number),
+           .y = values[nightly_run]});
 }
 
 /// What all figures of a trend have in common.
-ErrorLinesSpec named_spec(const Told& told, const std::string& id, const std::string& title) {
+ErrorLinesSpec named_spec(const Reported& reported, const std::string& id,
+                          const std::string& title) {
   ErrorLinesSpec spec;
-  const bool named = told.place.among_others;
-  spec.id = ("trend-" + (named ? id_of(told.trend.name) + "-" : "") + id).substr(0, kLongestId);
-  spec.title = (named ? told.trend.name + ", " : "") + title + ", by nightly run";
+  const bool named = reported.place.among_others;
+  spec.id = ("trend-" + (named ? id_of(reported.trend.name) + "-" : "") + id).substr(0, kLongestId);
+  spec.title = (named ? reported.trend.name + ", " : "") + title + ", by nightly run";
   return spec;
 }
 
@@ -175,13 +183,13 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
   return figure;
 }
 
-std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
+std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
-  const std::vector<Line> lines = shown_settings(told, sensor, quantity);
+  const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
   if (lines.empty()) return std::nullopt;
-  const Quantity& facts = told.trend.quantities.at(quantity);
-  const std::string setup = shown_setup(told.trend.labels, sensor);
-  ErrorLinesSpec spec = named_spec(told, id_of(quantity) + "-" + id_of(sensor),
+  const Quantity& facts = reported.trend.quantities.at(quantity);
+  const std::string setup = shown_setup(reported.trend.labels, sensor);
+  ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
                                    setup.empty() ? facts.label : setup + ": " + facts.label);
   spec.y_label = label_with_unit(facts);
   spec.quantity = facts.label;
@@ -193,34 +201,36 @@ std::optional<Figure> lines_figure(const Told& told, const std::string& sensor,
       std::ranges::any_of(lines, [](const Line& line) { return line.id.step > 0; })
           ? " at the last step"
           : "");
-  ErrorPanel panel = panel_of(told.trend);
+  ErrorPanel panel = panel_of(reported.trend);
   for (const Line& line : lines) {
-    const std::string label = shown_method(told.trend.labels, line.id.method);
+    const std::string label = shown_method(reported.trend.labels, line.id.method);
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
-                           .x = night_numbers(told.trend),
+                           .x = nightly_numbers(reported.trend),
                            .mean = *line.values});
-    const auto is_about_it = [&](const NightFinding& finding) {
+    const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
-    mark_findings(told, label, *line.values, is_about_it, panel);
+    mark_findings(reported, label, *line.values, is_about_it, panel);
   }
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
 
-std::optional<Figure> memory_figure(const Told& told) {
-  const std::vector<double>& mib = told.trend.peak_memory_mib;
+std::optional<Figure> memory_figure(const Reported& reported) {
+  const std::vector<double>& mib = reported.trend.peak_memory_mib;
   if (std::ranges::none_of(mib, [](double value) { return std::isfinite(value); }))
     return std::nullopt;
-  ErrorLinesSpec spec = named_spec(told, "memory", "Peak memory");
+  ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory");
   spec.y_label = "peak memory [MiB]";
   spec.quantity = "peak memory";
   spec.caption = "Peak memory of the process that made the study.";
-  ErrorPanel panel = panel_of(told.trend);
-  panel.lines.push_back(
-      {.label = "peak memory", .key = "peak-memory", .x = night_numbers(told.trend), .mean = mib});
-  const auto is_memory = [](const NightFinding& finding) { return finding.quantity == "memory"; };
-  mark_findings(told, "peak memory", mib, is_memory, panel);
+  ErrorPanel panel = panel_of(reported.trend);
+  panel.lines.push_back({.label = "peak memory",
+                         .key = "peak-memory",
+                         .x = nightly_numbers(reported.trend),
+                         .mean = mib});
+  const auto is_memory = [](const NightlyFinding& finding) { return finding.quantity == "memory"; };
+  mark_findings(reported, "peak memory", mib, is_memory, panel);
   return drawn(std::move(spec), std::move(panel), true);
 }
 
@@ -229,18 +239,18 @@ using Subject = std::tuple<bool, std::size_t, std::string, std::string>;
 
 /// @param worst_first  Whether those that this nightly run's findings are about go before the
 /// others.
-std::set<Subject> subjects_of(const Told& told, bool worst_first) {
-  const std::size_t tonight = told.trend.nights.size() - 1;
+std::set<Subject> subjects_of(const Reported& reported, bool worst_first) {
+  const std::size_t this_run = reported.trend.nightly_runs.size() - 1;
   std::set<std::tuple<std::string, std::string>> found;
-  for (const auto& [id, values] : told.trend.medians)
-    for (const auto& [night, finding] : told.findings)
-      if (night == tonight && is_about(*finding, id)) found.insert({id.quantity, id.sensor});
+  for (const auto& [id, values] : reported.trend.medians)
+    for (const auto& [nightly_run, finding] : reported.findings)
+      if (nightly_run == this_run && is_about(*finding, id)) found.insert({id.quantity, id.sensor});
   std::set<Subject> subjects;
-  for (const auto& [id, values] : told.trend.medians) {
-    const NightlyRule rule = rule_of(id, told.trend.quantities, told.trend.medians);
+  for (const auto& [id, values] : reported.trend.medians) {
+    const NightlyRule rule = rule_of(id, reported.trend.quantities, reported.trend.medians);
     if (rule == NightlyRule::kNone || rule == NightlyRule::kKept) continue;
     const bool later = worst_first && !found.contains({id.quantity, id.sensor});
-    const std::size_t rank = dictionary_rank(told.trend.quantities.at(id.quantity));
+    const std::size_t rank = dictionary_rank(reported.trend.quantities.at(id.quantity));
     subjects.insert({later, rank, id.quantity, id.sensor});
   }
   return subjects;
@@ -248,17 +258,18 @@ std::set<Subject> subjects_of(const Told& told, bool worst_first) {
 
 }  // namespace
 
-std::vector<Figure> trend_figures(const StudyTrend& trend, const NightFindings& findings,
-                                  const TrendPlace& place) {
-  const Told told = told_of(trend, findings, place);
+std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
+                                  const TrendLocation& place) {
+  const Reported reported = reported_of(trend, findings, place);
   std::vector<Figure> figures;
   const auto is_full = [&] { return place.most > 0 && figures.size() >= place.most; };
-  for (const auto& [later, rank, quantity, sensor] : subjects_of(told, place.most > 0)) {
+  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported, place.most > 0)) {
     if (is_full()) break;
-    if (auto figure = lines_figure(told, sensor, quantity)) figures.push_back(std::move(*figure));
+    if (auto figure = lines_figure(reported, sensor, quantity))
+      figures.push_back(std::move(*figure));
   }
   if (!is_full())
-    if (auto figure = memory_figure(told)) figures.push_back(std::move(*figure));
+    if (auto figure = memory_figure(reported)) figures.push_back(std::move(*figure));
   return figures;
 }
 

@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "reports/history/night.hpp"
+#include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
 
 /// Findings by nightly run.
-using NightFindings = std::map<int, std::vector<NightFinding>>;
+using NightlyFindings = std::map<int, std::vector<NightlyFinding>>;
 
 /// The page that a trend's figures are for.
-struct TrendPlace {
+struct TrendLocation {
   bool among_others = false;  ///< With other studies': ids and titles name the study.
   std::size_t most = 0;  ///< Figures at most; 0: all. Those that this nightly run's findings are
                          ///< about go first.
@@ -24,7 +24,7 @@ struct TrendPlace {
 /// on one of them, which is marked there. Pure: the same values give the same figures.
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
-std::vector<Figure> trend_figures(const StudyTrend& trend, const NightFindings& findings,
-                                  const TrendPlace& place = {});
+std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
+                                  const TrendLocation& place = {});
 
 }  // namespace mapproof

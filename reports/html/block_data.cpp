@@ -357,7 +357,7 @@ class BlockVisitor {
       places.push_back(std::move(entry));
     }
     out.set("any_places", !item.places.empty());
-    out.set("places", places);
+    out.set("locations", places);
     const int more = item.count - static_cast<int>(item.places.size());
     out.set("more", more > 0 ? data(fmt::format("and {} more", more)) : data(false));
     return out;

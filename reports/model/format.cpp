@@ -74,7 +74,7 @@ std::string displayable(const std::string& text) {
     if (!code) {
       out += kReplacement;
     } else if ((*code < 0x20 && *code != '\t' && *code != '\n') || *code == 0x7F) {
-      append_utf8(out, 0x2400 + (*code == 0x7F ? 0x21 : *code));  // Its picture.
+      append_utf8(out, 0x2400 + (*code == 0x7F ? 0x21 : *code));  // Its image.
     } else {
       out += before.substr(0, before.size() - rest.size());
     }

@@ -24,7 +24,7 @@ std::string full_heading(const Column& column);
 std::string format_duration(double seconds);
 
 /// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 become U+FFFD, control
-/// characters other than tab and newline their pictures (U+2400 and on).
+/// characters other than tab and newline their images (U+2400 and on).
 std::string displayable(const std::string& text);
 
 }  // namespace mapproof

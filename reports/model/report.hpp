@@ -154,7 +154,7 @@ struct Section {
 /// How what is reported stands against something earlier.
 struct Standing {
   bool worse = false;
-  std::string title;                   ///< "Night 12: accuracy got worse".
+  std::string title;                   ///< "Nightly run 12: accuracy got worse".
   std::vector<std::string> sentences;  ///< What, with numbers.
 };
 

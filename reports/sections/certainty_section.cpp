@@ -23,7 +23,7 @@ namespace {
 using Eigen::Index;
 
 Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
-  const std::string unit = record.frame == Frame::kTruth ? "m" : "";
+  const std::string unit = record.frame == Frame::kGroundTruth ? "m" : "";
   Table table{"ellipses",
               "95 % confidence ellipse of every landmark, the largest first",
               {{"Landmark", "", "", ""},
@@ -65,10 +65,11 @@ Section certainty_section(const MapRecord& record, const MapCertainty& certainty
   Section section{"certainty", "Uncertainty of each landmark", {}};
   section.blocks.emplace_back(plain(ellipse_words(certainty)));
   if (!axes.empty())
-    section.blocks.emplace_back(plain(fmt::format(
-        "Half the longer axis is {}{} in the median, and {}{} at most.",
-        format_number(median(axes), 3), record.frame == Frame::kTruth ? " m" : "",
-        format_number(std::ranges::max(axes), 3), record.frame == Frame::kTruth ? " m" : "")));
+    section.blocks.emplace_back(plain(
+        fmt::format("Half the longer axis is {}{} in the median, and {}{} at most.",
+                    format_number(median(axes), 3), record.frame == Frame::kGroundTruth ? " m" : "",
+                    format_number(std::ranges::max(axes), 3),
+                    record.frame == Frame::kGroundTruth ? " m" : "")));
   if (record.frame == Frame::kSimilarity)
     section.blocks.emplace_back(plain(
         "The map has no anchors: maps of other steps were aligned to it by the similarity that "

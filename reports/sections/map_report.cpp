@@ -27,26 +27,26 @@ Index mapped_count(const MapRecord& record) {
   return count;
 }
 
-bool any_truth(const MapRecord& record) {
-  return record.truth_m && record.truth_m->array().isFinite().any();
+bool any_ground_truth(const MapRecord& record) {
+  return record.ground_truth_m && record.ground_truth_m->array().isFinite().any();
 }
 
-std::string unit(const MapRecord& record) { return record.frame == Frame::kTruth ? "m" : ""; }
+std::string unit(const MapRecord& record) { return record.frame == Frame::kGroundTruth ? "m" : ""; }
 
-void add_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
-  const Points& truth = *record.truth_m;
-  for (Index axis = 0; axis < 2; ++axis) cells.emplace_back(NumberCell{truth(row, axis), 3});
-  if (record.frame == Frame::kTruth)
-    cells.emplace_back(NumberCell{(record.estimate.row(row) - truth.row(row)).norm(), 3});
+void add_ground_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
+  const Points& ground_truth = *record.ground_truth_m;
+  for (Index axis = 0; axis < 2; ++axis) cells.emplace_back(NumberCell{ground_truth(row, axis), 3});
+  if (record.frame == Frame::kGroundTruth)
+    cells.emplace_back(NumberCell{(record.estimate.row(row) - ground_truth.row(row)).norm(), 3});
 }
 
 std::vector<Column> point_columns(const MapRecord& record) {
   std::vector<Column> columns = {
       {"Landmark", "", "", ""}, {"x", unit(record), "Map", ""}, {"y", unit(record), "Map", ""}};
-  if (!any_truth(record)) return columns;
+  if (!any_ground_truth(record)) return columns;
   columns.push_back({"x", "m", "Ground truth", ""});
   columns.push_back({"y", "m", "Ground truth", ""});
-  if (record.frame == Frame::kTruth)
+  if (record.frame == Frame::kGroundTruth)
     columns.push_back({"Error", "m", "", "Distance from the true position."});
   return columns;
 }
@@ -56,7 +56,7 @@ Row point_row(const MapRecord& record, Index row) {
   Row out;
   out.cells = {TextCell{record.names[number], Emphasis::kData},
                NumberCell{record.estimate(row, 0), 3}, NumberCell{record.estimate(row, 1), 3}};
-  if (any_truth(record)) add_truth(record, row, out.cells);
+  if (any_ground_truth(record)) add_ground_truth(record, row, out.cells);
   out.source = record.id;
   return out;
 }
@@ -78,8 +78,8 @@ Table landmarks_table(const MapRecord& record) {
 }
 
 Table anchors_table(const MapRecord& record) {
-  const char* caption =
-      record.frame == Frame::kTruth ? "Anchors: the map was aligned to them" : "Anchors, as given";
+  const char* caption = record.frame == Frame::kGroundTruth ? "Anchors: the map was aligned to them"
+                                                            : "Anchors, as given";
   Table table{"anchors", caption, point_columns(record), {}, {}};
   for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
   return table;
@@ -96,9 +96,9 @@ Highlights highlights(const MapRecord& record) {
           {error.name, error.value,
            fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
   out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
-                       record.frame != Frame::kTruth ? "shape alone, without scale"
-                       : record.anchors.empty()      ? "map in metres, in a frame of its own"
-                                                     : "map in metres, in their frame"});
+                       record.frame != Frame::kGroundTruth ? "shape alone, without scale"
+                       : record.anchors.empty()            ? "map in metres, in a frame of its own"
+                                                           : "map in metres, in their frame"});
   return out;
 }
 
@@ -107,7 +107,7 @@ Paragraph worst_finding(const MapRecord& record) {
   Index worst = -1;
   double largest = -1.0;
   for (Index i = 0; i < record.estimate.rows(); ++i) {
-    const double error = (record.estimate.row(i) - record.truth_m->row(i)).norm();
+    const double error = (record.estimate.row(i) - record.ground_truth_m->row(i)).norm();
     if (std::isfinite(error) && error > largest && !is_anchor(record, i)) {
       largest = error;
       worst = i;
@@ -143,7 +143,7 @@ Section summary(const MapReportInput& input) {
           ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
                         sensor_label(record), landmarks, info(setting_of(record)->method).summary)
           : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks)));
-  if (record.frame == Frame::kTruth && any_truth(record))
+  if (record.frame == Frame::kGroundTruth && any_ground_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
   if (record.frame == Frame::kSimilarity) findings.items.push_back(plain(shape_finding(record)));
@@ -203,7 +203,7 @@ Section provenance(const MapReportInput& input) {
 void require_sizes(const MapRecord& record) {
   const Index rows = record.estimate.rows();
   if (static_cast<Index>(record.names.size()) != rows ||
-      (record.truth_m && record.truth_m->rows() != rows))
+      (record.ground_truth_m && record.ground_truth_m->rows() != rows))
     throw InvalidInput("map_report: names, estimate and ground truth must have one length");
   for (const Index anchor : record.anchors)
     if (anchor < 0 || anchor >= rows) throw InvalidInput("map_report: an anchor is not a landmark");

@@ -25,7 +25,7 @@ struct MapReportInput {
   std::vector<Section> more = {};  ///< After the landmarks: what else was asked for.
 };
 
-/// Summary, figure, landmarks (with errors where the truth is known), remarks, statuses,
+/// Summary, figure, landmarks (with errors where the ground truth is known), remarks, statuses,
 /// provenance.
 Report map_report(const MapReportInput& input);
 

@@ -55,7 +55,7 @@ void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& sec
                           counted(std::ssize(ranks.methods), "method"))));
 }
 
-constexpr std::size_t kPlacesShown = 5;
+constexpr std::size_t kLocationsShown = 5;
 
 /// Sensor, method, parameter: what statuses are counted by.
 using StatusKind = std::tuple<Sensor, Method, double>;
@@ -67,7 +67,7 @@ StatusKind kind_of(const RunRecord& record) {
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
   ++item.count;
-  if (item.places.size() >= kPlacesShown) return;
+  if (item.places.size() >= kLocationsShown) return;
   for (const Status& status : record.statuses)
     if (status.code == code)
       item.places.push_back(

@@ -63,14 +63,14 @@ TEST(ApproveCommand, RefusesACurrentThatHoldsNothing) {
 
 TEST(ApproveCommand, RefusesACurrentOfAnotherKind) {
   const TwoStudies two;
-  const fs::path ranges = two.folder / "ranges", pictures = two.folder / "pictures",
+  const fs::path ranges = two.folder / "ranges", images = two.folder / "images",
                  several = two.folder / "several", map = two.folder / "map";
   write_file(ranges / "study.json", R"({"schema": {"name": "mapproof.slam_study", "version": 1}})");
-  fs::copy(two.after + "/figures", pictures);
+  fs::copy(two.after + "/figures", images);
   fs::create_directory(several);
   fs::copy(two.after, several / "one", fs::copy_options::recursive);
   write_file(map / "map.json", R"({"schema": {"name": "mapproof.map", "version": 1}})");
-  const std::vector<std::string> kinds = {two.before, ranges, pictures, several, map};
+  const std::vector<std::string> kinds = {two.before, ranges, images, several, map};
   for (const std::string& baseline : kinds)
     for (const std::string& current : kinds)
       if (baseline != current) {
@@ -94,22 +94,22 @@ TEST(ApproveCommand, RefusesACurrentThatCannotBeRead) {
     expect_refused(two.folder, {two.before, two.after, "--all", "--force"}, study);
     expect_refused(two.folder, {two.before, two.after, "map-usual"}, study);
   }
-  const std::string picture = two.before + "/figures/map-usual.png";
+  const std::string image = two.before + "/figures/map-usual.png";
   const std::string pipe = two.folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  expect_refused(two.folder, {picture, pipe}, "CURRENT " + pipe + " is not a file");
+  expect_refused(two.folder, {image, pipe}, "CURRENT " + pipe + " is not a file");
 }
 
 TEST(ApproveCommand, AsksBeforeMoreThanHalfOfABaselineGoes) {
   const TemporaryFolder folder;
   const std::string baseline = folder / "baseline", current = folder / "current";
-  const std::string picture = read_file(fs::path(kPictures) / "map-usual.png");
+  const std::string image = read_file(fs::path(kImages) / "map-usual.png");
   for (const char* name : {"a", "b", "c", "d", "e"})
-    write_file(baseline + "/" + name + ".png", picture);
-  write_file(current + "/a.png", picture);
-  write_file(current + "/b.png", picture);
+    write_file(baseline + "/" + name + ".png", image);
+  write_file(current + "/a.png", image);
+  write_file(current + "/b.png", image);
   expect_refused(folder, {baseline, current, "--all"}, "--all would remove 3 of 5 files of ");
-  write_file(current + "/c.png", picture);
+  write_file(current + "/c.png", image);
   EXPECT_EQ(mapproof({"approve", baseline, current, "--all"}).exit_code, 0);
   EXPECT_EQ(contents(baseline).size(), 3U);
   fs::remove(current + "/a.png");
@@ -129,7 +129,7 @@ TEST(ApproveCommand, MakesABaselineThatIsNotThereAndNoneThatIsRefused) {
 
 TEST(ApproveCommand, KeepsModesLinksAndFilesOfOthers) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const fs::path before = two.before, changed = before / "figures/map-usual.png";
   write_file(before / ".gitattributes", "*.png binary\n");
   write_file(before / "notes/README", "Not of mapproof.");
@@ -164,7 +164,7 @@ TEST(ApproveCommand, KeepsModesLinksAndFilesOfOthers) {
 
 TEST(ApproveCommand, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const std::string link = two.folder / "link";
   fs::create_directory_symlink("before", link);
   EXPECT_EQ(mapproof({"approve", link, two.after, "--all"}).exit_code, 0);
@@ -174,7 +174,7 @@ TEST(ApproveCommand, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
   const fs::path figures = two.before + "/figures", away = two.folder / "away";
   fs::rename(figures, away);
   fs::create_directory_symlink(away, figures);
-  fs::copy_file(fs::path(kPictures) / "map-usual.png", two.after + "/figures/map-usual.png",
+  fs::copy_file(fs::path(kImages) / "map-usual.png", two.after + "/figures/map-usual.png",
                 fs::copy_options::overwrite_existing);
   expect_refused(two.folder, {two.before, two.after, "map-usual"},
                  "figures: is not a folder of its own");
@@ -182,7 +182,7 @@ TEST(ApproveCommand, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
 
 TEST(ApproveCommand, RefusesABaselineThatMayNotBeChangedOrIsWorkedIn) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const std::string script = "cd \"$1\" && exec \"$0\" approve . \"$2\" --all";
   const Outcome inside =
       run_program({"sh", "-c", script, program(), two.before + "/figures/..", two.after});
@@ -201,17 +201,17 @@ struct Sides {
   Contents old_files, new_files;
 
   Sides() {
-    const fs::path pictures = kPictures;
-    make(baseline, read_file(pictures / "map-usual.png"), {"a", "b", "c", "gone"});
-    make(current, read_file(pictures / "curve-usual.png"), {"a", "b", "c", "more"});
+    const fs::path images = kImages;
+    make(baseline, read_file(images / "map-usual.png"), {"a", "b", "c", "gone"});
+    make(current, read_file(images / "curve-usual.png"), {"a", "b", "c", "more"});
     write_file(fs::path(baseline) / "notes/README", "Not of mapproof.");
     old_files = contents(baseline);
     new_files = contents(current);
     new_files.emplace_back("notes/README", "Not of mapproof.");
   }
-  static void make(const fs::path& place, const std::string& picture,
+  static void make(const fs::path& location, const std::string& image,
                    const std::vector<std::string>& names) {
-    for (const std::string& name : names) write_file(place / (name + ".png"), picture);
+    for (const std::string& name : names) write_file(location / (name + ".png"), image);
   }
   void put_back() const {
     fs::remove_all(baseline);

@@ -9,7 +9,7 @@ namespace {
 
 TEST(ApproveCommand, TakesWhatIsNamedAndNothingElse) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   fs::remove(two.after + "/figures/pair-usual.png");
   EXPECT_EQ(mapproof({"approve", two.before, two.after}).exit_code, 2);
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usul"}).exit_code, 2);
@@ -24,7 +24,7 @@ TEST(ApproveCommand, TakesWhatIsNamedAndNothingElse) {
 
 TEST(ApproveCommand, TakesAFileOfApprovals) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const fs::path approvals = two.folder.file(
       "a.json",
       R"({"schema": {"name": "mapproof.approvals", "version": 1}, "ids": ["map-usual"]})");
@@ -69,14 +69,14 @@ TEST(ApproveCommand, TakesAFolderInAFilesPlaceForNoAbsence) {
       SCOPED_TRACE(name);
       const TwoStudies two;
       const std::string file = two.before + "/" + name, was = read_file(file);
-      const std::string place = (is_current ? two.after : two.before) + "/" + name;
-      fs::remove(place);
-      write_file(place + "/inside.txt", "Not of mapproof.");
+      const std::string location = (is_current ? two.after : two.before) + "/" + name;
+      fs::remove(location);
+      write_file(location + "/inside.txt", "Not of mapproof.");
       EXPECT_EQ(mapproof({"diff", two.before, two.after}).exit_code, 1);
       const Outcome outcome = mapproof({"approve", two.before, two.after, "--all"});
       EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
-      EXPECT_NE(outcome.error.find(place), std::string::npos) << outcome.error;
-      EXPECT_TRUE(fs::exists(place + "/inside.txt"));
+      EXPECT_NE(outcome.error.find(location), std::string::npos) << outcome.error;
+      EXPECT_TRUE(fs::exists(location + "/inside.txt"));
       if (is_current) {
         EXPECT_EQ(read_file(file), was);
       }
@@ -92,9 +92,9 @@ TEST(ApproveCommand, NeverTakesRecordsThatCannotBeRead) {
   EXPECT_EQ(read_file(two.before + "/runs/layout-1-pose-1.json"), before);
 }
 
-TEST(ApproveCommand, KeepsPicturesOfAnotherRendererBesideTheOthers) {
+TEST(ApproveCommand, KeepsImagesOfAnotherRendererBesideTheOthers) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "map-usual", "--key", "../x"}).exit_code,
             2);
   EXPECT_EQ(
@@ -107,7 +107,7 @@ TEST(ApproveCommand, KeepsPicturesOfAnotherRendererBesideTheOthers) {
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "curve-usual"}).exit_code, 0);
   EXPECT_TRUE(fs::exists(keyed));
   EXPECT_EQ(mapproof({"approve", two.before, two.after, "--all"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(keyed)) << "it is of the picture that was replaced";
+  EXPECT_FALSE(fs::exists(keyed)) << "it is of the image that was replaced";
 }
 
 TEST(ApproveCommand, MakesTheTableOfResultsAgainForRecordsThatItTakes) {

@@ -93,11 +93,11 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       {"validate", data + "/experiments/small.json", study},
       {"approve", folder / "baseline", study, "--all"},
       {"nightly", data + "/experiments/small.json", "--profile", "tiny", "--store",
-       folder / "nights"},
-      {"history", folder / "nights"},
-      {"history", folder / "nights", "--pin", "1"},
-      {"history", folder / "nights", "--verify"},
-      {"history", folder / "nights", "--prune", "last=3"},
+       folder / "nightly_runs"},
+      {"history", folder / "nightly_runs"},
+      {"history", folder / "nightly_runs", "--pin", "1"},
+      {"history", folder / "nightly_runs", "--verify"},
+      {"history", folder / "nightly_runs", "--prune", "last=3"},
   };
   write_log(drive_log(), folder / "log");
   std::set<std::string> called = {"diff", "check"};  // Their --json names a file.

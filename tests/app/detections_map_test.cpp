@@ -35,8 +35,8 @@ struct Hall {
 };
 
 /// The landmarks' places in the order of `names`.
-Points places(const json& result, const std::vector<std::string>& names, const char* x,
-              const char* y) {
+Points locations(const json& result, const std::vector<std::string>& names, const char* x,
+                 const char* y) {
   Points points(std::ssize(names), 2);
   for (const json& row : result.at("landmarks")) {
     const auto name = std::ranges::find(names, row.at("name").get<std::string>());
@@ -54,7 +54,7 @@ TEST(MapOfDetections, WithoutAnchorsIsInMetres) {
   const json result = json::parse(run.out);
   EXPECT_EQ(result.at("method"), "pairs");
   EXPECT_EQ(result.at("sensor"), "range-bearing");
-  EXPECT_LT(procrustes_gap(hall.landmarks, places(result, hall.log.names, "x_m", "y_m")), 1e-8);
+  EXPECT_LT(procrustes_gap(hall.landmarks, locations(result, hall.log.names, "x_m", "y_m")), 1e-8);
   const std::string page = read_file(folder / "map/report.html");
   EXPECT_NE(page.find("SMACOF of measured pairs"), std::string::npos);
   const json file_of_map = json::parse(read_file(folder / "map/map.json"));
@@ -74,7 +74,7 @@ TEST(MapOfDetections, HasEllipsesOfTheSizeOfItsErrors) {
                                   "40", "--out", folder / fit, "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const json result = json::parse(run.out);
-    const Points off = places(result, hall.log.names, "x_m", "y_m") - hall.landmarks;
+    const Points off = locations(result, hall.log.names, "x_m", "y_m") - hall.landmarks;
     const double error = off.bottomRows(6).rowwise().norm().mean();
     double axis = 0.0;
     for (const json& landmark : result.at("landmarks"))
@@ -92,7 +92,7 @@ TEST(MapOfDetections, GzippedInDegreesIsTheSame) {
       {"map", file, "--sensor", "range-bearing", "--degrees", "--out", folder / "map", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.error;
   EXPECT_LT(
-      procrustes_gap(hall.landmarks, places(json::parse(run.out), hall.log.names, "x_m", "y_m")),
+      procrustes_gap(hall.landmarks, locations(json::parse(run.out), hall.log.names, "x_m", "y_m")),
       1e-8);
 }
 
@@ -101,15 +101,16 @@ TEST(MapOfDetections, IsFittedToAnchorsAffinelyOrRigidly) {
   const Hall hall;
   const std::string file = folder.file("seen.csv", hall.csv());
   const std::string anchors = folder.file("anchors.csv", hall.positions(4));
-  const std::string truth = folder.file("truth.csv", hall.positions(10));
+  const std::string ground_truth = folder.file("groundtruth.csv", hall.positions(10));
   for (const char* fit : {"least-distances", "rigid"}) {
-    const Outcome run = mapproof({"map", file, "--anchors", anchors, "--truth", truth, "--fit", fit,
-                                  "--out", folder / fit, "--json"});
+    const Outcome run = mapproof({"map", file, "--anchors", anchors, "--truth", ground_truth,
+                                  "--fit", fit, "--out", folder / fit, "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
     const json result = json::parse(run.out);
     EXPECT_LT(result.at("score").at("mpe_m").get<double>(), 1e-8) << fit;
-    EXPECT_LT((places(result, hall.log.names, "x_m", "y_m") - hall.landmarks).cwiseAbs().maxCoeff(),
-              1e-8);
+    EXPECT_LT(
+        (locations(result, hall.log.names, "x_m", "y_m") - hall.landmarks).cwiseAbs().maxCoeff(),
+        1e-8);
   }
 }
 
@@ -160,7 +161,7 @@ TEST(MapOfDetections, ALongTableBeyondAllMemoryGivesTheMapOfItsPart) {
     const Outcome run = mapproof({"map", file, "--sensor", "bearing", "--method", "smacof", "--out",
                                   file + ".map", "--json"});
     ASSERT_EQ(run.exit_code, 0) << run.error;
-    maps[file == large ? 1 : 0] = places(json::parse(run.out), log.names, "x", "y");
+    maps[file == large ? 1 : 0] = locations(json::parse(run.out), log.names, "x", "y");
   }
   // Three hundred times the same scans: distances that many times longer, squared.
   EXPECT_LT(procrustes_gap(std::sqrt(300.0) * maps[0], maps[1]), 1e-5 * maps[1].norm());

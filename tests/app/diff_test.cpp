@@ -24,7 +24,7 @@ TEST(DiffCommand, PassesAStudyAndItsCopy) {
 
 TEST(DiffCommand, FailsWhatDiffersUnlessItIsAllowed) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   two.change_score();
   const Outcome outcome = mapproof({"diff", two.before, two.after});
   EXPECT_EQ(outcome.exit_code, 1);
@@ -48,7 +48,7 @@ TEST(DiffCommand, QuietTellsOfWhatDoesNotPassAlone) {
 
 TEST(DiffCommand, WritesWhatIsAskedFor) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const std::string out = two.folder / "diff";
   EXPECT_EQ(mapproof({"diff", two.before, two.after, "--json", out + ".json", "--junit",
                       out + ".xml", "--markdown", out + ".md"})
@@ -65,7 +65,7 @@ TEST(DiffCommand, WritesWhatIsAskedFor) {
 
 TEST(DiffCommand, WritesOneOfItsOutputsToStandardOutput) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   for (const auto& [option, begin] : {std::pair{"--junit", "<?xml"},
                                       {"--markdown", "### mapproof diff"},
                                       {"--out", "<!DOCTYPE html>"}}) {
@@ -81,22 +81,22 @@ TEST(DiffCommand, NeverReplacesWhatItCompares) {
   const TwoStudies two;
   const auto before = contents(two.before);
   fs::create_directory_symlink(two.before, two.folder / "link");
-  const std::string picture = two.after + "/figures/map-usual.png";
-  for (const auto& [option, place] :
+  const std::string image = two.after + "/figures/map-usual.png";
+  for (const auto& [option, location] :
        {std::pair<std::string, std::string>{"--json", two.before + "/study.json"},
         {"--json", two.folder / "link/study.json"},
-        {"--out", picture},
+        {"--out", image},
         {"--out", two.after + "/report.html"},
         {"--markdown", two.after + "/figures/new.svg"},
         {"--junit", two.before + "/runs/layout-1-pose-1.json"}}) {
-    const Outcome outcome = mapproof({"diff", two.before, two.after, option, place});
-    EXPECT_EQ(outcome.exit_code, 2) << option << " " << place;
+    const Outcome outcome = mapproof({"diff", two.before, two.after, option, location});
+    EXPECT_EQ(outcome.exit_code, 2) << option << " " << location;
     EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
   }
   EXPECT_EQ(contents(two.before), before);
-  EXPECT_EQ(mapproof({"diff", picture, picture, "--json", picture}).exit_code, 2);
+  EXPECT_EQ(mapproof({"diff", image, image, "--json", image}).exit_code, 2);
   const std::string one = two.folder / "one";
-  EXPECT_EQ(mapproof({"diff", picture, picture, "--json", one, "--junit", one}).exit_code, 2);
+  EXPECT_EQ(mapproof({"diff", image, image, "--json", one, "--junit", one}).exit_code, 2);
   for (int run = 0; run < 2; ++run)  // Its own outputs may stand there.
     EXPECT_EQ(mapproof({"diff", two.before, two.after, "--out", two.after + "/diff.html", "--json",
                         two.after + "/diff.json", "--junit", two.after + "/diff.xml", "--markdown",
@@ -111,9 +111,10 @@ TEST(DiffCommand, WritesThroughLinksAndRefusesWhatIsNoFile) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   const fs::path target = two.folder.file("target.json", "old");
   fs::create_symlink(target, link);
-  for (const std::string& place : {pipe, std::string("/dev/full"), std::string(two.folder / "")}) {
-    const Outcome outcome = mapproof({"diff", two.before, two.after, "--json", place});
-    EXPECT_EQ(outcome.exit_code, 2) << place;
+  for (const std::string& location :
+       {pipe, std::string("/dev/full"), std::string(two.folder / "")}) {
+    const Outcome outcome = mapproof({"diff", two.before, two.after, "--json", location});
+    EXPECT_EQ(outcome.exit_code, 2) << location;
     EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
   }
   EXPECT_TRUE(fs::is_fifo(pipe));
@@ -124,9 +125,9 @@ TEST(DiffCommand, WritesThroughLinksAndRefusesWhatIsNoFile) {
 
 TEST(DiffCommand, NeverWaitsForWhatHasNoEnd) {
   const TwoStudies two;
-  const std::string picture = two.after + "/figures/map-usual.png";
+  const std::string image = two.after + "/figures/map-usual.png";
   const std::string run = two.after + "/runs/layout-1-pose-1.json";
-  for (const std::string& file : {picture, run}) {
+  for (const std::string& file : {image, run}) {
     fs::remove(file);
     ASSERT_EQ(::mkfifo(file.c_str(), 0600), 0);
   }
@@ -137,7 +138,7 @@ TEST(DiffCommand, NeverWaitsForWhatHasNoEnd) {
   EXPECT_NE(outcome.out.find("3 unreadable, 1 identical"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("is a named pipe"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("is a device"), std::string::npos) << outcome.out;
-  for (const std::string& sole : {picture, std::string("/dev/zero")}) {
+  for (const std::string& sole : {image, std::string("/dev/zero")}) {
     const Outcome alone = mapproof({"diff", two.before + "/figures/map-usual.png", sole});
     EXPECT_EQ(alone.exit_code, 2);
     EXPECT_EQ(std::ranges::count(alone.error, '\n'), 1) << alone.error;
@@ -172,11 +173,11 @@ TEST(DiffCommand, GoesByTheSettingsBesideTheBaseline) {
   EXPECT_EQ(mapproof({"diff", two.after, two.before}).exit_code, 1);
 }
 
-TEST(DiffCommand, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
+TEST(DiffCommand, TakesFoldersOfImagesOfOthersAndTwoFiles) {
   const TwoStudies two;
   const std::string before = two.before + "/figures", after = two.after + "/figures";
   EXPECT_EQ(mapproof({"diff", before, after}).exit_code, 0);
-  two.change_picture();
+  two.change_image();
   EXPECT_EQ(mapproof({"diff", before, after}).exit_code, 1);
   EXPECT_EQ(mapproof({"diff", before + "/map-usual.png", after + "/map-usual.png"}).exit_code, 1);
   EXPECT_EQ(mapproof({"diff", before + "/pair-usual.png", after + "/pair-usual.png"}).exit_code, 0);
@@ -188,7 +189,7 @@ TEST(DiffCommand, TakesFoldersOfPicturesOfOthersAndTwoFiles) {
 
 TEST(DiffCommand, TakesTheMostAlikeOfSeveralBaselines) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   fs::copy_file(two.after + "/figures/map-usual.png",
                 two.before + "/figures/map-usual@cairo-1.18.png");
   const Outcome outcome = mapproof({"diff", two.before, two.after, "--json", "-"});
@@ -196,9 +197,9 @@ TEST(DiffCommand, TakesTheMostAlikeOfSeveralBaselines) {
   EXPECT_NE(outcome.out.find("\"baseline_key\": \"cairo-1.18\""), std::string::npos);
 }
 
-TEST(DiffCommand, HandsItsPicturesToCtest) {
+TEST(DiffCommand, HandsItsImagesToCtest) {
   const TwoStudies two;
-  two.change_picture();
+  two.change_image();
   const Environment ctest({{"DASHBOARD_TEST_FROM_CTEST", "3.25"}});
   const Outcome outcome = mapproof({"diff", two.before, two.after});
   EXPECT_NE(

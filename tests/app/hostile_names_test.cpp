@@ -35,7 +35,7 @@ std::string quoted_csv(const std::string& name) {
 TEST(HostileNames, StayTextInEveryOutputAndNeverReachTheFileSystem) {
   const TemporaryFolder folder;
   std::string seen;
-  std::string truth;
+  std::string ground_truth;
   for (std::size_t i = 0; i < kHostile.size(); ++i) {
     const auto row = static_cast<double>(i);
     seen += quoted_csv(kHostile[i]);
@@ -43,9 +43,9 @@ TEST(HostileNames, StayTextInEveryOutputAndNeverReachTheFileSystem) {
       seen +=
           fmt::format(",{}", std::remainder(row * 0.7 + t * 0.31 * (1.0 + row * row * 0.05), 6.28));
     seen += "\n";
-    truth += fmt::format("{},{},{}\n", quoted_csv(kHostile[i]), row, (3 * i) % 7);
+    ground_truth += fmt::format("{},{},{}\n", quoted_csv(kHostile[i]), row, (3 * i) % 7);
   }
-  const std::string positions = folder.file("truth.csv", truth);
+  const std::string positions = folder.file("groundtruth.csv", ground_truth);
   const Outcome outcome =
       mapproof({"map", folder.file("seen.csv", seen), "--sensor", "bearing", "--method", "lpca",
                 "--anchors", positions, "--truth", positions, "--out", folder / "map", "--json"});

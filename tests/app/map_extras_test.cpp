@@ -148,7 +148,7 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
             0);
   const MapRecord followed = map_in(out), whole = map_in(folder.path() / "whole");
   EXPECT_EQ(followed.step, 300);
-  EXPECT_EQ(followed.frame, Frame::kTruth);
+  EXPECT_EQ(followed.frame, Frame::kGroundTruth);
   EXPECT_LT((followed.estimate - whole.estimate).cwiseAbs().maxCoeff(), 1e-6);
 }
 

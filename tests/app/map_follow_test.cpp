@@ -9,7 +9,7 @@
 #include "core/records/maps/map_files.hpp"
 #include "core/records/observations/table_reader.hpp"
 #include "tests/app/following.hpp"
-#include "tests/core/labels/noisy_scans.hpp"
+#include "tests/core/association/noisy_scans.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/scans.hpp"
@@ -57,10 +57,10 @@ std::string bearings_csv(const DetectionLog& log) {
 
 std::string places_csv(const DetectionLog& log, const std::vector<Eigen::Index>& rows) {
   std::string text = "name,x,y\n";
-  const Points places = noisy_landmarks();
+  const Points locations = noisy_landmarks();
   for (const Eigen::Index k : rows)
-    text += fmt::format("{},{},{}\n", log.names[static_cast<std::size_t>(k)], places(k, 0),
-                        places(k, 1));
+    text += fmt::format("{},{},{}\n", log.names[static_cast<std::size_t>(k)], locations(k, 0),
+                        locations(k, 1));
   return text;
 }
 
@@ -80,14 +80,16 @@ TEST(FollowedMapFile, ReadsWhatThePlainMapReads) {
   EXPECT_EQ(whole["landmarks"].size(), 4U);
 }
 
-TEST(FollowedMapFile, IsScoredByTheTruthAsThePlainMapIs) {
+TEST(FollowedMapFile, IsScoredByTheGroundTruthAsThePlainMapIs) {
   const TemporaryFolder folder;
   const DetectionLog log = noisy_scans(400, 2);
   const std::string text = bearings_csv(log);
   const std::string anchors = folder.file("anchors.csv", places_csv(log, {0, 2, 12, 14}));
-  const std::string truth = folder.file("truth.csv", places_csv(log, {0, 1, 2, 5, 7, 9, 12, 14}));
-  const std::vector<std::string> options = {
-      "--sensor", "bearing", "--method", "smacof", "--anchors", anchors, "--truth", truth, "--out"};
+  const std::string ground_truth =
+      folder.file("groundtruth.csv", places_csv(log, {0, 1, 2, 5, 7, 9, 12, 14}));
+  const std::vector<std::string> options = {"--sensor", "bearing",    "--method",
+                                            "smacof",   "--anchors",  anchors,
+                                            "--truth",  ground_truth, "--out"};
   auto with_out = [&](const std::string& out) {
     std::vector<std::string> all = options;
     all.push_back(out);
@@ -123,8 +125,8 @@ TEST(FollowedMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
   const json whole =
       mapped({folder.file("all.csv", text), "--sensor", "range-bearing", "--find-moved",
               "--anchors", anchors, "--fit", "rigid", "--out", folder / "whole"});
-  ASSERT_EQ(last["labels"].size(), 1U);
-  EXPECT_EQ(last["labels"], whole["labels"]);
+  ASSERT_EQ(last["data_association"].size(), 1U);
+  EXPECT_EQ(last["data_association"], whole["data_association"]);
   EXPECT_EQ(last["landmarks"].size(), log.names.size() + 1);
   expect_same_landmarks(last, whole);
   EXPECT_NE(read_file(folder / "followed/report.html").find("range and bearing"),

@@ -8,19 +8,19 @@
 #include "core/base/random.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
 namespace {
 
 /// Bearings in a room, with gaps, as a person has them; and its anchors and truth.
-struct GappedSurvey {
+struct IncompleteSurvey {
   /// @param by_range  The most distant entries are missing, else any.
-  explicit GappedSurvey(const TemporaryFolder& folder, double share, bool by_range = false)
+  explicit IncompleteSurvey(const TemporaryFolder& folder, double share, bool by_range = false)
       : room(walked_room(3, 1000)) {
     Random random(7);
-    const ObservationHistory history = with_gaps(
+    const ObservationHistory history = with_missing(
         observe(room.world, room.path, {.sensor = Sensor::kBearing}, random),
         by_range ? range_losses(room.world, room.path) : random_losses(50, 1000, random), share);
     std::string csv;
@@ -31,7 +31,7 @@ struct GappedSurvey {
       csv += "\n";
     }
     seen = folder.file("seen.csv", csv);
-    truth = folder.file("truth.csv", positions(history.names, {}));
+    ground_truth = folder.file("groundtruth.csv", positions(history.names, {}));
     anchors = folder.file("anchors.csv", positions(history.names, room.anchors));
   }
 
@@ -46,36 +46,37 @@ struct GappedSurvey {
   }
 
   Outcome mapped(const std::vector<std::string>& more, const std::string& out) const {
-    std::vector<std::string> arguments = {"map",   seen,      "--sensor", "bearing",  "--anchors",
-                                          anchors, "--truth", truth,      "--method", "smacof-knn",
-                                          "-K",    "8",       "--out",    out,        "--json"};
+    std::vector<std::string> arguments = {"map",       seen,         "--sensor", "bearing",
+                                          "--anchors", anchors,      "--truth",  ground_truth,
+                                          "--method",  "smacof-knn", "-K",       "8",
+                                          "--out",     out,          "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return mapproof(arguments);
   }
 
   WalkedRoom room;
-  std::string seen, truth, anchors;
+  std::string seen, ground_truth, anchors;
 };
 
 TEST(MapMissing, FilledInByPpcaOrPcaIsBetterThanCommonStepsWhereMostIsMissingAtRandom) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.7);
+  const IncompleteSurvey survey(folder, 0.7);
   const auto mpe = [&](const std::string& way) {
     const Outcome outcome = survey.mapped({"--missing", way}, folder / way);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
     const auto result = nlohmann::json::parse(outcome.out);
-    EXPECT_EQ(result["remarks"].empty(), way == "common-steps") << way;
+    EXPECT_EQ(result["remarks"].empty(), way == "pairwise-complete") << way;
     return result["score"]["mpe_m"].get<double>();
   };
-  const double common = mpe("common-steps");
+  const double common = mpe("pairwise-complete");
   EXPECT_LT(mpe("ppca"), common);
   EXPECT_LT(mpe("pca"), common);
   EXPECT_LT(mpe("ppca"), 0.12);
 }
 
-TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheTruth) {
+TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheGroundTruth) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.0);
+  const IncompleteSurvey survey(folder, 0.0);
   const Outcome outcome = survey.mapped({"--submaps", "24"}, folder / "map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -99,7 +100,7 @@ TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheTruth) {
 
 TEST(MapMissing, OfCovisiblePairsTellsTheOnesLeftOutFromThoseWithoutACommonStep) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.3);
+  const IncompleteSurvey survey(folder, 0.3);
   const Outcome outcome = survey.mapped({"--missing", "covisible"}, folder / "map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -114,7 +115,7 @@ TEST(MapMissing, OfCovisiblePairsTellsTheOnesLeftOutFromThoseWithoutACommonStep)
 
 TEST(MapMissing, AutoTakesWhatThePatternOfTheGapsAdvisesAndSaysSo) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.5);
+  const IncompleteSurvey survey(folder, 0.5);
   const Outcome outcome = survey.mapped({"--missing", "auto"}, folder / "map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -126,11 +127,12 @@ TEST(MapMissing, AutoTakesWhatThePatternOfTheGapsAdvisesAndSaysSo) {
 
 TEST(MapMissing, OfASensorOfShortRangeWarnsWhereEntriesAreFilledIn) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.7, true);
+  const IncompleteSurvey survey(folder, 0.7, true);
   const Outcome filled = survey.mapped({"--missing", "ppca"}, folder / "map");
   ASSERT_EQ(filled.exit_code, 0) << filled.error;
   const auto result = nlohmann::json::parse(filled.out);
-  EXPECT_NE(result["warnings"].dump().find("--missing common-steps is likely"), std::string::npos)
+  EXPECT_NE(result["warnings"].dump().find("--missing pairwise-complete is likely"),
+            std::string::npos)
       << result["warnings"];
   EXPECT_NE(filled.error.find("missing by distance"), std::string::npos) << filled.error;
   const auto plain = nlohmann::json::parse(survey.mapped({}, folder / "plain").out);
@@ -139,7 +141,7 @@ TEST(MapMissing, OfASensorOfShortRangeWarnsWhereEntriesAreFilledIn) {
 
 TEST(Map, RefusesAFolderOfAnotherMapBeforeItComputes) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.1);
+  const IncompleteSurvey survey(folder, 0.1);
   ASSERT_EQ(survey.mapped({}, folder / "map").exit_code, 0);
   const Outcome again = survey.mapped({"--steps", "100", "--missing", "ppca"}, folder / "map");
   EXPECT_EQ(again.exit_code, 2);
@@ -150,14 +152,14 @@ TEST(Map, RefusesAFolderOfAnotherMapBeforeItComputes) {
 
 TEST(Map, WarnsOfAMapThatIsWorthNoMoreThanTheAnchorsMean) {
   const TemporaryFolder folder;
-  GappedSurvey survey(folder, 0.0);
-  // The truth of other landmarks: names dealt out anew.
+  IncompleteSurvey survey(folder, 0.0);
+  // The ground truth of other landmarks: names dealt out anew.
   std::string csv = "name,x,y\n";
   const std::vector<std::string> names = landmark_names(50);
   for (Eigen::Index i = 0; i < 50; ++i)
     csv += fmt::format("{},{},{}\n", names[static_cast<std::size_t>((i * 7 + 3) % 50)],
                        survey.room.world.landmarks_m(i, 0), survey.room.world.landmarks_m(i, 1));
-  survey.truth = folder.file("dealt.csv", csv);
+  survey.ground_truth = folder.file("dealt.csv", csv);
   const Outcome outcome = survey.mapped({}, folder / "map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
@@ -168,12 +170,12 @@ TEST(Map, WarnsOfAMapThatIsWorthNoMoreThanTheAnchorsMean) {
 
 TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
   const TemporaryFolder folder;
-  const GappedSurvey survey(folder, 0.1);
+  const IncompleteSurvey survey(folder, 0.1);
   const Outcome unknown = survey.mapped({"--missing", "zero"}, folder / "a");
   EXPECT_EQ(unknown.exit_code, 2);
   const Outcome dimensions = survey.mapped({"--dimensions", "4"}, folder / "b");
   EXPECT_EQ(dimensions.exit_code, 2);
-  EXPECT_NE(dimensions.error.find("--dimensions: --missing common-steps has none"),
+  EXPECT_NE(dimensions.error.find("--dimensions: --missing pairwise-complete has none"),
             std::string::npos)
       << dimensions.error;
   const std::string seen = folder.file("v.csv", "a,1,0,1\nb,1,1,0\nc,0,1,1\nd,1,,1\n");

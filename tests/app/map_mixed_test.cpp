@@ -7,7 +7,7 @@
 #include "core/base/files.hpp"
 #include "core/base/random.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
@@ -21,7 +21,7 @@ struct MixedSurvey {
       const ObservationHistory history = observe(room.world, room.path, {.sensor = sensor}, random);
       files.push_back(folder.file(std::string(name(sensor)) + ".csv", table(history, 0)));
     }
-    truth = folder.file("truth.csv", positions({}));
+    ground_truth = folder.file("groundtruth.csv", positions({}));
     anchors = folder.file("anchors.csv", positions(room.anchors));
   }
 
@@ -48,17 +48,17 @@ struct MixedSurvey {
 
   WalkedRoom room;
   std::vector<std::string> files;
-  std::string truth, anchors;
+  std::string ground_truth, anchors;
 };
 
 TEST(MapMixed, JoinsThreeSensorsAndTellsWeightsAndWhichMapIsBetter) {
   const TemporaryFolder folder;
   const MixedSurvey survey(folder);
   const std::string out = folder / "joint";
-  const Outcome outcome =
-      mapproof({"map", survey.files[0], "--sensor", "visibility", "--with", survey.files[1],
-                "--with-sensor", "bearing", "--with", survey.files[2], "--with-sensor", "range",
-                "--anchors", survey.anchors, "--truth", survey.truth, "--out", out, "--json"});
+  const Outcome outcome = mapproof(
+      {"map", survey.files[0], "--sensor", "visibility", "--with", survey.files[1], "--with-sensor",
+       "bearing", "--with", survey.files[2], "--with-sensor", "range", "--anchors", survey.anchors,
+       "--truth", survey.ground_truth, "--out", out, "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   const auto& mixed = result["mixed"];
@@ -69,7 +69,7 @@ TEST(MapMixed, JoinsThreeSensorsAndTellsWeightsAndWhichMapIsBetter) {
   EXPECT_NEAR(weights, 1.0, 1e-6);
   for (std::size_t k = 1; k <= 3; ++k)
     EXPECT_LT(mixed["maps"][0]["mpe_m"], mixed["maps"][k]["mpe_m"]) << mixed["maps"][k];
-  EXPECT_NE(mixed["why"].get<std::string>().find("By the truth it is"), std::string::npos);
+  EXPECT_NE(mixed["why"].get<std::string>().find("By the ground truth it is"), std::string::npos);
   const auto map = nlohmann::json::parse(read_file(out + "/map.json"));
   EXPECT_EQ(map["mixed"]["sensors"][1]["sensor"], "bearing");
   EXPECT_TRUE(std::filesystem::exists(out + "/figures/sensors.svg"));
@@ -87,7 +87,7 @@ TEST(MapMixed, PlacesLandmarksThatOneFileAloneHasAndSaysSo) {
           observe(survey.room.world, survey.room.path, {.sensor = Sensor::kRange}, random), 2));
   const Outcome outcome =
       mapproof({"map", survey.files[1], "--sensor", "bearing", "--with", fewer, "--with-sensor",
-                "range", "--truth", survey.truth, "--out", folder / "out", "--json"});
+                "range", "--truth", survey.ground_truth, "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(result["landmarks"].size(), 30U);

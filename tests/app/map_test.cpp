@@ -54,14 +54,14 @@ struct Survey {
   }
 };
 
-TEST(Map, OfAPersonsBearingsIsNearTheTruthAndEveryFileIsThere) {
+TEST(Map, OfAPersonsBearingsIsNearTheGroundTruthAndEveryFileIsThere) {
   const TemporaryFolder folder;
   const Survey survey;
   const std::string anchors = folder.file("anchors.csv", survey.positions({0, 4, 15, 19}));
-  const std::string truth = folder.file("truth.csv", survey.positions(survey.all()));
+  const std::string ground_truth = folder.file("groundtruth.csv", survey.positions(survey.all()));
   const Outcome outcome = mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor",
-                                    "bearing", "--anchors", anchors, "--truth", truth, "--method",
-                                    "smacof", "--out", folder / "map", "--json"});
+                                    "bearing", "--anchors", anchors, "--truth", ground_truth,
+                                    "--method", "smacof", "--out", folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_LT(result["score"]["mpe_m"], 0.5);
@@ -112,13 +112,13 @@ TEST(Map, WithoutAnchorsIsAShapeAndSaysSo) {
     }
 }
 
-TEST(Map, WithATruthButNoAnchorsIsJudgedByWhatNeedsNone) {
+TEST(Map, WithAGroundTruthButNoAnchorsIsJudgedByWhatNeedsNone) {
   const TemporaryFolder folder;
   const Survey survey;
   const Outcome outcome =
       mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--truth",
-                folder.file("truth.csv", survey.positions(survey.all())), "--out", folder / "map",
-                "--json"});
+                folder.file("groundtruth.csv", survey.positions(survey.all())), "--out",
+                folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto score = nlohmann::json::parse(outcome.out)["score"];
   EXPECT_TRUE(score["mpe_m"].is_null());
@@ -158,14 +158,14 @@ TEST(Map, ThatCannotBeMadeSaysWhyAndExitsWithOne) {
   EXPECT_TRUE(fs::exists(folder / "map" / "report.html"));
 }
 
-TEST(Map, OfAnMrclamFolderUsesItsOwnTruth) {
+TEST(Map, OfAnMrclamFolderUsesItsOwnGroundTruth) {
   const TemporaryFolder folder;
   const Outcome outcome = mapproof({"map", std::string(MAPPROOF_TEST_DATA) + "/mrclam", "--method",
                                     "lpca", "--out", folder / "map", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(result["sensor"], "visibility");
-  EXPECT_EQ(result["frame"], "truth");
+  EXPECT_EQ(result["frame"], "ground_truth");
   EXPECT_TRUE(result["score"]["moe_percent"].is_number());
   EXPECT_FALSE(result["remarks"].empty());
 }
@@ -224,17 +224,18 @@ TEST(Map, OfAnotherKindIsRefusedAFolderThatHoldsAMap) {
   }
 }
 
-TEST(Map, SaysWhenAnchorsAndTruthDisagree) {
+TEST(Map, SaysWhenAnchorsAndGroundTruthDisagree) {
   const TemporaryFolder folder;
   const Survey survey;
-  const std::string truth = folder.file("truth.csv", survey.positions(survey.all()));
+  const std::string ground_truth = folder.file("groundtruth.csv", survey.positions(survey.all()));
   const std::string anchors =
       folder.file("anchors.csv", "post 0,0,0\npost 4,4,0\npost 15,0,9000\n");
   const Outcome outcome =
       mapproof({"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--anchors",
-                anchors, "--truth", truth, "--out", folder / "map"});
+                anchors, "--truth", ground_truth, "--out", folder / "map"});
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.error.find("Anchors that the truth puts elsewhere: 1."), std::string::npos)
+  EXPECT_NE(outcome.error.find("Anchors that the ground truth puts elsewhere: 1."),
+            std::string::npos)
       << outcome.error;
 }
 

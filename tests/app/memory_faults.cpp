@@ -25,16 +25,16 @@ Files files_below(const fs::path& folder) {
 void make_two_studies(const fs::path& folder) {
   for (const char* side : {"before", "after"}) {
     fs::copy(kStudy, folder / side, fs::copy_options::recursive);
-    for (const char* picture : {"curve-usual", "map-usual"})
+    for (const char* image : {"curve-usual", "map-usual"})
       for (const char* extension : {".png", ".figure.json"})
-        write_file(folder / side / "figures" / (std::string(picture) + extension),
-                   read_file(fs::path(kPictures) / (std::string(picture) + extension)));
+        write_file(folder / side / "figures" / (std::string(image) + extension),
+                   read_file(fs::path(kImages) / (std::string(image) + extension)));
     write_file(folder / side / "figures/drawing.svg",
                "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"" +
                    std::string(std::string(side) == "after" ? "M0 0" : "M1 0") +
                    std::string(100'000, ' ') + "\"/></svg>");
   }
-  fs::copy_file(fs::path(kPictures) / "curve-log.png", folder / "after/figures/map-usual.png",
+  fs::copy_file(fs::path(kImages) / "curve-log.png", folder / "after/figures/map-usual.png",
                 fs::copy_options::overwrite_existing);
   replace_in(folder / "after/runs/layout-1-pose-1.json", "\"mpe_m\": 0.", "\"mpe_m\": 0.9");
 }
@@ -156,7 +156,7 @@ const std::vector<MemoryCase>& memory_cases() {
   return cases;
 }
 
-void expect_memory_faults_told(const MemoryCase& tried, long at_most) {
+void expect_memory_faults_reported(const MemoryCase& tried, long at_most) {
   for (const std::string cores : {"0", "0,1"}) {
     const Trial clean(tried, cores);
     long calls = 0;

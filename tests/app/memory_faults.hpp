@@ -23,6 +23,6 @@ const std::vector<MemoryCase>& memory_cases();
 /// turn, or `at_most` of them at equal distances. Each run must end with exit code 3 and one line
 /// that reports it, or as without the fault. All files that it leaves are whole, and the next run
 /// writes the same bytes as without the fault.
-void expect_memory_faults_told(const MemoryCase& tried, long at_most);
+void expect_memory_faults_reported(const MemoryCase& tried, long at_most);
 
 }  // namespace mapproof::test

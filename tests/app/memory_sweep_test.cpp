@@ -10,7 +10,7 @@ namespace {
 class EveryAllocation : public ::testing::TestWithParam<MemoryCase> {};
 
 TEST_P(EveryAllocation, ThatFailsIsOneLineAndLeavesNoWrongFile) {
-  expect_memory_faults_told(GetParam(), std::numeric_limits<long>::max());
+  expect_memory_faults_reported(GetParam(), std::numeric_limits<long>::max());
 }
 
 INSTANTIATE_TEST_SUITE_P(OneByOne, EveryAllocation, ::testing::ValuesIn(memory_cases()),

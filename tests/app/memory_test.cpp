@@ -12,7 +12,7 @@ namespace {
 
 class OutOfMemory : public ::testing::TestWithParam<MemoryCase> {};
 
-TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) { expect_memory_faults_told(GetParam(), 3); }
+TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) { expect_memory_faults_reported(GetParam(), 3); }
 
 INSTANTIATE_TEST_SUITE_P(SomeAllocations, OutOfMemory, ::testing::ValuesIn(memory_cases()),
                          [](const auto& one) { return one.param.name; });

@@ -81,11 +81,11 @@ TEST(NightlyExamples, TheLineOfCronRunsInTheBareShellOfCron) {
   command = shortened(replaced(command, "/usr/local/bin/mapproof", "'" + program() + "'"));
   const Outcome outcome = run_bare(folder.path(), {"/bin/sh", "-c"}, command);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_NE(outcome.out.find("night 1: Not compared"), std::string::npos);
+  EXPECT_NE(outcome.out.find("nightly run 1: Not compared"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "mapproof-history/index.html"));
 }
 
-TEST(NightlyExamples, TheCommandsOfCiRunNightAfterNight) {
+TEST(NightlyExamples, TheCommandsOfCiRunNightlyRunAfterNightlyRun) {
   const TemporaryFolder folder;
   for (const char* name : {"github.yml", "gitlab-ci.yml"}) {
     const std::string command =
@@ -97,7 +97,7 @@ TEST(NightlyExamples, TheCommandsOfCiRunNightAfterNight) {
   EXPECT_EQ(mapproof({"history", folder / "history"}).exit_code, 0);
 }
 
-TEST(NightlyExamples, OfCiAreYamlWithAJobThatKeepsTheHistoryOfAFailedNight) {
+TEST(NightlyExamples, OfCiAreYamlWithAJobThatKeepsTheHistoryOfAFailedNightlyRun) {
   const std::string script =
       "import sys\n"
       "try: import yaml\n"

@@ -21,8 +21,8 @@ using nlohmann::json;
 
 const std::string kSmall = std::string(MAPPROOF_SOURCE_DIR) + "/tests/data/experiments/small.json";
 
-Outcome night(const fs::path& store, const std::vector<std::string>& more = {},
-              const std::string& experiment = kSmall, const Limits& limits = {}) {
+Outcome nightly_run(const fs::path& store, const std::vector<std::string>& more = {},
+                    const std::string& experiment = kSmall, const Limits& limits = {}) {
   std::vector<std::string> arguments = {"nightly", experiment, "--profile", "tiny",  "--store",
                                         store,     "--jobs",   "1",         "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -50,28 +50,30 @@ void change(const fs::path& store, const std::string& statements) {
   sqlite3_close(database);
 }
 
-/// Makes the errors of the nights in the history smaller, as if the program had been better then.
+/// Makes the errors of the nightly runs in the history smaller, as if the program had been better
+/// then.
 void make_better(const fs::path& store, double factor) {
   change(store, "UPDATE scores SET value = value * " + std::to_string(factor) +
                     " WHERE series IN (SELECT id FROM series WHERE quantity = 'mpe_m')");
 }
 
-TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
+TEST(Nightly, RecordsANightlyRunAndItsReportAndFindsNothingWorseInTheNext) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  const Outcome first = night(store);
+  const Outcome first = nightly_run(store);
   ASSERT_EQ(first.exit_code, 0) << first.error;
-  const Outcome second = night(store);
+  const Outcome second = nightly_run(store);
   ASSERT_EQ(second.exit_code, 0) << second.error << second.out;
-  EXPECT_EQ(history(store).at("nights").size(), 2U);
-  for (const char* file : {"index.html", "trends/small/report.html",
-                           "nights/0001/small/report.html", "nights/0002/small/study.json"})
+  EXPECT_EQ(history(store).at("nightly_runs").size(), 2U);
+  for (const char* file :
+       {"index.html", "trends/small/report.html", "nightly_runs/0001/small/report.html",
+        "nightly_runs/0002/small/study.json"})
     EXPECT_TRUE(fs::exists(store / file)) << file;
-  EXPECT_GT(fs::hard_link_count(store / "nights/0002/small/figures/fig-2.svg"), 2U)
-      << "figures of both nights are one file";
+  EXPECT_GT(fs::hard_link_count(store / "nightly_runs/0002/small/figures/fig-2.svg"), 2U)
+      << "figures of both nightly runs are one file";
   EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0);
   const auto report_of = [&](const char* number) {
-    return read_file(store / "nights" / number / "small/report.html");
+    return read_file(store / "nightly_runs" / number / "small/report.html");
   };
   EXPECT_NE(report_of("0001").find("Nightly run 1: not compared"), std::string::npos);
   EXPECT_NE(report_of("0002").find("Nightly run 2: nothing got worse than in nightly run 1"),
@@ -80,11 +82,11 @@ TEST(Nightly, RecordsANightAndItsReportAndFindsNothingWorseInTheNext) {
 
 TEST(Nightly, LeavesAFileThatSaysWhatItIs) {
   const TemporaryFolder folder;
-  const Outcome outcome = night(folder / "h");
+  const Outcome outcome = nightly_run(folder / "h");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const json file = json::parse(read_file(folder / "h/nights/0001/night.json"));
-  EXPECT_EQ(schema_problem("night", file), "");
-  EXPECT_EQ(file["schema"].dump(), R"({"name":"mapproof.night","version":1})");
+  const json file = json::parse(read_file(folder / "h/nightly_runs/0001/night.json"));
+  EXPECT_EQ(schema_problem("nightly_run", file), "");
+  EXPECT_EQ(file["schema"].dump(), R"({"name":"mapproof.nightly_run","version":1})");
   EXPECT_FALSE(file["provenance"]["version"].get<std::string>().empty());
   json printed = json::parse(outcome.out);
   EXPECT_EQ(printed["schema"]["name"], "mapproof.result.nightly");
@@ -99,18 +101,18 @@ TEST(Nightly, OfARangeOnlyExperimentIsRecordedToo) {
   const Outcome outcome =
       mapproof({"nightly", "boots2013", "--profile", "quick", "--store", folder / "h", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const json nights = history(folder / "h").at("nights");
-  ASSERT_EQ(nights.size(), 1U);
+  const json nightly_runs = history(folder / "h").at("nightly_runs");
+  ASSERT_EQ(nightly_runs.size(), 1U);
   const Outcome csv = mapproof({"history", folder / "h", "--export", "csv"});
   EXPECT_NE(csv.out.find("path_mean_m"), std::string::npos);
 }
 
-TEST(Nightly, RefusesANightToCompareWithThatIsNotThereBeforeAnyWork) {
+TEST(Nightly, RefusesANightlyRunToCompareWithThatIsNotThereBeforeAnyWork) {
   const TemporaryFolder folder;
-  const Outcome outcome = night(folder / "h", {"--reference", "7"});
+  const Outcome outcome = nightly_run(folder / "h", {"--reference", "7"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.error.find("7"), std::string::npos) << outcome.error;
-  EXPECT_FALSE(fs::exists(folder / "h/nights/0001/small"));
+  EXPECT_FALSE(fs::exists(folder / "h/nightly_runs/0001/small"));
 }
 
 /// small.json with another seed, under the same name.
@@ -122,87 +124,90 @@ std::string of_another_seed(const TemporaryFolder& folder) {
   return folder.file("small.json", other);
 }
 
-TEST(Nightly, RefusesANightToCompareWithThatMadeSomethingElseBeforeAnyWork) {
+TEST(Nightly, RefusesANightlyRunToCompareWithThatMadeSomethingElseBeforeAnyWork) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
-  const Outcome outcome = night(store, {"--reference", "1"}, of_another_seed(folder));
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
+  const Outcome outcome = nightly_run(store, {"--reference", "1"}, of_another_seed(folder));
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(lines_with(outcome.error, "--reference: nightly run 1"), 1U) << outcome.error;
-  EXPECT_FALSE(fs::exists(store / "nights/0002"));
-  EXPECT_EQ(night(store, {"--reference", "1"}).exit_code, 0) << "the same order can be compared";
+  EXPECT_FALSE(fs::exists(store / "nightly_runs/0002"));
+  EXPECT_EQ(nightly_run(store, {"--reference", "1"}).exit_code, 0)
+      << "the same order can be compared";
 }
 
-TEST(Nightly, ThatHasNoNightToCompareWithIsNotCalledGood) {
+TEST(Nightly, ThatHasNoNightlyRunToCompareWithIsNotCalledGood) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
-  const Outcome outcome = night(store, {}, of_another_seed(folder));
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
+  const Outcome outcome = nightly_run(store, {}, of_another_seed(folder));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-  const json told = json::parse(outcome.out);
-  EXPECT_TRUE(told.at("reference").is_null());
-  EXPECT_EQ(told.at("verdict"), "not compared");
-  EXPECT_NE(told.at("remarks").dump().find("no nightly run to compare with"), std::string::npos);
+  const json reported = json::parse(outcome.out);
+  EXPECT_TRUE(reported.at("reference").is_null());
+  EXPECT_EQ(reported.at("verdict"), "not compared");
+  EXPECT_NE(reported.at("remarks").dump().find("no nightly run to compare with"),
+            std::string::npos);
   EXPECT_EQ(lines_with(mapproof({"history", store}).out, "not compared"), 2U);
   const std::string index = read_file(store / "index.html");
   EXPECT_EQ(index.find("Nothing got worse"), std::string::npos);
   EXPECT_NE(index.find(">not compared<"), std::string::npos);
-  for (const char* page : {"trends/small/report.html", "nights/0002/small/report.html"})
+  for (const char* page : {"trends/small/report.html", "nightly_runs/0002/small/report.html"})
     EXPECT_NE(read_file(store / page).find("Nightly run 2: not compared"), std::string::npos)
         << page;
 }
 
-TEST(Nightly, AfterPruningTheIndexNamesTheNightsThatAreLeft) {
+TEST(Nightly, AfterPruningTheIndexNamesTheNightlyRunsThatAreLeft) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  for (int i = 0; i < 3; ++i) ASSERT_EQ(night(store).exit_code, 0);
-  EXPECT_NE(read_file(store / "index.html").find("nights/0001/small/report.html"),
+  for (int i = 0; i < 3; ++i) ASSERT_EQ(nightly_run(store).exit_code, 0);
+  EXPECT_NE(read_file(store / "index.html").find("nightly_runs/0001/small/report.html"),
             std::string::npos);
   ASSERT_EQ(mapproof({"history", store, "--prune", "last=1"}).exit_code, 0);
   const std::string index = read_file(store / "index.html");
   for (int number = 1; number <= 3; ++number) {
-    const std::string report = "nights/000" + std::to_string(number) + "/small/report.html";
+    const std::string report = "nightly_runs/000" + std::to_string(number) + "/small/report.html";
     EXPECT_EQ(index.find(report) != std::string::npos, fs::exists(store / report)) << report;
   }
 }
 
-TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNight) {
+TEST(Nightly, OnAFullDiskSaysSoAndLosesNoNightlyRun) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
   const std::string before = mapproof({"history", store, "--export", "csv"}).out;
   for (const std::size_t bytes : {2'000U, 20'000U, 60'000U}) {
-    const Outcome outcome = night(store, {}, kSmall, Limits{.file_bytes = bytes});
+    const Outcome outcome = nightly_run(store, {}, kSmall, Limits{.file_bytes = bytes});
     EXPECT_TRUE(outcome.exit_code == 2 || outcome.exit_code == 3)
         << bytes << ": " << outcome.exit_code << outcome.error;
     EXPECT_FALSE(outcome.error.empty());
     EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << bytes;
   }
-  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
+  EXPECT_EQ(nightly_run(store).exit_code, 0) << "goes on once there is room";
 }
 
-TEST(Nightly, WithNoRoomForTheCommitNamesTheStoreInOneLineAndLosesNoNight) {
+TEST(Nightly, WithNoRoomForTheCommitNamesTheStoreInOneLineAndLosesNoNightlyRun) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
-  // A history larger than any other file of a night: what the limit stops is its commit alone.
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
+  // A history larger than any other file of a nightly run: what the limit stops is its commit
+  // alone.
   change(store, "CREATE TABLE padding (x); INSERT INTO padding VALUES (zeroblob(8000000))");
   const std::string before = mapproof({"history", store, "--export", "csv"}).out;
   const std::size_t bytes = fs::file_size(store / "history.sqlite");
   for (const std::size_t more : {0U, 4'096U}) {
-    const Outcome outcome = night(store, {}, kSmall, Limits{.file_bytes = bytes + more});
+    const Outcome outcome = nightly_run(store, {}, kSmall, Limits{.file_bytes = bytes + more});
     EXPECT_EQ(outcome.exit_code, 2) << more << outcome.error;
     EXPECT_EQ(lines_with(outcome.error, "history.sqlite: cannot be written"), 1U) << outcome.error;
     EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << more;
     EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0) << more;
   }
-  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
-  EXPECT_EQ(history(store).at("nights").size(), 2U);
+  EXPECT_EQ(nightly_run(store).exit_code, 0) << "goes on once there is room";
+  EXPECT_EQ(history(store).at("nightly_runs").size(), 2U);
 }
 
-/// A night whose history lies on a disk of its own with `free_kib` left, a mount of a namespace of
-/// its own; afterwards one with room. The history is put back into the store.
-Outcome night_on_a_small_disk(const fs::path& store, const fs::path& disk, int free_kib) {
+/// A nightly run whose history lies on a disk of its own with `free_kib` left, a mount of a
+/// namespace of its own; afterwards one with room. The history is put back into the store.
+Outcome nightly_on_a_small_disk(const fs::path& store, const fs::path& disk, int free_kib) {
   const std::string used =
       std::to_string((fs::file_size(store / "history.sqlite") + 4095) / 4096 * 4 + free_kib);
   const std::string script =
@@ -220,35 +225,36 @@ bool may_mount() {
   return run_program({"unshare", "-Urm", "mount", "-t", "tmpfs", "tmpfs", "/mnt"}).exit_code == 0;
 }
 
-TEST(Nightly, OnADiskThatIsFullAtTheCommitNamesTheStoreInOneLineAndLosesNoNight) {
+TEST(Nightly, OnADiskThatIsFullAtTheCommitNamesTheStoreInOneLineAndLosesNoNightlyRun) {
   if (!may_mount()) GTEST_SKIP() << "no mounts of one's own here";
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
   fs::create_directory(folder / "disk");
-  ASSERT_EQ(night(store).exit_code, 0);
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
   const std::string before = mapproof({"history", store, "--export", "csv"}).out;
   for (const int free_kib : {8, 40}) {
-    const Outcome outcome = night_on_a_small_disk(store, folder / "disk", free_kib);
+    const Outcome outcome = nightly_on_a_small_disk(store, folder / "disk", free_kib);
     EXPECT_EQ(outcome.exit_code, 2) << free_kib << outcome.error;
     EXPECT_EQ(lines_with(outcome.error, "history.sqlite: cannot be written: the disk is full"), 1U)
         << free_kib << outcome.error;
     EXPECT_TRUE(mapproof({"history", store, "--export", "csv"}).out == before) << free_kib;
     EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0) << free_kib;
   }
-  EXPECT_EQ(night(store).exit_code, 0) << "goes on once there is room";
-  EXPECT_EQ(history(store).at("nights").size(), 2U);
+  EXPECT_EQ(nightly_run(store).exit_code, 0) << "goes on once there is room";
+  EXPECT_EQ(history(store).at("nightly_runs").size(), 2U);
 }
 
 TEST(Nightly, RefusesADamagedHistoryUntilAPersonSetsItAside) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history", file = store / "history.sqlite";
-  ASSERT_EQ(night(store).exit_code, 0);
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
   std::string bytes = read_file(file);
   bytes.resize(bytes.size() - 10'000);
   for (const std::string& damaged : {std::string(), std::string(40'000, 'x'), bytes}) {
     write_file(file, damaged);
     const auto before = contents(store);
-    for (const Outcome& outcome : {mapproof({"history", store}), night(store), night(store)}) {
+    for (const Outcome& outcome :
+         {mapproof({"history", store}), nightly_run(store), nightly_run(store)}) {
       EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
       EXPECT_EQ(lines_with(outcome.error, "mapproof: "), 1U) << outcome.error;
       EXPECT_EQ(lines_with(outcome.error, "history.sqlite: is damaged: "), 1U) << outcome.error;
@@ -256,20 +262,21 @@ TEST(Nightly, RefusesADamagedHistoryUntilAPersonSetsItAside) {
     EXPECT_EQ(contents(store), before) << damaged.size();
   }
   fs::rename(file, store / "history.sqlite.damaged-1");
-  const Outcome outcome = night(store);
+  const Outcome outcome = nightly_run(store);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
-  EXPECT_EQ(history(store).at("nights").at(0).at("night"), 2) << "night 1 keeps its folder";
-  for (const char* page : {"index.html", "nights/0002/small/report.html"}) {
-    const std::string told = read_file(store / page);
-    EXPECT_NE(told.find("history.sqlite.damaged-1"), std::string::npos) << page;
-    EXPECT_NE(told.find("nights/0001/small/report.html"), std::string::npos) << page;
+  EXPECT_EQ(history(store).at("nightly_runs").at(0).at("nightly_run"), 2)
+      << "nightly run 1 keeps its folder";
+  for (const char* page : {"index.html", "nightly_runs/0002/small/report.html"}) {
+    const std::string reported = read_file(store / page);
+    EXPECT_NE(reported.find("history.sqlite.damaged-1"), std::string::npos) << page;
+    EXPECT_NE(reported.find("nightly_runs/0001/small/report.html"), std::string::npos) << page;
   }
 }
 
-TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNight) {
+TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNightlyRun) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
-  ASSERT_EQ(night(store).exit_code, 0);
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
   for (const int milliseconds : {20, 90, 200, 450, 900}) {
     const pid_t child =
         start_mapproof({"nightly", kSmall, "--profile", "tiny", "--store", store, "--jobs", "1"});
@@ -277,11 +284,11 @@ TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNight) {
     ::kill(child, SIGKILL);
     int status = 0;
     ::waitpid(child, &status, 0);
-    EXPECT_GE(history(store).at("nights").size(), 1U) << milliseconds;
+    EXPECT_GE(history(store).at("nightly_runs").size(), 1U) << milliseconds;
   }
-  const std::size_t before = history(store).at("nights").size();
-  ASSERT_EQ(night(store).exit_code, 0);
-  EXPECT_EQ(history(store).at("nights").size(), before + 1);
+  const std::size_t before = history(store).at("nightly_runs").size();
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
+  EXPECT_EQ(history(store).at("nightly_runs").size(), before + 1);
   EXPECT_EQ(mapproof({"history", store, "--verify"}).exit_code, 0);
 }
 
@@ -290,31 +297,31 @@ TEST(Nightly, TwoAtOnceAreBothRecorded) {
   const fs::path store = folder / "history";
   const pid_t other =
       start_mapproof({"nightly", kSmall, "--profile", "tiny", "--store", store, "--jobs", "1"});
-  const Outcome outcome = night(store);
+  const Outcome outcome = nightly_run(store);
   int status = 0;
   ::waitpid(other, &status, 0);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-  EXPECT_EQ(history(store).at("nights").size(), 2U);
+  EXPECT_EQ(history(store).at("nightly_runs").size(), 2U);
 }
 
-TEST(Nightly, AWorseNightIsOneAndNamesWhatGotWorse) {
+TEST(Nightly, AWorseNightlyRunIsOneAndNamesWhatGotWorse) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";
   std::string text = read_file(kSmall);
   text.replace(text.find("\"layouts\": 2"), 12, "\"layouts\": 8");
   write_file(folder / "more.json", text);
-  const auto tonight = [&] {
+  const auto this_run = [&] {
     return mapproof({"nightly", folder / "more.json", "--store", store, "--json"});
   };
-  ASSERT_EQ(tonight().exit_code, 0);
+  ASSERT_EQ(this_run().exit_code, 0);
   make_better(store, 0.9);
-  const Outcome outcome = tonight();
+  const Outcome outcome = this_run();
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out << outcome.error;
   const json result = json::parse(outcome.out);
   ASSERT_FALSE(result.at("findings").empty());
   EXPECT_EQ(result.at("findings").at(0).at("quantity"), "mpe_m");
-  const std::string report = read_file(store / "nights/0002/small/report.html");
+  const std::string report = read_file(store / "nightly_runs/0002/small/report.html");
   EXPECT_NE(report.find("class=\"standing worse\""), std::string::npos);
 }
 

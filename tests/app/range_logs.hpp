@@ -13,7 +13,7 @@ RangeLog drive_log();
 /// Which files of a log's folder are written.
 struct LogFiles {
   bool odometry = true;
-  bool truth = true;
+  bool ground_truth = true;
   bool landmarks = true;
 };
 
@@ -21,7 +21,7 @@ struct LogFiles {
 void write_log(const RangeLog& log, const std::filesystem::path& folder,
                const LogFiles& files = {});
 
-/// Every landmark ranged to at each of some times, without odometry; the truth is kept.
+/// Every landmark ranged to at each of some times, without odometry; the ground truth is kept.
 RangeLog log_of_common_times();
 
 }  // namespace mapproof::test

@@ -102,13 +102,13 @@ TEST_F(StudyOfAnotherProgram, WhoseRecordsAreApprovedAloneHasAStaleReport) {
 
 TEST_F(StudyOfAnotherProgram, HasItsPathsAlignedIfItAsks) {
   // The estimate is the ground truth, turned by a right angle and moved.
-  std::string path, truth;
+  std::string path, ground_truth;
   for (int i = 0; i < 20; ++i) {
     path += fmt::format("{} {} {} 0 0 0 0 1\n", i, 5 - i % 4, 7 + i);
-    truth += fmt::format("{} {} {} 0 0 0 0 1\n", i, i, i % 4);
+    ground_truth += fmt::format("{} {} {} 0 0 0 0 1\n", i, i, i % 4);
   }
   write_file(folder_ / "mine/paths/drive.tum", path);
-  write_file(folder_ / "mine/paths/drive.truth.tum", truth);
+  write_file(folder_ / "mine/paths/drive.groundtruth.tum", ground_truth);
   const auto figure = [&] {
     EXPECT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
     return json::parse(read_file(folder_ / "mine/figures/localisers-path-drive.figure.json"));
@@ -122,16 +122,16 @@ TEST_F(StudyOfAnotherProgram, HasItsPathsAlignedIfItAsks) {
   EXPECT_NE(caption.find("RMS distance from the ground truth: "), std::string::npos) << caption;
 }
 
-TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightAndWhereAllAre) {
-  const auto night = [&](const std::string& more = "--quiet") {
+TEST_F(StudyOfAnotherProgram, NamesAFewFindingsOfANightlyRunAndWhereAllAre) {
+  const auto nightly_run = [&](const std::string& more = "--quiet") {
     return mapproof({"nightly", folder_ / "mine", "--store", folder_ / "history", more});
   };
-  EXPECT_EQ(night().exit_code, 0);
+  EXPECT_EQ(nightly_run().exit_code, 0);
   make("mine", "0.05");  // Three noises, two quantities.
-  const Outcome second = night("--json");
+  const Outcome second = nightly_run("--json");
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_EQ(json::parse(second.out)["findings"].size(), 6U);
-  const Outcome third = night("--jobs=1");
+  const Outcome third = nightly_run("--jobs=1");
   EXPECT_NE(third.out.find("6 findings."), std::string::npos) << third.out;
   EXPECT_NE(third.out.find("  localisers: and 3 more: "), std::string::npos) << third.out;
   EXPECT_NE(third.out.find("trends/localisers/report.html#section-findings"), std::string::npos);
@@ -149,22 +149,22 @@ TEST_F(StudyOfAnotherProgram, IsNotTakenForObservationsWithoutItsStudyJson) {
 }
 
 TEST_F(StudyOfAnotherProgram, IsJudgedByNightlyRuns) {
-  const auto night = [&] {
+  const auto nightly_run = [&] {
     return mapproof({"nightly", folder_ / "mine", "--store", folder_ / "history"});
   };
-  EXPECT_EQ(night().exit_code, 0);
-  const Outcome second = night();
+  EXPECT_EQ(nightly_run().exit_code, 0);
+  const Outcome second = nightly_run();
   EXPECT_EQ(second.exit_code, 0) << second.out;
   EXPECT_NE(second.out.find("Nothing got worse"), std::string::npos) << second.out;
   make("mine", "0.05");
-  const Outcome third = night();
+  const Outcome third = nightly_run();
   EXPECT_EQ(third.exit_code, 1) << third.out;
   for (const char* part : {"absolute trajectory error", "higher than in nightly run 2",
                            "runs localised", "points lower than in nightly run 2"})
     EXPECT_NE(third.out.find(part), std::string::npos) << part << " in:\n" << third.out;
 }
 
-TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNight) {
+TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNightlyRun) {
   // Ids that mapproof has methods of; one is labelled, two stand under their ids.
   const auto rename = [&] {
     const fs::path folder = folder_ / "mine";
@@ -198,7 +198,7 @@ TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNight) {
   EXPECT_GE(shown.size(), 6U);
   shown.emplace_back("figures", figures);
   for (const auto& [where, text] : shown) {
-    if (where != "nights/0001/localisers/report.html") {
+    if (where != "nightly_runs/0001/localisers/report.html") {
       EXPECT_NE(text.find("My EKF"), std::string::npos) << where;
       EXPECT_NE(text.find("The hall"), std::string::npos) << where;
     }
@@ -213,7 +213,7 @@ TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNight) {
   EXPECT_NE(csv.find(",The hall,\"My EKF, noise=0.01\"\r\n"), std::string::npos);
   const json exported = json::parse(mapproof({"history", store, "--export", "json"}).out);
   EXPECT_EQ(exported["schema"]["name"], "mapproof.history");
-  EXPECT_EQ(exported["nights"][1]["studies"][0]["methods"][0].dump(),
+  EXPECT_EQ(exported["nightly_runs"][1]["studies"][0]["methods"][0].dump(),
             R"({"id":"ekf","label":"My EKF"})");
 }
 
@@ -226,22 +226,22 @@ TEST_F(StudyOfAnotherProgram, WithoutANameIsNotTakenForAnother) {
     write_file(file, head.dump());
   }
   const std::string mine = folder_ / "mine", theirs = folder_ / "theirs";
-  const auto night = [&](const std::vector<std::string>& folders) {
+  const auto nightly_run = [&](const std::vector<std::string>& folders) {
     std::vector<std::string> words = {"nightly", "--store", folder_ / "history"};
     words.insert(words.end(), folders.begin(), folders.end());
     return mapproof(words);
   };
-  const Outcome both = night({mine, theirs});
+  const Outcome both = nightly_run({mine, theirs});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_EQ(both.error, "mapproof: " + mine + "/study.json and " + theirs +
                             "/study.json: both studies have the name \"results\", which is that of "
                             "a study.json without one; add a \"name\" of its own to one of them\n");
-  EXPECT_FALSE(fs::exists(folder_ / "history/nights"));
-  EXPECT_EQ(night({mine, mine}).error, "mapproof: " + mine + "/study.json: is given twice\n");
+  EXPECT_FALSE(fs::exists(folder_ / "history/nightly_runs"));
+  EXPECT_EQ(nightly_run({mine, mine}).error, "mapproof: " + mine + "/study.json: is given twice\n");
   make("theirs");  // Named again.
-  EXPECT_EQ(night({mine, theirs}).exit_code, 0);
+  EXPECT_EQ(nightly_run({mine, theirs}).exit_code, 0);
   make("mine");
-  EXPECT_NE(night({mine, theirs}).error.find("both studies have the name \"localisers\"; "),
+  EXPECT_NE(nightly_run({mine, theirs}).error.find("both studies have the name \"localisers\"; "),
             std::string::npos);
 }
 

@@ -50,7 +50,7 @@ TEST_F(ScenesOfAStudy, AreInItsReportWithWhatDrewThem) {
   EXPECT_NE(page.find("llvmpipe"), std::string::npos);
 }
 
-TEST_F(ScenesOfAStudy, AreLinkedToFilesThatAreThereAsAllPicturesAre) {
+TEST_F(ScenesOfAStudy, AreLinkedToFilesThatAreThereAsAllImagesAre) {
   const std::string page = read_file(study() + "/report.html");
   const std::regex link("href=\"(figures/[^\"]*)\"");
   int links = 0;

@@ -41,11 +41,11 @@ struct RangeTable {
 TEST(SlamFollow, MapsLandmarksExactlyWhereRangesAreExact) {
   const TemporaryFolder folder;
   const RangeTable table;
-  const std::string truth = folder.file("truth.csv", table.positions(0, 7));
+  const std::string ground_truth = folder.file("groundtruth.csv", table.positions(0, 7));
   for (const std::string& bytes : {"t,beacon,range\n" + table.rows, gzipped(table.rows)}) {
-    const Outcome outcome =
-        followed("slam", folder, bytes,
-                 {"--ground-truth-landmarks", truth, "--every", "20", "--out", folder / "out"});
+    const Outcome outcome = followed(
+        "slam", folder, bytes,
+        {"--ground-truth-landmarks", ground_truth, "--every", "20", "--out", folder / "out"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result.at("method"), "spectral");

@@ -40,14 +40,15 @@ TEST(Slam, MapsALogAndWritesPathLandmarksFiguresAndReport) {
   EXPECT_LT(mean_error(result, "refined"), 0.1);
   EXPECT_NEAR(method_of(result, "refined").at("range_scale").get<double>(), 1.05, 0.01);
   for (const char* file : {"slam.json", "landmarks.csv", "path.csv", "path.tum", "report.html",
-                           "paths/truth.csv", "paths/spectral.tum"})
+                           "paths/groundtruth.csv", "paths/spectral.tum"})
     EXPECT_TRUE(fs::exists(folder / "out" / file)) << file;
   EXPECT_EQ(mapproof({"validate", folder / "out", folder / "log"}).exit_code, 0);
 }
 
-TEST(Slam, WithoutATruthClaimsNoError) {
+TEST(Slam, WithoutAGroundTruthClaimsNoError) {
   const TemporaryFolder folder;
-  write_log(drive_log(), folder / "log", {.odometry = true, .truth = false, .landmarks = false});
+  write_log(drive_log(), folder / "log",
+            {.odometry = true, .ground_truth = false, .landmarks = false});
   const Outcome outcome = mapproof({"slam", folder / "log", "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   for (const json& method : json::parse(outcome.out).at("methods"))
@@ -55,10 +56,11 @@ TEST(Slam, WithoutATruthClaimsNoError) {
   EXPECT_NE(outcome.error.find("The true path is not known"), std::string::npos) << outcome.error;
 }
 
-TEST(Slam, TruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
+TEST(Slam, GroundTruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
   const TemporaryFolder folder;
   write_log(drive_log(), folder / "whole");
-  write_log(drive_log(), folder / "log", {.odometry = false, .truth = false, .landmarks = false});
+  write_log(drive_log(), folder / "log",
+            {.odometry = false, .ground_truth = false, .landmarks = false});
   const Outcome outcome =
       mapproof({"slam", folder / "log", "--odometry", folder / "whole/odometry.csv", "--truth",
                 folder / "whole/groundtruth.csv", "--known-landmarks",
@@ -81,7 +83,7 @@ TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
   EXPECT_TRUE(result.at("window_s").is_null());
   EXPECT_EQ(method_of(result, "spectral").at("errors").at(0).at("alignment"),
             "rigid-with-reflection");
-  // The path is straight between its times, a second apart; the truth is not.
+  // The path is straight between its times, a second apart; the ground truth is not.
   EXPECT_LT(mean_error(result, "spectral"), 0.05);
 
   write_log(drive_log(), folder / "apart", {.odometry = false});
@@ -95,7 +97,7 @@ TEST(Slam, OneLandmarkIsAStatusAndNoCrash) {
   const TemporaryFolder folder;
   RangeLog log = drive_log();
   log.landmarks.resize(1);
-  std::erase_if(log.ranges, [](const RangeReading& reading) { return reading.landmark > 0; });
+  std::erase_if(log.ranges, [](const RangeMeasurement& measured) { return measured.landmark > 0; });
   log.true_landmarks = Points(log.true_landmarks->topRows(1));
   write_log(log, folder / "log");
   const Outcome outcome = mapproof({"slam", folder / "log", "--out", folder / "out"});
@@ -162,7 +164,8 @@ INSTANTIATE_TEST_SUITE_P(
                       BadSlam{"NanLandmark", kRanges, "", "name,x,y\na,nan,2\n", "line 2"}),
     [](const auto& one) { return one.param.name; });
 
-/// The bounds on the published data, windows chosen without truth, no landmark known.
+/// The bounds on the published data, windows chosen without ground truth, no landmark
+/// known.
 TEST(SlamOnPlaza, MeetsTheBoundsOfSpectralAndRefinedErrors) {
   const auto plaza = plaza_folder();
   if (!plaza) GTEST_SKIP() << kNoPlaza;

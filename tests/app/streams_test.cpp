@@ -108,10 +108,10 @@ std::string seen_table() {
 }
 
 DetectionLog scans() {
-  Points places(9, 2);
+  Points locations(9, 2);
   for (Eigen::Index i = 0; i < 9; ++i)
-    places.row(i) << static_cast<double>(i % 3), 0.9 * static_cast<double>(i / 3);
-  return scans_at(places, 300, 5, 3);
+    locations.row(i) << static_cast<double>(i % 3), 0.9 * static_cast<double>(i / 3);
+  return scans_at(locations, 300, 5, 3);
 }
 
 std::string scans_csv() { return detections_csv(scans()); }
@@ -241,7 +241,7 @@ class InputReader : public ::testing::TestWithParam<std::size_t> {
     json said = json::parse(outcome.out);
     for (const char* list : {"files", "items"})
       for (json& item : said[list])
-        for (const char* key : {"path", "id", "baseline", "current", "pictures"}) item.erase(key);
+        for (const char* key : {"path", "id", "baseline", "current", "images"}) item.erase(key);
     return all + said["files"].dump(1) + said["items"].dump(1);
   }
 

@@ -67,7 +67,7 @@ TEST(Sweep, EndsInTheSameBytesForAnyJobsAndAfterAKill) {
   expect_same(without_seconds(folder / "one"), without_seconds(folder / "two"));
 }
 
-TEST(Sweep, IsComparedApprovedAndJudgedByNight) {
+TEST(Sweep, IsComparedApprovedAndJudgedByNightlyRun) {
   const TemporaryFolder folder;
   ASSERT_EQ(mapproof({"run", kSweep, "--out", folder / "a"}).exit_code, 0);
   ASSERT_EQ(mapproof({"run", kSweep, "--out", folder / "b", "--seed", "4"}).exit_code, 0);
@@ -81,7 +81,7 @@ TEST(Sweep, IsComparedApprovedAndJudgedByNight) {
   EXPECT_EQ(differ.exit_code, 1) << differ.error;
   EXPECT_EQ(mapproof({"approve", folder / "a", folder / "b", "--all"}).exit_code, 0);
   EXPECT_EQ(mapproof({"diff", folder / "a", folder / "b"}).exit_code, 0);
-  for (int night = 0; night < 2; ++night) {
+  for (int nightly_run = 0; nightly_run < 2; ++nightly_run) {
     const Outcome run = mapproof({"nightly", kSweep, "--store", folder / "history"});
     EXPECT_EQ(run.exit_code, 0) << run.out << run.error;
   }

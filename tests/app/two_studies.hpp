@@ -13,7 +13,7 @@ namespace mapproof::test {
 namespace fs = std::filesystem;
 
 inline const std::string kStudy = std::string(MAPPROOF_TEST_DATA) + "/study";
-inline const std::string kPictures = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines";
+inline const std::string kImages = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines";
 
 /// Writes `to` for the first `from` in a file.
 inline void replace_in(const fs::path& file, const std::string& from, const std::string& to) {
@@ -33,13 +33,13 @@ struct TwoStudies {
     for (const std::string& copy : {before, after}) {
       fs::copy(kStudy, copy, fs::copy_options::recursive);
       fs::create_directory(fs::path(copy) / "figures");
-      for (const char* picture : {"curve-usual", "map-usual", "pair-usual"})
-        fs::copy_file(fs::path(kPictures) / (std::string(picture) + ".png"),
-                      fs::path(copy) / "figures" / (std::string(picture) + ".png"));
+      for (const char* image : {"curve-usual", "map-usual", "pair-usual"})
+        fs::copy_file(fs::path(kImages) / (std::string(image) + ".png"),
+                      fs::path(copy) / "figures" / (std::string(image) + ".png"));
     }
   }
-  void change_picture() const {
-    fs::copy_file(fs::path(kPictures) / "curve-log.png", fs::path(after) / "figures/map-usual.png",
+  void change_image() const {
+    fs::copy_file(fs::path(kImages) / "curve-log.png", fs::path(after) / "figures/map-usual.png",
                   fs::copy_options::overwrite_existing);
   }
   /// In one run alone, so that it has no direction.

@@ -13,7 +13,7 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/image_diff.hpp"
 #include "tests/support/sample_figures.hpp"
 
 namespace mapproof {
@@ -81,8 +81,8 @@ void make(const fs::path& folder) {
 
 void compare(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
   Image map;
-  const PictureDiff diff = picture_diff(baseline, current, {}, &map);
-  if (diff.state == PictureState::kDifferent && map.width > 0) write_file(heat, encode_png(map));
+  const ImageDiff diff = image_diff(baseline, current, {}, &map);
+  if (diff.state == ImageState::kDifferent && map.width > 0) write_file(heat, encode_png(map));
 }
 
 void compare_folders(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
@@ -97,7 +97,7 @@ void compare_folders(const fs::path& baseline, const fs::path& current, const fs
 }  // namespace
 }  // namespace mapproof
 
-/// Makes the pairs that scripts/bench diff compares, or compares all pictures of two folders and
+/// Makes the pairs that scripts/bench diff compares, or compares all images of two folders and
 /// writes the heat maps of those that differ.
 int main(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";

@@ -27,8 +27,9 @@ void write_inputs(const fs::path& folder) {
     const MapRecord map = test::sample_map(50, 0.12, static_cast<std::uint64_t>(i) + 1);
     std::string text;
     for (Eigen::Index row = 0; row < map.estimate.rows(); ++row)
-      text += fmt::format("{} {} {} {} {}\n", map.names[row], (*map.truth_m)(row, 0),
-                          (*map.truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
+      text +=
+          fmt::format("{} {} {} {} {}\n", map.names[row], (*map.ground_truth_m)(row, 0),
+                      (*map.ground_truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
     write_file(folder / fmt::format("map-{}.txt", i), text);
     text.clear();
     for (const ErrorLine& curve :

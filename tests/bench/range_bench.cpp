@@ -15,7 +15,7 @@
 #include "core/base/random.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
-#include "core/range_slam/factors/online.hpp"
+#include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/range_slam/factors/spectral_slam.hpp"
 #include "core/range_slam/refinement/refine.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
@@ -60,14 +60,14 @@ void write_matrix(const Eigen::MatrixXd& matrix, const std::filesystem::path& pa
 void bench_set(const RangeLog& log, const std::string& id, const std::filesystem::path& out) {
   const auto landmarks = static_cast<Eigen::Index>(log.landmarks.size());
   const Trajectory path = dead_reckoned(log);
-  const std::vector<LandmarkReadings> readings = readings_by_landmark(log.ranges, landmarks, path);
+  const std::vector<LandmarkRanges> measurements = ranges_by_landmark(log.ranges, landmarks, path);
   WindowSearch search;
   print(id + ": choice of windows",
-        seconds(1, [&] { search = choose_window(readings, path, path.time_s); }));
+        seconds(1, [&] { search = choose_window(measurements, path, path.time_s); }));
   const WindowOptions window = search.options;
   WindowedRanges ranges;
   print(id + ": interpolation",
-        seconds(5, [&] { ranges = windowed_ranges(readings, path, path.time_s, window); }));
+        seconds(5, [&] { ranges = windowed_ranges(measurements, path, path.time_s, window); }));
   Factorization factors;
   print(id + ": SVD", seconds(5, [&] { factors = factorize(ranges.Y, 4); }));
   print(id + ": metric upgrade", seconds(5, [&] { metric_upgrade(factors); }));
@@ -103,7 +103,7 @@ void bench_stream(Eigen::Index landmarks, long steps) {
   Random random(1);
   Eigen::MatrixXd places(2, landmarks);
   for (double& coordinate : places.reshaped()) coordinate = random.uniform(-10.0, 10.0);
-  OnlineSpectralMap stream(landmarks);
+  IncrementalSpectralMap stream(landmarks);
   Eigen::Vector2d robot = Eigen::Vector2d::Zero();
   SpectralMap map;
   const double taken = seconds(1, [&] {

@@ -41,8 +41,9 @@ void make(const fs::path& folder, int count) {
     const MapRecord map = map_of(i);
     std::string text;
     for (int row = 0; row < kLandmarks; ++row)
-      text += fmt::format("{} {} {} {} {}\n", map.names[row], (*map.truth_m)(row, 0),
-                          (*map.truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
+      text +=
+          fmt::format("{} {} {} {} {}\n", map.names[row], (*map.ground_truth_m)(row, 0),
+                      (*map.ground_truth_m)(row, 1), map.estimate(row, 0), map.estimate(row, 1));
     write_file(folder / (id_of(i) + ".txt"), text);
   }
 }

@@ -1,5 +1,5 @@
 // mapproof_scenes_bench write FOLDER                 the scene, for the other programs as well
-// mapproof_scenes_bench draw FOLDER SAMPLES COUNT SINCE   PNG pictures of 1200 x 900, the eye a
+// mapproof_scenes_bench draw FOLDER SAMPLES COUNT SINCE   PNG images of 1200 x 900, the eye a
 //     little farther round for each; SINCE: when the program was started, seconds of the epoch.
 //     Prints "mapproof SAMPLES FIRST_S FURTHER_S".
 // mapproof_scenes_bench repeat COUNT                 draws all samples COUNT times, for a look at

@@ -10,7 +10,7 @@ const history = process.env.MAPPROOF_HISTORY;
 const pages = [
   [history, "index.html"],
   [join(history, "trends", "small"), "report.html"],
-  [join(history, "nights", "0002", "small"), "report.html"],
+  [join(history, "nightly_runs", "0002", "small"), "report.html"],
 ];
 const settings = [{}, { colorScheme: "dark" }, { viewport: { width: 390, height: 844 } },
   { viewport: { width: 390, height: 844 }, colorScheme: "dark" }];
@@ -48,14 +48,14 @@ test("the index and the report of the last nightly run link to each other", asyn
   await page.getByRole("link", { name: "trends of small" }).click();
   assert.match(await page.locator(".standing").innerText(), /Nightly run 2: /);
   await page.getByRole("link", { name: "all nightly runs" }).click();
-  await page.locator("#section-nights").waitFor();
+  await page.locator("#section-nightly-runs").waitFor();
   await close();
 });
 
 test("the first column of the table of nightly runs is as wide as a number", async () => {
   const phone = { viewport: { width: 390, height: 844 } };
   const { page, close } = await open(phone, history, "index.html");
-  const { width } = await page.locator("#table-nights tbody th").first().boundingBox();
+  const { width } = await page.locator("#table-nightly-runs tbody th").first().boundingBox();
   assert.ok(width < 80, `${width}`);
   await close();
 });

@@ -87,15 +87,15 @@ TEST(FitAffine, LeastDistancesIsRobustToOneWrongAnchor) {
 }
 
 TEST(OrientationError, IsZeroForAnyProperAffineImageAndHundredForAReflection) {
-  const Points truth = scattered(15, 1);
-  EXPECT_EQ(orientation_error_percent(truth, 3.0 * truth), 0.0);
-  Points mirrored = truth;
+  const Points ground_truth = scattered(15, 1);
+  EXPECT_EQ(orientation_error_percent(ground_truth, 3.0 * ground_truth), 0.0);
+  Points mirrored = ground_truth;
   mirrored.col(0) *= -1.0;
-  EXPECT_EQ(orientation_error_percent(truth, mirrored), 100.0);
+  EXPECT_EQ(orientation_error_percent(ground_truth, mirrored), 100.0);
 }
 
 TEST(OrientationError, AgreesWithCountingTriples) {
-  const Points truth = scattered(12, 1);
+  const Points ground_truth = scattered(12, 1);
   const Points estimate = scattered(12, 2);
   const auto turn = [](const Points& p, Eigen::Index i, Eigen::Index j, Eigen::Index k) {
     Eigen::Matrix3d m;
@@ -106,101 +106,108 @@ TEST(OrientationError, AgreesWithCountingTriples) {
   for (Eigen::Index i = 0; i < 12; ++i)
     for (Eigen::Index j = i + 1; j < 12; ++j)
       for (Eigen::Index k = j + 1; k < 12; ++k, ++all)
-        if (turn(truth, i, j, k) * turn(estimate, i, j, k) <= 0) ++wrong;
-  EXPECT_NEAR(orientation_error_percent(truth, estimate), 100.0 * wrong / all, 1e-12);
+        if (turn(ground_truth, i, j, k) * turn(estimate, i, j, k) <= 0) ++wrong;
+  EXPECT_NEAR(orientation_error_percent(ground_truth, estimate), 100.0 * wrong / all, 1e-12);
 }
 
 TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatGroundTruthOut) {
-  Points truth(4, 2);
-  truth << 0, 0, 1, 0, 2, 0, 0, 1;  // the first three are on a line
-  EXPECT_EQ(orientation_error_percent(truth, Points::Zero(4, 2)), 100.0);
-  EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
-  EXPECT_TRUE(std::isnan(orientation_error_percent(truth.topRows(3), truth.topRows(3))));
+  Points ground_truth(4, 2);
+  ground_truth << 0, 0, 1, 0, 2, 0, 0, 1;  // the first three are on a line
+  EXPECT_EQ(orientation_error_percent(ground_truth, Points::Zero(4, 2)), 100.0);
+  EXPECT_EQ(orientation_error_percent(ground_truth, ground_truth), 0.0);
+  EXPECT_TRUE(
+      std::isnan(orientation_error_percent(ground_truth.topRows(3), ground_truth.topRows(3))));
 }
 
 TEST(OrientationError, LeavesALineInTheGroundTruthOutHoweverItIsRotated) {
-  Points truth(9, 2);
-  for (Eigen::Index i = 0; i < 8; ++i) truth.row(i) << 0.1 * static_cast<double>(i * i), 0.0;
-  truth.row(8) << 0.3, 1.0;
+  Points ground_truth(9, 2);
+  for (Eigen::Index i = 0; i < 8; ++i) ground_truth.row(i) << 0.1 * static_cast<double>(i * i), 0.0;
+  ground_truth.row(8) << 0.3, 1.0;
   const Points estimate = scattered(9, 1);
-  const double level = orientation_error_percent(truth, estimate);
+  const double level = orientation_error_percent(ground_truth, estimate);
   for (const double turn : {0.1, 0.7, 1.3, 2.9}) {
-    const Points turned = truth * Eigen::Rotation2Dd(turn).toRotationMatrix().transpose();
+    const Points turned = ground_truth * Eigen::Rotation2Dd(turn).toRotationMatrix().transpose();
     EXPECT_EQ(orientation_error_percent(turned, estimate), level) << turn;
     EXPECT_TRUE(std::isnan(orientation_error_percent(turned.topRows(8), estimate.topRows(8))));
   }
 }
 
 TEST(OrientationError, LeavesOutPointsThatCoincideInTheGroundTruth) {
-  Points truth(4, 2);
-  truth << 0, 0, 0, 0, 1, 0, 0, 1;
-  EXPECT_EQ(orientation_error_percent(truth, truth), 0.0);
+  Points ground_truth(4, 2);
+  ground_truth << 0, 0, 0, 0, 1, 0, 0, 1;
+  EXPECT_EQ(orientation_error_percent(ground_truth, ground_truth), 0.0);
 }
 
 TEST(ScoreMap, RefusesRowsThatDoNotMatch) {
-  const Points truth = test::grid(3, 3);
+  const Points ground_truth = test::grid(3, 3);
   const auto fit = AffineFit::kLeastSquares;
-  EXPECT_THROW(score_map(truth.topRows(8), truth, {}, fit), InvalidInput);
-  EXPECT_THROW(score_map(truth, truth, {9}, fit), InvalidInput);
-  EXPECT_THROW(align_to_anchors(truth, truth.topRows(8), {0, 2, 6}, fit), InvalidInput);
-  EXPECT_THROW(align_to_anchors(truth, truth, {0, 2, -1}, fit), InvalidInput);
+  EXPECT_THROW(score_map(ground_truth.topRows(8), ground_truth, {}, fit), InvalidInput);
+  EXPECT_THROW(score_map(ground_truth, ground_truth, {9}, fit), InvalidInput);
+  EXPECT_THROW(align_to_anchors(ground_truth, ground_truth.topRows(8), {0, 2, 6}, fit),
+               InvalidInput);
+  EXPECT_THROW(align_to_anchors(ground_truth, ground_truth, {0, 2, -1}, fit), InvalidInput);
 }
 
 TEST(ScoreMap, AveragesTheErrorOverLandmarksThatAreNotAnchors) {
-  const Points truth = test::grid(3, 3);
-  Points estimate = truth;
+  const Points ground_truth = test::grid(3, 3);
+  Points estimate = ground_truth;
   estimate.row(4) += Eigen::RowVector2d(0.3, 0.4);
-  const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
+  const auto score = score_map(estimate, ground_truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
   ASSERT_TRUE(score);
   EXPECT_NEAR(score->mpe_m, 0.5 / 5.0, 1e-15);
   EXPECT_LT(score->mpe_all_fitted_m, 0.5 / 5.0);
 }
 
 TEST(ScoreMap, LeavesOutWhatIsNotOnTheMap) {
-  const Points truth = test::grid(3, 3);
-  Points estimate = truth;
+  const Points ground_truth = test::grid(3, 3);
+  Points estimate = ground_truth;
   estimate.row(4).setConstant(NAN);
-  const auto score = score_map(estimate, truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
+  const auto score = score_map(estimate, ground_truth, {0, 2, 6, 8}, AffineFit::kLeastSquares);
   ASSERT_TRUE(score);
   EXPECT_EQ(score->mpe_m, 0.0);
-  EXPECT_FALSE(score_map(Points::Constant(9, 2, NAN), truth, {}, AffineFit::kLeastSquares));
+  EXPECT_FALSE(score_map(Points::Constant(9, 2, NAN), ground_truth, {}, AffineFit::kLeastSquares));
 }
 
 TEST(AlignToAnchors, ForgetsTheFrameOfTheEmbedding) {
-  const Points truth = scattered(10, 1);
-  const AlignedMap map =
-      align_to_anchors(kSheared(truth), truth, {0, 3, 5, 7}, AffineFit::kLeastDistances);
+  const Points ground_truth = scattered(10, 1);
+  const AlignedMap map = align_to_anchors(kSheared(ground_truth), ground_truth, {0, 3, 5, 7},
+                                          AffineFit::kLeastDistances);
   EXPECT_TRUE(map.aligned);
-  EXPECT_LT((map.positions_m - truth).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((map.positions_m - ground_truth).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(AlignToAnchors, ReportsWhyItCannot) {
-  const Points truth = scattered(10, 1);
-  Points flat = truth;
+  const Points ground_truth = scattered(10, 1);
+  Points flat = ground_truth;
   flat.col(1).setZero();
-  const AlignedMap degenerate = align_to_anchors(flat, truth, {0, 1, 2}, AffineFit::kLeastSquares);
+  const AlignedMap degenerate =
+      align_to_anchors(flat, ground_truth, {0, 1, 2}, AffineFit::kLeastSquares);
   EXPECT_FALSE(degenerate.aligned);
   EXPECT_EQ(degenerate.statuses.at(0).code, StatusCode::kAnchorsDegenerate);
-  Points holed = truth;
+  Points holed = ground_truth;
   holed.row(1).setConstant(NAN);
-  const AlignedMap missing = align_to_anchors(holed, truth, {0, 1, 2}, AffineFit::kLeastSquares);
+  const AlignedMap missing =
+      align_to_anchors(holed, ground_truth, {0, 1, 2}, AffineFit::kLeastSquares);
   EXPECT_EQ(missing.statuses.at(0).code, StatusCode::kAnchorsMissing);
-  EXPECT_THROW(align_to_anchors(truth, flat, {0, 1, 2}, AffineFit::kLeastSquares), InvalidInput);
+  EXPECT_THROW(align_to_anchors(ground_truth, flat, {0, 1, 2}, AffineFit::kLeastSquares),
+               InvalidInput);
 }
 
 TEST(ScoreMap, CountsEveryTripleOfAFlatMapAsWrongInBothOrientations) {
-  const Points truth = test::grid(3, 3);
-  Points flat = truth;
+  const Points ground_truth = test::grid(3, 3);
+  Points flat = ground_truth;
   flat.col(1).setZero();
   const Points point = Points::Zero(9, 2);
   for (const Points& estimate : {flat, point}) {
-    const Score score = score_map(estimate, truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
+    const Score score =
+        score_map(estimate, ground_truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
     EXPECT_EQ(score.moe_percent, 100.0);
     EXPECT_EQ(score.moe_unmirrored_percent, 100.0);
   }
-  Points mirrored = truth;
+  Points mirrored = ground_truth;
   mirrored.col(0) *= -1.0;
-  const Score score = score_map(mirrored, truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
+  const Score score =
+      score_map(mirrored, ground_truth, {0, 1, 3}, AffineFit::kLeastSquares).value();
   EXPECT_EQ(score.moe_percent, 100.0);
   EXPECT_EQ(score.moe_unmirrored_percent, 0.0);
 }

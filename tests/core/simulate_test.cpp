@@ -180,8 +180,8 @@ TEST(Observe, AddsTheRequestedNoise) {
 
   const auto flips =
       observe(world, path, {.sensor = Sensor::kVisibility, .noise = 0.1}, random).values;
-  const auto truth = observe(world, path, {.sensor = Sensor::kVisibility}, random).values;
-  EXPECT_NEAR((flips - truth).cwiseAbs().mean(), 0.1, 0.02);
+  const auto ground_truth = observe(world, path, {.sensor = Sensor::kVisibility}, random).values;
+  EXPECT_NEAR((flips - ground_truth).cwiseAbs().mean(), 0.1, 0.02);
 }
 
 TEST(Observe, SeesAboutFiveAndAHalfLandmarksAStepInThePapersRoom) {

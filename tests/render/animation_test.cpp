@@ -87,18 +87,18 @@ TEST(Animation, ThatFindsNoMemoryInItsProgramSaysSo) {
   const std::string name = kProgram.filename().string();
   const std::vector<Image> frames = frames_of(3, 300, 200);
   const std::string whole = encode_animation(frames, {}, kProgram);
-  long calls = 1, told = 0;
+  long calls = 1, reported = 0;
   for (long call = 0; call <= calls; ++call) {
     const Faults faults(call == 0 ? "" : at_call("alloc", call), name);
     try {
       EXPECT_TRUE(encode_animation(frames, {}, kProgram) == whole) << call;
     } catch (const std::bad_alloc&) {
-      ++told;
+      ++reported;
     }
     if (call == 0) calls = faults.calls("alloc");
   }
   EXPECT_GT(calls, 5);
-  EXPECT_GT(told, calls / 2);
+  EXPECT_GT(reported, calls / 2);
 }
 
 TEST(Animation, WithoutItsProgramIsOneLine) {

@@ -90,15 +90,15 @@ TEST_F(Backends, PdfHasAFixedDateAndATitle) {
 }
 
 /// A figure in each format.
-using Pictures = std::array<std::string, 3>;
+using Images = std::array<std::string, 3>;
 
-Pictures pictures_of(const Figure& figure) {
+Images images_of(const Figure& figure) {
   return {figure_png(figure, report_theme()), figure_svg(figure, report_theme()),
           figure_pdf(figure, report_theme())};
 }
 
 /// Names the figure, its format and the first byte that differs; empty if none does.
-std::string difference(const Figure& figure, const Pictures& a, const Pictures& b) {
+std::string difference(const Figure& figure, const Images& a, const Images& b) {
   constexpr std::array kFormats = {"png", "svg", "pdf"};
   for (std::size_t i = 0; i < kFormats.size(); ++i) {
     if (a[i] == b[i]) continue;
@@ -109,17 +109,17 @@ std::string difference(const Figure& figure, const Pictures& a, const Pictures& 
   return "";
 }
 
-TEST_F(Backends, ThePictureIsTheSameForEveryThread) {
+TEST_F(Backends, TheImageIsTheSameForEveryThread) {
   const std::vector<Figure> figures = sample_figures();
-  std::vector<Pictures> expected;
-  for (const Figure& figure : figures) expected.push_back(pictures_of(figure));
-  std::vector<Pictures> found(3 * figures.size());
+  std::vector<Images> expected;
+  for (const Figure& figure : figures) expected.push_back(images_of(figure));
+  std::vector<Images> found(3 * figures.size());
   std::vector<std::jthread> threads;
   for (std::size_t t = 0; t < 3; ++t)
     threads.emplace_back([&, t] {
       for (std::size_t k = 0; k < figures.size(); ++k) {
         const std::size_t i = (k + 7 * t) % figures.size();  // In another order in each thread.
-        found[t * figures.size() + i] = pictures_of(figures[i]);
+        found[t * figures.size() + i] = images_of(figures[i]);
       }
     });
   threads.clear();
@@ -152,7 +152,7 @@ TEST_F(Backends, AFileInTheFoldersPlaceIsAnError) {
   EXPECT_THROW(write_figure(usual_map(), report_theme(), folder_ / "file"), IoError);
 }
 
-TEST_F(Backends, ThePictureOfAHugePageIsRefused) {
+TEST_F(Backends, TheImageOfAHugePageIsRefused) {
   Drawing drawing = lay_out(usual_map(), report_theme());
   drawing.dpi = 1e9;
   EXPECT_THROW(to_image(drawing), InvalidInput);

@@ -95,12 +95,12 @@ TEST(ScatterEllipse, TurnsWithItsPoints) {
   EXPECT_TRUE(std::isnan(scatter_ellipse(runs, 0).a_m));
 }
 
-TEST(EllipseMapFigure, JoinsTheTruthToTheMean) {
+TEST(EllipseMapFigure, JoinsTheGroundTruthToTheMean) {
   const EllipseMapSpec spec = sample_runs(20, 5);
   const Figure figure = ellipse_map_figure(spec);
   const auto bias = labelled<Segments>(figure.panels[0], "ground truth to mean").value();
   ASSERT_EQ(bias.x0.size(), 20u);
-  EXPECT_EQ(bias.x0[3], spec.truth_m(3, 0));
+  EXPECT_EQ(bias.x0[3], spec.ground_truth_m(3, 0));
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);
   EXPECT_EQ(labelled<Ellipses>(figure.panels[0], "95 % of estimates").value().x.size(), 20u);
   EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
@@ -205,12 +205,12 @@ TEST(EllipseMapFigure, HoldsItsEllipsesUnlessTheyAreFarTooLarge) {
   EllipseMapSpec spec;
   spec.id = "ellipses";
   spec.names = {"a", "b"};
-  spec.truth_m = Points(2, 2);
-  spec.truth_m << 0, 0, 10, 10;
+  spec.ground_truth_m = Points(2, 2);
+  spec.ground_truth_m << 0, 0, 10, 10;
   const auto scattered_by = [&](double reach) {
     spec.estimates_m.clear();
     for (const double off : {-reach, 0.0, reach}) {
-      Points run = spec.truth_m;
+      Points run = spec.ground_truth_m;
       run(1, 0) += off;
       spec.estimates_m.push_back(run);
     }
@@ -244,8 +244,8 @@ MapRecord right_triangle() {
   map.names = {"a", "b", "c"};
   map.estimate = Points::Constant(3, 2, NAN);
   map.estimate.topRows(2) << 0.0, 0.0, 3.1, 0.0;
-  map.truth_m.emplace(3, 2);
-  *map.truth_m << 0.0, 0.0, 3.0, 0.0, 3.0, 4.0;
+  map.ground_truth_m.emplace(3, 2);
+  *map.ground_truth_m << 0.0, 0.0, 3.0, 0.0, 3.0, 4.0;
   return map;
 }
 
@@ -264,9 +264,9 @@ TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
   EXPECT_NEAR(off[0].y[0], 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(against[1].x[1], 5.0);
   EXPECT_NEAR(off[1].y[1], -0.2, 1e-12);
-  EXPECT_EQ(against[1].marks[1].id, "truth-1-3");
+  EXPECT_EQ(against[1].marks[1].id, "ground_truth-1-3");
   EXPECT_TRUE(contains(figure.alt, "1 pair measured.")) << figure.alt;
-  EXPECT_TRUE(contains(figure.alt, "within 0.250 m in the truth")) << figure.alt;
+  EXPECT_TRUE(contains(figure.alt, "within 0.250 m in the ground truth")) << figure.alt;
 }
 
 TEST(PairDistancesFigure, SaysThatNoPairHasAPlaceAndRefusesRowsThatAreNotThere) {

@@ -54,11 +54,11 @@ void expect_both_refuse(const std::string& schema, const json& bad) {
 
 /// With the value at the pointer replaced, or without its key.
 json damaged(json value, const std::string& pointer, const json& by) {
-  const json::json_pointer place(pointer);
+  const json::json_pointer position(pointer);
   if (by.is_null())
-    value[place.parent_pointer()].erase(place.back());
+    value[position.parent_pointer()].erase(position.back());
   else
-    value[place] = by;
+    value[position] = by;
   return value;
 }
 

@@ -29,12 +29,12 @@ bool has_note(const Figure& figure, const std::string& part) {
       figure.notes, [&](const Note& note) { return note.text.find(part) != std::string::npos; });
 }
 
-TEST(MapFigure, JoinsEachEstimateToItsTruth) {
+TEST(MapFigure, JoinsEachEstimateToItsGroundTruth) {
   const MapRecord map = sample_map(50, 0.1, 1);
   const Figure figure = map_figure(map, "map");
   const auto lines = layer_of<Segments>(figure, "error");
   ASSERT_EQ(lines.x0.size(), 50u);
-  EXPECT_EQ(lines.x0[7], (*map.truth_m)(7, 0));
+  EXPECT_EQ(lines.x0[7], (*map.ground_truth_m)(7, 0));
   EXPECT_EQ(lines.y1[7], map.estimate(7, 1));
   EXPECT_EQ(layer_of<Scatter>(figure, "anchor").x.size(), 4u);
   EXPECT_EQ(layer_of<Scatter>(figure, "true position").x.size(), 46u);
@@ -67,7 +67,7 @@ TEST(MapFigure, SaysItsScoreInTheCaption) {
 }
 
 TEST(MapFigure, SaysOnlyErrorsThatAreKnown) {
-  for (const Frame frame : {Frame::kTruth, Frame::kSimilarity}) {
+  for (const Frame frame : {Frame::kGroundTruth, Frame::kSimilarity}) {
     MapRecord map = sample_map(20, 0.1, 1);
     map.frame = frame;
     map.score = Score{NAN, NAN, 0.31, 4.2};
@@ -96,7 +96,7 @@ TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
 TEST(MapFigure, ListsLandmarksWithoutAPlaceAndDrawsTheRest) {
   MapRecord map = sample_map(20, 0.1, 1);
   map.estimate.row(3).setConstant(NAN);
-  map.truth_m->row(5).setConstant(NAN);
+  map.ground_truth_m->row(5).setConstant(NAN);
   const Figure figure = map_figure(map, "map");
   EXPECT_TRUE(has_note(figure, "Not on the map: L04."));
   EXPECT_EQ(layer_of<Scatter>(figure, "estimate").x.size(), 19u);
@@ -126,11 +126,11 @@ TEST(MapFigure, DrawsStatusesAndKeepsThemInTheCaption) {
   EXPECT_NE(figure.caption.find("The graph was in 2 pieces."), std::string::npos);
 }
 
-TEST(MapFigure, WithoutATruthSaysThatTheFrameIsArbitrary) {
+TEST(MapFigure, WithoutAGroundTruthSaysThatTheFrameIsArbitrary) {
   MapRecord map = sample_map(20, 0.1, 1);
   map.frame = Frame::kSimilarity;
   map.anchors.clear();
-  const Figure figure = map_figure(map, "map");  // A truth in another frame is not drawn.
+  const Figure figure = map_figure(map, "map");  // A ground truth in another frame is not drawn.
   EXPECT_TRUE(has_note(figure, "translation, rotation, scale and reflection are arbitrary"));
   EXPECT_NE(figure.caption.find("arbitrary"), std::string::npos);
   EXPECT_EQ(figure.panels[0].x.label.find("[m]"), std::string::npos);
@@ -149,7 +149,7 @@ TEST(MapFigure, RefusesARecordWhosePartsDisagree) {
   map.estimate(0, 0) = INFINITY;
   EXPECT_THROW(map_figure(map, "map"), InvalidInput);
   map = sample_map(20, 0.1, 1);
-  map.truth_m->conservativeResize(19, 2);
+  map.ground_truth_m->conservativeResize(19, 2);
   EXPECT_THROW(map_figure(map, "map"), InvalidInput);
 }
 

@@ -66,7 +66,7 @@ TEST(Layout, EqualAspectMakesUnitsEquallyLong) {
   for (const Item& item : drawing.items)
     if (item.mark && drawing.marks[*item.mark].id.starts_with("true-"))
       at.push_back(std::get<Stamp>(item.what).at);
-  const auto true_m = *sample_map(50, 0.1, 1).truth_m;
+  const auto true_m = *sample_map(50, 0.1, 1).ground_truth_m;
   std::vector<Eigen::Index> rows;
   const auto anchors = sample_map(50, 0.1, 1).anchors;
   for (Eigen::Index i = 0; i < 50; ++i)
@@ -86,7 +86,7 @@ std::string joined_text(const std::vector<TextLine>& lines) {
 
 TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
   const std::string label =
-      "distance between the mean of the estimated positions and the truth [m]";
+      "distance between the mean of the estimated positions and the ground truth [m]";
   for (const bool is_equal : {false, true}) {
     Figure figure = with_panels(1);
     figure.panels[0].y.label = label;
@@ -102,7 +102,7 @@ TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
 }
 
 TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
-  const std::string label = "distance of the map from the truth [m]";
+  const std::string label = "distance of the map from the ground truth [m]";
   Figure figure = with_panels(3);
   figure.shared_y = true;
   for (Panel& panel : figure.panels) {
@@ -116,7 +116,7 @@ TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
 
 TEST(Layout, ALongLabelOfAColourBarIsWrapped) {
   const std::string label =
-      "distance between the mean of the estimated positions and the truth [m]";
+      "distance between the mean of the estimated positions and the ground truth [m]";
   Figure figure = with_panels(1);
   figure.panels[0].layers.push_back(Cells{.x = {0, 1},
                                           .y = {0, 1},

@@ -28,7 +28,7 @@ TEST(PathMap, HasTheMapAboveAndTheErrorsBelow) {
   EXPECT_EQ(figure.panels[1].y.scale, Scale::kLog);
 }
 
-TEST(PathMap, DrawsTheTruthBelowAndEachMethodInItsOwnInk) {
+TEST(PathMap, DrawsTheGroundTruthBelowAndEachMethodInItsOwnInk) {
   const Panel map = figure_of(sample_drive("plaza-1", 2000, 1)).panels[0];
   const auto paths = layers_of<Polyline>(map);
   ASSERT_EQ(paths.size(), 4u);
@@ -43,10 +43,10 @@ TEST(PathMap, DrawsTheTruthBelowAndEachMethodInItsOwnInk) {
 TEST(PathMap, ThinsTenThousandPosesToWhatTheEyeCanSee) {
   const SlamRun run = sample_drive("plaza-1", 10000, 1);
   const Figure figure = figure_of(run);
-  const auto truth = labelled<Polyline>(figure.panels[0], "true path").value();
-  EXPECT_LT(truth.x.size(), 80u);  // Eleven lanes and their ends.
-  EXPECT_EQ(truth.x.front(), run.log.truth->positions_m(0, 0));
-  EXPECT_EQ(truth.y.back(), run.log.truth->positions_m(9999, 1));
+  const auto ground_truth = labelled<Polyline>(figure.panels[0], "true path").value();
+  EXPECT_LT(ground_truth.x.size(), 80u);  // Eleven lanes and their ends.
+  EXPECT_EQ(ground_truth.x.front(), run.log.ground_truth->positions_m(0, 0));
+  EXPECT_EQ(ground_truth.y.back(), run.log.ground_truth->positions_m(9999, 1));
   for (const auto& line : layers_of<Polyline>(figure.panels[1])) EXPECT_LE(line.x.size(), 1200u);
 }
 
@@ -86,9 +86,9 @@ TEST(PathMap, MarksLandmarksAsKnownOnlyWhereAMethodWasGivenThem) {
   EXPECT_EQ(labelled<Scatter>(without, "landmark, true")->x.size(), 6u);
 }
 
-TEST(PathMap, ClaimsNoErrorWithoutATruth) {
+TEST(PathMap, ClaimsNoErrorWithoutAGroundTruth) {
   SlamRun run = sample_drive("plaza-1", 2000, 1);
-  run.log.truth.reset();
+  run.log.ground_truth.reset();
   run.log.true_landmarks.reset();
   for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
   const Figure figure = figure_of(run);
@@ -97,7 +97,7 @@ TEST(PathMap, ClaimsNoErrorWithoutATruth) {
   EXPECT_FALSE(contains(figure.caption, "true"));
 }
 
-TEST(PathMap, NamesAPathThatLeavesThePictureAndKeepsThePicture) {
+TEST(PathMap, NamesAPathThatLeavesTheImageAndKeepsTheImage) {
   SlamRun run = sample_drive("plaza-1", 2000, 1);
   run.records[0].estimate.path.positions_m *= 100.0;
   const Figure figure = figure_of(run);

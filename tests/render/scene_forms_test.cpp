@@ -144,7 +144,7 @@ const Rods& error_rods(const Scene& scene, std::size_t view) {
   return std::get<Rods>(scene.parts[parts[parts.size() - 2]]);
 }
 
-TEST(SpaceScene, JoinsTruthAndEstimateByRodsAsLongAsItSays) {
+TEST(SpaceScene, JoinsGroundTruthAndEstimateByRodsAsLongAsItSays) {
   const SpaceSceneSpec spec = space_spec();
   const Scene scene = space_scene(spec);
   ASSERT_EQ(scene.views.size(), 2U);
@@ -153,10 +153,10 @@ TEST(SpaceScene, JoinsTruthAndEstimateByRodsAsLongAsItSays) {
     ASSERT_EQ(rods.from.size(), 10U);
     for (std::size_t n = 0; n < 10; ++n) {
       const auto row = static_cast<Eigen::Index>(n);
-      const Point3 truth = spec.run.landmarks_m.row(row).transpose();
+      const Point3 ground_truth = spec.run.landmarks_m.row(row).transpose();
       const Point3 estimate = spec.run.records[view].estimate.landmarks_m.row(row).transpose();
-      EXPECT_LT((rods.from[n] - truth).norm(), 1e-12);
-      EXPECT_LT((rods.to[n] - truth - 10.0 * (estimate - truth)).norm(), 1e-9);
+      EXPECT_LT((rods.from[n] - ground_truth).norm(), 1e-12);
+      EXPECT_LT((rods.to[n] - ground_truth - 10.0 * (estimate - ground_truth)).norm(), 1e-9);
     }
   }
   EXPECT_NE(scene.caption.find("10 times"), std::string::npos);
@@ -207,7 +207,7 @@ FormingSceneSpec forming_spec(int maps) {
     spec.maps.push_back(sample_map(20, 1.0 / i, 3));
     spec.maps.back().step = 100 * i;
   }
-  spec.world = {2.5, 0.048, *spec.maps[0].truth_m};
+  spec.world = {2.5, 0.048, *spec.maps[0].ground_truth_m};
   return spec;
 }
 

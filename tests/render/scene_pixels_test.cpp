@@ -144,15 +144,15 @@ double memory_of_child_mib() {
 TEST_P(ScenePixelsByEachWay, TwoHundredOfThemLeaveNothingBehind) {
   SceneClient one = client();
   const Scene scene = small_scene();  // Has a part of every kind.
-  const auto draw = [&](int pictures) {
-    for (int i = 0; i < pictures; ++i)
+  const auto draw = [&](int images) {
+    for (int i = 0; i < images; ++i)
       one.draw(scene, 0, 320 + 16 * (i % 5), 240, 4 * (i % 2), report_theme());
     return memory_of_child_mib();
   };
   const double before = draw(80);  // Shaders and buffers of every size and kind.
   ASSERT_GT(before, 10.0);
-  constexpr double kPicture_mib = 320.0 * 240.0 * 3.0 / 1024.0 / 1024.0;
-  EXPECT_LT(draw(200) - before, 200.0 * kPicture_mib / 4.0);
+  constexpr double kImage_mib = 320.0 * 240.0 * 3.0 / 1024.0 / 1024.0;
+  EXPECT_LT(draw(200) - before, 200.0 * kImage_mib / 4.0);
 }
 
 TEST(SceneClient, SaysInOneLineThatTheProgramIsMissing) {

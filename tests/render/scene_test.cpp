@@ -163,24 +163,24 @@ TEST(SceneFigure, HasNothingThatAReaderWouldHoldAgainstIt) {
     }
 }
 
-TEST(SceneFigure, LabelsStandInThePictureAndOffTheSolids) {
+TEST(SceneFigure, LabelsStandInTheImageAndOffTheSolids) {
   const Theme theme = report_theme();
   const Figure figure = scene_figure(small_scene(), theme);
   const Drawing drawing = lay_out(figure, theme);
   const Box& frame = drawing.frames[0];
-  const Picture& picture = std::get<Picture>(figure.panels[0].layers[0]);
-  const double unit = frame.height() / (picture.y.high - picture.y.low);
+  const ImageLayer& image = std::get<ImageLayer>(figure.panels[0].layers[0]);
+  const double unit = frame.height() / (image.y.high - image.y.low);
   const auto is_on_a_solid = [&](const Box& box) {
-    for (std::size_t i = 0; i < picture.clear_x.size(); ++i) {
-      const double x = frame.x0 + (picture.clear_x[i] - picture.x.low) * unit;
-      const double y = frame.y0 + (picture.y.high - picture.clear_y[i]) * unit;
-      const double half = picture.clear_by[i] * unit;
+    for (std::size_t i = 0; i < image.clear_x.size(); ++i) {
+      const double x = frame.x0 + (image.clear_x[i] - image.x.low) * unit;
+      const double y = frame.y0 + (image.y.high - image.clear_y[i]) * unit;
+      const double half = image.clear_by[i] * unit;
       if (box.x0 < x + half && x - half < box.x1 && box.y0 < y + half && y - half < box.y1)
         return true;
     }
     return false;
   };
-  EXPECT_GT(picture.clear_x.size(), 3U);
+  EXPECT_GT(image.clear_x.size(), 3U);
   int labels = 0;
   for (const Item& item : drawing.items) {
     const auto* line = std::get_if<TextLine>(&item.what);

@@ -29,7 +29,7 @@ TEST(LogLogSlope, IsThePowerOfAPowerLaw) {
   EXPECT_TRUE(std::isnan(log_log_slope({1, 2}, {0, -1})));
 }
 
-TEST(ConvergenceFigure, StandsOverReadingsWithTheLandmarksBeside) {
+TEST(ConvergenceFigure, StandsOverMeasurementsWithTheLandmarksBeside) {
   const Figure figure = convergence_figure("fig-1b", white());
   ASSERT_EQ(figure.panels.size(), 2u);
   for (const Panel& panel : figure.panels) {

@@ -93,15 +93,15 @@ TEST(Svg, SaysWhatItShowsToThoseWhoCannotSee) {
 TEST(Svg, CarriesTheDataOfEachMark) {
   MapRecord map = sample_map(20, 0.1, 1);
   map.names[6] = "<door> & \"window\"\u202E";
-  map.truth_m->row(6) << 1.0, 2.0;
+  map.ground_truth_m->row(6) << 1.0, 2.0;
   map.estimate.row(6) << 1.3, 2.4;
   std::map<std::string, XmlElement> by_id;
   for (const XmlElement& element : parse_xml(figure_svg(map_figure(map, "map"), report_theme())))
     if (element.attributes.contains("id")) by_id[element.attributes.at("id")] = element;
-  const auto& truth = by_id.at("map-true-7").attributes;
-  EXPECT_EQ(truth.at("data-landmark"), map.names[6]);
-  EXPECT_EQ(truth.at("data-x"), "1");
-  EXPECT_EQ(truth.at("data-y"), "2");
+  const auto& ground_truth = by_id.at("map-true-7").attributes;
+  EXPECT_EQ(ground_truth.at("data-landmark"), map.names[6]);
+  EXPECT_EQ(ground_truth.at("data-x"), "1");
+  EXPECT_EQ(ground_truth.at("data-y"), "2");
   const auto& estimate = by_id.at("map-estimate-7").attributes;
   EXPECT_EQ(estimate.at("data-kind"), "estimate");
   EXPECT_EQ(estimate.at("data-error"), "0.5");

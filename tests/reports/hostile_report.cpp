@@ -51,9 +51,9 @@ std::string drawn_map(std::vector<std::string>& names) {
   Trap name(names);
   MapRecord record;
   record.id = "map/x";
-  record.truth_m = Points(5, 2);
-  *record.truth_m << 0, 0, 2, 0, 0, 2, 2, 2, 1, 1;
-  record.estimate = record.truth_m->array() + 0.1;
+  record.ground_truth_m = Points(5, 2);
+  *record.ground_truth_m << 0, 0, 2, 0, 0, 2, 2, 2, 1, 1;
+  record.estimate = record.ground_truth_m->array() + 0.1;
   record.anchors = {0, 1};
   for (int i = 0; i < 5; ++i) record.names.push_back(name());
   return to_svg(lay_out(map_figure(record, "drawn"), report_theme()));

@@ -147,7 +147,7 @@ TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
   Report report{"t", "", {}, ""};
   EXPECT_EQ(report_html(report, load_templates(), {}).find("class=\"standing"), std::string::npos);
   report.opening.standing =
-      Standing{true, "Night 5: 1 thing got worse", {"LLE is 5 % less accurate."}};
+      Standing{true, "Nightly run 5: 1 thing got worse", {"LLE is 5 % less accurate."}};
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
   EXPECT_NE(page.find("LLE is 5 % less accurate."), std::string::npos);
@@ -170,7 +170,8 @@ TEST(ReportHtml, RefusesAReportWithAnInvalidId) {
 }
 
 TEST(Html, FilesAreLinkedByPathsThatStayBesideThePage) {
-  EXPECT_EQ(file_link("nights/0001/a b/report.html"), "./nights/0001/a%20b/report.html");
+  EXPECT_EQ(file_link("nightly_runs/0001/a b/report.html"),
+            "./nightly_runs/0001/a%20b/report.html");
   EXPECT_EQ(file_link("javascript:alert(1)"), "./javascript%3Aalert%281%29");
   EXPECT_EQ(file_link("//host/x"), ".///host/x");
   EXPECT_EQ(file_link("\"><b>"), "./%22%3E%3Cb%3E");

@@ -17,8 +17,8 @@ MapRecord triangle() {
   record.names = {"a", "b", "c"};
   record.estimate.resize(3, 2);
   record.estimate << 0, 0, 3, 4, kNaN, kNaN;
-  record.truth_m = Points(3, 2);
-  *record.truth_m << 0, 0, 0, 0, 1, 1;
+  record.ground_truth_m = Points(3, 2);
+  *record.ground_truth_m << 0, 0, 0, 0, 1, 1;
   record.anchors = {0};
   record.statuses = {status_with_message(StatusCode::kLandmarkUnseen, "1 landmark: c.")};
   return record;
@@ -48,9 +48,9 @@ TEST(MapReport, GivesEachLandmarkItsErrorAndAnUnmappedOneADash) {
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[6]).text, "yes");
 }
 
-TEST(MapReport, HasNoErrorsWithoutTruthAndNoMetresWithoutAnchors) {
+TEST(MapReport, HasNoErrorsWithoutGroundTruthAndNoMetresWithoutAnchors) {
   MapRecord record = triangle();
-  record.truth_m.reset();
+  record.ground_truth_m.reset();
   record.anchors.clear();
   record.frame = Frame::kSimilarity;
   const Report report = report_of(record);

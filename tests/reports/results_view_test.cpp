@@ -74,7 +74,7 @@ TEST(ResultsView, AnAxisIsTheNumericFactorWithTheMostLevels) {
   Rows rows;
   for (const double noise : {0.1, 0.2, 0.3})
     for (const double size : {5.0, 10.0})
-      for (const char* light : {"day", "night"})
+      for (const char* light : {"day", "nightly_run"})
         rows.add("m", "a1", noise,
                  {{"noise", noise}, {"size", size}, {"light", std::string(light)}});
   const ResultsStudy study = rows.study();
@@ -293,7 +293,7 @@ TEST(ResultsComparison, SaysWherePairedTestAndMeanRanksContradictEachOther) {
 TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
   Rows rows;
   for (const double size : {1.0, 2.0, 3.0})
-    for (const char* light : {"day", "dusk", "night"})
+    for (const char* light : {"day", "dusk", "nightly_run"})
       for (const char* run : {"a", "b", "c", "d"})
         for (const char* method : {"m", "n", "o"}) {
           const bool swapped = light[0] == 'n';
@@ -407,16 +407,16 @@ TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {
   path.path.time_s = Eigen::Vector3d(0.0, 1.0, 2.0);
   path.path.positions_m = Points::Zero(3, 2);
   path.path.positions_m(1, 0) = path.path.positions_m(2, 1) = 1.0;
-  path.truth = path.path;
+  path.ground_truth = path.path;
   const auto figure_of = [&] {
     return given_figures(Rows().add("m", "a", 1.0).study(), {}, {path}).figures.at(0);
   };
   const Figure plain = figure_of();
-  const auto& truth = std::get<Polyline>(plain.panels[0].layers[0]);
+  const auto& ground_truth = std::get<Polyline>(plain.panels[0].layers[0]);
   const auto& estimate = std::get<Polyline>(plain.panels[0].layers[1]);
-  EXPECT_EQ(truth.label, "ground truth");
-  EXPECT_EQ(truth.dash, Dash::kSolid);
-  EXPECT_LT(truth.width, estimate.width);
+  EXPECT_EQ(ground_truth.label, "ground truth");
+  EXPECT_EQ(ground_truth.dash, Dash::kSolid);
+  EXPECT_LT(ground_truth.width, estimate.width);
   EXPECT_NE(plain.caption.find("nothing was aligned"), std::string::npos);
   path.alignment = Alignment::kSimilarity;
   path.rms_m = 0.25;
@@ -502,7 +502,7 @@ TEST(ResultsFigures, HaveIdsOfTheirOwnWhereMethodsDifferByCaseAlone) {
 TEST(ResultsFigures, OneFactorOrATextGivesNoHeatMap) {
   Rows one, text;
   for (const double noise : {0.1, 0.2})
-    for (const char* light : {"day", "night"}) {
+    for (const char* light : {"day", "nightly_run"}) {
       one.add("m", std::string("a") + light, noise, {{"noise", noise}});
       text.add("m", "a1", noise, {{"noise", noise}, {"light", std::string(light)}});
     }
@@ -585,7 +585,7 @@ TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
 
 TEST(ResultsTables, MethodsOfTheSameLabelHaveARowEach) {
   Rows rows;
-  for (const char* light : {"day", "night"})
+  for (const char* light : {"day", "nightly_run"})
     rows.add("m", "a", 1.0, {{"light", std::string(light)}, {"size", 1.0}})
         .add("n", "a", 2.0, {{"light", std::string(light)}, {"size", 1.0}});
   ResultsStudy study = rows.study();

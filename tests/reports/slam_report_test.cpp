@@ -165,7 +165,7 @@ std::string words(const Opening& opening) {
   return all;
 }
 
-TEST(SlamOpening, IsAFewNumbersWithTheirAlignmentToldOnce) {
+TEST(SlamOpening, IsAFewNumbersWithTheirAlignmentStatedOnce) {
   const std::string all = words(slam_opening(sample_slam_study(), {}));
   EXPECT_NE(
       all.find(
@@ -179,12 +179,12 @@ TEST(SlamOpening, IsAFewNumbersWithTheirAlignmentToldOnce) {
 
 TEST(SlamOpening, OfNothingSaysNothing) { EXPECT_EQ(words(slam_opening({}, {})), ""); }
 
-TEST(SlamSummary, ClaimsNoErrorWithoutATruthAndNothingOfAPaperThatIsNot) {
+TEST(SlamSummary, ClaimsNoErrorWithoutAGroundTruthAndNothingOfAPaperThatIsNot) {
   SlamStudy study;
   study.name = "slam";
   study.runs = {test::sample_drive("mine", 100, 1)};
   SlamRun& run = study.runs[0];
-  run.log.truth.reset();
+  run.log.ground_truth.reset();
   run.log.true_landmarks.reset();
   run.starts.clear();
   for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
@@ -288,7 +288,7 @@ TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
 TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {
   const SlamStudy study = sample_slam_study();
   const auto sections = sections_of(study, test::sample_slam_timings());
-  EXPECT_TRUE(says(sections[2], "Heading increments of the table DR are the truth\u2019s"));
+  EXPECT_TRUE(says(sections[2], "Heading increments of the table DR are the ground truth\u2019s"));
   const Table& seconds = table_named(sections[7], "slam-seconds");
   EXPECT_EQ(seconds.rows.size(), 3u);
   EXPECT_TRUE(seconds.caption.ends_with("(varies)"));

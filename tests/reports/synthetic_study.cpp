@@ -113,7 +113,7 @@ std::vector<MapRecord> synthetic_maps(const Study& study, const RunId& run) {
       map.id = record_id(run, record.sensor, record.setting, record.step);
       map.origin = FromSensor{record.sensor, record.setting};
       map.step = record.step;
-      map.truth_m = grid_points();
+      map.ground_truth_m = grid_points();
       map.estimate = grid_points();
       map.anchors = {0, 3, 8, 11};
       map.statuses = record.statuses;

@@ -1,4 +1,4 @@
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -56,7 +56,7 @@ TEST(TrialMeans, ADifferenceNeedsBothSeries) {
   EXPECT_THROW(trial_difference(study, at(5.0), "two", "one", "moe"), InvalidInput);
 }
 
-TEST(TrialMeans, LevelsAreToldWithWhatTheyAreOf) {
+TEST(TrialMeans, LevelsAreGivenWithWhatTheyAreOf) {
   const auto words = [](std::vector<TrialFactor> factors) {
     const TrialSetup setup{"a", "A", std::move(factors)};
     return level_words(setup, conditions_of(setup).front());
@@ -84,7 +84,7 @@ TEST(TrialMeans, ConditionsAreAllCombinationsOfLevels) {
   EXPECT_EQ(levels_of(single), std::vector{0.0});
 }
 
-TEST(TrialMeans, SeriesAreToldByTheirLabels) {
+TEST(TrialMeans, SeriesHaveTheirLabels) {
   const TrialStudy study = study_of(0.0, 0.0);
   EXPECT_EQ(series_label(study.design, "two"), "Second");
   EXPECT_EQ(series_label(study.design, "three"), "three");

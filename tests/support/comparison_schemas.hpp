@@ -5,8 +5,8 @@
 
 namespace mapproof::test {
 
-/// The schemas of comparisons, their settings and approvals, and of nights, that the code makes, by
-/// the names of their files.
+/// The schemas of comparisons, their settings and approvals, and of nightly runs, that the code
+/// makes, by the names of their files.
 std::map<std::string, std::string> comparison_schemas();
 
 }  // namespace mapproof::test

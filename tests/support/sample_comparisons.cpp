@@ -152,10 +152,10 @@ EllipseMapSpec sample_runs(int landmarks, int runs) {
   spec.title = "ISOMAP, K = 6: the runs of layout 1";
   const MapRecord map = sample_map(landmarks, 0.0, 3);
   spec.names = map.names;
-  spec.truth_m = *map.truth_m;
+  spec.ground_truth_m = *map.ground_truth_m;
   spec.anchors = map.anchors;
   for (int run = 0; run < runs; ++run) {
-    spec.estimates_m.push_back(spec.truth_m);
+    spec.estimates_m.push_back(spec.ground_truth_m);
     Points& points = spec.estimates_m.back();
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const double along = 0.05 * random.normal(), across = 0.015 * random.normal();
@@ -172,13 +172,13 @@ ShepardSpec sample_distances(std::size_t methods, int landmarks) {
   ShepardSpec spec;
   spec.id = "shepard";
   spec.title = "Map distance against distance of observations, visibility";
-  const Points truth = *sample_map(landmarks, 0.0, 4).truth_m;
+  const Points ground_truth = *sample_map(landmarks, 0.0, 4).ground_truth_m;
   for (std::size_t m = 0; m < methods; ++m) {
     ShepardPanel& panel = spec.methods.emplace_back();
     panel.title = method_labels(10)[m];
-    for (Eigen::Index i = 0; i < truth.rows(); ++i)
+    for (Eigen::Index i = 0; i < ground_truth.rows(); ++i)
       for (Eigen::Index j = 0; j < i; ++j) {
-        const double distance = (truth.row(i) - truth.row(j)).norm();
+        const double distance = (ground_truth.row(i) - ground_truth.row(j)).norm();
         panel.observed.push_back(std::sqrt(2.0) * std::sqrt(1.0 - std::exp(-distance)));
         panel.mapped_m.push_back(
             std::abs(distance + 0.05 * static_cast<double>(m + 1) * random.normal()));
@@ -300,7 +300,7 @@ IdeaSpec sample_idea(Sensor sensor) {
   options.sensor = sensor;
   spec.history = observe(spec.world, path, options, random);
   spec.map = sample_map(50, 0.06, 2);
-  spec.map.truth_m = spec.world.landmarks_m;
+  spec.map.ground_truth_m = spec.world.landmarks_m;
   for (Eigen::Index i = 0; i < 50; ++i)
     spec.map.estimate.row(i) =
         spec.world.landmarks_m.row(i) + 0.06 * Eigen::RowVector2d(random.normal(), random.normal());

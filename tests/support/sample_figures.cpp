@@ -35,9 +35,9 @@ Figure changed_map(const std::string& id, int landmarks, double error_m,
   return map_figure(record, id);
 }
 
-void strip_truth(MapRecord& record) {
+void strip_ground_truth(MapRecord& record) {
   record.frame = Frame::kSimilarity;
-  record.truth_m.reset();
+  record.ground_truth_m.reset();
   record.anchors.clear();
   record.score.reset();
 }
@@ -70,7 +70,7 @@ void add_maps(std::vector<Figure>& figures) {
   });
   add("some-missing", 50, 0.1, [](MapRecord& r) {
     for (const int row : {3, 9, 12, 30, 31, 32, 33}) r.estimate.row(row).setConstant(NAN);
-    r.truth_m->row(5).setConstant(NAN);
+    r.ground_truth_m->row(5).setConstant(NAN);
     r.statuses = {
         status_with_message(StatusCode::kLandmarkUnseen, "7 of 50 landmarks were never observed."),
         status_with_message(StatusCode::kBridged,
@@ -87,17 +87,17 @@ void add_maps(std::vector<Figure>& figures) {
     for (std::size_t i = 0; i < r.names.size(); ++i) r.names[i] = names[i % names.size()];
   });
   add("hostile-shape", 14, 0.1, [](MapRecord& r) {
-    strip_truth(r);
+    strip_ground_truth(r);
     const std::vector<std::string> names = hostile_names();
     for (std::size_t i = 0; i < r.names.size(); ++i) r.names[i] = names[i % names.size()];
   });
-  add("shape", 20, 0.1, strip_truth);
+  add("shape", 20, 0.1, strip_ground_truth);
   add("shape-outlier", 40, 0.1, [](MapRecord& r) {
-    strip_truth(r);
+    strip_ground_truth(r);
     r.estimate.row(4) << 1e4, 3e4;
   });
   add("line", 30, 0.0, [](MapRecord& r) {
-    strip_truth(r);
+    strip_ground_truth(r);
     r.estimate.col(1).setZero();
   });
 }
@@ -158,18 +158,18 @@ MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed) {
   record.id = fmt::format("layout-1-pose-{}/visibility/isomap-K6/2000", seed);
   record.origin = FromSensor{Sensor::kVisibility, {Method::kIsomap, 6.0}};
   record.step = 2000;
-  Points truth(landmarks, 2);
+  Points ground_truth(landmarks, 2);
   record.estimate.resize(landmarks, 2);
   double sum = 0.0;
   for (int i = 0; i < landmarks; ++i) {
     record.names.push_back(fmt::format("L{:02}", i + 1));
-    truth.row(i) << random.uniform(0.1, kRoom_m - 0.1), random.uniform(0.1, kRoom_m - 0.1);
+    ground_truth.row(i) << random.uniform(0.1, kRoom_m - 0.1), random.uniform(0.1, kRoom_m - 0.1);
     const Eigen::RowVector2d error(error_m * random.normal(), error_m * random.normal());
-    record.estimate.row(i) = truth.row(i) + error;
+    record.estimate.row(i) = ground_truth.row(i) + error;
     sum += error.norm();
   }
-  if (landmarks >= 4) record.anchors = corner_rows(truth);
-  record.truth_m = truth;
+  if (landmarks >= 4) record.anchors = corner_rows(ground_truth);
+  record.ground_truth_m = ground_truth;
   record.score = Score{sum / std::max(landmarks, 1), 4.7, sum / std::max(landmarks, 1), 4.7};
   return record;
 }

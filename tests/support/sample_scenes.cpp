@@ -48,7 +48,7 @@ WorldSceneSpec world_spec(const std::string& id, double error_m) {
                       .world = {},
                       .path_m = spiral(400),
                       .map = sample_map(50, error_m, 7)};
-  spec.world = {kSceneRoom_m, 0.048, *spec.map.truth_m};
+  spec.world = {kSceneRoom_m, 0.048, *spec.map.ground_truth_m};
   return spec;
 }
 
@@ -69,18 +69,18 @@ Scene bent_sheet() {
   spec.id = "manifold-usual";
   spec.title = "Observation manifold";
   spec.caption = "Principal coordinates of a bent sheet.";
-  spec.truth_m = *map.truth_m;
+  spec.ground_truth_m = *map.ground_truth_m;
   spec.side_m = kSceneRoom_m;
   spec.record_ids = {"r/1"};
   spec.manifold.shares = {0.48, 0.44, 0.05};
   spec.manifold.neighbours = 4;
   spec.manifold.coordinates.resize(60, 3);
   for (Eigen::Index i = 0; i < 60; ++i) {
-    const double x = spec.truth_m(i, 0) - 1.25, y = spec.truth_m(i, 1) - 1.25;
+    const double x = spec.ground_truth_m(i, 0) - 1.25, y = spec.ground_truth_m(i, 1) - 1.25;
     spec.manifold.coordinates.row(i) << std::sin(1.2 * x), std::sin(1.2 * y),
         0.5 * (x * x + y * y) / 1.6;
     for (Eigen::Index j = 0; j < i; ++j)
-      if ((spec.truth_m.row(i) - spec.truth_m.row(j)).norm() < 0.42)
+      if ((spec.ground_truth_m.row(i) - spec.ground_truth_m.row(j)).norm() < 0.42)
         spec.manifold.edges.emplace_back(static_cast<int>(j), static_cast<int>(i));
   }
   return manifold_scene(spec);
@@ -97,7 +97,7 @@ FormingSceneSpec forming_spec() {
     spec.maps.back().step = 200 * i;
     spec.maps.back().id += fmt::format("/{}", i);
   }
-  spec.world = {kSceneRoom_m, 0.048, *spec.maps[0].truth_m};
+  spec.world = {kSceneRoom_m, 0.048, *spec.maps[0].ground_truth_m};
   return spec;
 }
 

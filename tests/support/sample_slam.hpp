@@ -9,7 +9,8 @@
 namespace mapproof::test {
 
 /// A drive of `poses` through a field of 60 m x 50 m in parallel lanes past four landmarks, with
-/// its truth, and what five methods made of it: each is the truth with an error of its own kind.
+/// its ground truth, and what five methods made of it: each is the ground truth with an error of
+/// its own kind.
 SlamRun sample_drive(const std::string& id, int poses, std::uint64_t seed);
 
 /// A walk of 500 steps among six landmarks, four of them known, as the 2013 paper simulates it.

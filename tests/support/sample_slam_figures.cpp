@@ -24,7 +24,7 @@ void add_paths(std::vector<Figure>& figures) {
   };
   add("usual", [](SlamRun&) {});
   add("no-truth", [](SlamRun& run) {
-    run.log.truth.reset();
+    run.log.ground_truth.reset();
     run.log.true_landmarks.reset();
     for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
   });
@@ -61,7 +61,7 @@ void add_paths(std::vector<Figure>& figures) {
       path.positions_m.conservativeResize(1, 2);
       path.heading_rad.conservativeResize(1);
     };
-    keep_one(*run.log.truth);
+    keep_one(*run.log.ground_truth);
     run.log.true_landmarks.reset();
     for (SlamRecord& record : run.records) {
       keep_one(record.estimate.path);

@@ -56,12 +56,12 @@ TrajectoryError error_of(const std::vector<double>& error_m, Alignment alignment
   return error;
 }
 
-/// The truth with an error of `wave_m` and a turning drift of `drift_m` at the end.
+/// The ground truth with an error of `wave_m` and a turning drift of `drift_m` at the end.
 SlamRecord record_of(const RangeLog& log, SlamMethod method, double wave_m, double drift_m) {
   SlamRecord record;
   record.method = method;
   SlamEstimate& estimate = record.estimate;
-  estimate.path = *log.truth;
+  estimate.path = *log.ground_truth;
   const Index size = estimate.path.size();
   for (Index i = 0; i < size; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(size);
@@ -114,11 +114,11 @@ SlamRun sample_drive(const std::string& id, int poses, std::uint64_t seed) {
   run.log.landmarks = {"1", "5", "6", "10"};
   run.log.true_landmarks = Points(4, 2);
   *run.log.true_landmarks << -5.0, -4.0, 66.0, 3.0, 62.0, 57.0, 4.0, 61.0;
-  run.log.truth = lanes(poses);
+  run.log.ground_truth = lanes(poses);
   for (int i = 0; i < 4 * poses / 10; ++i)
     run.log.ranges.push_back({i * 1.0, i % 4, 20.0 + random.uniform(0.0, 40.0)});
   run.log.remarks = {
-      "Heading increments of the table DR are the truth\u2019s: odometry was recovered "
+      "Heading increments of the table DR are the ground truth\u2019s: odometry was recovered "
       "from DRp."};
   run.known = {0, 1, 2, 3};
   run.windows = WindowCurve{{240.0, 170.0, 120.0, 85.0, 60.0, 42.0, 30.0},
@@ -178,7 +178,7 @@ SlamRun sample_walk() {
     else
       at = next;
   }
-  run.log.truth = path;
+  run.log.ground_truth = path;
   for (int i = 0; i < 3000; ++i) run.log.ranges.push_back({std::floor(i / 6.0), i % 6, 10.0});
   run.records = {record_of(run.log, SlamMethod::kSpectralKnown, 0.02, 0.0),
                  record_of(run.log, SlamMethod::kSpectral, 0.05, 0.0)};

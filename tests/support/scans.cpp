@@ -10,10 +10,10 @@
 namespace mapproof::test {
 namespace {
 
-std::vector<int> nearest(const Points& landmarks, const Eigen::RowVector2d& place, int count) {
+std::vector<int> nearest(const Points& landmarks, const Eigen::RowVector2d& location, int count) {
   std::vector<int> order(static_cast<std::size_t>(landmarks.rows()));
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int i) { return (landmarks.row(i) - place).norm(); });
+  std::ranges::stable_sort(order, {}, [&](int i) { return (landmarks.row(i) - location).norm(); });
   order.resize(static_cast<std::size_t>(count));
   std::ranges::sort(order);
   return order;
@@ -32,10 +32,10 @@ DetectionLog scans_at(const Points& landmarks, int scans, int seen, std::uint64_
     // One after the other: compilers differ in which argument of a call they draw first.
     const double y = low.y() + random.uniform() * extent.y();
     const double x = low.x() + random.uniform() * extent.x();
-    const Eigen::RowVector2d place(x, y);
+    const Eigen::RowVector2d location(x, y);
     const double heading = 2.0 * std::numbers::pi * random.uniform();
-    for (const int i : nearest(landmarks, place, seen)) {
-      const Eigen::RowVector2d to = landmarks.row(i) - place;
+    for (const int i : nearest(landmarks, location, seen)) {
+      const Eigen::RowVector2d to = landmarks.row(i) - location;
       log.detections.push_back({.step = log.steps,
                                 .landmark = i,
                                 .range_m = to.norm(),

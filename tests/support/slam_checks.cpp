@@ -18,7 +18,7 @@ KnownLandmarks all_known(const RangeLog& log) {
 }
 
 double mean_error_m(const RangeLog& log, const SlamEstimate& estimate, Alignment alignment) {
-  const auto error = trajectory_error(estimate, *log.truth, log.true_landmarks, alignment);
+  const auto error = trajectory_error(estimate, *log.ground_truth, log.true_landmarks, alignment);
   return error ? error->mean_m : std::numeric_limits<double>::infinity();
 }
 

@@ -11,7 +11,7 @@ namespace mapproof::test {
 
 bool has(const std::vector<Status>& statuses, StatusCode code);
 
-/// All landmarks of a log with a truth, where they truly are.
+/// All landmarks of a log with a ground truth, where they truly are.
 KnownLandmarks all_known(const RangeLog& log);
 
 /// Mean distance of the estimated path to the true one after that alignment; infinite if they have

@@ -83,10 +83,10 @@ struct Constraint {
   sparseblock block = {};
 
   void add(Eigen::Index row, Eigen::Index column, double value) {
-    const int place = ++block.numentries;
-    entries[place] = value;
-    rows[place] = static_cast<int>(row);
-    columns[place] = static_cast<int>(column);
+    const int position = ++block.numentries;
+    entries[position] = value;
+    rows[position] = static_cast<int>(row);
+    columns[position] = static_cast<int>(column);
   }
 };
 

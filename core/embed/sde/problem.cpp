@@ -11,7 +11,7 @@
 namespace mapproof::unfolding {
 namespace {
 
-constexpr double kSamePlace = 1e-14;
+constexpr double kSamePosition = 1e-14;
 
 /// All pairs within a neighbourhood and all edges, ascending.
 std::vector<Pair> kept_pairs(const Eigen::MatrixXd& distances, const NeighbourOptions& options,
@@ -34,8 +34,8 @@ std::vector<Pair> kept_pairs(const Eigen::MatrixXd& distances, const NeighbourOp
 }
 
 /// Numbers the positions of landmarks, from 0 in the order of their lowest landmark.
-std::vector<Eigen::Index> places(const Eigen::MatrixXd& distances, const std::vector<Pair>& pairs,
-                                 double largest) {
+std::vector<Eigen::Index> positions(const Eigen::MatrixXd& distances,
+                                    const std::vector<Pair>& pairs, double largest) {
   std::vector<Eigen::Index> lowest(static_cast<std::size_t>(distances.rows()));
   std::iota(lowest.begin(), lowest.end(), 0);
   const auto find = [&](Eigen::Index i) {
@@ -44,19 +44,19 @@ std::vector<Eigen::Index> places(const Eigen::MatrixXd& distances, const std::ve
   };
   for (const auto& [a, b] : pairs) {
     const double ratio = distances(a, b) / largest;
-    if (largest > 0.0 && ratio * ratio > kSamePlace) continue;
+    if (largest > 0.0 && ratio * ratio > kSamePosition) continue;
     const Eigen::Index root_a = find(a);
     const Eigen::Index root_b = find(b);
     lowest[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
   }
-  std::vector<Eigen::Index> place(lowest.size());
+  std::vector<Eigen::Index> position(lowest.size());
   Eigen::Index count = 0;
   for (std::size_t i = 0; i < lowest.size(); ++i) {
     const Eigen::Index root = find(static_cast<Eigen::Index>(i));
-    place[i] =
-        root == static_cast<Eigen::Index>(i) ? count++ : place[static_cast<std::size_t>(root)];
+    position[i] =
+        root == static_cast<Eigen::Index>(i) ? count++ : position[static_cast<std::size_t>(root)];
   }
-  return place;
+  return position;
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ Problem neighbourhood_problem(const Eigen::MatrixXd& distances, const NeighbourO
 
   Problem problem;
   problem.scale = largest * largest;
-  problem.point_of = places(distances, landmarks, largest);
+  problem.point_of = positions(distances, landmarks, largest);
   problem.mass.setZero(1 + *std::ranges::max_element(problem.point_of));
   for (const Eigen::Index point : problem.point_of) problem.mass(point) += 1.0;
 

@@ -176,10 +176,10 @@ bool settle_by_odometry(SlamEstimate& estimate, const Points& odometry_m, Eigen:
 void refer_to_path(SpectralSlam& result) {
   SlamEstimate& estimate = result.estimate;
   if (!(planarity(estimate.path.positions_m) > kFlatPlanarity)) return;
-  LandmarksOnPath told = landmarks_on_path(estimate.path.positions_m, result.Y);
-  estimate.landmarks_m = std::move(told.landmarks_m);
-  estimate.range_scale *= told.range_scale;
-  result.Y /= told.range_scale * told.range_scale;
+  LandmarksOnPath observed = landmarks_on_path(estimate.path.positions_m, result.Y);
+  estimate.landmarks_m = std::move(observed.landmarks_m);
+  estimate.range_scale *= observed.range_scale;
+  result.Y /= observed.range_scale * observed.range_scale;
 }
 
 void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOptions& options) {
@@ -201,23 +201,24 @@ void check(const RangeLog& log, const Trajectory& odometry, const SpectralSlamOp
 
 /// The landmark that is determined at the fewest of the odometry's times, and at how many.
 auto worst_landmark(const RangeLog& log, const WindowedRanges& ranges) {
-  const auto least = std::ranges::min_element(ranges.told);
-  return std::pair(log.landmarks[static_cast<std::size_t>(least - ranges.told.begin())], *least);
+  const auto least = std::ranges::min_element(ranges.observed);
+  return std::pair(log.landmarks[static_cast<std::size_t>(least - ranges.observed.begin())],
+                   *least);
 }
 
 /// Ranges at the odometry's times, those into `result.Y` at which all are determined.
 /// @return The poses at these times; none, with a status, if they are too few for a map.
 Trajectory take_ranges(SpectralSlam& result, const RangeLog& log, const Trajectory& odometry,
                        const SpectralSlamOptions& options) {
-  const std::vector<LandmarkReadings> readings =
-      readings_by_landmark(log.ranges, std::ssize(log.landmarks), odometry);
+  const std::vector<LandmarkRanges> measurements =
+      ranges_by_landmark(log.ranges, std::ssize(log.landmarks), odometry);
   if (options.window) {
     result.window.options = *options.window;
   } else {
-    result.window = choose_window(readings, odometry, odometry.time_s);
+    result.window = choose_window(measurements, odometry, odometry.time_s);
   }
   WindowedRanges ranges =
-      windowed_ranges(readings, odometry, odometry.time_s, result.window.options);
+      windowed_ranges(measurements, odometry, odometry.time_s, result.window.options);
   result.Y = std::move(ranges.Y);
   if (result.Y.rows() < kLeastLandmarks || result.Y.cols() < kLeastSteps) {
     const auto [landmark, poses] = worst_landmark(log, ranges);
@@ -368,10 +369,10 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   SlamEstimate& estimate = result.estimate;
   estimate.landmarks_m = Points::Constant(std::ssize(log.landmarks), 2, kNaN);
   estimate.path.positions_m.resize(0, 2);
-  const Trajectory told = take_ranges(result, log, odometry, options);
-  if (told.size() == 0) return result;
+  const Trajectory observed = take_ranges(result, log, odometry, options);
+  if (observed.size() == 0) return result;
 
-  const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, told, options)
+  const Mapped mapped = options.with_heading ? mapped_with_heading(result.Y, observed, options)
                                              : mapped_without_heading(result, options);
   take_facts(estimate, mapped, options);
   if (mapped.map.empty()) return result;
@@ -385,11 +386,12 @@ SpectralSlam spectral_slam(const RangeLog& log, const Trajectory& odometry,
   result.Y /= mapped.map.range_scale * mapped.map.range_scale;
   estimate.landmarks_m = landmarks_m;
   estimate.path.positions_m = localise(landmarks_m, result.Y);
-  estimate.path.time_s = told.time_s;
-  const Eigen::Index window = poses_in_window(told, result.window.options.length_s);
-  const bool mirrored = !options.known && settle_by_odometry(estimate, told.positions_m, window);
+  estimate.path.time_s = observed.time_s;
+  const Eigen::Index window = poses_in_window(observed, result.window.options.length_s);
+  const bool mirrored =
+      !options.known && settle_by_odometry(estimate, observed.positions_m, window);
   if (!mapped.directions.rows.empty())
-    estimate.path.heading_rad = carried(mapped.directions, told.heading_rad, mirrored);
+    estimate.path.heading_rad = carried(mapped.directions, observed.heading_rad, mirrored);
   if (!options.known) refer_to_path(result);
   if (auto status = landmarks_on_a_line(estimate.landmarks_m))
     estimate.statuses.push_back(*std::move(status));

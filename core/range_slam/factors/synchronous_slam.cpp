@@ -62,7 +62,7 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   const double noise_square = static_cast<double>(T) * half_square_variances(Y, noise).mean();
   if (!spans_space(factors, noise_square, estimate.statuses)) return estimate;
 
-  const SpectralMap map = known ? map_from_known_places(factors, known->rows, known->positions_m)
+  const SpectralMap map = known ? map_from_known_positions(factors, known->rows, known->positions_m)
                                 : metric_upgrade(factors).map;
   estimate.condition = map.condition;
   estimate.range_scale = map.range_scale;
@@ -73,7 +73,7 @@ SpaceEstimate space_slam(const Eigen::MatrixXd& ranges_m,
   return estimate;
 }
 
-SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
+SynchronousRanges synchronous_ranges(const std::vector<RangeMeasurement>& ranges,
                                      Eigen::Index landmarks) {
   SynchronousRanges common;
   std::vector<double> times;

@@ -46,7 +46,7 @@ struct SynchronousRanges {
 /// later one in the list.
 /// @param ranges  Ascending in time.
 /// @throws InvalidInput if a measurement is of no landmark.
-SynchronousRanges synchronous_ranges(const std::vector<RangeReading>& ranges,
+SynchronousRanges synchronous_ranges(const std::vector<RangeMeasurement>& ranges,
                                      Eigen::Index landmarks);
 
 /// What comes of ranges at common times.

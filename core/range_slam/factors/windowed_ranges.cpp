@@ -27,13 +27,13 @@ constexpr int kLengths = 16;
 /// Coverage is judged on about this many of the times.
 constexpr Eigen::Index kCoverageTimes = 500;
 /// A length is unusable if no window determines more than this share of held-out ranges.
-constexpr double kUntold = 0.02;
+constexpr double kUndetermined_ = 0.02;
 
 /// Sum of absolute errors over the determined ranges, and how many ranges were determined or not.
 struct HeldOut {
   double error_m = 0.0;
-  Eigen::Index told = 0;
-  Eigen::Index untold = 0;
+  Eigen::Index observed = 0;
+  Eigen::Index undetermined = 0;
 };
 
 /// The blocks of consecutive measurements that are held out together.
@@ -43,49 +43,49 @@ struct HeldOutBlocks {
   double first_s = 0.0;    ///< Start of the first block.
 };
 
-void hold_out(const LandmarkReadings& readings, const HeldOutBlocks& blocks,
+void hold_out(const LandmarkRanges& measurements, const HeldOutBlocks& blocks,
               const WindowOptions& options, HeldOut& result) {
   std::vector<Eigen::Index> kept, out;
-  for (Eigen::Index i = 0; i < readings.size(); ++i) {
+  for (Eigen::Index i = 0; i < measurements.size(); ++i) {
     const double block =
-        std::floor((readings.time_s(i) - blocks.first_s) * kBlocks / options.length_s);
+        std::floor((measurements.time_s(i) - blocks.first_s) * kBlocks / options.length_s);
     const bool is_out =
         std::fmod(block + static_cast<double>(blocks.phase), kTurns) == double(blocks.turn);
     (is_out ? out : kept).push_back(i);
   }
-  const LandmarkReadings asked = readings.at(out);
+  const LandmarkRanges asked = measurements.at(out);
   // Evaluated at all measurements, so that the windows lie as they do for the whole.
-  const Eigen::VectorXd half_squares =
-      windowed_half_squares(readings.at(kept), readings.time_s, readings.positions_m, options);
+  const Eigen::VectorXd half_squares = windowed_half_squares(
+      measurements.at(kept), measurements.time_s, measurements.positions_m, options);
   const double scale = options.range_scale;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double half_square = half_squares(out[i]);
     if (!std::isfinite(half_square)) {
-      ++result.untold;
+      ++result.undetermined;
       continue;
     }
     const double range_m = scale * std::sqrt(std::max(0.0, 2.0 * half_square));
     result.error_m += std::abs(range_m - asked.range_m(static_cast<Eigen::Index>(i)));
-    ++result.told;
+    ++result.observed;
   }
 }
 
-WindowTrial tried(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+WindowTrial tried(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
                   const Eigen::VectorXd& some_s, double length_s) {
   const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
   WindowOptions options{.length_s = length_s,
-                        .range_scale = range_scale_of(readings, first_s, last_s, length_s)};
+                        .range_scale = range_scale_of(measurements, first_s, last_s, length_s)};
   HeldOut held_out;
-  for (Eigen::Index n = 0; n < std::ssize(readings); ++n)
+  for (Eigen::Index n = 0; n < std::ssize(measurements); ++n)
     for (Eigen::Index turn = 0; turn < kTurns; ++turn)
-      hold_out(readings[static_cast<std::size_t>(n)],
+      hold_out(measurements[static_cast<std::size_t>(n)],
                {.turn = turn, .phase = n, .first_s = first_s}, options, held_out);
-  const auto covered = windowed_ranges(readings, path, some_s, options).columns.size();
-  const bool usable =
-      held_out.told > 0 && double(held_out.untold) <= kUntold * double(held_out.told);
+  const auto covered = windowed_ranges(measurements, path, some_s, options).columns.size();
+  const bool usable = held_out.observed > 0 &&
+                      double(held_out.undetermined) <= kUndetermined_ * double(held_out.observed);
   return {.length_s = length_s,
           .range_scale = options.range_scale,
-          .error_m = usable ? held_out.error_m / double(held_out.told) : kNaN,
+          .error_m = usable ? held_out.error_m / double(held_out.observed) : kNaN,
           .covered = double(covered) / double(some_s.size())};
 }
 
@@ -151,7 +151,7 @@ struct CentredFrame {
 /// Windows that lie over any one time.
 constexpr double kOverlap = 4.0;
 /// Measurements that a window needs.
-constexpr Eigen::Index kReadingsToInterpolate = 6;
+constexpr Eigen::Index kMeasurementsToInterpolate = 6;
 
 /// Windows to a landmark.
 constexpr double kMostWindows = 1e6;
@@ -212,7 +212,7 @@ void check(const Eigen::VectorXd& time_s, const WindowOptions& options) {
 
 }  // namespace
 
-LandmarkReadings LandmarkReadings::at(const std::vector<Eigen::Index>& rows) const {
+LandmarkRanges LandmarkRanges::at(const std::vector<Eigen::Index>& rows) const {
   return {.time_s = time_s(rows),
           .positions_m = positions_m(rows, Eigen::all),
           .range_m = range_m(rows)};
@@ -230,11 +230,11 @@ double LocalRange::variance(const Eigen::RowVector2d& position) const {
   return row.dot(covariance * row);
 }
 
-LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
-                           double range_scale) {
-  if (count < 4) throw InvalidInput("a regression of ranges needs 4 readings");
-  const CentredFrame frame(readings.positions_m.middleRows(first, count));
-  const Eigen::ArrayXd range_m = readings.range_m.segment(first, count).array();
+LocalRange fit_local_range(const LandmarkRanges& measurements, Eigen::Index first,
+                           Eigen::Index count, double range_scale) {
+  if (count < 4) throw InvalidInput("a regression of ranges needs 4 measurements");
+  const CentredFrame frame(measurements.positions_m.middleRows(first, count));
+  const Eigen::ArrayXd range_m = measurements.range_m.segment(first, count).array();
   LocalRange local{.center_m = frame.center_m,
                    .unit_m = frame.unit_m,
                    .squared_scale = range_scale * range_scale,
@@ -251,11 +251,11 @@ LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first,
   return local;
 }
 
-ScaleEvidence local_scale(const LandmarkReadings& readings, Eigen::Index first,
+ScaleEvidence local_scale(const LandmarkRanges& measurements, Eigen::Index first,
                           Eigen::Index count) {
   if (count < 6) return {};
-  const CentredFrame frame(readings.positions_m.middleRows(first, count));
-  const Eigen::ArrayXd range_m = readings.range_m.segment(first, count).array();
+  const CentredFrame frame(measurements.positions_m.middleRows(first, count));
+  const Eigen::ArrayXd range_m = measurements.range_m.segment(first, count).array();
   Eigen::MatrixX4d A(count, 4);
   A << frame.offsets.rowwise().squaredNorm(), Eigen::VectorXd::Ones(count), frame.offsets;
   const RobustFit<4> fit(A, range_m.square(), range_weights(range_m));
@@ -276,32 +276,32 @@ std::string windowed_size_problem(Eigen::Index landmarks, Eigen::Index times) {
       landmarks, times, kMostWindowedRanges);
 }
 
-std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
-                                                   Eigen::Index landmarks, const Trajectory& path) {
+std::vector<LandmarkRanges> ranges_by_landmark(const std::vector<RangeMeasurement>& ranges,
+                                               Eigen::Index landmarks, const Trajectory& path) {
   if (const std::string problem = path_problem(path); !problem.empty()) throw InvalidInput(problem);
   check_ranges(ranges, landmarks);
   std::vector<std::vector<Eigen::Index>> rows(static_cast<std::size_t>(landmarks));
   std::vector<double> time_s, range_m;
-  for (const RangeReading& reading : ranges) {
-    if (path.size() == 0 || reading.time_s < path.time_s(0) ||
-        reading.time_s > path.time_s(path.size() - 1))
+  for (const RangeMeasurement& measured : ranges) {
+    if (path.size() == 0 || measured.time_s < path.time_s(0) ||
+        measured.time_s > path.time_s(path.size() - 1))
       continue;
-    rows[static_cast<std::size_t>(reading.landmark)].push_back(std::ssize(time_s));
-    time_s.push_back(reading.time_s);
-    range_m.push_back(reading.range_m);
+    rows[static_cast<std::size_t>(measured.landmark)].push_back(std::ssize(time_s));
+    time_s.push_back(measured.time_s);
+    range_m.push_back(measured.range_m);
   }
-  const LandmarkReadings all{
+  const LandmarkRanges all{
       .time_s = Eigen::Map<Eigen::VectorXd>(time_s.data(), std::ssize(time_s)),
       .positions_m =
           positions_at(path, Eigen::Map<Eigen::VectorXd>(time_s.data(), std::ssize(time_s))),
       .range_m = Eigen::Map<Eigen::VectorXd>(range_m.data(), std::ssize(range_m))};
-  std::vector<LandmarkReadings> result;
+  std::vector<LandmarkRanges> result;
   result.reserve(rows.size());
   for (const std::vector<Eigen::Index>& own : rows) result.push_back(all.at(own));
   return result;
 }
 
-Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
+Eigen::VectorXd windowed_half_squares(const LandmarkRanges& measurements,
                                       const Eigen::VectorXd& time_s, const Points& path_m,
                                       const WindowOptions& options) {
   check(time_s, options);
@@ -312,10 +312,10 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
   const WindowGrid grid(time_s(0), time_s(time_s.size() - 1), options.length_s);
   for (Eigen::Index i = 0; i < grid.count; ++i) {
     const double from_s = grid.center_s(i) - grid.half_s, to_s = grid.center_s(i) + grid.half_s;
-    const Slice inside(readings.time_s, from_s, to_s);
-    if (inside.count < kReadingsToInterpolate) continue;
+    const Slice inside(measurements.time_s, from_s, to_s);
+    if (inside.count < kMeasurementsToInterpolate) continue;
     const LocalRange local =
-        fit_local_range(readings, inside.first, inside.count, options.range_scale);
+        fit_local_range(measurements, inside.first, inside.count, options.range_scale);
     const Slice asked(time_s, from_s, to_s);
     for (Eigen::Index t = asked.first; t < asked.first + asked.count; ++t) {
       const double off_center = std::abs(time_s(t) - grid.center_s(i)) / grid.half_s;
@@ -327,22 +327,22 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
   return 0.5 * (sum / weight) / (options.range_scale * options.range_scale);
 }
 
-WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
+WindowedRanges windowed_ranges(const std::vector<LandmarkRanges>& measurements,
                                const Trajectory& path, const Eigen::VectorXd& time_s,
                                const WindowOptions& options) {
   check(time_s, options);
-  if (const std::string problem = windowed_size_problem(std::ssize(readings), time_s.size());
+  if (const std::string problem = windowed_size_problem(std::ssize(measurements), time_s.size());
       !problem.empty())
     throw InvalidInput(problem);
   const Points path_m = positions_at(path, time_s);
   if (!path_m.allFinite()) throw InvalidInput("ranges are asked for beyond the path");
-  Eigen::MatrixXd Y(std::ssize(readings), time_s.size());
+  Eigen::MatrixXd Y(std::ssize(measurements), time_s.size());
   for (Eigen::Index n = 0; n < Y.rows(); ++n)
     Y.row(n) =
-        windowed_half_squares(readings[static_cast<std::size_t>(n)], time_s, path_m, options);
+        windowed_half_squares(measurements[static_cast<std::size_t>(n)], time_s, path_m, options);
   WindowedRanges result;
   for (Eigen::Index n = 0; n < Y.rows(); ++n)
-    result.told.push_back(Y.row(n).array().isFinite().count());
+    result.observed.push_back(Y.row(n).array().isFinite().count());
   for (Eigen::Index t = 0; t < Y.cols(); ++t)
     if (Y.col(t).allFinite()) result.columns.push_back(t);
   if (std::ssize(result.columns) == Y.cols())
@@ -352,14 +352,14 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
   return result;
 }
 
-double range_scale_of(const std::vector<LandmarkReadings>& readings, double first_s, double last_s,
-                      double length_s) {
+double range_scale_of(const std::vector<LandmarkRanges>& measurements, double first_s,
+                      double last_s, double length_s) {
   check_length(length_s);
   if (!std::isfinite(first_s) || !std::isfinite(last_s) || first_s > last_s)
     throw InvalidInput("times must be finite and ascend");
   const WindowGrid grid(first_s, last_s, length_s);
   double sum = 0.0, weight = 0.0;
-  for (const LandmarkReadings& landmark : readings)
+  for (const LandmarkRanges& landmark : measurements)
     for (Eigen::Index i = 0; i < grid.count; ++i) {
       const Slice inside(landmark.time_s, grid.center_s(i) - grid.half_s,
                          grid.center_s(i) + grid.half_s);
@@ -371,7 +371,7 @@ double range_scale_of(const std::vector<LandmarkReadings>& readings, double firs
   return squared > 0.0 ? std::sqrt(squared) : 1.0;
 }
 
-WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+WindowSearch choose_window(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
                            const Eigen::VectorXd& time_s) {
   if (time_s.size() < 2 || !(time_s(time_s.size() - 1) > time_s(0)))
     throw InvalidInput("windows need two times or more");
@@ -382,7 +382,7 @@ WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const 
   const WindowTrial* best = nullptr;
   for (int i = 0; i < kLengths; ++i)
     search.trials.push_back(
-        tried(readings, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
+        tried(measurements, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
   for (const WindowTrial& trial : search.trials) {
     if (std::isnan(trial.error_m)) continue;
     if (best == nullptr || trial.covered > best->covered ||

@@ -13,14 +13,14 @@
 namespace mapproof {
 
 /// Measurements of one landmark, with the dead-reckoned positions of the robot.
-struct LandmarkReadings {
+struct LandmarkRanges {
   Eigen::VectorXd time_s;   ///< R, ascending.
   Points positions_m;       ///< R x 2.
   Eigen::VectorXd range_m;  ///< R, >= 0.
 
   Eigen::Index size() const { return time_s.size(); }
   /// Those in some rows.
-  LandmarkReadings at(const std::vector<Eigen::Index>& rows) const;
+  LandmarkRanges at(const std::vector<Eigen::Index>& rows) const;
 };
 
 /// Squared range to one landmark around one stretch of a path, r^2 = a^2 |p - c|^2 + an affine
@@ -44,8 +44,8 @@ struct LocalRange {
 /// @param count  4 or more.
 /// @throws InvalidInput if there are fewer.
 /// @note O(count) time per round.
-LocalRange fit_local_range(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count,
-                           double range_scale);
+LocalRange fit_local_range(const LandmarkRanges& measurements, Eigen::Index first,
+                           Eigen::Index count, double range_scale);
 
 /// What measurements determine of a^2 on their own: a weighted mean adds up.
 struct ScaleEvidence {
@@ -54,7 +54,8 @@ struct ScaleEvidence {
 };
 
 /// The same fit with a^2 free. No weight where the positions are on a line or circle.
-ScaleEvidence local_scale(const LandmarkReadings& readings, Eigen::Index first, Eigen::Index count);
+ScaleEvidence local_scale(const LandmarkRanges& measurements, Eigen::Index first,
+                          Eigen::Index count);
 
 struct WindowOptions {
   double length_s = 0.0;     ///< Of a window, > 0.
@@ -65,8 +66,8 @@ struct WindowOptions {
 struct WindowedRanges {
   Eigen::MatrixXd Y;  ///< N x columns: 1/2 r^2 over range_scale^2, m^2.
   std::vector<Eigen::Index>
-      columns;                     ///< The times asked for at which every landmark is determined.
-  std::vector<Eigen::Index> told;  ///< N: at how many of the times each is determined.
+      columns;  ///< The times asked for at which every landmark is determined.
+  std::vector<Eigen::Index> observed;  ///< N: at how many of the times each is determined.
 };
 
 /// Landmarks times times beyond which the matrix is refused: 400 MB, and some copies of it.
@@ -79,15 +80,15 @@ std::string windowed_size_problem(Eigen::Index landmarks, Eigen::Index times);
 /// last are left out.
 /// @throws InvalidInput for ranges that check_ranges() refuses, or a path_problem().
 /// @note O(T + R log T) time for R measurements.
-std::vector<LandmarkReadings> readings_by_landmark(const std::vector<RangeReading>& ranges,
-                                                   Eigen::Index landmarks, const Trajectory& path);
+std::vector<LandmarkRanges> ranges_by_landmark(const std::vector<RangeMeasurement>& ranges,
+                                               Eigen::Index landmarks, const Trajectory& path);
 
 /// Half squared range to one landmark at some times: in overlapping windows a regression on the
 /// dead-reckoned path, and of the windows over a time the mean, by their variance and how central
 /// it is.
 /// @param path_m  Positions at the times.
 /// @return As many as times, over range_scale^2; NaN where no window has 6 measurements.
-Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
+Eigen::VectorXd windowed_half_squares(const LandmarkRanges& measurements,
                                       const Eigen::VectorXd& time_s, const Points& path_m,
                                       const WindowOptions& options);
 
@@ -96,7 +97,7 @@ Eigen::VectorXd windowed_half_squares(const LandmarkReadings& readings,
 /// @param time_s  Ascending, T of them, within the path's.
 /// @throws InvalidInput if a bound is broken, or N T is above kMostWindowedRanges.
 /// @note O(R + N T) time for R measurements, O(N T) memory.
-WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
+WindowedRanges windowed_ranges(const std::vector<LandmarkRanges>& measurements,
                                const Trajectory& path, const Eigen::VectorXd& time_s,
                                const WindowOptions& options);
 
@@ -106,8 +107,8 @@ WindowedRanges windowed_ranges(const std::vector<LandmarkReadings>& readings,
 /// @param length_s         > 0.
 /// @throws InvalidInput unless times and length are finite, first_s <= last_s, and windows are at
 ///         most a million.
-double range_scale_of(const std::vector<LandmarkReadings>& readings, double first_s, double last_s,
-                      double length_s);
+double range_scale_of(const std::vector<LandmarkRanges>& measurements, double first_s,
+                      double last_s, double length_s);
 
 /// One window length that was tried.
 struct WindowTrial {
@@ -134,7 +135,7 @@ struct WindowSearch {
 /// @param time_s  Ascending, at least 2: the times that are to be covered.
 /// @throws InvalidInput if a bound is broken.
 /// @note O(R + N T) time a length, some 15 of them.
-WindowSearch choose_window(const std::vector<LandmarkReadings>& readings, const Trajectory& path,
+WindowSearch choose_window(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
                            const Eigen::VectorXd& time_s);
 
 /// The lengths and errors of the trials, for records.

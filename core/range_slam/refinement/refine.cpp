@@ -34,9 +34,9 @@ void check(const RangeLog& log, const SlamEstimate& start, const RefineOptions& 
 Trajectory path_about(const KeyPoses& keys, const std::vector<Eigen::Vector3d>& poses) {
   Trajectory path = keys.path();
   for (Eigen::Index row = 0; row < path.size(); ++row) {
-    const BetweenPoses place = keys.at(path.time_s(row));
-    const auto before = static_cast<std::size_t>(place.before);
-    const Eigen::Vector3d pose = place.pose(poses[before], poses[before + 1]);
+    const BetweenPoses position = keys.at(path.time_s(row));
+    const auto before = static_cast<std::size_t>(position.before);
+    const Eigen::Vector3d pose = position.pose(poses[before], poses[before + 1]);
     path.positions_m.row(row) = pose.head<2>().transpose();
     path.heading_rad(row) = pose(2);
   }
@@ -157,7 +157,7 @@ SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const Refine
   estimate.landmarks_m = std::move(placed.landmarks_m);
   estimate.range_scale = start.range_scale;
   estimate.statuses = std::move(placed.statuses);
-  tell_unplaced(log, is_placed, estimate.statuses);
+  report_unplaced(log, is_placed, estimate.statuses);
   if (solution.outcome.is_usable)
     take_solution(solution, placed_options, estimate);
   else

@@ -217,16 +217,16 @@ RefineProblem::RefineProblem(const RangeLog& log, const KeyPoses& keys,
   for (const KeyMotion& motion : keys.motions())
     motions_.push_back(std::make_unique<MotionResidual>(motion));
   const Eigen::VectorXd& times = keys.path().time_s;
-  for (const RangeReading& reading : log.ranges) {
-    const auto landmark = static_cast<std::size_t>(reading.landmark);
-    if (!is_placed_[landmark] || reading.time_s < times(0) ||
-        reading.time_s > times(times.size() - 1))
+  for (const RangeMeasurement& measured : log.ranges) {
+    const auto landmark = static_cast<std::size_t>(measured.landmark);
+    if (!is_placed_[landmark] || measured.time_s < times(0) ||
+        measured.time_s > times(times.size() - 1))
       continue;
-    const BetweenPoses place = keys.at(reading.time_s);
-    ranges_.push_back(
-        {.residual = std::make_unique<RangeResidual>(place, reading.range_m, options.range_sigma_m),
-         .before = place.before,
-         .landmark = landmark});
+    const BetweenPoses position = keys.at(measured.time_s);
+    ranges_.push_back({.residual = std::make_unique<RangeResidual>(position, measured.range_m,
+                                                                   options.range_sigma_m),
+                       .before = position.before,
+                       .landmark = landmark});
   }
 }
 
@@ -336,12 +336,13 @@ void RefineProblem::add_ranges(const RefineState& state, const Shared& shared,
 
 std::optional<RefineProblem::Covariances> RefineProblem::covariances(
     const RefineState& state) const {
-  const Shared places = shared();
+  const Shared positions = shared();
   const Eigen::Index held = holds_first_pose() ? 1 : 0;
-  ChainInformation information(static_cast<Eigen::Index>(state.poses.size()) - held, places.count);
+  ChainInformation information(static_cast<Eigen::Index>(state.poses.size()) - held,
+                               positions.count);
   add_motions(state, information);
-  add_ranges(state, places, information);
-  for (const Eigen::Index column : places.offsets)
+  add_ranges(state, positions, information);
+  for (const Eigen::Index column : positions.offsets)
     if (column >= 0)
       information.add(-1, {}, {}, {column},
                       Eigen::MatrixXd::Constant(1, 1, 1.0 / options_.offset_sigma_m));
@@ -350,12 +351,12 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
   if (held == 1) {
     inverse->poses.insert(inverse->poses.begin(), Eigen::Matrix3d::Zero());
     inverse->shared_pose.insert(inverse->shared_pose.begin(),
-                                Eigen::MatrixXd::Zero(places.count, 3));
+                                Eigen::MatrixXd::Zero(positions.count, 3));
   }
   Covariances covariances;
-  covariances.are_of_first_pose = held == 1 && !free_of_frame(state, places, *inverse);
+  covariances.are_of_first_pose = held == 1 && !free_of_frame(state, positions, *inverse);
   for (std::size_t n = 0; n < is_placed_.size(); ++n) {
-    const Eigen::Index column = places.landmarks[n];
+    const Eigen::Index column = positions.landmarks[n];
     covariances.landmarks.emplace_back(Eigen::Matrix2d::Constant(is_placed_[n] ? 0.0 : kNaN));
     if (column >= 0) covariances.landmarks.back() = inverse->shared.block<2, 2>(column, column);
   }
@@ -376,9 +377,9 @@ bool RefineProblem::free_of_frame(const RefineState& state, const Shared& shared
   }
   if (count < 2.0) return false;
   middle /= count;
-  const auto motions_at = [&](const Eigen::Vector2d& place) {
+  const auto motions_at = [&](const Eigen::Vector2d& position) {
     Eigen::Matrix<double, 2, 3> moves;
-    moves << 1.0, 0.0, -(place(1) - middle(1)), 0.0, 1.0, place(0) - middle(0);
+    moves << 1.0, 0.0, -(position(1) - middle(1)), 0.0, 1.0, position(0) - middle(0);
     return moves;
   };
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(shared.count, 3);

@@ -63,8 +63,8 @@ class MotionResidual : public ceres::SizedCostFunction<3, 3, 3> {
 /// landmark's offset: (scale * distance + offset - range) / sigma.
 class RangeResidual : public ceres::SizedCostFunction<1, 3, 3, 2, 1, 1> {
  public:
-  RangeResidual(const BetweenPoses& place, double range_m, double sigma_m)
-      : place_(place), range_m_(range_m), sigma_m_(sigma_m) {}
+  RangeResidual(const BetweenPoses& position, double range_m, double sigma_m)
+      : place_(position), range_m_(range_m), sigma_m_(sigma_m) {}
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override;
 

@@ -102,7 +102,7 @@ void check(const Trajectory& path, const Trajectory& odometry) {
 }
 
 /// Known landmarks nearer to each other than this fix no rotation.
-constexpr double kOnePlace_m = 1e-3;
+constexpr double kOnePosition_m = 1e-3;
 
 /// How many known landmarks are heard, and whether two of them are at different positions.
 struct Ties {
@@ -115,10 +115,10 @@ Ties ties_of(const KnownLandmarks& known, const std::vector<bool>& is_heard) {
   std::optional<Eigen::RowVector2d> first;
   for (std::size_t i = 0; i < known.rows.size(); ++i) {
     if (!is_heard[static_cast<std::size_t>(known.rows[i])]) continue;
-    const Eigen::RowVector2d place = known.positions_m.row(static_cast<Eigen::Index>(i));
+    const Eigen::RowVector2d position = known.positions_m.row(static_cast<Eigen::Index>(i));
     ++ties.heard;
-    if (!first) first = place;
-    ties.fix_the_frame = ties.fix_the_frame || (place - *first).norm() > kOnePlace_m;
+    if (!first) first = position;
+    ties.fix_the_frame = ties.fix_the_frame || (position - *first).norm() > kOnePosition_m;
   }
   return ties;
 }
@@ -157,7 +157,7 @@ SlamEstimate random_start(const RangeLog& log, std::uint64_t seed) {
   SlamEstimate start;
   start.path = dead_reckoned(log);
   double reach = 0.0;
-  for (const RangeReading& reading : log.ranges) reach = std::max(reach, reading.range_m);
+  for (const RangeMeasurement& measured : log.ranges) reach = std::max(reach, measured.range_m);
   const Eigen::RowVector2d low = start.path.positions_m.colwise().minCoeff().array() - reach;
   const Eigen::RowVector2d high = start.path.positions_m.colwise().maxCoeff().array() + reach;
   Random random(seed);

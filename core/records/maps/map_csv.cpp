@@ -94,7 +94,7 @@ class MapReader {
       anchors_.push_back(static_cast<Eigen::Index>(names_.size()));
     names_.push_back(name);
     positions_.push_back(pair(is_metric_ ? "x_m" : "x", is_metric_ ? "y_m" : "y"));
-    if (has("true_x_m")) truth_.push_back(pair("true_x_m", "true_y_m"));
+    if (has("true_x_m")) ground_truth_.push_back(pair("true_x_m", "true_y_m"));
   }
 
   static Points points_of(const std::vector<std::array<double, 2>>& rows) {
@@ -106,11 +106,11 @@ class MapReader {
 
   MapRecord map() const {
     MapRecord map;
-    map.frame = is_metric_ ? Frame::kTruth : Frame::kSimilarity;
+    map.frame = is_metric_ ? Frame::kGroundTruth : Frame::kSimilarity;
     map.names = names_;
     map.estimate = points_of(positions_);
     map.anchors = anchors_;
-    if (!truth_.empty()) map.truth_m = points_of(truth_);
+    if (!ground_truth_.empty()) map.ground_truth_m = points_of(ground_truth_);
     return map;
   }
 
@@ -119,7 +119,7 @@ class MapReader {
   TableRow row_;
   std::vector<std::string> columns_, names_;
   std::set<std::string> known_;
-  std::vector<std::array<double, 2>> positions_, truth_;
+  std::vector<std::array<double, 2>> positions_, ground_truth_;
   std::vector<Eigen::Index> anchors_;
   bool is_metric_ = true;
 };

@@ -133,12 +133,13 @@ void landmark_fields(Visitor& v, MapRecord& map, const MapRecord* shared) {
            .key = key,
            .written = shared == nullptr || map.anchors != shared->anchors});
   check_rows(v, "anchors", map.anchors, std::ssize(map.names));
-  v.field("truth_m", map.truth_m,
-          {.nullable = true,
-           .max_items = kMostLandmarks,
-           .key = key,
-           .written = shared == nullptr || !same_points(map.truth_m, shared->truth_m)});
-  if (map.truth_m) check_row_count(v, "truth_m", *map.truth_m, map);
+  v.field(
+      "ground_truth_m", map.ground_truth_m,
+      {.nullable = true,
+       .max_items = kMostLandmarks,
+       .key = key,
+       .written = shared == nullptr || !same_points(map.ground_truth_m, shared->ground_truth_m)});
+  if (map.ground_truth_m) check_row_count(v, "ground_truth_m", *map.ground_truth_m, map);
 }
 
 template <typename Visitor>
@@ -275,7 +276,8 @@ void fields(Visitor& v, MapsFile& file) {
   v.field("run", file.run);
   landmark_fields(v, file.maps.shared, nullptr);
   v.field("maps", file.maps,
-          {.description = "A map that leaves out names, anchors or truth_m has those of the file.",
+          {.description =
+               "A map that leaves out names, anchors or ground_truth_m has those of the file.",
            .max_items = record_rules::kMostRecords});
 }
 

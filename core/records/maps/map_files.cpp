@@ -19,14 +19,16 @@ std::string ellipse_fields(const MapCertainty& certainty, Eigen::Index i) {
 }
 
 std::string csv_row(const MapRecord& map, Eigen::Index i) {
-  const bool has_truth = map.truth_m && map.truth_m->row(i).allFinite();
-  const bool is_metric = map.frame == Frame::kTruth;
+  const bool has_ground_truth = map.ground_truth_m && map.ground_truth_m->row(i).allFinite();
+  const bool is_metric = map.frame == Frame::kGroundTruth;
   std::string row = csv_field(map.names[static_cast<std::size_t>(i)]);
   for (const double x : {map.estimate(i, 0), map.estimate(i, 1)}) row += ',' + csv_number(x);
-  row += ',' + (has_truth ? csv_number((*map.truth_m)(i, 0)) : "");
-  row += ',' + (has_truth ? csv_number((*map.truth_m)(i, 1)) : "");
+  row += ',' + (has_ground_truth ? csv_number((*map.ground_truth_m)(i, 0)) : "");
+  row += ',' + (has_ground_truth ? csv_number((*map.ground_truth_m)(i, 1)) : "");
   if (is_metric)
-    row += ',' + (has_truth ? csv_number((map.estimate.row(i) - map.truth_m->row(i)).norm()) : "");
+    row += ',' + (has_ground_truth
+                      ? csv_number((map.estimate.row(i) - map.ground_truth_m->row(i)).norm())
+                      : "");
   row += std::ranges::find(map.anchors, i) != map.anchors.end() ? ",1" : ",0";
   return row;
 }
@@ -47,7 +49,7 @@ std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std
 }
 
 std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty) {
-  const bool metric = map.frame == Frame::kTruth;
+  const bool metric = map.frame == Frame::kGroundTruth;
   std::string csv = metric ? "name,x_m,y_m,true_x_m,true_y_m,error_m,anchor"
                            : "name,x,y,true_x_m,true_y_m,anchor";
   if (certainty)

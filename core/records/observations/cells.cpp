@@ -62,18 +62,18 @@ std::string cell_problem(std::string_view cell, Sensor sensor) {
   return problem.empty() ? number_problem(cell) : problem;
 }
 
-void check_size(const std::string& source, const std::string& place, std::size_t landmarks,
+void check_size(const std::string& source, const std::string& location, std::size_t landmarks,
                 std::size_t steps) {
   if (steps > kMostSteps)
-    throw IoError(source, place, fmt::format("{} steps; at most {}", steps, kMostSteps));
+    throw IoError(source, location, fmt::format("{} steps; at most {}", steps, kMostSteps));
   if (landmarks > kMostLandmarks)
     throw IoError(
-        source, place,
+        source, location,
         fmt::format("more than {} landmarks: each row is a landmark and each column a step; "
                     "should the table be transposed?",
                     kMostLandmarks));
   if (static_cast<double>(landmarks) * static_cast<double>(steps) > kMostEntries)
-    throw IoError(source, place,
+    throw IoError(source, location,
                   fmt::format("{} landmarks x {} steps are more than {:.0f} entries", landmarks,
                               steps, kMostEntries));
 }

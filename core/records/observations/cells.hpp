@@ -21,7 +21,7 @@ std::optional<double> observation_in(std::string_view cell, Sensor sensor);
 std::string cell_problem(std::string_view cell, Sensor sensor);
 
 /// @param place  For the error: "line 7". @throws IoError if the history grows beyond its bounds.
-void check_size(const std::string& source, const std::string& place, std::size_t landmarks,
+void check_size(const std::string& source, const std::string& location, std::size_t landmarks,
                 std::size_t steps);
 
 /// A cell as a range in metres or a bearing in radians, NaN if it is missing. Empty if it is wrong:

@@ -23,7 +23,7 @@ Detection DetectionRows::detection_of(const TableRow& row) {
         row.line,
         "a detection without a landmark ID: the data association of scans is not estimated; "
         "leave such rows out");
-  if (label == kUnlabelledMark)
+  if (label == kUnassociatedMark)
     scans_.fail(
         row.line,
         "a measurement without a landmark ID (?): the data association is estimated for long "

@@ -8,7 +8,7 @@
 
 #include "core/model/detection_log.hpp"
 #include "core/records/observations/detection_rows.hpp"
-#include "core/records/observations/growing_table.hpp"
+#include "core/records/observations/streamed_table.hpp"
 
 namespace mapproof {
 
@@ -52,7 +52,7 @@ class ScanGatherer {
   std::size_t detections_ = 0;
 };
 
-/// Reads a long table of detections as it grows: see GrowingTable and ScanGatherer.
+/// Reads a long table of detections as it grows: see StreamedTable and ScanGatherer.
 class DetectionStream {
  public:
   /// @param source  What to call the file in errors.
@@ -85,7 +85,7 @@ class DetectionStream {
   const std::vector<std::string>& names() const { return gatherer_.rows().names().names(); }
 
  private:
-  GrowingTable table_;
+  StreamedTable table_;
   ScanGatherer gatherer_;
 };
 

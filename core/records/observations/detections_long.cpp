@@ -41,9 +41,9 @@ class LongDetections {
     order();
     log_.names = rows_.names().names();
     return {.log = std::move(log_),
-            .truth_m = std::nullopt,
+            .ground_truth_m = std::nullopt,
             .remarks = remarks(),
-            .places = rows_.names().places(),
+            .locations = rows_.names().locations(),
             .path = stream_.source()};
   }
 
@@ -93,12 +93,12 @@ class LongDetections {
     for (const RowRun& run : runs_)
       step.push_back(
           static_cast<int>(std::ranges::lower_bound(distinct, run.scan()) - distinct.begin()));
-    const auto place = [&](const Detection& seen) {
+    const auto location = [&](const Detection& seen) {
       return std::pair(step[static_cast<std::size_t>(seen.step)], seen.landmark);
     };
-    if (!std::ranges::is_sorted(log_.detections, {}, place))
-      std::ranges::sort(log_.detections, {}, place);
-    const auto repeat = std::ranges::adjacent_find(log_.detections, {}, place);
+    if (!std::ranges::is_sorted(log_.detections, {}, location))
+      std::ranges::sort(log_.detections, {}, location);
+    const auto repeat = std::ranges::adjacent_find(log_.detections, {}, location);
     if (repeat != log_.detections.end()) refuse_repeat(*repeat, *std::next(repeat));
     for (Detection& seen : log_.detections) seen.step = step[static_cast<std::size_t>(seen.step)];
     log_.steps = static_cast<int>(distinct.size());
@@ -121,9 +121,9 @@ class LongDetections {
                   where(one, "on line {}"));
   }
 
-  [[noreturn]] void refuse_repeat(const std::string& place, std::size_t landmark,
+  [[noreturn]] void refuse_repeat(const std::string& location, std::size_t landmark,
                                   const std::string& first) {
-    throw IoError(stream_.source(), place,
+    throw IoError(stream_.source(), location,
                   fmt::format("landmark {} is in that scan already, {}",
                               in_quotes(rows_.names().names()[landmark]), first));
   }

@@ -51,13 +51,13 @@ Columns columns_of(const TableRow& header, const std::string& source) {
 }
 
 double read_coordinate(std::string_view cell, const std::string& source, std::size_t line) {
-  const std::string place = fmt::format("line {}", line);
-  if (is_missing(cell)) throw IoError(source, place, "a coordinate is missing");
+  const std::string location = fmt::format("line {}", line);
+  if (is_missing(cell)) throw IoError(source, location, "a coordinate is missing");
   const std::optional<double> value = number_in(cell);
-  if (!value) throw IoError(source, place, number_problem(cell));
+  if (!value) throw IoError(source, location, number_problem(cell));
   if (!(std::abs(*value) <= kFarthest_m))
     throw IoError(
-        source, place,
+        source, location,
         fmt::format("coordinates are in metres, at most {}, got {}", kFarthest_m, in_quotes(cell)));
   return *value;
 }
@@ -83,7 +83,7 @@ NamedPoints parse_table(std::string_view text, const std::string& source) {
   return named_points(names, coordinates, source);
 }
 
-/// Five bare numbers between blanks, as in Landmark_Groundtruth.dat.
+/// Five bare numbers between blanks, as in Landmark_Groundground_truth.dat.
 bool is_groundtruth(std::string_view text, const std::string& source) {
   TableReader reader(text, source, TableReader::kBlanks);
   TableRow row;

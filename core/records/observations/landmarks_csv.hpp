@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// Reads CSV (name, x, y; header optional) or MRCLAM's Landmark_Groundtruth.dat.
+/// Reads CSV (name, x, y; header optional) or MRCLAM's Landmark_Groundground_truth.dat.
 /// @throws IoError naming file and line.
 NamedPoints read_landmarks(ByteSource& source);
 NamedPoints read_landmarks(const std::filesystem::path& path);
@@ -23,7 +23,8 @@ NamedPoints parse_landmarks(std::string_view text, const std::string& source);
 /// without a header, all its rows are a name of their own and two numbers.
 bool is_landmarks_table(std::string_view text, const std::string& source);
 
-/// Landmark_Groundtruth.dat: subject, x, y, and their standard deviations, which are left out.
+/// Landmark_Groundground_truth.dat: subject, x, y, and their standard deviations, which are left
+/// out.
 NamedPoints parse_groundtruth(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

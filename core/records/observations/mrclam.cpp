@@ -192,8 +192,8 @@ class Scans {
 };
 
 /// The ground truth in the order of `names`; NaN rows for those that the file does not hold.
-std::optional<Points> read_truth(const fs::path& path, const std::vector<std::string>& names,
-                                 std::vector<std::string>& remarks) {
+std::optional<Points> read_ground_truth(const fs::path& path, const std::vector<std::string>& names,
+                                        std::vector<std::string>& remarks) {
   std::error_code error;
   if (!fs::exists(path, error)) {
     remarks.push_back("No Landmark_Groundtruth.dat: the true positions are not known");
@@ -201,15 +201,15 @@ std::optional<Points> read_truth(const fs::path& path, const std::vector<std::st
   }
   const std::string source = path.string();
   const std::string bytes = read_input(path);
-  const NamedPoints truth = parse_groundtruth(checked_text(bytes, source), source);
+  const NamedPoints ground_truth = parse_groundtruth(checked_text(bytes, source), source);
   Points positions = Points::Constant(static_cast<Eigen::Index>(names.size()), 2, kNaN);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto found = std::ranges::find(truth.names, names[i]);
-    if (found == truth.names.end())
+    const auto found = std::ranges::find(ground_truth.names, names[i]);
+    if (found == ground_truth.names.end())
       remarks.push_back("No true position of landmark " + names[i]);
     else
       positions.row(static_cast<Eigen::Index>(i)) =
-          truth.positions_m.row(found - truth.names.begin());
+          ground_truth.positions_m.row(found - ground_truth.names.begin());
   }
   return positions;
 }
@@ -232,14 +232,14 @@ DetectionSource read_mrclam_detections(const fs::path& folder) {
   for (const fs::path& robot : robots) scans.add_robot(robot);
 
   DetectionSource result{.log = scans.log(),
-                         .truth_m = std::nullopt,
+                         .ground_truth_m = std::nullopt,
                          .remarks = scans.remarks(),
-                         .places = {},
+                         .locations = {},
                          .path = folder.string()};
   if (result.log.steps == 0) throw IoError(folder.string(), "no scan shows a landmark");
-  for (const std::string& name : result.log.names) result.places.push_back("subject " + name);
-  result.truth_m = read_truth(plain_or_packed(folder / "Landmark_Groundtruth.dat"),
-                              result.log.names, result.remarks);
+  for (const std::string& name : result.log.names) result.locations.push_back("subject " + name);
+  result.ground_truth_m = read_ground_truth(plain_or_packed(folder / "Landmark_Groundtruth.dat"),
+                                            result.log.names, result.remarks);
   return result;
 }
 

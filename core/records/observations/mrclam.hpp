@@ -7,7 +7,7 @@
 namespace mapproof {
 
 /// A data set of the UTIAS MRCLAM collection [leung2011]: Barcodes.dat, RobotN_Measurement.dat and,
-/// if it is there, Landmark_Groundtruth.dat, each of them packed (NAME.gz, NAME.xz) or not.
+/// if it is there, Landmark_Groundground_truth.dat, each of them packed (NAME.gz, NAME.xz) or not.
 ///
 /// The scans of all robots are pooled, robot by robot and in order of time: rows of one robot with
 /// one time stamp are one step. Landmarks are the subjects above 5, named by their number. Dropped

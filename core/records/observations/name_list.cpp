@@ -18,23 +18,23 @@ Eigen::Index NameList::add(std::string_view name, std::size_t line) {
   if (const auto other = index_.find(name); other != index_.end())
     throw IoError(source_, fmt::format("line {}", line),
                   fmt::format("landmark {} is already on {}", in_quotes(name),
-                              places_[static_cast<std::size_t>(other->second)]));
+                              locations_[static_cast<std::size_t>(other->second)]));
   return find_or_add(name, line);
 }
 
 Eigen::Index NameList::find_or_add(std::string_view name, std::size_t line) {
   if (const auto known = index_.find(name); known != index_.end()) return known->second;
-  const std::string place = fmt::format("line {}", line);
-  if (name.empty()) throw IoError(source_, place, "a landmark without a name");
+  const std::string location = fmt::format("line {}", line);
+  if (name.empty()) throw IoError(source_, location, "a landmark without a name");
   if (name.size() > kLongestName)
-    throw IoError(source_, place,
+    throw IoError(source_, location,
                   fmt::format("a name of {} bytes; at most {}", name.size(), kLongestName));
   if (names_.size() == kMostLandmarks)
-    throw IoError(source_, place, fmt::format("more than {} landmarks", kMostLandmarks));
+    throw IoError(source_, location, fmt::format("more than {} landmarks", kMostLandmarks));
   const auto index = static_cast<Eigen::Index>(names_.size());
   index_.emplace(std::string(name), index);
   names_.emplace_back(name);
-  places_.push_back(place);
+  locations_.push_back(location);
   return index;
 }
 
@@ -45,7 +45,7 @@ NamedPoints named_points(const NameList& names, const std::vector<double>& coord
   return {.names = names.names(),
           .positions_m = Eigen::Map<const RowMajor>(
               coordinates.data(), static_cast<Eigen::Index>(names.names().size()), 2),
-          .places = names.places()};
+          .locations = names.locations()};
 }
 
 }  // namespace mapproof

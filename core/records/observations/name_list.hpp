@@ -29,12 +29,12 @@ class NameList {
 
   const std::vector<std::string>& names() const { return names_; }
   /// "line 7", of each name.
-  const std::vector<std::string>& places() const { return places_; }
+  const std::vector<std::string>& locations() const { return locations_; }
 
  private:
   const std::string& source_;
   std::vector<std::string> names_;
-  std::vector<std::string> places_;
+  std::vector<std::string> locations_;
   std::map<std::string, Eigen::Index, std::less<>> index_;
 };
 

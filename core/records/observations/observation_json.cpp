@@ -24,16 +24,16 @@ ObservationSource parse_observations(std::string_view text, const std::string& s
   if (sensor == Sensor::kBearing && file.unit == AngleUnit::kDegrees)
     values = values.unaryExpr([](double degrees) { return in_radians(degrees); });
   ObservationSource result{.history = std::move(file.history),
-                           .truth_m = std::nullopt,
+                           .ground_truth_m = std::nullopt,
                            .remarks = {},
-                           .places = {},
+                           .locations = {},
                            .path = source};
   for (Eigen::Index i = 0; i < result.history.landmarks(); ++i) {
     for (Eigen::Index j = 0; j < result.history.steps(); ++j)
       if (const auto problem = observation_problem(sensor, result.history.values(i, j));
           !problem.empty())
         throw IoError(source, fmt::format("/values/{}/{}", i, j), problem);
-    result.places.push_back(fmt::format("/values/{}", i));
+    result.locations.push_back(fmt::format("/values/{}", i));
   }
   return result;
 }
@@ -46,9 +46,9 @@ DetectionSource parse_detections(std::string_view text, const std::string& sourc
   auto [log, unit] = from_json_text<DetectionsFile>(text, source);
   check_size(source, "/landmarks", log.names.size(), 1);
   DetectionSource result{
-      .log = std::move(log), .truth_m = {}, .remarks = {}, .places = {}, .path = source};
+      .log = std::move(log), .ground_truth_m = {}, .remarks = {}, .locations = {}, .path = source};
   for (std::size_t i = 0; i < result.log.names.size(); ++i)
-    result.places.push_back(fmt::format("/landmarks/{}", i));
+    result.locations.push_back(fmt::format("/landmarks/{}", i));
   for (std::size_t i = 0; i < result.log.detections.size(); ++i) {
     Detection& seen = result.log.detections[i];
     if (unit == AngleUnit::kDegrees) seen.bearing_rad = in_radians(seen.bearing_rad);

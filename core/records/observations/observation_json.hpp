@@ -78,11 +78,11 @@ void fields(Visitor& v, DetectionsFile& file) {
   if constexpr (Visitor::kReads)
     for (std::size_t i = 0; i < log.detections.size(); ++i) {
       const Detection& seen = log.detections[i];
-      const auto place = [i](int column) { return fmt::format("detections/{}/{}", i, column); };
+      const auto location = [i](int column) { return fmt::format("detections/{}/{}", i, column); };
       if (seen.step < 0 || seen.landmark < 0) v.refuse("detections", i, "expected 0 or more");
-      if (seen.step >= log.steps) check_at_most(v, place(0), seen.step, 0, log.steps - 1);
+      if (seen.step >= log.steps) check_at_most(v, location(0), seen.step, 0, log.steps - 1);
       if (seen.landmark >= std::ssize(log.names))
-        check_at_most(v, place(1), seen.landmark, 0, static_cast<int>(log.names.size()) - 1);
+        check_at_most(v, location(1), seen.landmark, 0, static_cast<int>(log.names.size()) - 1);
       if (i > 0 && std::tuple(seen.step, seen.landmark) <=
                        std::tuple(log.detections[i - 1].step, log.detections[i - 1].landmark))
         v.refuse("detections", i, "detections ascend by step, then landmark, none twice");

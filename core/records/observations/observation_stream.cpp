@@ -54,38 +54,38 @@ void ObservationStream::read_row(const TableRow& row) {
       values_.scans().fail(row.line, "a streamed file is of one robot");
     return;
   }
-  add(values_.reading(row));
+  add(values_.measured(row));
 }
 
-void ObservationStream::begin_step(const ValueRows::Reading& reading) {
+void ObservationStream::begin_step(const ValueRows::Measured& measured) {
   const ScanRows& scans = values_.scans();
-  const double step = reading.scan.key;
+  const double step = measured.scan.key;
   if (open_ && step < open_->step)
-    scans.fail(reading.line, fmt::format("{} after {}: a streamed file lists its scans in "
-                                         "ascending order",
-                                         scans.words(step), scans.words(open_->step)));
+    scans.fail(measured.line, fmt::format("{} after {}: a streamed file lists its scans in "
+                                          "ascending order",
+                                          scans.words(step), scans.words(open_->step)));
   if (open_ && step == open_->step) return;
   if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
   if (++steps_ > static_cast<std::size_t>(kMostSteps))
-    scans.fail(reading.line, fmt::format("more than {} steps", kMostSteps));
+    scans.fail(measured.line, fmt::format("more than {} steps", kMostSteps));
   open_ = StreamedStep{.step = step, .values = {}};
   listed_.assign(listed_.size(), false);
 }
 
-void ObservationStream::add(const ValueRows::Reading& reading) {
+void ObservationStream::add(const ValueRows::Measured& measured) {
   const ScanRows& scans = values_.scans();
-  if (reading.landmark < 0)
-    scans.fail(reading.line,
+  if (measured.landmark < 0)
+    scans.fail(measured.line,
                "a measurement without a landmark ID (?): the data association is estimated for "
                "whole files");
-  begin_step(reading);
-  const auto row = static_cast<std::size_t>(reading.landmark);
+  begin_step(measured);
+  const auto row = static_cast<std::size_t>(measured.landmark);
   if (row >= listed_.size()) listed_.resize(row + 1, false);
   if (listed_[row])
-    scans.fail(reading.line, fmt::format("landmark {} is already listed at {}",
-                                         in_quotes(names()[row]), scans.words(reading.scan.key)));
+    scans.fail(measured.line, fmt::format("landmark {} is already listed at {}",
+                                          in_quotes(names()[row]), scans.words(measured.scan.key)));
   listed_[row] = true;
-  if (!std::isnan(reading.value)) open_->values.emplace_back(reading.landmark, reading.value);
+  if (!std::isnan(measured.value)) open_->values.emplace_back(measured.landmark, measured.value);
 }
 
 }  // namespace mapproof

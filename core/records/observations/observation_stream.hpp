@@ -12,7 +12,7 @@
 #include "core/model/sensor.hpp"
 #include "core/records/observations/detection_stream.hpp"
 #include "core/records/observations/detections.hpp"
-#include "core/records/observations/growing_table.hpp"
+#include "core/records/observations/streamed_table.hpp"
 #include "core/records/observations/table_reader.hpp"
 #include "core/records/observations/value_rows.hpp"
 
@@ -25,7 +25,7 @@ struct StreamedStep {
 };
 
 /// Reads one sensor's values from long CSV (step or time, landmark, value) as it grows. A line
-/// counts once its end is there (see GrowingTable), and a step once a row of a later one is. Steps
+/// counts once its end is there (see StreamedTable), and a step once a row of a later one is. Steps
 /// come in ascending order. A header of detections (see read_detections) does as well: of each scan
 /// what the sensor saw.
 class ObservationStream {
@@ -36,7 +36,7 @@ class ObservationStream {
   ObservationStream(const ObservationStream&) = delete;
   ObservationStream& operator=(const ObservationStream&) = delete;
 
-  /// @throws IoError with the line, as read_observations and GrowingTable; or for a step that is
+  /// @throws IoError with the line, as read_observations and StreamedTable; or for a step that is
   ///         not ascending.
   void take(std::string_view bytes) {
     table_.take(bytes, [this](const TableRow& row) { read_row(row); });
@@ -62,10 +62,10 @@ class ObservationStream {
 
  private:
   void read_row(const TableRow& row);
-  void add(const ValueRows::Reading& reading);
-  void begin_step(const ValueRows::Reading& reading);
+  void add(const ValueRows::Measured& measured);
+  void begin_step(const ValueRows::Measured& measured);
 
-  GrowingTable table_;
+  StreamedTable table_;
   Sensor sensor_;
   AngleUnit unit_;
   ValueRows values_;

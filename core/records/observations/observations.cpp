@@ -66,10 +66,10 @@ class WideTable {
       if (width_ == 0) set_width(row);
       has_names_ = has_names_ || is_text(row.cells.front());
     }
-    const std::string place = fmt::format("line {}", row.line);
+    const std::string location = fmt::format("line {}", row.line);
     if (row.cells.size() != width_)
       throw IoError(
-          source_, place,
+          source_, location,
           fmt::format("has {} cells where line {} has {}", row.cells.size(), first_line_, width_));
     Cells cells = row.cells;
     if (has_names_) {
@@ -79,10 +79,10 @@ class WideTable {
       names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
     }
     if (cells.empty())
-      throw IoError(source_, place,
+      throw IoError(source_, location,
                     "a single cell: cells stand between commas, semicolons or tabs");
-    check_size(source_, place, names_.names().size(), cells.size());
-    add_values(cells, place);
+    check_size(source_, location, names_.names().size(), cells.size());
+    add_values(cells, location);
   }
 
   ObservationSource result() && {
@@ -94,9 +94,9 @@ class WideTable {
     return {.history = {.sensor = sensor_,
                         .names = names_.names(),
                         .values = Eigen::Map<const RowMajor>(values_.data(), landmarks, steps)},
-            .truth_m = std::nullopt,
+            .ground_truth_m = std::nullopt,
             .remarks = {},
-            .places = names_.places(),
+            .locations = names_.locations(),
             .path = source_};
   }
 
@@ -106,11 +106,11 @@ class WideTable {
     first_line_ = row.line;
   }
 
-  void add_values(Cells cells, const std::string& place) {
+  void add_values(Cells cells, const std::string& location) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::optional<double> value = detection_value(cells[i], sensor_, unit_);
       if (!value)
-        throw IoError(source_, fmt::format("{}, column {}", place, i + (has_names_ ? 2 : 1)),
+        throw IoError(source_, fmt::format("{}, column {}", location, i + (has_names_ ? 2 : 1)),
                       detection_problem(cells[i], sensor_, unit_));
       values_.push_back(*value);
     }
@@ -127,23 +127,23 @@ class WideTable {
   bool has_names_ = false;
 };
 
-using Reading = ValueRows::Reading;
+using Measured = ValueRows::Measured;
 
 /// Ascending. Rows mostly come step by step, so that little is left to sort.
-std::vector<ScanKey> distinct_scans(const std::vector<Reading>& readings) {
+std::vector<ScanKey> distinct_scans(const std::vector<Measured>& measurements) {
   std::vector<ScanKey> steps;
-  for (const Reading& reading : readings)
-    if (steps.empty() || steps.back() != reading.scan) steps.push_back(reading.scan);
+  for (const Measured& measured : measurements)
+    if (steps.empty() || steps.back() != measured.scan) steps.push_back(measured.scan);
   std::ranges::sort(steps);
   const auto rest = std::ranges::unique(steps);
   steps.erase(rest.begin(), rest.end());
   return steps;
 }
 
-[[noreturn]] void refuse_repeat(const Reading& repeat, const std::vector<Reading>& readings,
+[[noreturn]] void refuse_repeat(const Measured& repeat, const std::vector<Measured>& measurements,
                                 const ValueRows& rows, const std::string& source) {
-  const auto first = std::ranges::find_if(readings, [&](const Reading& reading) {
-    return reading.landmark == repeat.landmark && reading.scan == repeat.scan;
+  const auto first = std::ranges::find_if(measurements, [&](const Measured& measured) {
+    return measured.landmark == repeat.landmark && measured.scan == repeat.scan;
   });
   const std::string& name = rows.names().names()[static_cast<std::size_t>(repeat.landmark)];
   throw IoError(source, fmt::format("line {}", repeat.line),
@@ -152,9 +152,9 @@ std::vector<ScanKey> distinct_scans(const std::vector<Reading>& readings) {
 }
 
 /// @param others  The value where nothing is listed.
-Eigen::MatrixXd arrange(const std::vector<Reading>& readings, const ValueRows& rows, double others,
-                        const std::string& source) {
-  const std::vector<ScanKey> steps = distinct_scans(readings);
+Eigen::MatrixXd arrange(const std::vector<Measured>& measurements, const ValueRows& rows,
+                        double others, const std::string& source) {
+  const std::vector<ScanKey> steps = distinct_scans(measurements);
   const std::size_t count = rows.names().names().size();
   check_size(source, "as a whole", count, steps.size());
   const auto landmarks = static_cast<Eigen::Index>(count);
@@ -162,31 +162,33 @@ Eigen::MatrixXd arrange(const std::vector<Reading>& readings, const ValueRows& r
       Eigen::MatrixXd::Constant(landmarks, static_cast<Eigen::Index>(steps.size()), others);
   std::vector<bool> is_set(static_cast<std::size_t>(values.size()));
   std::size_t column = 0;
-  for (const Reading& reading : readings) {
-    if (reading.landmark < 0) continue;
-    if (steps[column] != reading.scan)
+  for (const Measured& measured : measurements) {
+    if (measured.landmark < 0) continue;
+    if (steps[column] != measured.scan)
       column =
-          static_cast<std::size_t>(std::ranges::lower_bound(steps, reading.scan) - steps.begin());
-    auto is_repeated = is_set[column * count + static_cast<std::size_t>(reading.landmark)];
-    if (is_repeated) refuse_repeat(reading, readings, rows, source);
+          static_cast<std::size_t>(std::ranges::lower_bound(steps, measured.scan) - steps.begin());
+    auto is_repeated = is_set[column * count + static_cast<std::size_t>(measured.landmark)];
+    if (is_repeated) refuse_repeat(measured, measurements, rows, source);
     is_repeated = true;
-    values(reading.landmark, static_cast<Eigen::Index>(column)) = reading.value;
+    values(measured.landmark, static_cast<Eigen::Index>(column)) = measured.value;
   }
   return values;
 }
 
-std::vector<UnlabelledReading> unlabelled_in(const std::vector<Reading>& readings) {
-  std::vector<UnlabelledReading> unlabelled;
-  if (std::ranges::none_of(readings, [](const Reading& reading) { return reading.landmark < 0; }))
-    return unlabelled;
-  const std::vector<ScanKey> scans = distinct_scans(readings);
-  for (const Reading& reading : readings)
-    if (reading.landmark < 0)
-      unlabelled.push_back({.step = std::ranges::lower_bound(scans, reading.scan) - scans.begin(),
-                            .number = reading.scan.key,
-                            .value = reading.value,
-                            .line = reading.line});
-  return unlabelled;
+std::vector<UnassociatedMeasurement> unassociated_in(const std::vector<Measured>& measurements) {
+  std::vector<UnassociatedMeasurement> unassociated;
+  if (std::ranges::none_of(measurements,
+                           [](const Measured& measured) { return measured.landmark < 0; }))
+    return unassociated;
+  const std::vector<ScanKey> scans = distinct_scans(measurements);
+  for (const Measured& measured : measurements)
+    if (measured.landmark < 0)
+      unassociated.push_back(
+          {.step = std::ranges::lower_bound(scans, measured.scan) - scans.begin(),
+           .number = measured.scan.key,
+           .value = measured.value,
+           .line = measured.line});
+  return unassociated;
 }
 
 }  // namespace
@@ -212,26 +214,27 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
   TableReader reader(text, source);
   TableRow row;
   ValueRows rows(source, sensor, unit);
-  std::vector<Reading> readings;
+  std::vector<Measured> measurements;
   for (bool is_first = true; reader.next(row); is_first = false) {
     if (is_first && rows.begin(row)) continue;
-    readings.push_back(rows.reading(row));
-    if (static_cast<double>(readings.size()) > kMostEntries)
+    measurements.push_back(rows.measured(row));
+    if (static_cast<double>(measurements.size()) > kMostEntries)
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }
-  if (readings.empty()) throw IoError(source, "holds no observations");
-  const bool lists_detections =
-      sensor == Sensor::kVisibility &&
-      std::ranges::all_of(readings, [](const Reading& reading) { return reading.value == 1.0; });
+  if (measurements.empty()) throw IoError(source, "holds no observations");
+  const bool lists_detections = sensor == Sensor::kVisibility &&
+                                std::ranges::all_of(measurements, [](const Measured& measured) {
+                                  return measured.value == 1.0;
+                                });
   const double others = lists_detections ? 0.0 : kNaN;
   ObservationSource result{.history = {.sensor = sensor,
                                        .names = rows.names().names(),
-                                       .values = arrange(readings, rows, others, source)},
-                           .truth_m = std::nullopt,
+                                       .values = arrange(measurements, rows, others, source)},
+                           .ground_truth_m = std::nullopt,
                            .remarks = rows.scans().remarks(),
-                           .places = rows.names().places(),
+                           .locations = rows.names().locations(),
                            .path = source,
-                           .unlabelled = unlabelled_in(readings)};
+                           .unassociated = unassociated_in(measurements)};
   if (lists_detections)
     result.remarks.push_back(
         "Only detections are listed: all other landmarks are taken as not seen");

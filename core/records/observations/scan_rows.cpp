@@ -131,7 +131,7 @@ bool is_long_header(const TableRow& row) {
 }
 
 DetectionColumns detection_columns(const TableRow& header, const std::string& source) {
-  const std::string place = fmt::format("line {}", header.line);
+  const std::string location = fmt::format("line {}", header.line);
   DetectionColumns columns;
   columns.width = header.cells.size();
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
@@ -142,19 +142,19 @@ DetectionColumns detection_columns(const TableRow& header, const std::string& so
       continue;
     }
     if (columns[word->column])
-      throw IoError(source, place, fmt::format("two columns hold a {}", label(word->column)));
+      throw IoError(source, location, fmt::format("two columns hold a {}", label(word->column)));
     if (!take(columns, word->column, heading, i))
-      throw IoError(source, place,
+      throw IoError(source, location,
                     fmt::format("{}: a {} in that unit is not known; metres, seconds, rad or deg",
                                 in_quotes(header.cells[i]), label(word->column)));
   }
   if (!columns[DetectionColumn::kLandmark])
-    throw IoError(source, place, "no column is named landmark");
+    throw IoError(source, location, "no column is named landmark");
   if (!columns[DetectionColumn::kStep] && !columns[DetectionColumn::kTime])
-    throw IoError(source, place, "no column is named step or time: which rows are one scan?");
+    throw IoError(source, location, "no column is named step or time: which rows are one scan?");
   if (!columns[DetectionColumn::kRange] && !columns[DetectionColumn::kBearing] &&
       !columns[DetectionColumn::kValue])
-    throw IoError(source, place, "no column is named range or bearing");
+    throw IoError(source, location, "no column is named range or bearing");
   return columns;
 }
 

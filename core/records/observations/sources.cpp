@@ -14,9 +14,9 @@ ObservationSource observations_of(DetectionSource source, Sensor sensor) {
   if (history.values.array().isNaN().all())
     throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
   return {.history = std::move(history),
-          .truth_m = std::move(source.truth_m),
+          .ground_truth_m = std::move(source.ground_truth_m),
           .remarks = std::move(source.remarks),
-          .places = std::move(source.places),
+          .locations = std::move(source.locations),
           .path = std::move(source.path)};
 }
 

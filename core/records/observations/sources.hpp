@@ -15,10 +15,10 @@ namespace mapproof {
 /// What scans showed, with what is needed to talk about the file that it came from.
 struct DetectionSource {
   DetectionLog log;
-  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
-  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
-  std::vector<std::string> places;   ///< M; where the file holds the landmark: "line 7".
-  std::string path;                  ///< For errors: the file or folder that was read.
+  std::optional<Points> ground_truth_m;  ///< M x 2, if the source holds it; NaN rows: unknown.
+  std::vector<std::string> remarks;      ///< What was dropped or assumed, a sentence each.
+  std::vector<std::string> locations;    ///< M; where the file holds the landmark: "line 7".
+  std::string path;                      ///< For errors: the file or folder that was read.
 };
 
 /// How a file of detections is to be understood.
@@ -38,7 +38,7 @@ enum class Layout {
 };
 
 /// A measurement without a landmark ID.
-struct UnlabelledReading {
+struct UnassociatedMeasurement {
   Eigen::Index step = 0;  ///< Column of the history.
   double number = 0.0;    ///< Step or time, as the file has it.
   double value = 0.0;     ///< As the history's; NaN: missing.
@@ -46,25 +46,25 @@ struct UnlabelledReading {
 };
 
 /// The landmark of such a measurement in a long table.
-inline constexpr std::string_view kUnlabelledMark = "?";
+inline constexpr std::string_view kUnassociatedMark = "?";
 
 /// A user's observations, with what is needed to talk about the file they came from.
 struct ObservationSource {
   ObservationHistory history;
-  std::optional<Points> truth_m;     ///< M x 2, if the source holds it; NaN rows: unknown.
-  std::vector<std::string> remarks;  ///< What was dropped or assumed, a sentence each.
+  std::optional<Points> ground_truth_m;  ///< M x 2, if the source holds it; NaN rows: unknown.
+  std::vector<std::string> remarks;      ///< What was dropped or assumed, a sentence each.
   std::vector<std::string>
-      places;        ///< M; where the file holds the landmark: "line 7", "/values/6".
+      locations;     ///< M; where the file holds the landmark: "line 7", "/values/6".
   std::string path;  ///< For errors: the file or folder that was read.
   /// Of a long table, in the order of its lines; they are not in the history.
-  std::vector<UnlabelledReading> unlabelled = {};
+  std::vector<UnassociatedMeasurement> unassociated = {};
 };
 
 /// Landmarks with known positions: anchors, or the ground truth.
 struct NamedPoints {
-  std::vector<std::string> names;   ///< M, all different.
-  Points positions_m;               ///< M x 2, finite.
-  std::vector<std::string> places;  ///< M; where the file holds the landmark: "line 7".
+  std::vector<std::string> names;      ///< M, all different.
+  Points positions_m;                  ///< M x 2, finite.
+  std::vector<std::string> locations;  ///< M; where the file holds the landmark: "line 7".
 };
 
 /// What one sensor observed of detections.

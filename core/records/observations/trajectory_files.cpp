@@ -41,26 +41,27 @@ Trajectory parse_trajectory_tum(std::string_view text, const std::string& source
   std::vector<std::array<double, kColumns>> poses;
   while (reader.next(row)) {
     if (row.cells.front().starts_with('#')) continue;
-    const std::string place = fmt::format("line {}", row.line);
+    const std::string location = fmt::format("line {}", row.line);
     if (row.cells.size() != kColumns)
-      throw IoError(source, place,
+      throw IoError(source, location,
                     fmt::format("has {} numbers, expected {}: t x y z qx qy qz qw",
                                 row.cells.size(), kColumns));
     std::array<double, kColumns>& pose = poses.emplace_back();
     for (std::size_t i = 0; i < kColumns; ++i) {
       const std::optional<double> number = number_in(row.cells[i]);
       if (!number || !std::isfinite(*number))
-        throw IoError(source, place, number_problem(row.cells[i]));
+        throw IoError(source, location, number_problem(row.cells[i]));
       pose[i] = *number;
     }
     if (pose[4] == 0.0 && pose[5] == 0.0 && pose[6] == 0.0 && pose[7] == 0.0)
       throw IoError(
-          source, place,
+          source, location,
           "the quaternion qx qy qz qw is 0 0 0 0, which is not an orientation; without one it "
           "is 0 0 0 1");
     if (poses.size() < 2) continue;
     const double before = poses[poses.size() - 2][0];
-    if (pose[0] < before) throw IoError(source, place, "its time is before that of the pose above");
+    if (pose[0] < before)
+      throw IoError(source, location, "its time is before that of the pose above");
     if (pose[0] == before) poses.pop_back();  // As motion capture repeats one now and then.
   }
   if (poses.empty()) throw IoError(source, "has no pose");

@@ -29,11 +29,11 @@ bool ValueRows::begin(const TableRow& first) {
   return true;
 }
 
-ValueRows::Reading ValueRows::reading(const TableRow& row) {
+ValueRows::Measured ValueRows::measured(const TableRow& row) {
   const ScanKey scan = scans_.scan_of(row);
   const double value = scans_.value(row, DetectionColumn::kValue, sensor_, unit_);
   const std::string_view label = scans_.label(row);
-  return {.landmark = label == kUnlabelledMark ? -1 : names_.find_or_add(label, row.line),
+  return {.landmark = label == kUnassociatedMark ? -1 : names_.find_or_add(label, row.line),
           .scan = scan,
           .value = value,
           .line = row.line};

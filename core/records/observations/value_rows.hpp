@@ -13,8 +13,8 @@ namespace mapproof {
 class ValueRows {
  public:
   /// The content of one row.
-  struct Reading {
-    Eigen::Index landmark;  ///< Row among the names; -1: without an ID, see kUnlabelledMark.
+  struct Measured {
+    Eigen::Index landmark;  ///< Row among the names; -1: without an ID, see kUnassociatedMark.
     ScanKey scan;
     double value;  ///< NaN: missing.
     std::size_t line;
@@ -28,7 +28,7 @@ class ValueRows {
   bool begin(const TableRow& first);
 
   /// @throws IoError with the line for a row that is none of the table's.
-  Reading reading(const TableRow& row);
+  Measured measured(const TableRow& row);
 
   const ScanRows& scans() const { return scans_; }
   const NameList& names() const { return names_; }

@@ -40,14 +40,14 @@ bool is_called(const CsvColumn& column, std::string_view cell) {
 std::optional<std::size_t> cell_of(const CsvColumn& column, const TableRow& header,
                                    const std::string& source) {
   std::optional<std::size_t> found;
-  const std::string place = fmt::format("line {}", header.line);
+  const std::string location = fmt::format("line {}", header.line);
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     if (!is_called(column, header.cells[i])) continue;
-    if (found) throw IoError(source, place, fmt::format("two columns of {}", column.label));
+    if (found) throw IoError(source, location, fmt::format("two columns of {}", column.label));
     found = i;
   }
   if (!found && column.is_needed)
-    throw IoError(source, place,
+    throw IoError(source, location,
                   fmt::format("no column of {}: expected {} in the header", column.label,
                               fmt::join(column.words, ", ")));
   return found;
@@ -151,7 +151,7 @@ std::vector<Motion> read_motions(const fs::path& path) {
   return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
 }
 
-Trajectory read_truth(const fs::path& path) {
+Trajectory read_ground_truth(const fs::path& path) {
   CsvColumn heading = kHeading;
   heading.is_needed = false;
   return trajectory_in(read_table(path, {kTime, kX, kY, heading}));
@@ -176,8 +176,8 @@ void take_folder(const fs::path& folder, OdometrySource wanted, RangeLogParts& p
   if (const fs::path start = file_in(folder, start_name);
       !start.empty() && (takes_recovered || !given.empty()))
     parts.start = read_start(start);
-  if (const fs::path truth = file_in(folder, "groundtruth.csv"); !truth.empty())
-    parts.truth = read_truth(truth);
+  if (const fs::path ground_truth = file_in(folder, "groundtruth.csv"); !ground_truth.empty())
+    parts.ground_truth = read_ground_truth(ground_truth);
   if (const fs::path landmarks = file_in(folder, "landmarks.csv"); !landmarks.empty())
     parts.true_landmarks = read_true_landmarks(landmarks);
 }
@@ -192,7 +192,7 @@ RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options) 
   RangeLogParts parts{.source = source.name(), .name = options.name};
   const NumberTable ranges = read_columns(source, {kTime, kRange, kRobot}, &kLandmark);
   if (ranges.values.cols() > 2) check_one_sender(ranges, 2);
-  parts.readings = readings_in(ranges);
+  parts.measurements = measurements_in(ranges);
   if (unpacked_name(source.path()).filename() == "ranges.csv")
     take_folder(source.path().parent_path(), options.odometry, parts);
   return assemble(std::move(parts), options);
@@ -203,7 +203,8 @@ void take_named_files(const RangeLogOptions& options, RangeLogParts& parts) {
     parts.odometry = read_motions(options.odometry_file);
     parts.start.reset();
   }
-  if (!options.truth_file.empty()) parts.truth = read_truth(options.truth_file);
+  if (!options.ground_truth_file.empty())
+    parts.ground_truth = read_ground_truth(options.ground_truth_file);
   if (!options.landmarks_file.empty())
     parts.true_landmarks = read_true_landmarks(options.landmarks_file);
 }

@@ -118,16 +118,16 @@ std::size_t count_variables(const std::string& bytes, bool is_swapped, const std
   constexpr std::uint32_t kCompressed = 15;
   std::size_t count = 0;
   for (std::size_t at = kHeaderBytes; at < bytes.size(); ++count) {
-    const std::string place = fmt::format("variable {}", count + 1);
+    const std::string location = fmt::format("variable {}", count + 1);
     if (count == kMostVariables)
       throw IoError(source, fmt::format("more than {} variables", kMostVariables));
-    if (bytes.size() - at < kTagBytes) throw IoError(source, place, "is cut off");
+    if (bytes.size() - at < kTagBytes) throw IoError(source, location, "is cut off");
     const std::uint32_t type = word_at(bytes, at, is_swapped);
     const std::size_t size = word_at(bytes, at + 4, is_swapped);
     if (type != kMatrix && type != kCompressed)
-      throw IoError(source, place, fmt::format("is damaged: element of type {}", type));
+      throw IoError(source, location, fmt::format("is damaged: element of type {}", type));
     at += kTagBytes;
-    if (size > bytes.size() - at) throw IoError(source, place, "is cut off");
+    if (size > bytes.size() - at) throw IoError(source, location, "is cut off");
     at += size;
   }
   return count;
@@ -251,9 +251,9 @@ void take_odometry(const Tables& tables, OdometrySource source, RangeLogParts& p
 /// What stands in DR is worth a word even where it is not used.
 void check_given_turns(const Tables& tables, RangeLogParts& parts) {
   const NumberTable* motions = table_of(tables, "DR", 3);
-  const NumberTable* truth = table_of(tables, "GT", 4);
-  if (motions == nullptr || truth == nullptr) return;
-  if (turns_are_the_truths(motions_in(*motions), trajectory_in(*truth)))
+  const NumberTable* ground_truth = table_of(tables, "GT", 4);
+  if (motions == nullptr || ground_truth == nullptr) return;
+  if (turns_are_the_ground_truths(motions_in(*motions), trajectory_in(*ground_truth)))
     parts.remarks.push_back(
         "The heading increments of DR are those of the true heading, not the robot's gyro.");
 }
@@ -267,10 +267,11 @@ RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options) 
   if (ranges == nullptr)
     throw IoError(parts.source, "has no variable TD of ranges: time, sender, landmark, range");
   check_one_sender(*ranges, 1);
-  parts.readings = readings_in(selected(*ranges, {0, 3}, 2));
+  parts.measurements = measurements_in(selected(*ranges, {0, 3}, 2));
   take_odometry(tables, options.odometry, parts);
   check_given_turns(tables, parts);
-  if (const NumberTable* truth = table_of(tables, "GT", 4)) parts.truth = trajectory_in(*truth);
+  if (const NumberTable* ground_truth = table_of(tables, "GT", 4))
+    parts.ground_truth = trajectory_in(*ground_truth);
   if (const NumberTable* landmarks = table_of(tables, "TL", 3))
     parts.true_landmarks = landmarks_in(selected(*landmarks, {1, 2}, 0));
   return assemble(std::move(parts), options);

@@ -14,9 +14,9 @@ enum class OdometrySource {
 struct RangeLogOptions {
   std::string name;  ///< For titles; empty: made of the path.
   OdometrySource odometry = OdometrySource::kRecovered;
-  std::filesystem::path odometry_file;   ///< Taken instead; CSV with the columns of odometry.csv.
-  std::filesystem::path truth_file;      ///< Taken instead; CSV as groundtruth.csv.
-  std::filesystem::path landmarks_file;  ///< Taken instead; CSV as landmarks.csv.
+  std::filesystem::path odometry_file;  ///< Taken instead; CSV with the columns of odometry.csv.
+  std::filesystem::path ground_truth_file;  ///< Taken instead; CSV as groundtruth.csv.
+  std::filesystem::path landmarks_file;     ///< Taken instead; CSV as landmarks.csv.
 };
 
 }  // namespace mapproof

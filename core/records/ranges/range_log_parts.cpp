@@ -38,8 +38,8 @@ std::optional<std::pair<std::string_view, long long>> numbered(std::string_view 
 std::vector<std::string> names_of(const RangeLogParts& parts) {
   std::vector<std::string> names;
   std::set<std::string_view> known;
-  for (const NamedReading& reading : parts.readings)
-    if (known.insert(reading.landmark).second) names.push_back(reading.landmark);
+  for (const NamedMeasurement& measured : parts.measurements)
+    if (known.insert(measured.landmark).second) names.push_back(measured.landmark);
   if (names.size() > kMostLandmarks)
     throw IoError(parts.source, fmt::format("ranges to more than {} landmarks", kMostLandmarks));
   if (std::ranges::all_of(names, [](const auto& name) { return numbered(name).has_value(); }))
@@ -53,11 +53,11 @@ std::map<std::string_view, Eigen::Index> rows_by_name(const std::vector<std::str
   return rows;
 }
 
-void take_readings(RangeLogParts& parts, RangeLog& log) {
+void take_measurements(RangeLogParts& parts, RangeLog& log) {
   std::size_t jumps = 0;
   double farthest_s = 0.0;
-  for (std::size_t i = 1; i < parts.readings.size(); ++i) {
-    const double back_s = parts.readings[i - 1].time_s - parts.readings[i].time_s;
+  for (std::size_t i = 1; i < parts.measurements.size(); ++i) {
+    const double back_s = parts.measurements[i - 1].time_s - parts.measurements[i].time_s;
     if (back_s > 0.0) ++jumps;
     farthest_s = std::max(farthest_s, back_s);
   }
@@ -65,30 +65,31 @@ void take_readings(RangeLogParts& parts, RangeLog& log) {
     log.remarks.push_back(fmt::format(
         "The stamps of the ranges jump back {}, by up to {:.1f} s: the ranges are sorted by time.",
         counted(static_cast<long long>(jumps), "time"), farthest_s));
-  std::ranges::stable_sort(parts.readings, {}, &NamedReading::time_s);
+  std::ranges::stable_sort(parts.measurements, {}, &NamedMeasurement::time_s);
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
-  log.ranges.reserve(parts.readings.size());
-  for (const NamedReading& reading : parts.readings)
-    log.ranges.push_back({.time_s = reading.time_s,
-                          .landmark = rows.at(reading.landmark),
-                          .range_m = reading.range_m});
+  log.ranges.reserve(parts.measurements.size());
+  for (const NamedMeasurement& measured : parts.measurements)
+    log.ranges.push_back({.time_s = measured.time_s,
+                          .landmark = rows.at(measured.landmark),
+                          .range_m = measured.range_m});
 }
 
 void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
-  const NamedPoints& truth = parts.true_landmarks;
-  if (truth.names.empty()) return;
-  if (truth.names.size() > kMostLandmarks)
+  const NamedPoints& ground_truth = parts.true_landmarks;
+  if (ground_truth.names.empty()) return;
+  if (ground_truth.names.size() > kMostLandmarks)
     throw IoError(parts.source,
                   fmt::format("true positions of more than {} landmarks", kMostLandmarks));
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2, kNaN);
   std::vector<std::string> unheard;
-  for (std::size_t i = 0; i < truth.names.size(); ++i) {
-    const auto found = rows.find(truth.names[i]);
+  for (std::size_t i = 0; i < ground_truth.names.size(); ++i) {
+    const auto found = rows.find(ground_truth.names[i]);
     if (found == rows.end())
-      unheard.push_back(truth.names[i]);
+      unheard.push_back(ground_truth.names[i]);
     else
-      log.true_landmarks->row(found->second) = truth.positions_m.row(static_cast<Eigen::Index>(i));
+      log.true_landmarks->row(found->second) =
+          ground_truth.positions_m.row(static_cast<Eigen::Index>(i));
   }
   if (!unheard.empty())
     log.remarks.push_back("Left out, since there is no range to them: landmarks " +
@@ -116,12 +117,12 @@ double agreement(const Trajectory& path) {
 }
 
 void check_true_heading(RangeLog& log) {
-  if (!log.truth || log.truth->heading_rad.size() == 0) return;
+  if (!log.ground_truth || log.ground_truth->heading_rad.size() == 0) return;
   double forward_m = 0.0;
   for (const Motion& motion : log.odometry) forward_m += motion.distance_m;
-  const double cosine = agreement(*log.truth) * (forward_m < 0.0 ? -1.0 : 1.0);
+  const double cosine = agreement(*log.ground_truth) * (forward_m < 0.0 ? -1.0 : 1.0);
   if (cosine >= kTurnedAbout) return;
-  log.truth->heading_rad.array() += std::numbers::pi;
+  log.ground_truth->heading_rad.array() += std::numbers::pi;
   log.remarks.push_back(
       "The true heading is off by half a turn from the direction of travel: it is turned.");
 }
@@ -153,8 +154,8 @@ void count_outside(RangeLog& log) {
   if (log.odometry.empty()) return;
   const double first_s = log.start.time_s;
   const double last_s = log.odometry.back().time_s;
-  const auto outside = std::ranges::count_if(log.ranges, [&](const RangeReading& reading) {
-    return reading.time_s < first_s || reading.time_s > last_s;
+  const auto outside = std::ranges::count_if(log.ranges, [&](const RangeMeasurement& measured) {
+    return measured.time_s < first_s || measured.time_s > last_s;
   });
   if (outside > 0)
     log.remarks.push_back(
@@ -164,14 +165,15 @@ void count_outside(RangeLog& log) {
 
 }  // namespace
 
-bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth) {
+bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
+                                 const Trajectory& ground_truth) {
   const auto steps = static_cast<Eigen::Index>(motions.size());
-  if (truth.heading_rad.size() != steps + 1) return false;
+  if (ground_truth.heading_rad.size() != steps + 1) return false;
   double largest = 0.0;
   double most_turn = 0.0;
   for (Eigen::Index i = 0; i < steps; ++i) {
     const double turn = motions[static_cast<std::size_t>(i)].turn_rad;
-    const double true_turn = truth.heading_rad(i + 1) - truth.heading_rad(i);
+    const double true_turn = ground_truth.heading_rad(i + 1) - ground_truth.heading_rad(i);
     largest = std::max(largest, std::abs(wrapped(turn - true_turn)));
     most_turn = std::max(most_turn, std::abs(turn));
   }
@@ -180,25 +182,25 @@ bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& 
 
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
   take_named_files(options, parts);
-  if (parts.readings.empty()) throw IoError(parts.source, "holds no ranges");
+  if (parts.measurements.empty()) throw IoError(parts.source, "holds no ranges");
   RangeLog log{.name = parts.name,
                .landmarks = names_of(parts),
                .ranges = {},
                .start = {},
                .odometry = parts.odometry,
-               .truth = parts.truth,
+               .ground_truth = parts.ground_truth,
                .true_landmarks = std::nullopt,
                .remarks = parts.remarks};
-  take_readings(parts, log);
+  take_measurements(parts, log);
   take_true_landmarks(parts, log);
   take_start(parts, log);
   count_outside(log);
-  if (log.truth && turns_are_the_truths(log.odometry, *log.truth))
+  if (log.ground_truth && turns_are_the_ground_truths(log.odometry, *log.ground_truth))
     log.remarks.push_back(
         "The heading changes of the odometry are those of the true heading: a result "
         "that uses them is not honest.");
   check_true_heading(log);
-  if (!log.truth) log.remarks.push_back("The true path is not known.");
+  if (!log.ground_truth) log.remarks.push_back("The true path is not known.");
   return log;
 }
 

@@ -14,10 +14,10 @@ namespace mapproof {
 struct RangeLogParts {
   std::string source;  ///< File or folder, for errors.
   std::string name;
-  std::vector<NamedReading> readings = {};  ///< In the order of the file.
+  std::vector<NamedMeasurement> measurements = {};  ///< In the order of the file.
   std::vector<Motion> odometry = {};
   std::optional<StartPose> start = {};
-  std::optional<Trajectory> truth = {};
+  std::optional<Trajectory> ground_truth = {};
   NamedPoints true_landmarks = {};
   std::vector<std::string> remarks = {};
 };
@@ -34,7 +34,8 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
 
 /// Whether the heading changes are the increments of the true heading to the last digit, and not
 /// all 0.
-bool turns_are_the_truths(const std::vector<Motion>& motions, const Trajectory& truth);
+bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
+                                 const Trajectory& ground_truth);
 
 /// Reads the files that the options name in place of what was gathered. @throws IoError.
 void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);

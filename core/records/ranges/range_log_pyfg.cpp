@@ -41,10 +41,10 @@ class PyfgLines {
                                          motions_by_pose_.size(), pose_rows_.size()));
   }
 
-  Trajectory truth() const { return trajectory_in(filled(poses_, pose_values_, 4)); }
+  Trajectory ground_truth() const { return trajectory_in(filled(poses_, pose_values_, 4)); }
   NamedPoints landmarks() const { return landmarks_in(filled(landmarks_, landmark_values_, 2)); }
-  std::vector<NamedReading> readings() const {
-    return readings_in(filled(ranges_, range_values_, 2));
+  std::vector<NamedMeasurement> measurements() const {
+    return measurements_in(filled(ranges_, range_values_, 2));
   }
 
   /// In the order of the poses, stamped with them.
@@ -214,15 +214,15 @@ RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options)
   const std::string bytes = source.rest();
   PyfgLines lines(checked_text(bytes, parts.source), parts.source);
   lines.read();
-  parts.truth = lines.truth();
+  parts.ground_truth = lines.ground_truth();
   parts.odometry = lines.motions();
-  parts.readings = lines.readings();
+  parts.measurements = lines.measurements();
   parts.true_landmarks = lines.landmarks();
   parts.remarks = lines.remarks();
-  parts.start = {.time_s = parts.truth->time_s(0),
-                 .x_m = parts.truth->positions_m(0, 0),
-                 .y_m = parts.truth->positions_m(0, 1),
-                 .heading_rad = parts.truth->heading_rad(0)};
+  parts.start = {.time_s = parts.ground_truth->time_s(0),
+                 .x_m = parts.ground_truth->positions_m(0, 0),
+                 .y_m = parts.ground_truth->positions_m(0, 1),
+                 .heading_rad = parts.ground_truth->heading_rad(0)};
   return assemble(std::move(parts), options);
 }
 

@@ -46,7 +46,7 @@ RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options)
   const NumberTable ranges = read_ranges(source);
   RangeLogParts parts{.source = ranges.source, .name = options.name};
   check_one_sender(ranges, 1);
-  parts.readings = readings_in(selected(ranges, {0, 3}, 2));
+  parts.measurements = measurements_in(selected(ranges, {0, 3}, 2));
   const fs::path odometry_path = stem.empty() ? fs::path() : file_of(stem, "_DR.txt");
   std::error_code error;
   if (fs::exists(odometry_path, error)) {

@@ -49,12 +49,12 @@ void NumberTable::set_values(const std::vector<double>& by_row, Eigen::Index col
   values = Eigen::Map<const RowMajor>(by_row.data(), std::ssize(rows), columns);
 }
 
-std::string NumberTable::place(Eigen::Index row) const {
+std::string NumberTable::location(Eigen::Index row) const {
   return fmt::format("{} {}", row_word, rows[static_cast<std::size_t>(row)]);
 }
 
 void NumberTable::fail(Eigen::Index row, const std::string& what) const {
-  throw IoError(source, place(row), what);
+  throw IoError(source, location(row), what);
 }
 
 Trajectory trajectory_in(const NumberTable& table) {
@@ -89,28 +89,28 @@ std::vector<Motion> motions_in(const NumberTable& table) {
   return motions;
 }
 
-std::vector<NamedReading> readings_in(const NumberTable& table) {
+std::vector<NamedMeasurement> measurements_in(const NumberTable& table) {
   check_times(table, false);
-  std::vector<NamedReading> readings;
-  readings.reserve(static_cast<std::size_t>(table.values.rows()));
+  std::vector<NamedMeasurement> measurements;
+  measurements.reserve(static_cast<std::size_t>(table.values.rows()));
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
     const double range_m = table.values(i, 1);
     if (const std::string problem = observation_problem(Sensor::kRange, range_m); !problem.empty())
       table.fail(i, problem);
-    readings.push_back({.time_s = table.values(i, 0),
-                        .landmark = table.names[static_cast<std::size_t>(i)],
-                        .range_m = range_m});
+    measurements.push_back({.time_s = table.values(i, 0),
+                            .landmark = table.names[static_cast<std::size_t>(i)],
+                            .range_m = range_m});
   }
-  return readings;
+  return measurements;
 }
 
 NamedPoints landmarks_in(const NumberTable& table) {
   NamedPoints landmarks{
-      .names = table.names, .positions_m = table.values.leftCols(2), .places = {}};
+      .names = table.names, .positions_m = table.values.leftCols(2), .locations = {}};
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
     check_bound(table, i, 0, kFarthest_m, "a coordinate in metres");
     check_bound(table, i, 1, kFarthest_m, "a coordinate in metres");
-    landmarks.places.push_back(table.place(i));
+    landmarks.locations.push_back(table.location(i));
   }
   std::map<std::string_view, Eigen::Index> seen;
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
@@ -118,7 +118,7 @@ NamedPoints landmarks_in(const NumberTable& table) {
     const auto [other, is_new] = seen.emplace(name, i);
     if (!is_new)
       table.fail(i, fmt::format("landmark {} is already on {}", in_quotes(name),
-                                table.place(other->second)));
+                                table.location(other->second)));
   }
   return landmarks;
 }

@@ -21,13 +21,13 @@ struct NumberTable {
   /// Takes `values` row by row, as many rows as `rows`.
   void set_values(const std::vector<double>& by_row, Eigen::Index columns);
 
-  std::string place(Eigen::Index row) const;
+  std::string location(Eigen::Index row) const;
   /// @throws IoError at that row.
   [[noreturn]] void fail(Eigen::Index row, const std::string& what) const;
 };
 
 /// A measurement whose landmark has no row yet.
-struct NamedReading {
+struct NamedMeasurement {
   double time_s;
   std::string landmark;
   double range_m;
@@ -41,7 +41,7 @@ Trajectory trajectory_in(const NumberTable& table);
 /// @param table  Columns time, distance, heading change and perhaps the sideways distance.
 std::vector<Motion> motions_in(const NumberTable& table);
 /// @param table  Columns time, range; with names.
-std::vector<NamedReading> readings_in(const NumberTable& table);
+std::vector<NamedMeasurement> measurements_in(const NumberTable& table);
 /// @param table  Columns x, y; with names, all different.
 NamedPoints landmarks_in(const NumberTable& table);
 

@@ -74,11 +74,11 @@ FolderLock::FolderLock(const fs::path& folder) : folder_(-1) {
 }
 
 FolderLock::FolderLock(const fs::path& folder, const std::function<void()>& busy) : folder_(-1) {
-  bool told = false;
+  bool reported = false;
   do {
     folder_ = opened(folder);
     if (locked(folder_, LOCK_EX | LOCK_NB)) continue;
-    if (!std::exchange(told, true)) busy();
+    if (!std::exchange(reported, true)) busy();
     locked(folder_, LOCK_EX);
   } while (!is_at(folder_, folder));
 }

@@ -36,7 +36,7 @@ fs::path beside(const fs::path& folder, const std::string& more) {
 }
 
 /// The path of the old folder between two renames.
-fs::path waiting_place(const fs::path& folder) { return beside(folder, kWaiting); }
+fs::path waiting_path(const fs::path& folder) { return beside(folder, kWaiting); }
 
 struct stat facts_of(const fs::path& path) {
   struct stat facts {};
@@ -119,7 +119,7 @@ void finish_folders(const fs::path& from, const fs::path& to) {
   if (::chmod(to.c_str(), old.st_mode & kModeBits) != 0) fail_at(to, "cannot get its mode");
 }
 
-/// Whether a name that begins as those of beside() ends as make_beside() or waiting_place() do.
+/// Whether a name that begins as those of beside() ends as make_beside() or waiting_path() do.
 bool is_ending(std::string_view text) {
   if (text == kWaiting) return true;
   const std::size_t dash = text.find('-');
@@ -156,7 +156,7 @@ bool is_missing_call(int error) {
 /// Exchanges by renames, where the file system cannot do it in one step.
 /// @return False if that failed; errno holds the reason.
 bool exchange_in_two(const fs::path& folder, const fs::path& copy) {
-  const fs::path waiting = waiting_place(folder);
+  const fs::path waiting = waiting_path(folder);
   if (::rename(folder.c_str(), waiting.c_str()) != 0) return false;
   if (::rename(copy.c_str(), folder.c_str()) == 0) {
     ::rename(waiting.c_str(), copy.c_str());
@@ -212,13 +212,13 @@ void FolderReplacement::require_changeable(const fs::path& file) const {
 
 void FolderReplacement::write(const fs::path& file, std::string_view bytes) {
   require_changeable(file);
-  const fs::path place = copy_ / file;
-  make_folder(place.parent_path());
+  const fs::path location = copy_ / file;
+  make_folder(location.parent_path());
   struct stat old {};
-  const bool replaces = ::lstat(place.c_str(), &old) == 0;
+  const bool replaces = ::lstat(location.c_str(), &old) == 0;
   // The file is a hard link to the old folder's, which must not change.
-  if (replaces && ::unlink(place.c_str()) != 0) fail_at(folder_ / file, "cannot be replaced");
-  Descriptor written(::open(place.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  if (replaces && ::unlink(location.c_str()) != 0) fail_at(folder_ / file, "cannot be replaced");
+  Descriptor written(::open(location.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (written.get() < 0 || !write_all(written, bytes) ||
       (replaces && S_ISREG(old.st_mode) && ::fchmod(written.get(), old.st_mode & kModeBits) != 0) ||
       !written.close())
@@ -241,7 +241,7 @@ void FolderReplacement::commit() {
 
 void recover_folder(const fs::path& folder) {
   std::error_code error;
-  const fs::path waiting = waiting_place(folder);
+  const fs::path waiting = waiting_path(folder);
   if (!fs::exists(fs::symlink_status(folder, error)) && fs::is_directory(waiting, error)) {
     const FolderLock lock(waiting);  // Throws if another process is just replacing it.
     if (::rename(waiting.c_str(), folder.c_str()) != 0) fail_at(folder, "cannot be put back");

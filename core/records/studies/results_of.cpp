@@ -94,7 +94,7 @@ void add_record(Results& results, const SlamRun& run, const SlamRecord& record) 
     rows.add("best_tenth_m", error.best_tenth_m);
     rows.add("worst_tenth_m", error.worst_tenth_m);
     if (error.landmarks_m) rows.add("landmarks_m", *error.landmarks_m);
-  } else if (run.log.truth) {
+  } else if (run.log.ground_truth) {
     rows.add("path_mean_m", kNaN);
     rows.add("path_rmse_m", kNaN);
   }

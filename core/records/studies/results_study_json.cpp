@@ -22,13 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 
 /// How many poses of the one lie within the time of the other.
-Eigen::Index poses_within(const Trajectory& truth, const Trajectory& path) {
-  const auto is_within = truth.time_s.array() >= path.time_s(0) &&
-                         truth.time_s.array() <= path.time_s(path.size() - 1);
+Eigen::Index poses_within(const Trajectory& ground_truth, const Trajectory& path) {
+  const auto is_within = ground_truth.time_s.array() >= path.time_s(0) &&
+                         ground_truth.time_s.array() <= path.time_s(path.size() - 1);
   return is_within.count();
 }
 
-constexpr std::string_view kTruth = ".truth";
+constexpr std::string_view kGroundTruth = ".groundtruth";
 
 /// The files with that extension in a folder, or all if it is empty, in ascending order; none if
 /// the folder is not there.
@@ -79,18 +79,18 @@ std::vector<GivenPath> read_given_paths(const fs::path& folder) {
   for (const fs::path& file : files_in(folder / "paths", ".tum")) {
     std::error_code error;
     const fs::path stem = file.parent_path() / file.stem();
-    if (stem.extension() == kTruth) {
+    if (stem.extension() == kGroundTruth) {
       const std::string path = fs::path(stem).replace_extension().string() + ".tum";
       if (!fs::exists(path, error)) throw IoError(file.string(), "there is no path " + path);
       continue;
     }
     GivenPath path{.id = file.stem().string(),
                    .path = parse_trajectory_tum(read_file(file), file.string())};
-    const fs::path truth = stem.string() + std::string(kTruth) + ".tum";
-    if (fs::exists(truth, error)) {
-      path.truth = parse_trajectory_tum(read_file(truth), truth.string());
+    const fs::path ground_truth = stem.string() + std::string(kGroundTruth) + ".tum";
+    if (fs::exists(ground_truth, error)) {
+      path.ground_truth = parse_trajectory_tum(read_file(ground_truth), ground_truth.string());
       path.alignment = alignment;
-      if (alignment != Alignment::kNone && poses_within(*path.truth, path.path) < 2)
+      if (alignment != Alignment::kNone && poses_within(*path.ground_truth, path.path) < 2)
         throw IoError(file.string(),
                       "cannot be aligned: fewer than 2 poses of its ground truth are of its time");
     }

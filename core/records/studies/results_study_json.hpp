@@ -35,8 +35,8 @@ ResultsStudy read_results_study(const std::filesystem::path& folder);
 /// The maps in maps/NAME.csv, by name as ids. @throws IoError with the location.
 std::vector<MapRecord> read_given_maps(const std::filesystem::path& folder);
 
-/// The paths in paths/NAME.tum, by name, with the ground truth in paths/NAME.truth.tum and the
-/// alignment to it that study.json asks for; as they were given.
+/// The paths in paths/NAME.tum, by name, with the ground truth in paths/NAME.groundtruth.tum and
+/// the alignment to it that study.json asks for; as they were given.
 /// @throws IoError with the location; also for a ground truth of no path.
 std::vector<GivenPath> read_given_paths(const std::filesystem::path& folder);
 

@@ -107,10 +107,10 @@ inline constexpr FieldRule kCovariances = {
 }  // namespace record_rules
 
 template <typename Visitor>
-void fields(Visitor& v, RangeReading& reading) {
-  v.field("time_s", reading.time_s, record_rules::kWhole);
-  v.field("landmark", reading.landmark, {.minimum = 0, .maximum = kMostLandmarks - 1});
-  v.field("range_m", reading.range_m, record_rules::kWhole);
+void fields(Visitor& v, RangeMeasurement& measured) {
+  v.field("time_s", measured.time_s, record_rules::kWhole);
+  v.field("landmark", measured.landmark, {.minimum = 0, .maximum = kMostLandmarks - 1});
+  v.field("range_m", measured.range_m, record_rules::kWhole);
 }
 
 template <typename Visitor>
@@ -160,7 +160,7 @@ void fields(Visitor& v, RangeLog& log) {
           {.description = "Time, x, y and heading.", .whole_as_integers = true});
   v.field("ranges", log.ranges, {.as_columns = true});
   v.field("odometry", log.odometry, {.as_columns = true});
-  v.field("truth", log.truth);
+  v.field("ground_truth", log.ground_truth);
   const auto landmarks = std::ssize(log.landmarks);
   if (log.true_landmarks && log.true_landmarks->rows() != landmarks)
     v.refuse("true_landmarks_m", "expected a position, or null, for each landmark");
@@ -237,7 +237,7 @@ template <typename Visitor>
 void fields(Visitor& v, PublishedDrive& drive) {
   v.field("length_km", drive.length_km, {.minimum = 0.0});
   v.field("poses", drive.poses, {.minimum = 0, .maximum = 1e9});
-  v.field("readings", drive.readings, {.minimum = 0, .maximum = 1e9});
+  v.field("measurements", drive.measurements, {.minimum = 0, .maximum = 1e9});
 }
 
 template <typename Visitor>

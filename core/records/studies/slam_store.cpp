@@ -43,7 +43,7 @@ std::vector<PartFile> path_files(const SlamRun& run, const fs::path& folder) {
     files.push_back({folder / (std::string(name) + ".tum"), trajectory_tum(path)});
     files.push_back({folder / (std::string(name) + ".csv"), trajectory_csv(path)});
   };
-  if (run.log.truth) add(*run.log.truth, "truth");
+  if (run.log.ground_truth) add(*run.log.ground_truth, "groundtruth");
   for (const SlamRecord& record : run.records)
     if (record.estimate.path.size() > 0) add(record.estimate.path, info(record.method).name);
   return files;

@@ -8,23 +8,23 @@ namespace mapproof {
 namespace fs = std::filesystem;
 
 PlacedPoints placed(const MapRecord& map) {
-  const bool has_frame = !map.anchors.empty() || map.truth_m;
+  const bool has_frame = !map.anchors.empty() || map.ground_truth_m;
   const bool is_metric = std::holds_alternative<FromPairs>(map.origin) ||
                          std::holds_alternative<FromRanges>(map.origin);
-  return {.quantity = map.frame == Frame::kTruth ? "landmark_m" : "landmark_shape",
+  return {.quantity = map.frame == Frame::kGroundTruth ? "landmark_m" : "landmark_shape",
           .frame = map.frame,
-          .is_free = is_metric && !has_frame && map.frame == Frame::kTruth,
+          .is_free = is_metric && !has_frame && map.frame == Frame::kGroundTruth,
           .names = map.names,
           .points = map.estimate,
-          .truth = map.truth_m};
+          .ground_truth = map.ground_truth_m};
 }
 
 PlacedPoints placed_path(const Points& positions_m) {
   return {.quantity = "path_m",
-          .frame = Frame::kTruth,
+          .frame = Frame::kGroundTruth,
           .names = {},
           .points = positions_m,
-          .truth = std::nullopt};
+          .ground_truth = std::nullopt};
 }
 
 void try_file(StudyContents& contents, const fs::path& folder, const fs::path& file,
@@ -43,13 +43,14 @@ void add_log(StudyContents& contents, const SlamRun& run) {
     const std::string id =
         record_name(condition(run.id), std::string(info(record.method).name), run.id);
     contents.points[id] = {.quantity = "landmark_m",
-                           .frame = Frame::kTruth,
+                           .frame = Frame::kGroundTruth,
                            .names = run.log.landmarks,
                            .points = record.estimate.landmarks_m,
-                           .truth = run.log.true_landmarks};
+                           .ground_truth = run.log.true_landmarks};
     contents.points[id + "/path"] = placed_path(record.estimate.path.positions_m);
   }
-  if (run.log.truth) contents.worlds[run.id] = placed_path(run.log.truth->positions_m);
+  if (run.log.ground_truth)
+    contents.worlds[run.id] = placed_path(run.log.ground_truth->positions_m);
 }
 
 StudyContents contents_of(const MapRecord& map) {

@@ -18,12 +18,12 @@ namespace mapproof {
 /// Points with names: the landmarks of a map, the positions of a path.
 struct PlacedPoints {
   std::string quantity = "landmark_m";  ///< Quantity::id.
-  Frame frame = Frame::kTruth;
+  Frame frame = Frame::kGroundTruth;
   bool is_free =
       false;  ///< In metres, in a frame defined up to a rotation, a translation and a reflection.
-  std::vector<std::string> names;  ///< One per row; empty: rows are counted from 1.
-  Points points;                   ///< n x 2; NaN rows: no position.
-  std::optional<Points> truth;     ///< n x 2; NaN rows: not known.
+  std::vector<std::string> names;      ///< One per row; empty: rows are counted from 1.
+  Points points;                       ///< n x 2; NaN rows: no position.
+  std::optional<Points> ground_truth;  ///< n x 2; NaN rows: not known.
 };
 
 /// A file of the records that cannot be read.

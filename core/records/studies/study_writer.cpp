@@ -22,11 +22,11 @@ std::string difference(const std::string& experiment_there, const std::string& e
   const auto there = nlohmann::json::parse(experiment_there);
   const auto here = nlohmann::json::parse(experiment_here);
   const nlohmann::json patch = nlohmann::json::diff(there, here);
-  const nlohmann::json::json_pointer place(patch.at(0).at("path").get<std::string>());
+  const nlohmann::json::json_pointer location(patch.at(0).at("path").get<std::string>());
   const auto shown = [&](const nlohmann::json& value) {
-    return value.contains(place) ? printable(value[place].dump(), 60) : "missing";
+    return value.contains(location) ? printable(value[location].dump(), 60) : "missing";
   };
-  return fmt::format("{} is {} there and {} here", place.to_string(), shown(there), shown(here));
+  return fmt::format("{} is {} there and {} here", location.to_string(), shown(there), shown(here));
 }
 
 void check_is_new(const fs::path& folder) {

@@ -42,7 +42,7 @@ double near_top(const ErrorAxis& axis) {
                                    : std::lerp(low, high, kShare);
 }
 
-constexpr const char* kReadings = "range measurements";
+constexpr const char* kMeasurements = "range measurements";
 constexpr const char* kObservation = "error of \u0108";
 const SlopeGuide kRootLaw{"slope \u22121/2", -0.5};
 
@@ -171,8 +171,8 @@ Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) 
       "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
       "theory: \u22121/2.",
       means_of(curve), slope_of(observation), slope_of(landmarks));
-  spec.panels = {{"Observation model", kReadings, kObservation, {observation}, kRootLaw, {}},
-                 {"Landmarks", kReadings, "error [m]", {landmarks}, kRootLaw, {}}};
+  spec.panels = {{"Observation model", kMeasurements, kObservation, {observation}, kRootLaw, {}},
+                 {"Landmarks", kMeasurements, "error [m]", {landmarks}, kRootLaw, {}}};
   return log_log_figure(spec);
 }
 
@@ -188,7 +188,7 @@ Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curv
       "the measured sine: {}.",
       means_of(curve), slope_of(sine));
   spec.panels = {
-      {"", kReadings, "sine of the largest canonical angle", {sine}, std::nullopt, {bound}}};
+      {"", kMeasurements, "sine of the largest canonical angle", {sine}, std::nullopt, {bound}}};
   return log_log_figure(spec);
 }
 
@@ -203,7 +203,7 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
       "allow. Slopes: {} and {}.",
       means_of(curve), counted(curve.landmarks, "measurement"), slope_of(landmarks),
       slope_of(positions));
-  spec.panels = {{"", kReadings, "error [m]", {landmarks, positions}, kRootLaw, {}}};
+  spec.panels = {{"", kMeasurements, "error [m]", {landmarks, positions}, kRootLaw, {}}};
   return log_log_figure(spec);
 }
 
@@ -212,8 +212,8 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
   spec.id = id;
   spec.title = "Convergence under other noise";
   spec.columns = 1;  // The noise is described in the legend.
-  LogLogPanel observation{"Observation model", kReadings, kObservation, {}, kRootLaw, {}};
-  LogLogPanel landmarks{"Landmarks", kReadings, "error [m]", {}, kRootLaw, {}};
+  LogLogPanel observation{"Observation model", kMeasurements, kObservation, {}, kRootLaw, {}};
+  LogLogPanel landmarks{"Landmarks", kMeasurements, "error [m]", {}, kRootLaw, {}};
   std::string slopes;
   for (const ConvergenceCurve& curve : curves) {
     observation.lines.push_back(

@@ -126,7 +126,7 @@ std::string ends_of(const ErrorLine& curve) {
   const auto first = std::ranges::find_if(curve.mean, known);
   if (first == curve.mean.end()) return fmt::format(" {}: nothing known.", curve.label);
   const auto last = std::find_if(curve.mean.rbegin(), curve.mean.rend(), known);
-  const auto step = [&curve](std::ptrdiff_t place) { return data_number(curve.x[place]); };
+  const auto step = [&curve](std::ptrdiff_t position) { return data_number(curve.x[position]); };
   return fmt::format(" {}: {} at {}, {} at {}.", curve.label, significant(*first),
                      step(first - curve.mean.begin()), significant(*last),
                      step(curve.mean.rend() - last - 1));

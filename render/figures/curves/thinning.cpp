@@ -17,7 +17,7 @@ using Eigen::Index;
 constexpr double kLongPause = 10.0;  // Usual steps of time.
 constexpr double kFarthest = 1e100;  // Beyond, a position is not a number to draw.
 
-bool is_place(const Points& points, Index row) {
+bool is_position(const Points& points, Index row) {
   return points.row(row).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < kFarthest;
 }
 
@@ -78,12 +78,12 @@ ThinLine thin_path(const Trajectory& path, double tolerance_m) {
   std::vector<bool> kept(static_cast<std::size_t>(size), false);
   ThinLine line;
   for (Index first = 0; first < size;) {
-    if (!is_place(path.positions_m, first)) {
+    if (!is_position(path.positions_m, first)) {
       ++first;
       continue;
     }
     Index last = first;
-    while (last + 1 < size && is_place(path.positions_m, last + 1) &&
+    while (last + 1 < size && is_position(path.positions_m, last + 1) &&
            path.time_s(last + 1) - path.time_s(last) <= longest)
       ++last;
     mark_kept(path.positions_m, first, last, tolerance_m, kept);

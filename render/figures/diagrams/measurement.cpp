@@ -172,7 +172,7 @@ class MeasurementFigure {
     for (std::size_t i = 0; i < named.size(); ++i) {
       add_angle(named[i], i);
       words.push_back(fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
-      add_label(labels, place(named[i]), words.back());
+      add_label(labels, position(named[i]), words.back());
     }
     panel_.layers.push_back(heading(0.16 * m_.world.side_m));
     panel_.layers.push_back(robot());
@@ -216,8 +216,8 @@ class MeasurementFigure {
     if (view == View::kOutOfReach) discs.ink = Ink::kMuted, discs.width = 0.6;
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (view && m_.views[i] != *view) continue;
-      if (!is_shown(place(i))) continue;
-      add_disc(discs, place(i), radius_);
+      if (!is_shown(position(i))) continue;
+      add_disc(discs, position(i), radius_);
       Mark mark{fmt::format("landmark-{}", i + 1), {{"landmark", fmt::format("L{}", i + 1)}}};
       if (view) mark.data.emplace_back("view", discs.label);
       if (!view) mark.data.emplace_back("bearing-rad", data_number(m_.bearings_rad(i)));
@@ -236,7 +236,7 @@ class MeasurementFigure {
     Segments lines{.label = "ray", .ink = Ink::kMuted, .width = 0.4};
     for (Eigen::Index i = 0; i < rows(); ++i)
       if (std::isfinite(m_.bearings_rad(i)) && std::ranges::find(named, i) == named.end())
-        add_line(lines, robot_, place(i));
+        add_line(lines, robot_, position(i));
     return lines;
   }
 
@@ -246,7 +246,7 @@ class MeasurementFigure {
     const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
     Polyline ray{.ink = ink, .dash = dash};
     add_point(ray, robot_);
-    add_point(ray, place(row));
+    add_point(ray, position(row));
     Polyline arc{.ink = ink, .dash = dash};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
     for (const Point p :
@@ -281,7 +281,7 @@ class MeasurementFigure {
     return static_cast<std::size_t>(std::ranges::count(m_.views, view));
   }
   Eigen::Index rows() const { return m_.world.landmarks_m.rows(); }
-  Point place(Eigen::Index row) const { return point_of(m_.world.landmarks_m.row(row)); }
+  Point position(Eigen::Index row) const { return point_of(m_.world.landmarks_m.row(row)); }
 
   const Measurement& m_;
   Point robot_;

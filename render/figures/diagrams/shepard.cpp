@@ -51,12 +51,12 @@ Cells density(const ShepardPanel& panel, const PanelLimits& limits) {
   std::vector<double> counts(kColumns * kRows, 0.0);
   for (std::size_t i = 0; i < panel.observed.size(); ++i) {
     if (!known(panel, i) || panel.mapped_m[i] > limits.y.high) continue;
-    const auto place = [](double value, double high, std::size_t count) {
+    const auto position = [](double value, double high, std::size_t count) {
       return std::min(static_cast<std::size_t>(value / high * static_cast<double>(count)),
                       count - 1);
     };
-    const std::size_t column = place(panel.observed[i], limits.x.high, kColumns);
-    const std::size_t row = kRows - 1 - place(panel.mapped_m[i], limits.y.high, kRows);
+    const std::size_t column = position(panel.observed[i], limits.x.high, kColumns);
+    const std::size_t row = kRows - 1 - position(panel.mapped_m[i], limits.y.high, kRows);
     counts[row * kColumns + column] += 1.0;
   }
   double most = 1.0;

@@ -24,8 +24,8 @@ void require_consistent(const EllipseMapSpec& spec) {
     throw InvalidInput("figure " + printable(spec.id) + ": " + what);
   };
   const auto rows = static_cast<Eigen::Index>(spec.names.size());
-  if (spec.truth_m.rows() != rows) refuse("not as many true positions as names");
-  if (!spec.truth_m.allFinite()) refuse("a true position is not finite");
+  if (spec.ground_truth_m.rows() != rows) refuse("not as many true positions as names");
+  if (!spec.ground_truth_m.allFinite()) refuse("a true position is not finite");
   for (const Points& run : spec.estimates_m) {
     if (run.rows() != rows) refuse("not as many estimates as names");
     if (run.array().isInf().any()) refuse("an infinite estimate");
@@ -35,9 +35,10 @@ void require_consistent(const EllipseMapSpec& spec) {
 }
 
 /// The room, as far as landmarks show it, and some space about it.
-PanelLimits limits_of(const Points& truth_m) {
+PanelLimits limits_of(const Points& ground_truth_m) {
   Span x, y;
-  for (Eigen::Index i = 0; i < truth_m.rows(); ++i) x.see(truth_m(i, 0)), y.see(truth_m(i, 1));
+  for (Eigen::Index i = 0; i < ground_truth_m.rows(); ++i)
+    x.see(ground_truth_m(i, 0)), y.see(ground_truth_m(i, 1));
   if (!x.known()) return {{0.0, 1.0}, {0.0, 1.0}};
   const double side = std::max(x.high - x.low, y.high - y.low);
   const double by = side > 0.0 ? kRoomReach * side : 1.0;
@@ -50,7 +51,7 @@ struct EllipseLayers {
       .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
   Segments bias{.label = "ground truth to mean", .ink = Ink::kText, .width = 0.7};
   Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
-  Scatter truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
+  Scatter ground_truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
   Scatter anchors{.label = "anchor",
                   .ink = Ink::kSeries2,
                   .marker = Marker::kSquare,
@@ -59,8 +60,8 @@ struct EllipseLayers {
 
   void add(const EllipseMapSpec& spec, Eigen::Index i, const ScatterEllipse& e) {
     const bool anchor = std::ranges::find(spec.anchors, i) != spec.anchors.end();
-    const Point at = point_of(spec.truth_m.row(i));
-    add_point(anchor ? anchors : truth, at);
+    const Point at = point_of(spec.ground_truth_m.row(i));
+    add_point(anchor ? anchors : ground_truth, at);
     if (e.runs == 0) return;
     const std::vector<std::pair<std::string, std::string>> data = {{"landmark", spec.names[i]},
                                                                    {"runs", std::to_string(e.runs)},
@@ -111,7 +112,7 @@ struct EllipseSummary {
            const PanelLimits& limits) {
     if (e.runs == 0) return;
     ++placed;
-    sum_bias_m += (e.mean_m - spec.truth_m.row(i)).norm();
+    sum_bias_m += (e.mean_m - spec.ground_truth_m.row(i)).norm();
     const Point mean = point_of(e.mean_m);
     outside += limits.x.low > mean.x || mean.x > limits.x.high || limits.y.low > mean.y ||
                mean.y > limits.y.high;
@@ -174,13 +175,13 @@ Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   require_consistent(spec);
   EllipseLayers layers;
   std::vector<ScatterEllipse> ellipses;
-  for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i) {
+  for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i) {
     ellipses.push_back(scatter_ellipse(spec.estimates_m, i));
     layers.add(spec, i, ellipses.back());
   }
-  const PanelLimits limits = widened(limits_of(spec.truth_m), layers.scatter);
+  const PanelLimits limits = widened(limits_of(spec.ground_truth_m), layers.scatter);
   EllipseSummary summary;
-  for (Eigen::Index i = 0; i < spec.truth_m.rows(); ++i)
+  for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i)
     summary.add(spec, i, ellipses[static_cast<std::size_t>(i)], limits);
   Figure figure;
   figure.id = spec.id;
@@ -192,7 +193,7 @@ Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   panel.y.label = "y [m]";
   panel.x.limits = limits.x;
   panel.y.limits = limits.y;
-  panel.layers = {layers.scatter, layers.bias, layers.truth, layers.anchors, layers.means};
+  panel.layers = {layers.scatter, layers.bias, layers.ground_truth, layers.anchors, layers.means};
   std::erase_if(panel.layers, is_empty);
   figure.caption = fmt::format(
       "Estimates of {} over {}: dots are means, joined to the true positions (open circles); "

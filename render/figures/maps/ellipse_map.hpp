@@ -14,7 +14,7 @@ struct EllipseMapSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
   std::vector<std::string> names;     ///< M.
-  Points truth_m;                     ///< M x 2.
+  Points ground_truth_m;              ///< M x 2.
   std::vector<Points> estimates_m;    ///< One a run, M x 2; NaN rows: not mapped.
   std::vector<Eigen::Index> anchors;  ///< Rows.
   std::vector<std::string> record_ids;

@@ -26,12 +26,12 @@ void require_consistent(const MapRecord& record) {
   };
   if (record.estimate.rows() != rows)
     refuse(fmt::format("{} estimates for {} names", record.estimate.rows(), rows));
-  if (record.truth_m && record.truth_m->rows() != rows)
-    refuse(fmt::format("{} true positions for {} names", record.truth_m->rows(), rows));
+  if (record.ground_truth_m && record.ground_truth_m->rows() != rows)
+    refuse(fmt::format("{} true positions for {} names", record.ground_truth_m->rows(), rows));
   for (const Eigen::Index anchor : record.anchors)
     if (anchor < 0 || anchor >= rows) refuse(fmt::format("anchor {} is not a landmark", anchor));
   if (record.estimate.array().isInf().any() ||
-      (record.truth_m && record.truth_m->array().isInf().any()))
+      (record.ground_truth_m && record.ground_truth_m->array().isInf().any()))
     refuse("infinite coordinates");
 }
 
@@ -66,9 +66,10 @@ Range middle_of(const Points& points, Eigen::Index column) {
 /// estimates.
 Extent core_of(const MapRecord& record, const MapView& view) {
   Extent extent;
-  if (record.frame == Frame::kTruth) {
+  if (record.frame == Frame::kGroundTruth) {
     for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
-      if (view.has_truth[i]) extent.see((*record.truth_m)(i, 0), (*record.truth_m)(i, 1));
+      if (view.has_ground_truth[i])
+        extent.see((*record.ground_truth_m)(i, 0), (*record.ground_truth_m)(i, 1));
     if (extent.known()) return extent;
   }
   constexpr std::size_t kFewest = 8;  // Of fewer points none is called an outlier.
@@ -86,7 +87,8 @@ void find_outside(const MapRecord& record, MapView& view) {
   const PanelBox reach = core.grown(kReach * core.side());
   Extent shown;
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
-    if (view.has_truth[i]) shown.see((*record.truth_m)(i, 0), (*record.truth_m)(i, 1));
+    if (view.has_ground_truth[i])
+      shown.see((*record.ground_truth_m)(i, 0), (*record.ground_truth_m)(i, 1));
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
     if (!view.has_estimate[i]) continue;
     const double x = record.estimate(i, 0), y = record.estimate(i, 1);
@@ -147,14 +149,15 @@ class MapFigure {
   Panel panel() const {
     Panel panel;
     panel.equal_aspect = true;
-    const bool metres = record_.frame == Frame::kTruth;
+    const bool metres = record_.frame == Frame::kGroundTruth;
     panel.x.label = metres ? "x [m]" : "x (arbitrary unit)";
     panel.y.label = metres ? "y [m]" : "y (arbitrary unit)";
     if (view_.limits) {
       panel.x.limits = view_.limits->x;
       panel.y.limits = view_.limits->y;
     }
-    panel.layers = {errors(), arrows(), truth(false), truth(true), estimates(), labels()};
+    panel.layers = {errors(),           arrows(),    ground_truth(false),
+                    ground_truth(true), estimates(), labels()};
     std::erase_if(panel.layers, is_empty);
     return panel;
   }
@@ -192,7 +195,7 @@ class MapFigure {
     caption += ".";
     if (record_.frame == Frame::kSimilarity)
       caption += " Dots: estimates; translation, rotation, scale and reflection are arbitrary.";
-    else if (record_.anchors.empty() && !record_.truth_m)
+    else if (record_.anchors.empty() && !record_.ground_truth_m)
       caption += " Dots: estimates; translation and rotation are arbitrary.";
     else
       caption +=
@@ -208,7 +211,7 @@ class MapFigure {
     figure_.alt =
         fmt::format("Map of {} of {} by {}, {}.", mapped, counted(record_.names.size(), "landmark"),
                     what_.empty() ? method_label(record_) : what_,
-                    record_.frame == Frame::kTruth ? "in metres" : "in an arbitrary frame");
+                    record_.frame == Frame::kGroundTruth ? "in metres" : "in an arbitrary frame");
     if (!score.empty()) figure_.alt += " " + score + ".";
     if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
   }
@@ -233,7 +236,7 @@ class MapFigure {
     Segments lines{.label = "error", .ink = Ink::kMuted, .width = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (std::isnan(view_.error_m[i]) || is_outside(i)) continue;
-      add_line(lines, true_place(i), place(i));
+      add_line(lines, true_position(i), position(i));
       lines.marks.push_back(mark("error", i));
       lines.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
     }
@@ -244,33 +247,34 @@ class MapFigure {
   Segments arrows() const {
     Segments lines{.label = "estimate outside", .ink = Ink::kSeries1, .width = 0.8, .arrow = true};
     for (const Eigen::Index i : view_.outside) {
-      const Box inner = picture(0.012);
-      const Point from = view_.has_truth[i] ? true_place(i) : inner.centre();
+      const Box inner = image(0.012);
+      const Point from = view_.has_ground_truth[i] ? true_position(i) : inner.centre();
       double enter = 0.0, leave = 0.0;
-      if (!clip_line(inner, from, place(i), enter, leave)) continue;
+      if (!clip_line(inner, from, position(i), enter, leave)) continue;
       const auto along = [&](double share) {
-        return Point{std::lerp(from.x, place(i).x, share), std::lerp(from.y, place(i).y, share)};
+        return Point{std::lerp(from.x, position(i).x, share),
+                     std::lerp(from.y, position(i).y, share)};
       };
-      add_line(lines, along(view_.has_truth[i] ? 0.0 : 0.9 * leave), along(leave));
+      add_line(lines, along(view_.has_ground_truth[i] ? 0.0 : 0.9 * leave), along(leave));
       lines.marks.push_back(mark("outside", i));
-      add_place(lines.marks.back(), place(i));
+      add_position(lines.marks.back(), position(i));
       if (!std::isnan(view_.error_m[i]))
         lines.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
     }
     return lines;
   }
 
-  Scatter truth(bool anchors) const {
+  Scatter ground_truth(bool anchors) const {
     Scatter points{.label = anchors ? "anchor" : "true position",
                    .ink = anchors ? Ink::kSeries2 : Ink::kText,
                    .marker = anchors ? Marker::kSquare : Marker::kCircle,
                    .filled = false,
                    .size = anchors ? 1.5 : 1.0};
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      if (!view_.has_truth[i] || view_.is_anchor[i] != anchors) continue;
-      add_point(points, true_place(i));
+      if (!view_.has_ground_truth[i] || view_.is_anchor[i] != anchors) continue;
+      add_point(points, true_position(i));
       points.marks.push_back(mark(anchors ? "anchor" : "true", i));
-      add_place(points.marks.back(), true_place(i));
+      add_position(points.marks.back(), true_position(i));
     }
     return points;
   }
@@ -281,9 +285,9 @@ class MapFigure {
     Scatter points{.label = alone ? "" : "estimate", .ink = Ink::kSeries1, .size = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (!view_.has_estimate[i] || is_outside(i)) continue;
-      add_point(points, place(i));
+      add_point(points, position(i));
       points.marks.push_back(mark("estimate", i));
-      add_place(points.marks.back(), place(i));
+      add_position(points.marks.back(), position(i));
       if (!std::isnan(view_.error_m[i]))
         points.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
     }
@@ -298,28 +302,28 @@ class MapFigure {
         if (view_.has_estimate[i]) named.push_back(i);
     for (const Eigen::Index i : named) {
       // At the true place, which is the same on the maps of all methods.
-      if (is_outside(i) && !view_.has_truth[i]) continue;
-      const Point at = view_.has_truth[i] ? true_place(i) : place(i);
+      if (is_outside(i) && !view_.has_ground_truth[i]) continue;
+      const Point at = view_.has_ground_truth[i] ? true_position(i) : position(i);
       add_label(labels, at, record_.names[i]);
     }
     return labels;
   }
 
   Eigen::Index rows() const { return record_.estimate.rows(); }
-  Point place(Eigen::Index row) const {
+  Point position(Eigen::Index row) const {
     return {record_.estimate(row, 0), record_.estimate(row, 1)};
   }
-  Point true_place(Eigen::Index row) const {
-    return {(*record_.truth_m)(row, 0), (*record_.truth_m)(row, 1)};
+  Point true_position(Eigen::Index row) const {
+    return {(*record_.ground_truth_m)(row, 0), (*record_.ground_truth_m)(row, 1)};
   }
 
-  Box picture(double inset) const {
+  Box image(double inset) const {
     const auto& [x, y] = *view_.limits;
     const double by = inset * std::max(x.high - x.low, y.high - y.low);
     return Box{x.low, y.low, x.high, y.high}.grown(-by);
   }
 
-  static void add_place(Mark& mark, Point p) {
+  static void add_position(Mark& mark, Point p) {
     mark.data.emplace_back("x", data_number(p.x));
     mark.data.emplace_back("y", data_number(p.y));
   }
@@ -340,12 +344,12 @@ MapView view_of(const MapRecord& record) {
   for (const Eigen::Index anchor : record.anchors) view.is_anchor[anchor] = true;
   for (Eigen::Index i = 0; i < rows; ++i) {
     const bool mapped = !record.estimate.row(i).hasNaN();
-    const bool true_known = record.truth_m && !record.truth_m->row(i).hasNaN();
-    const bool comparable = mapped && true_known && record.frame == Frame::kTruth;
+    const bool true_known = record.ground_truth_m && !record.ground_truth_m->row(i).hasNaN();
+    const bool comparable = mapped && true_known && record.frame == Frame::kGroundTruth;
     view.has_estimate.push_back(mapped);
-    view.has_truth.push_back(true_known && record.frame == Frame::kTruth);
-    view.error_m.push_back(comparable ? (record.estimate.row(i) - record.truth_m->row(i)).norm()
-                                      : kNaN);
+    view.has_ground_truth.push_back(true_known && record.frame == Frame::kGroundTruth);
+    view.error_m.push_back(
+        comparable ? (record.estimate.row(i) - record.ground_truth_m->row(i)).norm() : kNaN);
     if (!mapped) view.unmapped.push_back(i);
   }
   find_worst(view);

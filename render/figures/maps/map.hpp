@@ -22,7 +22,7 @@ struct PanelBox {
 /// What a map figure shows of its record, row by row.
 struct MapView {
   std::vector<bool> has_estimate;
-  std::vector<bool> has_truth;
+  std::vector<bool> has_ground_truth;
   std::vector<bool> is_anchor;
   std::vector<double>
       error_m;  ///< NaN unless both positions are known, in the frame of the ground truth.

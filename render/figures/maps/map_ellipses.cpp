@@ -49,7 +49,7 @@ void limit(const MapRecord& record, const Ellipses& shapes, Panel& panel) {
       if (points.row(i).allFinite()) x.see(points(i, 0)), y.see(points(i, 1));
   };
   see(record.estimate);
-  if (record.truth_m && record.frame == Frame::kTruth) see(*record.truth_m);
+  if (record.ground_truth_m && record.frame == Frame::kGroundTruth) see(*record.ground_truth_m);
   const double side = std::max(x.high - x.low, y.high - y.low);
   if (!(side > 0.0) || std::ranges::max(shapes.a) <= kLongest * side) return;
   const double by = kLongest * side;

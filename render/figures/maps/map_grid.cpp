@@ -67,7 +67,7 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
   figure.id = spec.id;
   figure.title = spec.title;
   figure.shared_x = figure.shared_y = true;
-  std::vector<std::string> without_place;
+  std::vector<std::string> without_position;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MapRecord& record = maps[i]->map;
     Panel panel = map_panel(record, fmt::format("map-{}-", i + 1));
@@ -76,17 +76,17 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
     figure.panels.push_back(std::move(panel));
     figure.record_ids.push_back(record.id);
     figure.alt += (i == 0 ? "" : "; ") + maps[i]->title + " " + scored(*maps[i], true);
-    if (record.estimate.array().isNaN().any()) without_place.push_back(maps[i]->title);
+    if (record.estimate.array().isNaN().any()) without_position.push_back(maps[i]->title);
   }
   figure.alt = fmt::format("{}: {}.", counted(maps.size(), "map"), figure.alt);
   figure.caption = spec.title + ". ";
-  figure.caption += maps.front()->map.frame == Frame::kTruth
+  figure.caption += maps.front()->map.frame == Frame::kGroundTruth
                         ? "Open circles: true positions; dots: estimates, joined by their errors; "
                           "squares: anchors."
                         : "Translation, rotation, scale and reflection are arbitrary.";
-  if (!without_place.empty()) {
+  if (!without_position.empty()) {
     const std::string text =
-        "Landmarks without a place are left out of: " + listed(without_place, 4) + ".";
+        "Landmarks without a place are left out of: " + listed(without_position, 4) + ".";
     figure.caption += " " + text;
     figure.notes.push_back({text, Ink::kWarning});
   }

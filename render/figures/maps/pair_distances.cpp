@@ -48,20 +48,22 @@ struct Distances {
   Scatter off;        ///< Known distance, and what the measured one is longer.
 };
 
-Distances distances_in(const Points& places_m, const PairDistancesSpec& spec, const char* where,
-                       Ink ink, Marker marker) {
+Distances distances_in(const Points& positions_shown_m, const PairDistancesSpec& spec,
+                       const char* where, Ink ink, Marker marker) {
   Distances result{where,
                    {.label = where, .ink = ink, .marker = marker, .size = 0.5},
                    {.label = where, .ink = ink, .marker = marker, .size = 0.5}};
   for (const MeasuredPair& pair : spec.pairs) {
-    const double known_m = (places_m.row(pair.first) - places_m.row(pair.second)).norm();
+    const double known_m =
+        (positions_shown_m.row(pair.first) - positions_shown_m.row(pair.second)).norm();
     if (std::isnan(known_m)) continue;
     Mark mark;
     mark.data = {{"first", spec.map.names[static_cast<std::size_t>(pair.first)]},
                  {"second", spec.map.names[static_cast<std::size_t>(pair.second)]},
                  {"scans", std::to_string(pair.scans)}};
-    const std::string id = fmt::format("{}-{}-{}", marker == Marker::kCircle ? "map" : "truth",
-                                       pair.first + 1, pair.second + 1);
+    const std::string id =
+        fmt::format("{}-{}-{}", marker == Marker::kCircle ? "map" : "ground_truth", pair.first + 1,
+                    pair.second + 1);
     mark.id = id;
     add_point(result.against, {known_m, pair.distance_m});
     result.against.marks.push_back(mark);
@@ -122,9 +124,9 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
   std::vector<Distances> known = {distances_in(spec.map.estimate, spec,
                                                is_fitted ? "in the map as fitted" : "in the map",
                                                Ink::kSeries1, Marker::kCircle)};
-  if (spec.map.truth_m)
-    known.push_back(distances_in(*spec.map.truth_m, spec, "in the ground truth", Ink::kSeries2,
-                                 Marker::kCross));
+  if (spec.map.ground_truth_m)
+    known.push_back(distances_in(*spec.map.ground_truth_m, spec, "in the ground truth",
+                                 Ink::kSeries2, Marker::kCross));
   double longest = 0.0;
   for (const Distances& distances : known)
     for (const double x : distances.against.x) longest = std::max(longest, x);

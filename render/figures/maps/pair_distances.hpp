@@ -32,7 +32,8 @@ struct PairDistancesSpec {
 };
 
 /// Measured distances of pairs against those in the map and, where it is known, in the ground
-/// truth; and next to that their errors over the distance. Pairs without a position are not shown.
+/// ground truth; and next to that their errors over the distance. Pairs without a position are not
+/// shown.
 /// @throws InvalidInput if a pair's row is none.
 Figure pair_distances_figure(const PairDistancesSpec& spec);
 

@@ -33,8 +33,9 @@ void require_consistent(const PathMapSpec& spec) {
     throw InvalidInput("figure " + printable(spec.id) + ": " + what);
   };
   const auto landmarks = std::ssize(spec.run.log.landmarks);
-  const auto& truth = spec.run.log.true_landmarks;
-  if (truth && truth->rows() != landmarks) refuse("not as many true landmarks as names");
+  const auto& ground_truth = spec.run.log.true_landmarks;
+  if (ground_truth && ground_truth->rows() != landmarks)
+    refuse("not as many true landmarks as names");
   for (const Index known : spec.run.known)
     if (known < 0 || known >= landmarks) refuse(fmt::format("known {} is not a landmark", known));
   for (const SlamRecord& record : spec.run.records) {
@@ -85,7 +86,7 @@ Range middle_range(const Points& points, Index column) {
 /// Where a reader's eye belongs.
 PathExtent core_of(const SlamRun& run, const PathView& view) {
   PathExtent core;
-  if (run.log.truth) core.see(run.log.truth->positions_m);
+  if (run.log.ground_truth) core.see(run.log.ground_truth->positions_m);
   if (run.log.true_landmarks) core.see(*run.log.true_landmarks);
   if (core.side() > 0.0) return core;
   for (const SlamRecord* record : view.shown)
@@ -165,8 +166,9 @@ class PathMap {
     panel.equal_aspect = true;
     panel.x = {.label = "x [m]", .limits = view_.limits.x};
     panel.y = {.label = "y [m]", .limits = view_.limits.y};
-    if (spec_.run.log.truth)
-      panel.layers.push_back(path(*spec_.run.log.truth, "true path", "truth", kTrueInk, 2.4));
+    if (spec_.run.log.ground_truth)
+      panel.layers.push_back(
+          path(*spec_.run.log.ground_truth, "true path", "ground_truth", kTrueInk, 2.4));
     for (const SlamRecord* record : view_.shown) {
       const PathStyle style = path_style(record->method);
       panel.layers.push_back(
@@ -198,7 +200,7 @@ class PathMap {
             .mark = {"path-" + key, {{"path", label}}}};
   }
 
-  bool in_picture(const Eigen::RowVector2d& at) const {
+  bool in_image(const Eigen::RowVector2d& at) const {
     const auto& [x, y] = view_.limits;
     return x.low <= at.x() && at.x() <= x.high && y.low <= at.y() && at.y() <= y.high;
   }
@@ -228,11 +230,11 @@ class PathMap {
                    .filled = false,
                    .size = 1.5};
     if (!spec_.run.log.true_landmarks) return points;
-    const Points& places = *spec_.run.log.true_landmarks;
-    for (Index i = 0; i < places.rows(); ++i) {
-      if ((is_known(i) && uses_known()) != known || !in_picture(places.row(i))) continue;
-      add_point(points, point_of(places.row(i)));
-      points.marks.push_back(mark(known ? "known" : "true", i, places.row(i)));
+    const Points& positions = *spec_.run.log.true_landmarks;
+    for (Index i = 0; i < positions.rows(); ++i) {
+      if ((is_known(i) && uses_known()) != known || !in_image(positions.row(i))) continue;
+      add_point(points, point_of(positions.row(i)));
+      points.marks.push_back(mark(known ? "known" : "true", i, positions.row(i)));
     }
     return points;
   }
@@ -241,11 +243,11 @@ class PathMap {
     const PathStyle style = path_style(record.method);
     Scatter points{
         .label = label_of(record), .ink = style.ink, .marker = style.marker, .size = 1.2};
-    const Points& places = record.estimate.landmarks_m;
-    for (Index i = 0; i < places.rows(); ++i) {
-      if (!in_picture(places.row(i))) continue;
-      add_point(points, point_of(places.row(i)));
-      points.marks.push_back(mark(key(record), i, places.row(i)));
+    const Points& positions = record.estimate.landmarks_m;
+    for (Index i = 0; i < positions.rows(); ++i) {
+      if (!in_image(positions.row(i))) continue;
+      add_point(points, point_of(positions.row(i)));
+      points.marks.push_back(mark(key(record), i, positions.row(i)));
     }
     return points;
   }
@@ -256,7 +258,7 @@ class PathMap {
     const auto& covariances = record.estimate.landmark_cov_m2;
     for (Index i = 0; i < std::ssize(covariances); ++i) {
       const Eigen::RowVector2d at = record.estimate.landmarks_m.row(i);
-      if (!in_picture(at) || !covariances[i].allFinite()) continue;
+      if (!in_image(at) || !covariances[i].allFinite()) continue;
       const Ellipse ellipse = covariance_ellipse(covariances[i]);
       ellipses.x.push_back(at.x()), ellipses.y.push_back(at.y());
       ellipses.a.push_back(view_.enlarged * ellipse.a);
@@ -281,11 +283,11 @@ class PathMap {
 
   /// Where a landmark is, or else where the first method has it.
   std::optional<Point> place_of(Index row) const {
-    const auto& truth = spec_.run.log.true_landmarks;
-    if (truth && in_picture(truth->row(row))) return point_of(truth->row(row));
+    const auto& ground_truth = spec_.run.log.true_landmarks;
+    if (ground_truth && in_image(ground_truth->row(row))) return point_of(ground_truth->row(row));
     for (const SlamRecord* record : view_.shown) {
-      const Points& places = record->estimate.landmarks_m;
-      if (places.rows() > 0 && in_picture(places.row(row))) return point_of(places.row(row));
+      const Points& positions = record->estimate.landmarks_m;
+      if (positions.rows() > 0 && in_image(positions.row(row))) return point_of(positions.row(row));
     }
     return std::nullopt;
   }
@@ -324,7 +326,7 @@ class PathMap {
   std::string caption(bool with_errors) const {
     std::string text = fmt::format("{}: ", spec_.run.log.name);
     std::vector<std::string> parts;
-    if (spec_.run.log.truth) parts.emplace_back("the true path (wide, grey)");
+    if (spec_.run.log.ground_truth) parts.emplace_back("the true path (wide, grey)");
     for (const SlamRecord* record : view_.shown) parts.push_back(label_of(*record));
     text += listed(parts, 12) + ".";
     if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";

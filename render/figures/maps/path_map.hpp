@@ -17,10 +17,10 @@ struct PathMapSpec {
 };
 
 /// Paths and landmarks of a run, true and recovered: the map above and, where there is ground
-/// truth, the error of each position over time below. Paths are thinned to what the eye can see.
-/// Landmarks that carry a covariance have the ellipse of 95 %, enlarged by a stated factor where it
-/// would be too small to be seen. A path that leaves the image, and a method without a path, is
-/// named.
+/// ground truth, the error of each position over time below. Paths are thinned to what the eye can
+/// see. Landmarks that carry a covariance have the ellipse of 95 %, enlarged by a stated factor
+/// where it would be too small to be seen. A path that leaves the image, and a method without a
+/// path, is named.
 /// @throws InvalidInput if parts of a record disagree in size.
 /// @note Pure. O(T log T) a method.
 Figure path_map_figure(const PathMapSpec& spec);

@@ -51,12 +51,12 @@ Segments residuals(const JoinedSubmaps& joined, const std::vector<std::string>& 
     const Submap& map = joined.submaps[g];
     for (std::size_t k = 0; map.placed && k < map.landmarks.size(); ++k) {
       const auto mean = joined.positions.row(map.landmarks[k]);
-      const auto place = map.positions.row(static_cast<Eigen::Index>(k));
-      if (!mean.allFinite() || mean == place) continue;
-      add_line(lines, point_of(mean), point_of(place));
+      const auto position = map.positions.row(static_cast<Eigen::Index>(k));
+      if (!mean.allFinite() || mean == position) continue;
+      add_line(lines, point_of(mean), point_of(position));
       lines.marks.push_back({fmt::format("residual-{}-{}", g + 1, map.landmarks[k] + 1),
                              {{"landmark", names[static_cast<std::size_t>(map.landmarks[k])]},
-                              {"residual", data_number((place - mean).norm())}}});
+                              {"residual", data_number((position - mean).norm())}}});
     }
   }
   return lines;

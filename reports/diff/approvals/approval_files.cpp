@@ -18,13 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void add_records(ApprovalFiles& files, const std::string& id, const fs::path& place,
+void add_records(ApprovalFiles& files, const std::string& id, const fs::path& location,
                  const fs::path& root) {
-  for (const fs::path& file : record_files(place))
-    files[id].insert((place / file).lexically_relative(root));
+  for (const fs::path& file : record_files(location))
+    files[id].insert((location / file).lexically_relative(root));
   std::error_code error;
-  if (fs::is_regular_file(place / "timings.jsonl", error))
-    files[id].insert((place / "timings.jsonl").lexically_relative(root));
+  if (fs::is_regular_file(location / "timings.jsonl", error))
+    files[id].insert((location / "timings.jsonl").lexically_relative(root));
 }
 
 void read_as_what_it_is(const fs::path& file) {

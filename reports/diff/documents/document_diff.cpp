@@ -55,10 +55,11 @@ bool is_provenance(const std::string& id) {
 
 /// The end of the region to leave out that begins at `at`; `at` if none begins there.
 std::size_t region_end(std::string_view html, std::size_t at,
-                       const std::function<bool(const std::string& id)>& is_told) {
+                       const std::function<bool(const std::string& id)>& is_reported) {
   for (const Region& region : kRegions) {
     const auto id = id_at(html, at, region);
-    if (!id || !(is_provenance(*id) || (!id->starts_with("section ") && is_told(*id)))) continue;
+    if (!id || !(is_provenance(*id) || (!id->starts_with("section ") && is_reported(*id))))
+      continue;
     const std::size_t close = html.find(region.close, at);
     if (close != std::string_view::npos) return close + region.close.size();
   }
@@ -76,15 +77,15 @@ std::size_t silent_end(std::string_view html, std::size_t at) {
 }
 
 /// A report's page without the parts that other items cover. Its scripts and styles stay; its
-/// provenance (versions, commands, dates) and the figures and tables that `is_told` accepts are
+/// provenance (versions, commands, dates) and the figures and tables that `is_reported` accepts are
 /// removed, region by region. Ids are "figure-ID" of <figure>, "caption-ID" of <table>,
 /// "section-ID" of <section>.
-/// @param is_told  Whether another item covers "fig-7" or "tables/accuracy".
+/// @param is_reported  Whether another item covers "fig-7" or "tables/accuracy".
 std::string masked_page(std::string_view html,
-                        const std::function<bool(const std::string& id)>& is_told) {
+                        const std::function<bool(const std::string& id)>& is_reported) {
   std::string kept;
   for (std::size_t at = 0; at < html.size();) {
-    const std::size_t end = html[at] == '<' ? region_end(html, at, is_told) : at;
+    const std::size_t end = html[at] == '<' ? region_end(html, at, is_reported) : at;
     if (end > at) {
       at = end;
       continue;
@@ -127,9 +128,9 @@ Tolerance tolerance_of_numbers(const DiffSettings& settings) {
   return tolerance_of_others(settings.records.tolerances);
 }
 
-const DiffItem* heaviest_records(const std::vector<DiffItem>& told) {
+const DiffItem* heaviest_records(const std::vector<DiffItem>& reported) {
   const DiffItem* heaviest = nullptr;
-  for (const DiffItem& item : told)
+  for (const DiffItem& item : reported)
     if (item.kind == ItemKind::kRecords &&
         (heaviest == nullptr || item.judgement.verdict > heaviest->judgement.verdict))
       heaviest = &item;
@@ -137,8 +138,8 @@ const DiffItem* heaviest_records(const std::vector<DiffItem>& told) {
 }
 
 /// Judges changed data by the records from which they follow.
-Judgement by_records(const std::string& what, const std::vector<DiffItem>& told) {
-  const DiffItem* records = heaviest_records(told);
+Judgement by_records(const std::string& what, const std::vector<DiffItem>& reported) {
+  const DiffItem* records = heaviest_records(reported);
   if (records == nullptr) return {Verdict::kChanged, true, what};
   const Verdict verdict = records->judgement.verdict;
   if (verdict <= Verdict::kWithinTolerance)
@@ -168,13 +169,13 @@ std::string first_text(const OtherDiff& cells) {
 }
 
 Judgement judge_table(const DiffItem& item, const std::vector<TableDiff>& tables,
-                      const std::vector<DiffItem>& told) {
+                      const std::vector<DiffItem>& reported) {
   const TableDiff* style = nullptr;
   long within = 0;
   for (const TableDiff& table : tables) {
     within += table.cells.within;
     if (table.cells.beyond > 0 || (table.cells.shape && !table.is_style))
-      return by_records(fmt::format("{}, {}", table.cells.file, first_text(table.cells)), told);
+      return by_records(fmt::format("{}, {}", table.cells.file, first_text(table.cells)), reported);
     if (table.is_style && style == nullptr) style = &table;
   }
   if (style != nullptr)
@@ -189,7 +190,7 @@ Judgement judge_table(const DiffItem& item, const std::vector<TableDiff>& tables
 
 /// Of each format that both sides have and whose bytes differ.
 void compare_tables(DiffItem& item, const ItemFiles& a, const ItemFiles& b,
-                    const std::vector<DiffItem>& told, const DiffSettings& settings) {
+                    const std::vector<DiffItem>& reported, const DiffSettings& settings) {
   std::vector<TableDiff> tables;
   Tolerance tolerance = tolerance_of_numbers(settings);
   const bool is_varying = varies(fs::path(item.id).filename().string());
@@ -208,7 +209,7 @@ void compare_tables(DiffItem& item, const ItemFiles& a, const ItemFiles& b,
     // change where the exact numbers differ within tolerance.
     if (format == "csv" && tables.back().cells.within > 0) tolerance.absolute = 1e300;
   }
-  if (!tables.empty()) item.judgement = judge_table(item, tables, told);
+  if (!tables.empty()) item.judgement = judge_table(item, tables, reported);
 }
 
 /// The first line that differs, with the numbers of both.
@@ -231,7 +232,7 @@ OtherDiff words_diff(const std::string& a, const std::string& b) {
 }
 
 void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& current,
-                   const std::vector<DiffItem>& told, const DiffSettings& settings) {
+                   const std::vector<DiffItem>& reported, const DiffSettings& settings) {
   const std::string before = read_input(baseline, kLargestPage);
   const std::string after = read_input(current, kLargestPage);
   if (before == after) return;
@@ -239,10 +240,10 @@ void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& cur
     if (text->find("</html>") == std::string::npos)
       throw IoError(path->string(), "is not a page, or is truncated");
   std::set<std::string> others;
-  for (const DiffItem& other : told)
+  for (const DiffItem& other : reported)
     if (other.judgement.verdict != Verdict::kIdentical) others.insert(other.id);
-  const auto is_told = [&](const std::string& id) { return others.contains(id); };
-  const std::string a = masked_page(before, is_told), b = masked_page(after, is_told);
+  const auto is_reported = [&](const std::string& id) { return others.contains(id); };
+  const std::string a = masked_page(before, is_reported), b = masked_page(after, is_reported);
   item.documents.push_back({.file = baseline.filename().string()});
   if (a == b) {
     item.judgement = {Verdict::kWithinTolerance, false,
@@ -257,14 +258,14 @@ void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& cur
   OtherDiff& first = item.documents.back() = words_diff(words, other_words);
   first.file = baseline.filename().string();
   const TextChange change = text_change(words, other_words, tolerance_of_numbers(settings));
-  const DiffItem* records = heaviest_records(told);
+  const DiffItem* records = heaviest_records(reported);
   const bool follows = records != nullptr && records->judgement.verdict > Verdict::kWithinTolerance;
   if (change == TextChange::kWithin)
     item.judgement = {Verdict::kWithinTolerance, false, "its numbers differ within tolerance"};
   else if (change == TextChange::kWords && !follows)
     item.judgement = {Verdict::kStyle, true, "the text differs, " + first_text(first)};
   else
-    item.judgement = by_records(first_text(first), told);
+    item.judgement = by_records(first_text(first), reported);
 }
 
 void judge_presence(DiffItem& item, const ItemFiles& a, const ItemFiles& b) {
@@ -280,7 +281,7 @@ void judge_presence(DiffItem& item, const ItemFiles& a, const ItemFiles& b) {
 }  // namespace
 
 DiffItem document_item(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
-                       const std::vector<DiffItem>& told, const DiffSettings& settings) {
+                       const std::vector<DiffItem>& reported, const DiffSettings& settings) {
   DiffItem item;
   item.id = id;
   item.kind = ItemKind::kDocument;
@@ -292,9 +293,9 @@ DiffItem document_item(const std::string& id, const ItemFiles* baseline, const I
     try {
       if (is_page(*baseline))
         compare_pages(item, baseline->documents.begin()->second, current->documents.begin()->second,
-                      told, settings);
+                      reported, settings);
       else
-        compare_tables(item, *baseline, *current, told, settings);
+        compare_tables(item, *baseline, *current, reported, settings);
       judge_presence(item, *baseline, *current);
     } catch (const IoError& error) {
       item.judgement = {Verdict::kUnreadable, true, error.what()};

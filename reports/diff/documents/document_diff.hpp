@@ -14,7 +14,7 @@ namespace mapproof {
 /// the parts that have an item of their own that is not identical.
 /// @param baseline, current  Null if that side does not have the item.
 DiffItem document_item(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
-                       const std::vector<DiffItem>& told, const DiffSettings& settings);
+                       const std::vector<DiffItem>& reported, const DiffSettings& settings);
 
 /// Compares all tables, then all pages of two lists. Appends them to `items`, which holds all
 /// others.

@@ -86,7 +86,7 @@ Rows read_table(const std::string& format, const fs::path& path) {
                          : read_lines(text, path.string(), format == "md");
 }
 
-std::string place_of(const Rows& table, std::size_t row, std::size_t column) {
+std::string location_of(const Rows& table, std::size_t row, std::size_t column) {
   const Row& cells = table.rows[row];
   const std::size_t label = table.has_heading && cells[0].empty() && cells.size() > 1 ? 1 : 0;
   std::string text = fmt::format("row {}", row + 1);
@@ -114,15 +114,15 @@ class TableComparer {
   }
 
  private:
-  void tell(const std::string& place, const std::string& before, const std::string& after) {
+  void tell(const std::string& location, const std::string& before, const std::string& after) {
     found_.cells.shape = true;
     body_differs_ = true;
-    note(place, before, after);
+    note(location, before, after);
   }
 
-  void note(const std::string& place, const std::string& before, const std::string& after) {
+  void note(const std::string& location, const std::string& before, const std::string& after) {
     if (!found_.cells.first.empty()) return;
-    found_.cells.first = place;
+    found_.cells.first = location;
     std::tie(found_.cells.baseline, found_.cells.current) = excerpts(before, after, kMostCellText);
   }
 
@@ -139,7 +139,7 @@ class TableComparer {
         ++found_.cells.within;
         continue;
       }
-      note(place_of(a_, row, i), first[i], second[i]);
+      note(location_of(a_, row, i), first[i], second[i]);
       const bool is_body = a_.has_heading ? row > a_.heading : first.size() > 1;
       body_differs_ |= is_body;
       if (change == TextChange::kNumbers && is_body)

@@ -12,7 +12,7 @@
 #include "reports/diff/figures/figure_layers.hpp"
 #include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/figures/figure_match.hpp"
-#include "reports/diff/figures/figure_places.hpp"
+#include "reports/diff/figures/figure_positions.hpp"
 #include "reports/diff/records/number_words.hpp"
 
 namespace mapproof {
@@ -93,10 +93,11 @@ struct AxisPair {
   const Axis& current;
 };
 
-void compare_axis(const std::string& place, const AxisPair& axes, bool varies, FigureLog& log) {
+void compare_axis(const std::string& location, const AxisPair& axes, bool varies, FigureLog& log) {
   const Axis &a = axes.baseline, &b = axes.current;
   const auto add = [&](const char* what, const std::string& before, const std::string& after) {
-    log.change(ChangeKind::kStyle, place, fmt::format("{} of {}", what, axes.name), before, after);
+    log.change(ChangeKind::kStyle, location, fmt::format("{} of {}", what, axes.name), before,
+               after);
   };
   add("label", a.label, b.label);
   add("scale", a.scale == Scale::kLog ? "log" : "linear",
@@ -109,14 +110,14 @@ void compare_axis(const std::string& place, const AxisPair& axes, bool varies, F
   add("names", listed(a.names, a.names.size() + 1), listed(b.names, b.names.size() + 1));
 }
 
-void compare_axes(const std::string& place, const Panel& a, const Panel& b, bool varies,
+void compare_axes(const std::string& location, const Panel& a, const Panel& b, bool varies,
                   FigureLog& log) {
-  log.change(ChangeKind::kStyle, place, "title", a.title, b.title);
-  compare_axis(place, {"x", a.x, b.x}, varies, log);
-  compare_axis(place, {"y", a.y, b.y}, varies, log);
-  log.change(ChangeKind::kStyle, place, "aspect", a.equal_aspect ? "equal" : "free",
+  log.change(ChangeKind::kStyle, location, "title", a.title, b.title);
+  compare_axis(location, {"x", a.x, b.x}, varies, log);
+  compare_axis(location, {"y", a.y, b.y}, varies, log);
+  log.change(ChangeKind::kStyle, location, "aspect", a.equal_aspect ? "equal" : "free",
              b.equal_aspect ? "equal" : "free");
-  log.change(ChangeKind::kStyle, place, "frame", a.bare ? "bare" : "with axes",
+  log.change(ChangeKind::kStyle, location, "frame", a.bare ? "bare" : "with axes",
              b.bare ? "bare" : "with axes");
 }
 
@@ -130,7 +131,7 @@ void compare_layers(const Panel& a, const Panel& b, LayerDiff& layers, FigureLog
     }
     const LayerView before = view_of(a.layers[*match.baseline]);
     if (*match.current < last)
-      log.change(ChangeKind::kStyle, layers.place(before), "order of layers",
+      log.change(ChangeKind::kStyle, layers.location(before), "order of layers",
                  fmt::format("after layer {}", last + 1),
                  fmt::format("layer {}", *match.current + 1));
     last = std::max(last, *match.current);
@@ -151,7 +152,7 @@ std::string length_text(double length, const std::string& unit) {
 
 std::string change_sentence(const FigureChange& change) {
   const auto [before, after] = excerpts(change.baseline, change.current, kMostValueText);
-  std::string text = change.place + ": " + change.what;
+  std::string text = change.location + ": " + change.what;
   if (change.baseline.empty() && change.current.empty()) return text;
   if (change.current.empty()) return text + " (was " + before + ")";
   if (change.baseline.empty()) return text + " (" + after + ")";
@@ -171,17 +172,17 @@ std::string first_of(const FigureDiff& diff, ChangeKind kind) {
 }
 
 /// Whether positions that are given, not estimated, moved: the experiments then differ.
-bool truth_moved(const FigureDiff& diff) {
+bool ground_truth_moved(const FigureDiff& diff) {
   return std::ranges::any_of(diff.moves, [](const MarkMove& move) {
-    return move.place.find("\"true ") != std::string::npos ||
-           move.place.find("\"truth\"") != std::string::npos;
+    return move.location.find("\"true ") != std::string::npos ||
+           move.location.find("\"ground_truth\"") != std::string::npos;
   });
 }
 
 Verdict direction(const FigureDiff& diff) {
   const bool other_records =
       std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what) != diff.changes.end();
-  if (other_records || truth_moved(diff)) return Verdict::kChanged;
+  if (other_records || ground_truth_moved(diff)) return Verdict::kChanged;
   if (!diff.baseline_error || !diff.current_error) return Verdict::kChanged;
   const double change = *diff.current_error - *diff.baseline_error;
   if (std::abs(change) <= 1e-6 * (1.0 + std::abs(*diff.baseline_error))) return Verdict::kChanged;
@@ -211,26 +212,26 @@ FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& op
   const bool varies = a.varies && b.varies;
   FigureLog log(varies);
   if (a == b) return log.take();
-  const FigurePlaces places(a, b);
+  const FigurePositions locations(a, b);
   compare_words(a, b, log);
   compare_frame(a, b, log);
   for (std::size_t p = 0; p < std::max(a.panels.size(), b.panels.size()); ++p) {
     if (p >= a.panels.size() || p >= b.panels.size()) {
       const bool removed = p < a.panels.size();
-      LayerDiff layers({p, a, places, options}, log);
+      LayerDiff layers({p, a, locations, options}, log);
       for (const Layer& layer : (removed ? a : b).panels[p].layers) layers.lone(layer, removed);
       continue;
     }
     compare_axes(fmt::format("panel {}", p + 1), a.panels[p], b.panels[p], varies, log);
     const auto shared = varies ? shared_names(a.panels[p], b.panels[p]) : std::set<std::string>();
-    LayerDiff layers({p, a, places, options, varies ? &shared : nullptr}, log);
+    LayerDiff layers({p, a, locations, options, varies ? &shared : nullptr}, log);
     compare_layers(a.panels[p], b.panels[p], layers, log);
   }
   return log.take();
 }
 
 std::string move_text(const MarkMove& move) {
-  const std::string of = move.curve.empty() ? move.place : printable(move.curve);
+  const std::string of = move.curve.empty() ? move.location : printable(move.curve);
   const std::string who = move.landmark.empty() ? fmt::format("point {} of {}", move.point + 1, of)
                                                 : "landmark " + printable(move.landmark);
   std::string text =

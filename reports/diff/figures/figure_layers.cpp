@@ -57,7 +57,7 @@ struct LayerViewer : FieldVisitor {
     if (name.starts_with('x'))
       last_x_ = index;
     else if (name.starts_with('y') || name == "low" || name == "high")
-      view.places.push_back({last_x_, index});
+      view.locations.push_back({last_x_, index});
     view.coordinates.push_back({name, values});
   }
 

@@ -39,7 +39,7 @@ struct LayerView {
   std::string label;
   std::vector<LayerStyle> styles;
   std::vector<Coordinates> coordinates;
-  std::vector<Places> places;
+  std::vector<Places> locations;
   std::vector<LayerExtent> extents;
   std::span<const std::string> texts;  ///< One per point, or none.
   std::span<const Mark> marks;         ///< One per point, one for all, or none.

@@ -79,7 +79,7 @@ bool FigureDiff::has(ChangeKind kind) const {
   return std::ranges::any_of(changes, [&](const FigureChange& c) { return c.kind == kind; });
 }
 
-void FigureLog::change(ChangeKind kind, const std::string& place, std::string_view what,
+void FigureLog::change(ChangeKind kind, const std::string& location, std::string_view what,
                        const std::string& baseline, const std::string& current) {
   if (baseline == current) return;
   if (varies_ && what != kRecordsWord && without_numbers(baseline) == without_numbers(current)) {
@@ -90,7 +90,7 @@ void FigureLog::change(ChangeKind kind, const std::string& place, std::string_vi
   // Keeps the first ones of each kind, so that many of one kind do not hide another.
   const auto same_kind = std::ranges::count(diff_.changes, kind, &FigureChange::kind);
   if (same_kind < static_cast<std::ptrdiff_t>(kMostEntries))
-    diff_.changes.push_back({kind, place, std::string(what), baseline, current});
+    diff_.changes.push_back({kind, location, std::string(what), baseline, current});
 }
 
 void FigureLog::move(MarkMove move) {
@@ -122,7 +122,7 @@ FigureDiff FigureLog::take() {
   return std::move(diff_);
 }
 
-std::string LayerDiff::place(const LayerView& layer) const {
+std::string LayerDiff::location(const LayerView& layer) const {
   std::string text =
       panel_.figure.panels.size() > 1 ? fmt::format("panel {}, ", panel_.panel + 1) : "";
   text += layer.kind;
@@ -150,18 +150,19 @@ void LayerDiff::lone(const Layer& layer, bool removed) {
   }
   const std::string what = counted(static_cast<long long>(view.points()), "point");
   // An empty layer shows nothing.
-  log_.change(is_empty(layer) ? ChangeKind::kMetadata : ChangeKind::kData, place(view),
+  log_.change(is_empty(layer) ? ChangeKind::kMetadata : ChangeKind::kData, location(view),
               removed ? "layer removed" : "layer added", removed ? what : "", removed ? "" : what);
 }
 
 void LayerDiff::compare(const LayerView& a, const LayerView& b) {
-  place_ = place(a);
-  log_.change(ChangeKind::kStyle, place_, "label", a.label, b.label);
+  location_ = location(a);
+  log_.change(ChangeKind::kStyle, location_, "label", a.label, b.label);
   for (std::size_t i = 0; i < a.styles.size(); ++i)
-    log_.change(ChangeKind::kStyle, place_, a.styles[i].what, a.styles[i].value, b.styles[i].value);
+    log_.change(ChangeKind::kStyle, location_, a.styles[i].what, a.styles[i].value,
+                b.styles[i].value);
   for (std::size_t i = 0; i < a.extents.size(); ++i)
     if (!panel_.options.position.holds(a.extents[i].value, b.extents[i].value))
-      log_.change(ChangeKind::kData, place_, a.extents[i].what,
+      log_.change(ChangeKind::kData, location_, a.extents[i].what,
                   fmt::format("{}", a.extents[i].value), fmt::format("{}", b.extents[i].value));
   if (a.is_whole) compare_data(a.marks[0], b.marks[0]);
   long removed = 0, added = 0;
@@ -188,7 +189,7 @@ void LayerDiff::lone_points(const char* what, long count, const std::string& fir
   if (count == 0) return;
   const std::string text = count == 1 ? first : fmt::format("{} and {} more", first, count - 1);
   const bool removed = what[0] == 'r';
-  log_.change(ChangeKind::kData, place_, fmt::format("{} {}", counted(count, "point"), what),
+  log_.change(ChangeKind::kData, location_, fmt::format("{} {}", counted(count, "point"), what),
               removed ? text : "", removed ? "" : text);
 }
 
@@ -196,11 +197,11 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
                               std::size_t j) {
   std::optional<MarkMove> farthest;
   bool is_within = false;
-  for (const Places& at : a.places) {
+  for (const Places& at : a.locations) {
     const Point before{a.coordinates[at.x].values[i], a.coordinates[at.y].values[i]};
     const Point after{b.coordinates[at.x].values[j], b.coordinates[at.y].values[j]};
     const Movement movement =
-        panel_.places.movement(panel_.panel, before, after, panel_.options.position);
+        panel_.locations.movement(panel_.panel, before, after, panel_.options.position);
     is_within |= movement == Movement::kWithin;
     if (movement != Movement::kBeyond) continue;
     MarkMove move = mark_move(a, i, before, after);
@@ -210,7 +211,7 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
     // Labels are names of points; texts may be the values of cells.
     log_.change(a.kind == "labels" || !same_numbers(a.texts[i], b.texts[j]) ? ChangeKind::kData
                                                                             : ChangeKind::kStyle,
-                place_, "text", a.texts[i], b.texts[j]);
+                location_, "text", a.texts[i], b.texts[j]);
   if (farthest) {
     log_.move(*std::move(farthest));
     return;
@@ -221,7 +222,7 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
 
 MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point before,
                               Point after) const {
-  MarkMove move{.place = place_,
+  MarkMove move{.location = location_,
                 .mark = "",
                 .landmark = "",
                 .curve = "",
@@ -230,7 +231,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
                 .current = after,
                 .distance = std::hypot(after.x - before.x, after.y - before.y),
                 .unit = unit_of_move(panel_.figure.panels[panel_.panel], before, after),
-                .distance_px = panel_.places.distance_px(panel_.panel, before, after)};
+                .distance_px = panel_.locations.distance_px(panel_.panel, before, after)};
   if (layer.has_mark_a_point() || layer.is_whole) {
     const Mark& mark = layer.is_whole ? layer.marks[0] : layer.marks[point];
     move.mark = mark.id;
@@ -244,7 +245,8 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
 void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
                                const std::vector<Match>& matches) {
   for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
-    if (std::ranges::any_of(a.places, [&](Places at) { return at.x == c || at.y == c; })) continue;
+    if (std::ranges::any_of(a.locations, [&](Places at) { return at.x == c || at.y == c; }))
+      continue;
     long count = 0;
     double first = 0.0, second = 0.0;
     for (const Match& match : matches) {
@@ -260,26 +262,26 @@ void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
       }
     }
     if (count > 0)
-      log_.change(ChangeKind::kData, place_,
+      log_.change(ChangeKind::kData, location_,
                   fmt::format("{} of {}", a.coordinates[c].name, counted(count, "point")),
                   fmt::format("{}", first), fmt::format("{}", second));
   }
 }
 
 void LayerDiff::compare_data(const Mark& a, const Mark& b) {
-  log_.change(ChangeKind::kMetadata, place_, "id of a mark", a.id, b.id);
+  log_.change(ChangeKind::kMetadata, location_, "id of a mark", a.id, b.id);
   if (a.data == b.data) return;
   for (const auto& [key, value] : a.data) {
     const std::string other(data_of(b, key));
     const auto first = number_of(value), second = number_of(other);
     if (first && second && Tolerance{1e-9, kWritten}.holds(*first, *second)) continue;
     const bool is_data = (first && second) || key == "landmark";
-    log_.change(is_data ? ChangeKind::kData : ChangeKind::kStyle, place_, "data-" + key, value,
+    log_.change(is_data ? ChangeKind::kData : ChangeKind::kStyle, location_, "data-" + key, value,
                 other);
   }
   for (const auto& [key, value] : b.data)
     if (std::ranges::none_of(a.data, [&](const auto& item) { return item.first == key; }))
-      log_.change(ChangeKind::kMetadata, place_, "data-" + key, "", value);
+      log_.change(ChangeKind::kMetadata, location_, "data-" + key, "", value);
 }
 
 void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {

@@ -10,7 +10,7 @@
 #include "render/plot/figure.hpp"
 #include "reports/diff/figures/figure_layers.hpp"
 #include "reports/diff/figures/figure_match.hpp"
-#include "reports/diff/figures/figure_places.hpp"
+#include "reports/diff/figures/figure_positions.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
 
 namespace mapproof {
@@ -28,7 +28,7 @@ std::string_view name(ChangeKind kind);
 /// One difference that is not a movement.
 struct FigureChange {
   ChangeKind kind = ChangeKind::kStyle;
-  std::string place;     ///< "panel 1, polyline \"ISOMAP\""; "figure".
+  std::string location;  ///< "panel 1, polyline \"ISOMAP\""; "figure".
   std::string what;      ///< "colour", "limits of x", "layer removed", "points".
   std::string baseline;  ///< Empty: none.
   std::string current;
@@ -36,7 +36,7 @@ struct FigureChange {
 
 /// A mark, or a point of a curve, that moved.
 struct MarkMove {
-  std::string place;        ///< As FigureChange::place.
+  std::string location;     ///< As FigureChange::place.
   std::string mark;         ///< Mark::id, "" if it has none.
   std::string landmark;     ///< Its data-landmark, "" if it has none.
   std::string curve;        ///< Its data-curve, "" if it has none.
@@ -82,7 +82,7 @@ class FigureLog {
   explicit FigureLog(bool varies) : varies_(varies) {}
 
   /// Adds a change; does nothing if both values are equal.
-  void change(ChangeKind kind, const std::string& place, std::string_view what,
+  void change(ChangeKind kind, const std::string& location, std::string_view what,
               const std::string& baseline, const std::string& current);
   void move(MarkMove move);
   /// Counts a difference that is not judged, as the figure varies.
@@ -105,7 +105,7 @@ class FigureLog {
 struct ComparedPanel {
   std::size_t panel = 0;  ///< Its index in the figure.
   const Figure& figure;   ///< The baseline.
-  const FigurePlaces& places;
+  const FigurePositions& locations;
   const FigureOptions& options;
   /// In a figure that varies: the names of the points that are on both sides of the panel, see
   /// shared_names(). It is not judged in which layer they are. Else null.
@@ -125,7 +125,7 @@ class LayerDiff {
   /// Adds the errors of the marks, whether they differ or not.
   void add_errors(const LayerView& baseline, const LayerView& current);
   /// "panel 2, polyline \"ISOMAP\"".
-  std::string place(const LayerView& layer) const;
+  std::string location(const LayerView& layer) const;
 
  private:
   void compare_point(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j);
@@ -137,7 +137,7 @@ class LayerDiff {
 
   ComparedPanel panel_;
   FigureLog& log_;
-  std::string place_;  ///< The location of the layer that is compared.
+  std::string location_;  ///< The location of the layer that is compared.
 };
 
 /// Names of the points that both panels have, in any layers.

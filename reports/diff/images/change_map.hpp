@@ -22,28 +22,28 @@ class ChangeMap {
   ChangeMap(int width, int height)
       : across_((width + kTile - 1) / kTile),
         down_((height + kTile - 1) / kTile),
-        place_(static_cast<std::size_t>(across_) * down_, -1) {}
+        location_(static_cast<std::size_t>(across_) * down_, -1) {}
 
   int across() const { return across_; }  ///< Tiles per row.
   int down() const { return down_; }
 
   /// The tile's marks, or null where both images are equal. Tiles are counted row by row.
   const TileMarks* tile(int index) const {
-    return place_[index] < 0 ? nullptr : &marks_[place_[index]];
+    return location_[index] < 0 ? nullptr : &marks_[location_[index]];
   }
-  TileMarks* tile(int index) { return place_[index] < 0 ? nullptr : &marks_[place_[index]]; }
+  TileMarks* tile(int index) { return location_[index] < 0 ? nullptr : &marks_[location_[index]]; }
 
   /// Allocates the tiles that differ, all marks kEqual. @param indices  Each once.
   void keep(const std::vector<int>& indices) {
     marks_.resize(indices.size());
     for (std::size_t i = 0; i < indices.size(); ++i)
-      place_[indices[i]] = static_cast<std::int32_t>(i);
+      location_[indices[i]] = static_cast<std::int32_t>(i);
   }
 
  private:
   int across_ = 0;
   int down_ = 0;
-  std::vector<std::int32_t> place_;
+  std::vector<std::int32_t> location_;
   std::vector<TileMarks> marks_;
 };
 

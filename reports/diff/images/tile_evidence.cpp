@@ -123,13 +123,13 @@ Recolouring find_recolouring(const PatchPair& pair, double noise) {
   normal.diagonal().array() += 1e-6 * normal.trace();
   const Eigen::Matrix<double, 4, 3> map = normal.ldlt().solve(right);
   for (const Pixel& pixel : pixels) {
-    const Eigen::Vector3d told = map.transpose() * row_of(pixel);
-    rest += (pixel.difference - told).squaredNorm();
+    const Eigen::Vector3d reported = map.transpose() * row_of(pixel);
+    rest += (pixel.difference - reported).squaredNorm();
     const Eigen::Vector3d ink = pixel.before - paper;
     const double length = ink.norm();
     if (length >= 8.0)
       found.off_line =
-          std::max(found.off_line, (told - told.dot(ink) / (length * length) * ink).norm());
+          std::max(found.off_line, (reported - reported.dot(ink) / (length * length) * ink).norm());
   }
   found.share = 1.0 - rest / energy;
   return found;

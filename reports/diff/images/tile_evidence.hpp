@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "reports/diff/images/change_map.hpp"
-#include "reports/diff/images/picture_changes.hpp"
+#include "reports/diff/images/image_changes.hpp"
 #include "reports/diff/images/tile_patch.hpp"
 
 namespace mapproof {

@@ -28,7 +28,7 @@ bool equal(const Points& a, const Points& b) {
   return true;
 }
 
-bool has_place(const Points& points, Eigen::Index row) { return points.row(row).allFinite(); }
+bool has_position(const Points& points, Eigen::Index row) { return points.row(row).allFinite(); }
 
 Points rows_of(const Points& points, const std::vector<Eigen::Index>& rows) {
   Points some(static_cast<Eigen::Index>(rows.size()), 2);
@@ -81,11 +81,13 @@ PointMove move_of(const PlacedPoints& a, const Points& before, const Points& aft
                  .moved = kInfinity,
                  .baseline_error = std::nullopt,
                  .current_error = std::nullopt};
-  if (has_place(before, row) && has_place(after, row))
+  if (has_position(before, row) && has_position(after, row))
     move.moved = (before.row(row) - after.row(row)).norm();
-  if (a.truth && a.truth->row(row).allFinite()) {
-    if (has_place(before, row)) move.baseline_error = (before.row(row) - a.truth->row(row)).norm();
-    if (has_place(after, row)) move.current_error = (after.row(row) - a.truth->row(row)).norm();
+  if (a.ground_truth && a.ground_truth->row(row).allFinite()) {
+    if (has_position(before, row))
+      move.baseline_error = (before.row(row) - a.ground_truth->row(row)).norm();
+    if (has_position(after, row))
+      move.current_error = (after.row(row) - a.ground_truth->row(row)).norm();
   }
   return move;
 }
@@ -113,7 +115,7 @@ void note(PointsDiff& diff, Errors& errors, PointMove move, const Tolerance& tol
   diff.moves.push_back(std::move(move));
 }
 
-PlacedPoints places(const Points& points) {
+PlacedPoints locations(const Points& points) {
   PlacedPoints placed;
   placed.points = points;
   return placed;
@@ -133,11 +135,11 @@ struct KeyQuantity {
   std::string_view key, quantity;
 };
 constexpr std::array kKeys = {KeyQuantity{"estimate", "landmark_m"},
-                              KeyQuantity{"truth_m", "landmark_m"},
+                              KeyQuantity{"ground_truth_m", "landmark_m"},
                               KeyQuantity{"true_landmarks_m", "landmark_m"},
                               KeyQuantity{"landmarks_m", "landmark_m"},
                               KeyQuantity{"path", "path_m"},
-                              KeyQuantity{"truth", "path_m"},
+                              KeyQuantity{"ground_truth", "path_m"},
                               KeyQuantity{"error_m", "path_m"},
                               KeyQuantity{"positions_m", "path_m"}};
 
@@ -180,9 +182,9 @@ class NumberComparer {
   }
 
  private:
-  void beyond(const ParsedJson& a, const ParsedJson& b, const std::string& place, bool shape) {
+  void beyond(const ParsedJson& a, const ParsedJson& b, const std::string& location, bool shape) {
     if (diff_.first.empty()) {
-      diff_.first = place.empty() ? "/" : place;
+      diff_.first = location.empty() ? "/" : location;
       diff_.baseline = shown(a);
       diff_.current = shown(b);
       if (a.is_string() && b.is_string())
@@ -193,7 +195,7 @@ class NumberComparer {
     if (!shape) ++diff_.beyond;
   }
 
-  void number(const ParsedJson& a, const ParsedJson& b, const std::string& place,
+  void number(const ParsedJson& a, const ParsedJson& b, const std::string& location,
               const Tolerance& tolerance) {
     ++diff_.numbers;
     const double first = a.get<double>(), second = b.get<double>();
@@ -201,15 +203,15 @@ class NumberComparer {
     if (tolerance.holds(first, second))
       ++diff_.within;
     else
-      beyond(a, b, place, false);
+      beyond(a, b, location, false);
   }
 
-  void text(const ParsedJson& a, const ParsedJson& b, const std::string& place,
+  void text(const ParsedJson& a, const ParsedJson& b, const std::string& location,
             const Tolerance& tolerance) {
     const TextChange change =
         text_change(a.get_ref<const std::string&>(), b.get_ref<const std::string&>(), tolerance);
     if (change == TextChange::kWithin) ++diff_.within;
-    if (change > TextChange::kWithin) beyond(a, b, place, change == TextChange::kWords);
+    if (change > TextChange::kWithin) beyond(a, b, location, change == TextChange::kWords);
   }
 
   void array(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
@@ -224,12 +226,12 @@ class NumberComparer {
               const Tolerance& tolerance) {
     const bool is_shape = a.contains("frame") && a["frame"] == "similarity";
     for (const auto& [key, value] : a.items()) {
-      const std::string place = pointer + "/" + key;
+      const std::string location = pointer + "/" + key;
       const auto other = b.find(key);
       if (other == b.end())
-        beyond(value, "missing", place, true);
+        beyond(value, "missing", location, true);
       else if (!is_shape || key != "estimate")
-        compare(value, *other, place, tolerance_at(key, value, tolerance));
+        compare(value, *other, location, tolerance_at(key, value, tolerance));
     }
     for (const auto& [key, value] : b.items())
       if (!a.contains(key)) beyond("missing", value, pointer + "/" + key, true);
@@ -257,7 +259,7 @@ class NumberComparer {
 
 }  // namespace
 
-bool same_places(const PlacedPoints& a, const PlacedPoints& b, const Tolerances& tolerances) {
+bool same_positions(const PlacedPoints& a, const PlacedPoints& b, const Tolerances& tolerances) {
   if (a.points.rows() != b.points.rows()) return false;
   const std::optional<PointsDiff> diff = points_diff("", a, b, tolerances);
   return !diff || diff->beyond + diff->lost + diff->gained == 0;
@@ -266,22 +268,25 @@ bool same_places(const PlacedPoints& a, const PlacedPoints& b, const Tolerances&
 std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoints& a,
                                       const PlacedPoints& b, const Tolerances& tolerances) {
   if (a.names == b.names && a.quantity == b.quantity && equal(a.points, b.points) &&
-      a.truth.has_value() == b.truth.has_value() && (!a.truth || equal(*a.truth, *b.truth)))
+      a.ground_truth.has_value() == b.ground_truth.has_value() &&
+      (!a.ground_truth || equal(*a.ground_truth, *b.ground_truth)))
     return std::nullopt;
   PointsDiff diff;
   diff.record = record;
   diff.quantity = a.quantity;
-  const bool same_truth = a.truth.has_value() == b.truth.has_value() &&
-                          (!a.truth || same_places(places(*a.truth), places(*b.truth), tolerances));
+  const bool same_ground_truth =
+      a.ground_truth.has_value() == b.ground_truth.has_value() &&
+      (!a.ground_truth ||
+       same_positions(locations(*a.ground_truth), locations(*b.ground_truth), tolerances));
   if (a.names != b.names || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
-      !same_truth) {
-    diff.truth_differs = true;
+      !same_ground_truth) {
+    diff.ground_truth_differs = true;
     return diff;
   }
   Points before = a.points, after = b.points;
   std::vector<Eigen::Index> both;
   for (Eigen::Index row = 0; row < before.rows(); ++row)
-    if (has_place(before, row) && has_place(after, row)) both.push_back(row);
+    if (has_position(before, row) && has_position(after, row)) both.push_back(row);
   const bool is_shape = a.frame == Frame::kSimilarity;
   if (a.is_free && b.is_free && both.size() >= 3 && !equal(before, after))
     after = fit_similarity(rows_of(after, both), rows_of(before, both),

@@ -15,8 +15,8 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
                                       const PlacedPoints& current, const Tolerances& tolerances);
 
 /// Whether two sets of true positions are equal within tolerance.
-bool same_places(const PlacedPoints& baseline, const PlacedPoints& current,
-                 const Tolerances& tolerances);
+bool same_positions(const PlacedPoints& baseline, const PlacedPoints& current,
+                    const Tolerances& tolerances);
 
 /// Compares every value of two files of records of any kind: JSON by its pointers, other text line
 /// by line. A number has the tolerance of the quantity that its key names, else that of `other`.

@@ -17,19 +17,19 @@ constexpr std::size_t kMostRecordNames = 3;
 constexpr double kSignificant = 0.05;
 
 /// The absolute effect of a significant test, else 0.
-double told_effect(const Comparison& c) {
+double reported_effect(const Comparison& c) {
   return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
 }
 
 /// Orders by weight of the outcome, then by the order of the dictionary, then by the largest
 /// significant effect, then by the best method where there is no direction and no test, else by the
 /// largest change.
-bool tells_more(const Comparison& a, const Comparison& b) {
+bool shows_more(const Comparison& a, const Comparison& b) {
   const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
   if (first != second) return first > second;
   const std::size_t rank = dictionary_rank(a.quantity), other = dictionary_rank(b.quantity);
   if (rank != other) return rank < other;
-  if (told_effect(a) != told_effect(b)) return told_effect(a) > told_effect(b);
+  if (reported_effect(a) != reported_effect(b)) return reported_effect(a) > reported_effect(b);
   const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
   if (p != q) return p < q;
   if (first == Verdict::kChanged && !a.test && !b.test && a.quantity.better == Better::kLower &&
@@ -126,12 +126,13 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
   const PointsDiff* first = nullptr;
   long records = 0, others = 0;
   for (const PointsDiff& points : diff.points) {
-    const bool beyond = points.beyond + points.lost + points.gained > 0 || points.truth_differs;
+    const bool beyond =
+        points.beyond + points.lost + points.gained > 0 || points.ground_truth_differs;
     if (!beyond)
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (!judged.contains(subject_of(points.record).subject))
       whole.verdict = heavier(whole.verdict, Verdict::kChanged);
-    if (points.truth_differs) ++others;
+    if (points.ground_truth_differs) ++others;
     if (!beyond || points.moves.empty()) continue;
     ++records;
     if (first == nullptr || points.moves[0].moved > first->moves[0].moved) first = &points;
@@ -214,7 +215,7 @@ Verdict verdict_of(Outcome outcome) {
 const Comparison* most_telling(const std::vector<const Comparison*>& comparisons) {
   const Comparison* first = nullptr;
   for (const Comparison* comparison : comparisons)
-    if (first == nullptr || tells_more(*comparison, *first)) first = comparison;
+    if (first == nullptr || shows_more(*comparison, *first)) first = comparison;
   return first;
 }
 

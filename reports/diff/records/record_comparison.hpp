@@ -90,8 +90,8 @@ struct PointsDiff {
   int beyond = 0;
   int lost = 0;
   int gained = 0;
-  bool truth_differs = false;    ///< The landmarks differ: nothing was compared.
-  std::vector<PointMove> moves;  ///< The farthest first; at most 20.
+  bool ground_truth_differs = false;  ///< The landmarks differ: nothing was compared.
+  std::vector<PointMove> moves;       ///< The farthest first; at most 20.
   std::optional<double> baseline_error, current_error;  ///< Means, where the ground truth is known.
 };
 

@@ -126,7 +126,7 @@ std::string run_of(const fs::path& file) {
 }
 
 /// Whether a file belongs to a run on only one side; it is then reported as a run.
-bool is_told_apart(const std::string& file, const RecordDiff& diff) {
+bool is_reported_apart(const std::string& file, const RecordDiff& diff) {
   const std::string run = run_of(file);
   const auto is_run = [&](const std::vector<std::string>& runs) {
     return std::ranges::find(runs, run) != runs.end();
@@ -152,10 +152,10 @@ void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& to
           }
         });
   for (const std::string& name : missing)
-    if (is_told_apart(name, diff))
+    if (is_reported_apart(name, diff))
       diff.others.push_back({.file = name, .presence = Presence::kBaseline});
   for (const std::string& name : added)
-    if (is_told_apart(name, diff))
+    if (is_reported_apart(name, diff))
       diff.others.push_back({.file = name, .presence = Presence::kCurrent});
 }
 

@@ -234,7 +234,7 @@ bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& t
   if (a.seed != b.seed) return false;
   return std::ranges::all_of(a.worlds, [&](const auto& world) {
     const auto other = b.worlds.find(world.first);
-    return other == b.worlds.end() || same_places(world.second, other->second, tolerances);
+    return other == b.worlds.end() || same_positions(world.second, other->second, tolerances);
   });
 }
 

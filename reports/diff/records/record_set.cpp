@@ -159,11 +159,11 @@ std::optional<fs::path> folder_of_record(const fs::path& root, const fs::path& f
   }
 }
 
-std::vector<fs::path> record_files(const fs::path& place) {
+std::vector<fs::path> record_files(const fs::path& location) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const char* part : kParts) {
-    const fs::path path = place / part;
+    const fs::path path = location / part;
     if (!fs::is_directory(path, error)) {
       if (fs::exists(fs::symlink_status(path, error))) files.emplace_back(part);
       continue;
@@ -172,7 +172,7 @@ std::vector<fs::path> record_files(const fs::path& place) {
          entry.increment(error)) {
       std::error_code unknown;
       if (!entry->is_directory(unknown) && is_kept_in(entry->path()))
-        files.push_back(entry->path().lexically_relative(place));
+        files.push_back(entry->path().lexically_relative(location));
     }
   }
   std::ranges::sort(files);
@@ -194,7 +194,7 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
     }
     return true;
   } catch (const IoError&) {
-    return false;  // Reading it reports the reason.
+    return false;  // Measured it reports the reason.
   }
 }
 

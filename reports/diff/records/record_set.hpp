@@ -13,7 +13,7 @@ namespace mapproof {
 
 /// The files that hold records, without the timings: those of a study of any kind, of a map or of
 /// one log's result. Paths below `place`, ascending. Files that cannot be listed are left out.
-std::vector<std::filesystem::path> record_files(const std::filesystem::path& place);
+std::vector<std::filesystem::path> record_files(const std::filesystem::path& location);
 
 /// The folder below `root` whose record_files() include the file; empty if none does.
 /// @param file  Below `root`; it need not exist.

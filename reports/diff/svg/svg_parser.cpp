@@ -131,10 +131,10 @@ class Builder {
     if (!open_.empty()) {
       element.parent = open_.back();
       tree.elements[element.parent].children.push_back(index);
-      element.place = ++places_.back()[element.name];
+      element.location = ++locations_.back()[element.name];
     }
     open_.push_back(index);
-    places_.emplace_back();
+    locations_.emplace_back();
     tree.elements.push_back(std::move(element));
   }
 
@@ -145,7 +145,7 @@ class Builder {
     if (tree.elements[open_.back()].name == "style" && loads(text))
       refuse("a style that loads another file");
     open_.pop_back();
-    places_.pop_back();
+    locations_.pop_back();
   }
 
   void characters(std::string_view text) {
@@ -223,7 +223,7 @@ class Builder {
 
   XML_Parser parser_;
   std::vector<int> open_;
-  std::vector<std::map<std::string, int>> places_;
+  std::vector<std::map<std::string, int>> locations_;
   std::map<std::string, std::size_t> styled_;  ///< Which element's style set a property last.
 };
 

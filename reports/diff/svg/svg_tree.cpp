@@ -108,8 +108,8 @@ class Matcher {
     std::map<std::string_view, int> found;
     for (std::size_t i = 1; i < tree.elements.size(); ++i)
       if (const std::string& id = tree.elements[i].id; !id.empty())
-        if (const auto [place, is_new] = found.emplace(id, static_cast<int>(i)); !is_new)
-          place->second = -1;
+        if (const auto [location, is_new] = found.emplace(id, static_cast<int>(i)); !is_new)
+          location->second = -1;
     return found;
   }
 
@@ -210,10 +210,10 @@ class Matcher {
     std::vector<int> tails;
     std::map<int, int> before;
     for (const int i : stayed) {
-      const auto place = std::ranges::lower_bound(tails, match_.partner[i], {},
-                                                  [&](int k) { return match_.partner[k]; });
-      before[i] = place == tails.begin() ? -1 : *(place - 1);
-      place == tails.end() ? tails.push_back(i) : void(*place = i);
+      const auto location = std::ranges::lower_bound(tails, match_.partner[i], {},
+                                                     [&](int k) { return match_.partner[k]; });
+      before[i] = location == tails.begin() ? -1 : *(location - 1);
+      location == tails.end() ? tails.push_back(i) : void(*location = i);
     }
     for (const int i : stayed) match_.is_reordered[i] = true;
     for (int i = tails.back(); i >= 0; i = before[i]) match_.is_reordered[i] = false;
@@ -285,7 +285,7 @@ std::string SvgTree::path(int element) const {
     if (!one.id.empty())
       step += "#" + one.id;
     else if (one.parent >= 0)
-      step += fmt::format("[{}]", one.place);
+      step += fmt::format("[{}]", one.location);
     path = path.empty() ? step : step + "/" + path;
   }
   return path;

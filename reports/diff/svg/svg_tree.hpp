@@ -14,7 +14,7 @@ struct SvgElement {
   std::map<std::string, std::string> values;
   std::string text;  ///< Directly inside, white space as one blank.
   int parent = -1;
-  int place = 0;  ///< Among its parent's children of that name, from 1.
+  int location = 0;  ///< Among its parent's children of that name, from 1.
   std::vector<int> children;
 };
 

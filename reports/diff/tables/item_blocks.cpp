@@ -17,7 +17,7 @@
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_diff.hpp"
-#include "reports/diff/tables/picture_tables.hpp"
+#include "reports/diff/tables/image_tables.hpp"
 #include "reports/diff/tables/table_parts.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
 #include "reports/model/report.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 /// Orders by outcome, worse before changed before better and so on, then by p.
 std::tuple<int, double> weight(const Comparison& comparison) {
-  const auto place = [](Outcome outcome) {
+  const auto location = [](Outcome outcome) {
     switch (outcome) {
       case Outcome::kWorse:
         return 0;
@@ -42,7 +42,7 @@ std::tuple<int, double> weight(const Comparison& comparison) {
     }
     return 4;
   };
-  return {place(comparison.outcome), comparison.test ? comparison.test->p : 2.0};
+  return {location(comparison.outcome), comparison.test ? comparison.test->p : 2.0};
 }
 
 std::string runs_text(const Comparison& c) {
@@ -179,12 +179,12 @@ void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& 
   for (const OtherDiff& other : others) {
     if (table.rows.size() == kMostTableRows) break;
     const auto count = [](long value) { return NumberCell{static_cast<double>(value), 0}; };
-    const std::string place = other.presence == Presence::kBaseline  ? "missing"
-                              : other.presence == Presence::kCurrent ? "new"
-                                                                     : other.first;
+    const std::string location = other.presence == Presence::kBaseline  ? "missing"
+                                 : other.presence == Presence::kCurrent ? "new"
+                                                                        : other.first;
     table.rows.push_back(
         {{user_text(other.file), count(other.numbers), count(other.within), count(other.beyond),
-          user_text(place), user_text(other.baseline), user_text(other.current)},
+          user_text(location), user_text(other.baseline), user_text(other.current)},
          "",
          false});
   }
@@ -223,7 +223,7 @@ std::string who(const MarkMove& move) {
 }
 
 /// "(1.25, -0.5)", with as many digits as distinguish it from the other point.
-std::string place_text(Point at, Point other) {
+std::string location_text(Point at, Point other) {
   if (!std::isfinite(at.x) || !std::isfinite(at.y)) return "none";
   const auto digits = [](double a, double b) {
     int enough = 4;
@@ -249,9 +249,9 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
     if (std::isfinite(move.distance)) scale = std::max(scale, move.distance);
   for (const MarkMove& move : diff.moves) {
     Row row{
-        {user_text(who(move)), user_text(move.place),
-         TextCell{place_text(move.baseline, move.current)},
-         TextCell{place_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
+        {user_text(who(move)), user_text(move.location),
+         TextCell{location_text(move.baseline, move.current)},
+         TextCell{location_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
         "",
         false};
     row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
@@ -278,11 +278,11 @@ void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
                      {"Baseline", "", "", ""},
                      {"Current", "", "", ""}};
   for (const FigureChange& change : diff.changes)
-    changes.rows.push_back(
-        {{user_text(change.place), user_text(change.what), TextCell{std::string(name(change.kind))},
-          user_text(change.baseline), user_text(change.current)},
-         "",
-         false});
+    changes.rows.push_back({{user_text(change.location), user_text(change.what),
+                             TextCell{std::string(name(change.kind))}, user_text(change.baseline),
+                             user_text(change.current)},
+                            "",
+                            false});
   if (diff.masked > 0)
     changes.notes.push_back("Varies from run to run: " + counted(diff.masked, "difference") +
                             " not judged.");
@@ -336,10 +336,10 @@ std::vector<std::string> version_changes(const DiffResult& result) {
 }
 
 /// The renderers of the images of one side, each once.
-std::vector<std::string> renderers(const DiffResult& result, std::string PictureDiff::*side) {
+std::vector<std::string> renderers(const DiffResult& result, std::string ImageDiff::*side) {
   std::set<std::string> names;
   for (const DiffItem& item : result.items)
-    for (const PictureFile& file : item.pictures)
+    for (const ImageFile& file : item.images)
       if (!(file.diff.*side).empty()) names.insert(file.diff.*side);
   return {names.begin(), names.end()};
 }
@@ -357,7 +357,7 @@ std::vector<Block> item_blocks(const DiffItem& item, const DiffResult& all, std:
   }
   if (item.records) add_record_tables(blocks, *item.records, suffix);
   add_others_table(blocks, item.documents, suffix);
-  add_picture_tables(blocks, item.pictures, suffix);
+  add_image_tables(blocks, item.images, suffix);
   return blocks;
 }
 
@@ -372,8 +372,8 @@ KeyValues whole_facts(const DiffResult& result) {
   for (const Verdict verdict : result.allowed) allowed.emplace_back(label(verdict));
   add("Also allowed to pass", listed(allowed, kVerdicts.size()), Emphasis::kPlain);
   add("Versions that differ", listed(version_changes(result), kMostItemNames), Emphasis::kData);
-  const auto before = renderers(result, &PictureDiff::baseline_renderer);
-  const auto after = renderers(result, &PictureDiff::current_renderer);
+  const auto before = renderers(result, &ImageDiff::baseline_renderer);
+  const auto after = renderers(result, &ImageDiff::current_renderer);
   if (before == after) {
     add("Images drawn by", listed(before, kMostItemNames), Emphasis::kData);
   } else {

@@ -22,7 +22,7 @@ Tolerance tolerance_of_others(const Tolerances& changed) {
   return changed_or(changed, kOtherNumbers, Quantity{}.rounding);
 }
 
-std::pair<std::string, std::string> told_apart(double baseline, double current, int digits) {
+std::pair<std::string, std::string> distinguished(double baseline, double current, int digits) {
   constexpr int kAll = 17;
   const auto text = [&](double value) {
     return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("none");
@@ -32,7 +32,7 @@ std::pair<std::string, std::string> told_apart(double baseline, double current, 
 }
 
 std::string change_text(double baseline, double current, std::string_view unit) {
-  const auto [from, to] = told_apart(baseline, current, 3);
+  const auto [from, to] = distinguished(baseline, current, 3);
   return fmt::format("{} \u2192 {}{}{}", from, to, unit.empty() ? "" : " ", unit);
 }
 

@@ -21,7 +21,7 @@ Tolerance tolerance_of(const Quantity& quantity, const Tolerances& changed);
 Tolerance tolerance_of_others(const Tolerances& changed);
 
 /// Both numbers with as many digits as distinguish them, at least the given count; "none" for NaN.
-std::pair<std::string, std::string> told_apart(double baseline, double current, int digits);
+std::pair<std::string, std::string> distinguished(double baseline, double current, int digits);
 
 /// "0.138 → 0.152 m": as many digits as distinguish the two, at least three.
 std::string change_text(double baseline, double current, std::string_view unit);

@@ -24,9 +24,9 @@
 #include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/image_diff.hpp"
+#include "reports/diff/tables/image_tables.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
-#include "reports/diff/tables/picture_tables.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_frame.hpp"
 #include "reports/html/sha256.hpp"
@@ -40,26 +40,26 @@ using kainjow::mustache::list;
 
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
-bool has_both(const PictureFile& file) { return !file.baseline.empty() && !file.current.empty(); }
+bool has_both(const ImageFile& file) { return !file.baseline.empty() && !file.current.empty(); }
 
 /// The priority of an image on the page; 0: nothing to show.
-int interest(const PictureFile& file) {
+int interest(const ImageFile& file) {
   const int of_format = file.format == "png" ? 1 : 0;
   if (file.format != "png" && file.format != "svg") return 0;
   if (!has_both(file)) return 2 + of_format;
   switch (file.diff.state) {
-    case PictureState::kDifferent:
+    case ImageState::kDifferent:
       return 6 + of_format;
-    case PictureState::kWithinTolerance:
+    case ImageState::kWithinTolerance:
       return 4 + of_format;
     default:
       return 0;
   }
 }
 
-const PictureFile* most_telling(const DiffItem& item) {
-  const PictureFile* best = nullptr;
-  for (const PictureFile& file : item.pictures)
+const ImageFile* most_telling(const DiffItem& item) {
+  const ImageFile* best = nullptr;
+  for (const ImageFile& file : item.images)
     if (interest(file) > (best == nullptr ? 0 : interest(*best))) best = &file;
   return best;
 }
@@ -72,7 +72,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
 }
 
 /// Reads the size from the header; a browser reads the rest.
-PictureSize png_size(const std::string& bytes, const fs::path& path) {
+ImageSize png_size(const std::string& bytes, const fs::path& path) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (bytes.size() < 24 || !bytes.starts_with(kSignature))
     throw IoError(path.string(), "is not a PNG");
@@ -82,32 +82,32 @@ PictureSize png_size(const std::string& bytes, const fs::path& path) {
   return {static_cast<int>(width), static_cast<int>(height)};
 }
 
-ShownPicture read_picture(const fs::path& path, const std::string& format,
-                          const std::string& renderer, std::size_t limit) {
+ShownImage read_image(const fs::path& path, const std::string& format, const std::string& renderer,
+                      std::size_t limit) {
   const std::string bytes = read_input(path, limit);
-  ShownPicture picture;
-  picture.renderer = renderer;
-  if (format == "png") picture.size = png_size(bytes, path);
-  picture.uri =
+  ShownImage image;
+  image.renderer = renderer;
+  if (format == "png") image.size = png_size(bytes, path);
+  image.uri =
       (format == "png" ? "data:image/png;base64," : "data:image/svg+xml;base64,") + base64(bytes);
-  return picture;
+  return image;
 }
 
 /// The files to read for one item.
 struct Plan {
-  const PictureFile* file = nullptr;
+  const ImageFile* file = nullptr;
   bool heat = false;
   std::string absent;
 };
 
 std::string unreadable_reason(const DiffItem& item) {
-  for (const PictureFile& file : item.pictures)
-    if (has_both(file) && file.diff.state == PictureState::kUnreadable)
+  for (const ImageFile& file : item.images)
+    if (has_both(file) && file.diff.state == ImageState::kUnreadable)
       return "Not shown: " + file.format + " cannot be read.";
   return "";
 }
 
-std::uintmax_t bytes_of(const PictureFile& file) {
+std::uintmax_t bytes_of(const ImageFile& file) {
   std::uintmax_t bytes = 0;
   for (const fs::path& path : {file.baseline, file.current}) {
     std::error_code error;
@@ -117,7 +117,7 @@ std::uintmax_t bytes_of(const PictureFile& file) {
   return bytes;
 }
 
-std::vector<Plan> plans(const DiffResult& result, const PictureBudget& budget) {
+std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
   std::vector<Plan> all;
   std::uintmax_t used = 0;
   std::size_t heat_maps = 0;
@@ -150,24 +150,24 @@ std::string no_heat_reason(const Plan& plan) {
                    : "No heat map: the page already holds its maximum number of heat maps.";
 }
 
-std::optional<ShownPicture> heat_picture(const PictureFile& file, const PictureOptions& options) {
+std::optional<ShownImage> heat_image(const ImageFile& file, const ImageOptions& options) {
   const Image image = heat_map(file.baseline, file.current, options);
   if (image.width < 1 || image.height < 1) return std::nullopt;
-  return ShownPicture{"data:image/png;base64," + base64(encode_png(image)),
-                      PictureSize{image.width, image.height}, ""};
+  return ShownImage{"data:image/png;base64," + base64(encode_png(image)),
+                    ImageSize{image.width, image.height}, ""};
 }
 
-ShownPictures read_all(const Plan& plan, const PictureOptions& options, std::size_t limit) {
-  ShownPictures shown;
+ShownImages read_all(const Plan& plan, const ImageOptions& options, std::size_t limit) {
+  ShownImages shown;
   shown.absent = plan.absent;
   if (plan.file == nullptr) return shown;
-  const PictureFile& file = *plan.file;
+  const ImageFile& file = *plan.file;
   try {
     if (!file.baseline.empty())
-      shown.baseline = read_picture(file.baseline, file.format, file.diff.baseline_renderer, limit);
+      shown.baseline = read_image(file.baseline, file.format, file.diff.baseline_renderer, limit);
     if (!file.current.empty())
-      shown.current = read_picture(file.current, file.format, file.diff.current_renderer, limit);
-    if (plan.heat) shown.heat = heat_picture(file, options);
+      shown.current = read_image(file.current, file.format, file.diff.current_renderer, limit);
+    if (plan.heat) shown.heat = heat_image(file, options);
   } catch (const IoError& error) {
     shown = {};
     shown.absent = std::string("Not shown: ") + error.what();
@@ -185,12 +185,12 @@ ShownPictures read_all(const Plan& plan, const PictureOptions& options, std::siz
 /// bytes of their files.
 /// @note Reads several items at a time, by oneTBB; the result does not depend on it. Holds all
 /// images in memory.
-std::vector<ShownPictures> shown_pictures(const DiffResult& result, const DiffSettings& settings,
-                                          const PictureBudget& budget = {}) {
+std::vector<ShownImages> shown_images(const DiffResult& result, const DiffSettings& settings,
+                                      const ImageBudget& budget = {}) {
   const std::vector<Plan> all = plans(result, budget);
-  std::vector<ShownPictures> shown(all.size());
+  std::vector<ShownImages> shown(all.size());
   parallel_for(all.size(), [&](std::size_t i) {
-    shown[i] = read_all(all[i], settings.pictures_of(result.items[i].id), budget.largest_bytes);
+    shown[i] = read_all(all[i], settings.images_of(result.items[i].id), budget.largest_bytes);
   });
   return shown;
 }
@@ -199,24 +199,24 @@ constexpr std::size_t kMostName = 300;    // Characters.
 constexpr std::size_t kMostCause = 2000;  // Characters.
 
 /// One image; `side` is "baseline", "current" or "heat".
-data pane_data(const ShownPicture& picture, const std::string& side, const std::string& title,
+data pane_data(const ShownImage& image, const std::string& side, const std::string& title,
                const std::string& id) {
   data out;
   out.set("side", side);
   out.set("title", title);
-  out.set("uri", picture.uri);
+  out.set("uri", image.uri);
   out.set("alt", title + " of " + id);
-  std::string note = picture.size ? size_text(*picture.size) : "";
-  if (!picture.renderer.empty())
-    note += (note.empty() ? "" : ", ") + printable(picture.renderer, kMostName);
+  std::string note = image.size ? size_text(*image.size) : "";
+  if (!image.renderer.empty())
+    note += (note.empty() ? "" : ", ") + printable(image.renderer, kMostName);
   out.set("note", note);
-  out.set("sized", picture.size.has_value());
-  out.set("width", fmt::format("{}", picture.size ? picture.size->width : 0));
-  out.set("height", fmt::format("{}", picture.size ? picture.size->height : 0));
+  out.set("sized", image.size.has_value());
+  out.set("width", fmt::format("{}", image.size ? image.size->width : 0));
+  out.set("height", fmt::format("{}", image.size ? image.size->height : 0));
   return out;
 }
 
-data stage_data(const ShownPictures& shown, const std::string& id) {
+data stage_data(const ShownImages& shown, const std::string& id) {
   if (shown.format.empty()) return data(false);
   list panes;
   if (shown.baseline) panes.push_back(pane_data(*shown.baseline, "baseline", "Baseline", id));
@@ -230,7 +230,7 @@ data stage_data(const ShownPictures& shown, const std::string& id) {
   return out;
 }
 
-data cluster_data(const ShownPictures& shown) {
+data cluster_data(const ShownImages& shown) {
   if (!shown.cluster) return data(false);
   const PixelBox& box = *shown.cluster;
   data out;
@@ -258,7 +258,7 @@ data entry_data(const DiffItem& item) {
 /// The data for diff_item.mustache.
 /// @param refusal  Why the item cannot be approved by itself; null: it can.
 /// @param number   Distinguishes ids on the page.
-data item_data(const DiffItem& item, const DiffResult& all, const ShownPictures& shown,
+data item_data(const DiffItem& item, const DiffResult& all, const ShownImages& shown,
                const ApprovalRefusal* refusal, std::size_t number) {
   data out = entry_data(item);
   const std::string id = printable(item.id, kMostName);
@@ -298,9 +298,9 @@ list counts_data(const DiffResult& result) {
 }
 
 /// The number of items whose images are not shown because the page is full.
-std::string left_out(const std::vector<ShownPictures>& shown) {
+std::string left_out(const std::vector<ShownImages>& shown) {
   long long count = 0;
-  for (const ShownPictures& pictures : shown) count += pictures.absent.empty() ? 0 : 1;
+  for (const ShownImages& images : shown) count += images.absent.empty() ? 0 : 1;
   return count == 0
              ? ""
              : "Images of " + counted(count, "item") + " are not shown; each item states why.";
@@ -309,7 +309,7 @@ std::string left_out(const std::vector<ShownPictures>& shown) {
 constexpr std::size_t kLongestNote = 2000;
 
 /// Remarks on items that were not compared or are not shown.
-list notes_data(const DiffResult& result, const std::vector<ShownPictures>& shown) {
+list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown) {
   list out;
   for (const std::string& remark : result.remarks)
     out.push_back(data("note", printable(remark, kLongestNote)));
@@ -325,7 +325,7 @@ std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
   return approval_refusals(result.baseline, result.current, ids);
 }
 
-void set_items(data& page, const DiffResult& result, const std::vector<ShownPictures>& shown) {
+void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown) {
   const auto refusals = refusals_of(result);
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
@@ -363,8 +363,8 @@ std::string url_text(std::string_view text) {
 }
 
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
-                      const Templates& templates, const PictureBudget& budget) {
-  const std::vector<ShownPictures> shown = shown_pictures(result, settings, budget);
+                      const Templates& templates, const ImageBudget& budget) {
+  const std::vector<ShownImages> shown = shown_images(result, settings, budget);
   data page;
   set_page_frame(page, "diff", templates);
   page.set("passes", result.passes);

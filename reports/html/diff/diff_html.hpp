@@ -7,29 +7,29 @@
 
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
-#include "reports/diff/images/picture_changes.hpp"
+#include "reports/diff/images/image_changes.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/templates.hpp"
 
 namespace mapproof {
 
 /// An image within the page.
-struct ShownPicture {
-  std::string uri;                  ///< "data:image/png;base64,…".
-  std::optional<PictureSize> size;  ///< In pixels; none: an SVG.
-  std::string renderer;             ///< Its renderer, as stored in its file; may be empty.
+struct ShownImage {
+  std::string uri;                ///< "data:image/png;base64,…".
+  std::optional<ImageSize> size;  ///< In pixels; none: an SVG.
+  std::string renderer;           ///< Its renderer, as stored in its file; may be empty.
 };
 
 /// The images of one item, in the format that differs most, PNG before SVG.
-struct ShownPictures {
+struct ShownImages {
   std::string format;  ///< "png", "svg"; empty: none is shown.
-  std::optional<ShownPicture> baseline, current, heat;
+  std::optional<ShownImage> baseline, current, heat;
   std::optional<PixelBox> cluster;  ///< The largest cluster of changed pixels, if any.
   std::string no_heat;              ///< Why two images have no heat map; empty if they have one.
   std::string absent;  ///< Why no image is shown; empty if one is shown, or if there is none.
 };
 
-struct PictureBudget {
+struct ImageBudget {
   std::size_t largest_bytes = std::size_t{16} << 20;  ///< Of one file.
   std::size_t all_bytes = std::size_t{64} << 20;      ///< Of all files; the rest is not shown.
   std::size_t heat_maps = 100;                        ///< The others have none.
@@ -48,6 +48,6 @@ std::string url_text(std::string_view text);
 /// @throws IoError if a template fails. Images that cannot be read are left out; the page states
 /// so.
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
-                      const Templates& templates, const PictureBudget& budget = {});
+                      const Templates& templates, const ImageBudget& budget = {});
 
 }  // namespace mapproof

@@ -62,7 +62,7 @@ void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId&
                            title_of(details->sensor), run.layout, run.pose);
   for (const SettingSummary& best : source.best(sensor)) {
     const MapRecord* map = source.map(run, best.sensor, best.setting, best.step);
-    if (map == nullptr || map->frame != Frame::kTruth || best.step != details->step) continue;
+    if (map == nullptr || map->frame != Frame::kGroundTruth || best.step != details->step) continue;
     spec.methods.push_back({short_label(best.setting),
                             {details->distances.begin(), details->distances.end()},
                             map_distances(map->estimate)});

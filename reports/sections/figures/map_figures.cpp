@@ -70,7 +70,7 @@ void add_film(FigureSource& source, const SensorStudy& sensor, const SettingSumm
                    .maps = {}};
   for (const int step : sensor.checkpoints)
     if (const MapRecord* map = source.map(*run, best.sensor, best.setting, step);
-        map != nullptr && map->frame == Frame::kTruth)
+        map != nullptr && map->frame == Frame::kGroundTruth)
       spec.maps.push_back({fmt::format("{} steps", step), *map});
   if (!spec.maps.empty()) figures.push_back(film_strip_figure(spec));
 }
@@ -84,16 +84,16 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
       .title = fmt::format("{}, {}: scatter over the poses of layout {}", title_of(best.sensor),
                            label(best.setting), median->layout),
       .names = {},
-      .truth_m = {},
+      .ground_truth_m = {},
       .estimates_m = {},
       .anchors = {},
       .record_ids = {}};
   for (const Run& run : study.runs) {
     if (run.id.layout != median->layout) continue;
     const MapRecord* map = source.map(run.id, best.sensor, best.setting, best.step);
-    if (map == nullptr || map->frame != Frame::kTruth || !map->truth_m) continue;
+    if (map == nullptr || map->frame != Frame::kGroundTruth || !map->ground_truth_m) continue;
     spec.names = map->names;
-    spec.truth_m = *map->truth_m;
+    spec.ground_truth_m = *map->ground_truth_m;
     spec.anchors = map->anchors;
     spec.estimates_m.push_back(map->estimate);
     spec.record_ids.push_back(map->id);

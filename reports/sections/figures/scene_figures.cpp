@@ -30,7 +30,7 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
   const Run* run = source.run(*id);
   const MapRecord* map = source.map(*id, best.sensor, best.setting, best.step);
   const SensorDetails* details = source.details(*id, best.sensor);
-  if (run == nullptr || map == nullptr || map->frame != Frame::kTruth || details == nullptr ||
+  if (run == nullptr || map == nullptr || map->frame != Frame::kGroundTruth || details == nullptr ||
       !has_room(run->world))
     return;
   WorldSceneSpec spec{.id = fmt::format("scene-world-{}", name(best.sensor)),
@@ -54,13 +54,13 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
                   "y both run along the surface without folds, a map of two dimensions can come "
                   "out of observations alone.",
        .manifold = *details->manifold,
-       .truth_m = run->world.landmarks_m,
+       .ground_truth_m = run->world.landmarks_m,
        .side_m = run->world.side_m,
        .record_ids = {map->id}}));
 }
 
 /// The median run of the best method, at every checkpoint that has a map in the frame of the ground
-/// truth; empty with fewer than two.
+/// ground truth; empty with fewer than two.
 std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStudy& sensor) {
   const std::vector<SettingSummary> all = source.best(sensor);
   const SettingSummary* best = best_of(all);
@@ -74,7 +74,7 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
       .maps = {}};
   for (const int step : sensor.checkpoints) {
     const MapRecord* map = source.map(*id, best->sensor, best->setting, step);
-    if (map != nullptr && map->frame == Frame::kTruth) spec.maps.push_back(*map);
+    if (map != nullptr && map->frame == Frame::kGroundTruth) spec.maps.push_back(*map);
   }
   if (spec.maps.size() < 2) return std::nullopt;
   return spec;

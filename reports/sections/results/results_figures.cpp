@@ -57,7 +57,7 @@ void drop_level_0(ErrorLine& line) {
 bool is_known(double value) { return std::isfinite(value); }
 
 /// Whether any two values differ: what is the same everywhere needs no figure.
-bool tells_apart(const std::vector<ErrorLine>& lines) {
+bool distinguishes(const std::vector<ErrorLine>& lines) {
   double least = HUGE_VAL, greatest = -HUGE_VAL;
   for (const ErrorLine& line : lines)
     for (const double mean : line.mean) {
@@ -122,7 +122,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.quantity = quantity.label;
   spec.record_ids = {record_of(block)};
   spec.methods = curves_of(view, block, quantity);
-  if (!tells_apart(spec.methods)) return std::nullopt;
+  if (!distinguishes(spec.methods)) return std::nullopt;
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   Figure figure = level_curve_figure(spec);
   if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
@@ -279,11 +279,12 @@ Figure path_figure(const GivenPath& path, std::string id) {
   panel.x.label = "x [m]";
   panel.y.label = "y [m]";
   panel.equal_aspect = true;
-  if (path.truth)
-    panel.layers.emplace_back(path_line("ground truth", *path.truth, Ink::kText, 0.6));
+  if (path.ground_truth)
+    panel.layers.emplace_back(path_line("ground truth", *path.ground_truth, Ink::kText, 0.6));
   panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, 1.0));
-  figure.caption = fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
-                               path.truth ? " and its ground truth" : "", alignment_words(path));
+  figure.caption =
+      fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
+                  path.ground_truth ? " and its ground truth" : "", alignment_words(path));
   constexpr double kMicrometres = 1e6;  // Below, a distance is rounding alone.
   if (path.rms_m)
     figure.caption += fmt::format(" RMS distance from the ground truth: {:.3g} m.",
@@ -329,7 +330,7 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
     const std::vector<ErrorLine> curves = curves_of(view, block, quantity);
     if (curves.empty())
       return fmt::format("{}: there is no curve, since no run gave a value.", quantity.label);
-    if (tells_apart(curves)) return "";
+    if (distinguishes(curves)) return "";
     const double mean = *std::ranges::find_if(curves.front().mean, is_known);
     const std::string value = with_unit(fmt::format("{:.6g}", mean), quantity.unit);
     const bool are_repeats = view.study().results.are_repeats;

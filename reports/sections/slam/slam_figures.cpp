@@ -15,7 +15,7 @@
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
 #include "reports/sections/figures/builders.hpp"
-#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -117,7 +117,7 @@ TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map)
   for (Eigen::Index i = 0; i < rows; ++i) record.names.push_back(fmt::format("{}", i + 1));
   record.estimate =
       map.positions_m.rows() == rows ? map.positions_m : Points::Constant(rows, 2, kNaN);
-  record.truth_m = study.landmarks_m;
+  record.ground_truth_m = study.landmarks_m;
   record.score = map.score;
   return titled;
 }

@@ -15,7 +15,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/sessions_table.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
-#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -211,11 +211,11 @@ Section slam_statuses_section(const SlamStudy& study) {
 Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   Opening opening;
   Paragraph text;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (const SlamRun& run : study.runs) {
     std::vector<Phrase> errors = errors_of(run);
-    if (run.simulated || errors.empty() || told == kMostRuns) continue;
-    if (told++ == 0) text.phrases.push_back({"Mean position error on "});
+    if (run.simulated || errors.empty() || reported == kMostRuns) continue;
+    if (reported++ == 0) text.phrases.push_back({"Mean position error on "});
     text.phrases.push_back(strong(title_of(run)));
     text.phrases.push_back({": "});
     text.phrases.insert(text.phrases.end(), errors.begin(), errors.end());

@@ -6,7 +6,7 @@
 #include "render/figures/curves/log_log.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
-#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 

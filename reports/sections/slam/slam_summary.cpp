@@ -8,7 +8,7 @@
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

@@ -8,7 +8,7 @@
 #include "core/base/words.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "reports/sections/cells.hpp"
-#include "reports/sections/slam/slam_words.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -159,7 +159,7 @@ Table slam_drive_table(std::span<const SlamRun* const> runs) {
   for (const SlamRun* run : runs) {
     const RangeLog& log = run->log;
     const auto length = length_m(log);
-    const auto poses = log.truth ? log.truth->size() : std::ssize(log.odometry) + 1;
+    const auto poses = log.ground_truth ? log.ground_truth->size() : std::ssize(log.odometry) + 1;
     Row row;
     row.source = run->id;
     row.cells = {TextCell{title_of(*run), Emphasis::kData},
@@ -170,7 +170,7 @@ Table slam_drive_table(std::span<const SlamRun* const> runs) {
     if (published && run->published) {
       row.cells.emplace_back(NumberCell{run->published->length_km, 1});
       row.cells.push_back(count_cell(static_cast<double>(run->published->poses)));
-      row.cells.push_back(count_cell(static_cast<double>(run->published->readings)));
+      row.cells.push_back(count_cell(static_cast<double>(run->published->measurements)));
     } else if (published) {
       row.cells.insert(row.cells.end(), 3, MissingCell{});
     }
@@ -183,7 +183,7 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
   const SlamRecord* record = mapped_record(run);
   if (record == nullptr) return std::nullopt;
   const SlamEstimate& estimate = record->estimate;
-  const auto& truth = run.log.true_landmarks;
+  const auto& ground_truth = run.log.true_landmarks;
   const bool sure = std::ssize(estimate.landmark_cov_m2) == estimate.landmarks_m.rows();
   Table table;
   table.id = "slam-landmarks-" + run.id;
@@ -193,7 +193,7 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
     table.columns.push_back({"x", "m", "Standard deviation", ""});
     table.columns.push_back({"y", "m", "Standard deviation", ""});
   }
-  if (truth) {
+  if (ground_truth) {
     table.columns.push_back({"x", "m", "Ground truth", ""});
     table.columns.push_back({"y", "m", "Ground truth", ""});
     table.columns.push_back({"Error", "m", "", "Distance from the true position."});
@@ -207,10 +207,11 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
     if (sure)
       for (Index axis = 0; axis < 2; ++axis)
         row.cells.emplace_back(NumberCell{std::sqrt(estimate.landmark_cov_m2[i](axis, axis)), 3});
-    if (truth) {
+    if (ground_truth) {
       for (Index axis = 0; axis < 2; ++axis)
-        row.cells.emplace_back(NumberCell{(*truth)(i, axis), 3});
-      row.cells.emplace_back(NumberCell{(estimate.landmarks_m.row(i) - truth->row(i)).norm(), 3});
+        row.cells.emplace_back(NumberCell{(*ground_truth)(i, axis), 3});
+      row.cells.emplace_back(
+          NumberCell{(estimate.landmarks_m.row(i) - ground_truth->row(i)).norm(), 3});
     }
     table.rows.push_back(std::move(row));
   }

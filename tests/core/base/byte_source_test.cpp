@@ -77,8 +77,9 @@ TEST(ByteSource, KnowsExactlyHowMuchItHolds) {
     ByteSource source(path);
     std::string bytes;
     source.append(bytes, 200'000);
-    const double told = source.expected_size().value_or(0.0) / static_cast<double>(sample().size());
-    EXPECT_TRUE(told > 0.5 && told < 2.0) << told;
+    const double reported =
+        source.expected_size().value_or(0.0) / static_cast<double>(sample().size());
+    EXPECT_TRUE(reported > 0.5 && reported < 2.0) << reported;
   }
   EXPECT_FALSE(source_of(sample()).expected_size());
 }

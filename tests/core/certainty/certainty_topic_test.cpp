@@ -5,7 +5,7 @@
 #include "core/simulate/world.hpp"
 #include "core/trials/certainty.hpp"
 #include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -76,20 +76,20 @@ TEST(CertaintyTopic, MakesTheSameAgain) {
 
 TEST(Coverage, CountsByHand) {
   // Two landmarks and an anchor; two maps about (0, 0) and (4, 0).
-  Points truth(3, 2), first(3, 2), second(3, 2);
-  truth << 0, 0, 4, 3, 9, 9;
+  Points ground_truth(3, 2), first(3, 2), second(3, 2);
+  ground_truth << 0, 0, 4, 3, 9, 9;
   first << 1, 0, 4, 1, 9, 9;
   second << -1, 0, 4, -1, 9, 9;
   MapCertainty wide;
   wide.squared_radius = 4.0;
   wide.covariances.assign(3, Eigen::Matrix2d::Identity());  // Circles of radius 2.
   wide.covariances[1] *= 0.2;                               // Of radius 0.89.
-  const Coverage found = coverage({first, second}, {wide, wide}, {truth, {2}});
+  const Coverage found = coverage({first, second}, {wide, wide}, {ground_truth, {2}});
   EXPECT_DOUBLE_EQ(found.mean_percent, 50.0);
-  EXPECT_DOUBLE_EQ(found.truth_percent, 50.0);
+  EXPECT_DOUBLE_EQ(found.ground_truth_percent, 50.0);
   EXPECT_DOUBLE_EQ(found.bias_m, 1.5);
   EXPECT_DOUBLE_EQ(found.spread_m, 1.0);
-  EXPECT_DOUBLE_EQ(found.told_m, std::sqrt((2.0 + 0.4) / 2.0));
+  EXPECT_DOUBLE_EQ(found.predicted_m, std::sqrt((2.0 + 0.4) / 2.0));
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ double spread(int together, const CertaintyFrame& frame) {
 }
 
 /// The same by the covariances of several logs.
-double told(int together, const CertaintyFrame& frame, const PairCertaintyOptions& options) {
+double reported(int together, const CertaintyFrame& frame, const PairCertaintyOptions& options) {
   constexpr int kLogs = 8;
   double sum = 0.0;
   for (std::uint64_t k = 1; k <= kLogs; ++k)
@@ -60,7 +60,7 @@ class CertaintyOfPairs : public ::testing::TestWithParam<std::pair<const char*, 
 
 TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
   const CertaintyFrame& frame = GetParam().second;
-  const double ratio = told(1, frame, {.replicates = 60}) / spread(1, frame);
+  const double ratio = reported(1, frame, {.replicates = 60}) / spread(1, frame);
   EXPECT_GT(ratio, 0.7);
   EXPECT_LT(ratio, 1.6);
 }
@@ -84,8 +84,8 @@ TEST(PairCertainty, DrawsScansWithCorrelatedErrorsTogether) {
   EXPECT_LE(pair_block_length(erring_scans(1, 1)), 4);
   EXPECT_GE(pair_block_length(erring_scans(1, 40)), 7);
   const double apart = spread(40, frame);
-  const double by_blocks = told(40, frame, {.replicates = 60});
-  EXPECT_GT(by_blocks, 1.2 * told(40, frame, {.replicates = 60, .block = 1}));
+  const double by_blocks = reported(40, frame, {.replicates = 60});
+  EXPECT_GT(by_blocks, 1.2 * reported(40, frame, {.replicates = 60, .block = 1}));
   EXPECT_NEAR(by_blocks, apart, 0.4 * apart);
 }
 

@@ -92,12 +92,12 @@ TEST(MapQuality, LeavesPairsWithoutADistanceOut) {
 }
 
 TEST(AnchorsLeftOut, AreMetByAnAffineImageAndMissedByHowFarOneWasMoved) {
-  const Points truth = test::scattered(10, 3);
+  const Points ground_truth = test::scattered(10, 3);
   Eigen::Matrix2d linear;
   linear << 2.0, 0.3, -0.4, 1.1;
   const std::vector<Eigen::Index> anchors = {0, 2, 5, 7, 9};
-  const Points map = truth * linear;
-  EXPECT_NEAR(anchors_left_out(map, truth, anchors, AffineFit::kLeastSquares), 0.0, 1e-12);
+  const Points map = ground_truth * linear;
+  EXPECT_NEAR(anchors_left_out(map, ground_truth, anchors, AffineFit::kLeastSquares), 0.0, 1e-12);
 
   // A square with one corner moved by 1: each of the four is put 1 off by the other three.
   Points corners(4, 2), moved(4, 2);

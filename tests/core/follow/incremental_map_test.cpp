@@ -30,7 +30,7 @@ std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t
 }
 
 /// Some entries not observed, in stretches, and the last landmark at first not at all.
-ObservationHistory with_gaps(ObservationHistory history, std::uint64_t seed) {
+ObservationHistory with_missing(ObservationHistory history, std::uint64_t seed) {
   Random random(seed);
   const Eigen::Index last = history.landmarks() - 1;
   for (Eigen::Index i = 0; i <= last; ++i) {
@@ -71,7 +71,7 @@ TEST_P(FollowedBy, EveryUpdateIsTheMapOfTheWholeHistoryWithinTheStatedBound) {
     for (const Sensor sensor : {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange}) {
       const ObservationHistory history = walked(sensor, seed, 300);
       expect_maps_of_the_whole(history, GetParam(), seed);
-      expect_maps_of_the_whole(with_gaps(history, seed), GetParam(), seed);
+      expect_maps_of_the_whole(with_missing(history, seed), GetParam(), seed);
     }
 }
 

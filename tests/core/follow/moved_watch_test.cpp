@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "tests/core/labels/noisy_scans.hpp"
+#include "tests/core/association/noisy_scans.hpp"
 #include "tests/support/scans.hpp"
 
 namespace mapproof::test {

@@ -102,7 +102,7 @@ struct Everything {
   std::optional<double> perhaps;
   std::optional<Span> limits;
   std::vector<std::string> notes;
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  Eigen::Vector3d location = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, Eigen::Dynamic, 2> points;
   Eigen::Matrix2d square = Eigen::Matrix2d::Identity();
   std::vector<std::variant<Round, Square>> shapes;
@@ -127,7 +127,7 @@ void fields(Visitor& v, Everything& all) {
   v.field("perhaps", all.perhaps);
   v.field("limits", all.limits, {.key = Key::kOptional});
   v.field("notes", all.notes, {.max_items = 3, .not_empty = true, .key = Key::kIfAny});
-  v.field("place", all.place);
+  v.field("location", all.location);
   v.field("points", all.points, {.nullable = true});
   v.field("square", all.square);
   v.field("shapes", all.shapes);
@@ -186,7 +186,7 @@ TEST(RecordJson, WritesTheFieldsInTheirOrder) {
   "perhaps": null,
   "limits": null,
   "notes": ["x"],
-  "place": [0, 0, 0],
+  "location": [0, 0, 0],
   "points": [[1, 2], null],
   "square": [[1, 0], [0, 1]],
   "shapes": [{"shape": "round", "radius": 2}, {"shape": "square", "side": 3, "hollow": true}]
@@ -291,9 +291,10 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[\"x\"]", "[\"\"]", "/notes/0: is empty"},
         Fault{"[\"x\"]", "[\"x\", \"x\", \"x\", \"x\"]",
               "/notes: expected at most 3 elements, got 4"},
-        Fault{"\"place\": [0, 0, 0]", "\"place\": [0, 0]", "/place: expected 3 elements, got 2"},
-        Fault{"\"place\": [0, 0, 0]", "\"place\": [0, 0, null]",
-              "/place/2: expected a number, got null"},
+        Fault{"\"location\": [0, 0, 0]", "\"location\": [0, 0]",
+              "/place: expected 3 elements, got 2"},
+        Fault{"\"location\": [0, 0, 0]", "\"location\": [0, 0, null]",
+              "/location/2: expected a number, got null"},
         Fault{"[[1, 2], null]", "[[1, null], null]", "/points/0/1: expected a number, got null"},
         Fault{"[[1, 0], [0, 1]]", "[[1, 0]]", "/square: expected at least 2 elements, got 1"},
         Fault{"\"radius\": 2", "\"radius\": 0",

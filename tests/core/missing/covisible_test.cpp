@@ -8,7 +8,7 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -16,8 +16,8 @@ namespace {
 
 ObservationHistory near_bearings(const test::WalkedRoom& room, double share) {
   Random random(5);
-  return with_gaps(observe(room.world, room.path, {.sensor = Sensor::kBearing}, random),
-                   range_losses(room.world, room.path), share);
+  return with_missing(observe(room.world, room.path, {.sensor = Sensor::kBearing}, random),
+                      range_losses(room.world, room.path), share);
 }
 
 TEST(Covisible, PairsAreNearOnes) {

@@ -8,7 +8,7 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 
 namespace mapproof {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 ObservationHistory observed_in(const test::WalkedRoom& room, Sensor sensor, double share) {
   Random random(11);
   const ObservationHistory history = observe(room.world, room.path, {.sensor = sensor}, random);
-  return with_gaps(history, random_losses(history.landmarks(), history.steps(), random), share);
+  return with_missing(history, random_losses(history.landmarks(), history.steps(), random), share);
 }
 
 FillingOptions filled_by(Filling filling) {
@@ -65,8 +65,8 @@ TEST(Filled, ExpectedSquaresAreLongerThanThoseOfFilledValues) {
   const test::WalkedRoom room = test::walked_room(3, 200, 15);
   const ObservationHistory history = observed_in(room, Sensor::kBearing, 0.4);
   const FilledProximities filled = filled_proximities(history, 200, filled_by(Filling::kPpca));
-  const Proximities expected =
-      filled_from(features(history, 200), Sensor::kBearing, filled.model, GapDistances::kExpected);
+  const Proximities expected = filled_from(features(history, 200), Sensor::kBearing, filled.model,
+                                           CompletedDistances::kExpected);
   Eigen::MatrixXd more = expected.squared_distances - filled.proximities.squared_distances;
   more.diagonal().setOnes();
   EXPECT_GT(more.minCoeff(), 0.0);

@@ -6,8 +6,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_words.hpp"
-#include "tests/support/gappy.hpp"
+#include "reports/sections/trials/topic_text.hpp"
+#include "tests/support/incomplete.hpp"
 
 namespace mapproof {
 namespace {

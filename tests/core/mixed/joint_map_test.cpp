@@ -26,26 +26,26 @@ Points shaken(const Points& points, double by, std::uint64_t seed) {
 
 TEST(JointMap, IsThatOfTheDistancesHoweverEachSensorBendsThem) {
   // Monotone functions of the same distances: their order alone nearly determines the map.
-  const Points truth = test::scattered(30, 6);
-  const Eigen::MatrixXd D = test::distances_of(truth);
+  const Points ground_truth = test::scattered(30, 6);
+  const Eigen::MatrixXd D = test::distances_of(ground_truth);
   const Eigen::MatrixXd bent = D.array().square() + 0.3 * D.array();
   const Eigen::MatrixXd saturated = 1.0 - (-3.0 * D.array()).exp();
-  const JointMap joint = joint_map({bent, saturated}, shaken(truth, 0.1, 1), {.rounds = 60});
-  EXPECT_LT(test::affine_gap(truth, joint.embedding.coordinates), 0.06);
+  const JointMap joint = joint_map({bent, saturated}, shaken(ground_truth, 0.1, 1), {.rounds = 60});
+  EXPECT_LT(test::affine_gap(ground_truth, joint.embedding.coordinates), 0.06);
   EXPECT_NEAR(joint.shares[0] + joint.shares[1], 1.0, 1e-12);
 }
 
 TEST(JointMap, GivesANoisySensorLessWeight) {
-  const Points truth = test::scattered(30, 7);
-  const Eigen::MatrixXd D = test::distances_of(truth);
+  const Points ground_truth = test::scattered(30, 7);
+  const Eigen::MatrixXd D = test::distances_of(ground_truth);
   const Eigen::MatrixXd noise = test::distances_of(test::scattered(30, 99));
-  EXPECT_GT(joint_map({D, noise}, shaken(truth, 0.02, 2)).shares[0], 0.9);
+  EXPECT_GT(joint_map({D, noise}, shaken(ground_truth, 0.02, 2)).shares[0], 0.9);
 }
 
 TEST(JointMap, DoesNotDependOnTheOrderOfTheLandmarks) {
-  const Points truth = test::scattered(20, 8);
-  const Eigen::MatrixXd D = test::distances_of(truth);
-  const Points start = shaken(truth, 0.05, 3);
+  const Points ground_truth = test::scattered(20, 8);
+  const Eigen::MatrixXd D = test::distances_of(ground_truth);
+  const Points start = shaken(ground_truth, 0.05, 3);
   const Points once = joint_map({D, D.cwiseSqrt()}, start).embedding.coordinates;
   const Eigen::MatrixXd turned = D.rowwise().reverse().colwise().reverse();
   const Points again =

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {
@@ -88,10 +88,10 @@ TEST(MixedMap, RefusesASensorTwiceAndOtherLandmarks) {
 }
 
 TEST(OrderMisfit, IsLeastForTheMapWhoseDistancesTheSensorsBend) {
-  const Points truth = test::scattered(25, 6);
-  const Eigen::MatrixXd D = test::distances_of(truth);
+  const Points ground_truth = test::scattered(25, 6);
+  const Eigen::MatrixXd D = test::distances_of(ground_truth);
   const std::vector<Eigen::MatrixXd> bent = {D.cwiseSqrt(), D.array().square()};
-  EXPECT_NEAR(order_misfit(bent, truth), 0.5 * std::log(1e-4), 1e-9);
+  EXPECT_NEAR(order_misfit(bent, ground_truth), 0.5 * std::log(1e-4), 1e-9);
   EXPECT_GT(order_misfit(bent, test::scattered(25, 7)), 0.5 * std::log(1e-2));
 }
 

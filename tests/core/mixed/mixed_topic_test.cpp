@@ -6,7 +6,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
 #include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -24,12 +24,12 @@ struct RealSet {
 class MrclamPairs : public testing::TestWithParam<RealSet> {};
 
 /// MPE of the map of the scans, in the frame of the anchors.
-double mpe_m(const DetectionLog& log, const Points& truth_m) {
-  const std::vector<Eigen::Index> anchors = diagonal_anchors(truth_m);
+double mpe_m(const DetectionLog& log, const Points& ground_truth_m) {
+  const std::vector<Eigen::Index> anchors = diagonal_anchors(ground_truth_m);
   const AffineFit fit = AffineFit::kLeastDistances;
   const AlignedMap map =
-      align_to_anchors(pair_map_of(log).embedding.coordinates, truth_m, anchors, fit);
-  return score_map(map.positions_m, truth_m, anchors, fit).value().mpe_m;
+      align_to_anchors(pair_map_of(log).embedding.coordinates, ground_truth_m, anchors, fit);
+  return score_map(map.positions_m, ground_truth_m, anchors, fit).value().mpe_m;
 }
 
 /// The log with so many detections of one landmark, spread evenly, under another's name.
@@ -39,17 +39,17 @@ DetectionLog misnamed(DetectionLog log, const std::string& from, const std::stri
   };
   const int a = row(from);
   const int b = row(to);
-  std::vector<std::size_t> places;
+  std::vector<std::size_t> positions;
   for (std::size_t k = 0; k < log.detections.size(); ++k) {
     const auto is_there = [&](const Detection& other) {
       return other.step == log.detections[k].step && other.landmark == b;
     };
     if (log.detections[k].landmark == a && std::ranges::none_of(log.detections, is_there))
-      places.push_back(k);
+      positions.push_back(k);
   }
   for (int i = 0; i < count; ++i)
-    log.detections[places[places.size() * static_cast<std::size_t>(i) /
-                          static_cast<std::size_t>(count)]]
+    log.detections[positions[positions.size() * static_cast<std::size_t>(i) /
+                             static_cast<std::size_t>(count)]]
         .landmark = b;
   std::ranges::sort(log.detections, {},
                     [](const Detection& seen) { return std::pair(seen.step, seen.landmark); });
@@ -61,8 +61,8 @@ TEST_P(MrclamPairs, LieWhereTheyWereSurveyed) {
   if (folder == nullptr) GTEST_SKIP() << "MAPPROOF_MRCLAM does not name the folder of the sets";
   const DetectionSource source =
       read_mrclam_detections(std::filesystem::path(folder) / GetParam().name);
-  ASSERT_TRUE(source.truth_m.has_value());
-  EXPECT_LE(mpe_m(source.log, *source.truth_m), GetParam().most_m);
+  ASSERT_TRUE(source.ground_truth_m.has_value());
+  EXPECT_LE(mpe_m(source.log, *source.ground_truth_m), GetParam().most_m);
 }
 
 TEST_P(MrclamPairs, StayThereIfAFewDetectionsHaveAWrongName) {
@@ -73,7 +73,7 @@ TEST_P(MrclamPairs, StayThereIfAFewDetectionsHaveAWrongName) {
   for (const auto& [from, to] : {std::pair("20", "7"), std::pair("6", "18"), std::pair("16", "9"),
                                  std::pair("8", "15"), std::pair("19", "12")})
     for (const int count : {5, 15, 25})
-      EXPECT_LE(mpe_m(misnamed(source.log, from, to, count), *source.truth_m),
+      EXPECT_LE(mpe_m(misnamed(source.log, from, to, count), *source.ground_truth_m),
                 1.25 * GetParam().most_m)
           << from << " called " << to << " in " << count;
 }

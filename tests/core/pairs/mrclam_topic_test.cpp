@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 #include "tests/support/scans.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/worlds.hpp"
@@ -16,16 +16,17 @@ namespace mapproof {
 namespace {
 
 /// Files of a set whose robots measure without error.
-void write_set(const test::TemporaryFolder& folder, const std::string& name, bool with_truth) {
+void write_set(const test::TemporaryFolder& folder, const std::string& name,
+               bool with_ground_truth) {
   const Points landmarks = 6.0 * test::scattered(9, 3);
   std::string barcodes = "# subject barcode\n1 5\n";
-  std::string truth;
+  std::string ground_truth;
   for (int i = 0; i < 9; ++i) {
     barcodes += fmt::format("{} {}\n", 6 + i, 60 + i);
-    truth += fmt::format("{} {} {} 0.001 0.001\n", 6 + i, landmarks(i, 0), landmarks(i, 1));
+    ground_truth += fmt::format("{} {} {} 0.001 0.001\n", 6 + i, landmarks(i, 0), landmarks(i, 1));
   }
   folder.file(name + "/Barcodes.dat", barcodes);
-  if (with_truth) folder.file(name + "/Landmark_Groundtruth.dat", truth);
+  if (with_ground_truth) folder.file(name + "/Landmark_Groundtruth.dat", ground_truth);
   for (const int robot : {1, 4}) {
     std::string rows;
     for (const Detection& seen :

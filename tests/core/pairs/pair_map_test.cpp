@@ -9,7 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/pairs/handedness.hpp"
+#include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_solution.hpp"
 #include "tests/support/scans.hpp"
 #include "tests/support/worlds.hpp"

@@ -41,7 +41,7 @@ TEST(AcrossProcessors, NumbersAgreeWithinTheTolerance) {
 
 TEST(AcrossProcessors, EveryMethodGivesNumbersToCompare) {
   const Numbers numbers = test::numbers();
-  const auto is_told = [](const std::string& block, const std::vector<double>& values) {
+  const auto is_reported = [](const std::string& block, const std::vector<double>& values) {
     EXPECT_FALSE(values.empty()) << block;
     EXPECT_TRUE(std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) << block;
   };
@@ -49,13 +49,13 @@ TEST(AcrossProcessors, EveryMethodGivesNumbersToCompare) {
     const std::string start = "map/bearing-1/" + std::string(method.name);
     const auto map = numbers.lower_bound(start);
     ASSERT_TRUE(map != numbers.end() && map->first.starts_with(start)) << start;
-    is_told(map->first, map->second);
+    is_reported(map->first, map->second);
   }
   for (const SlamMethodInfo& method : all_slam_methods())
     for (const char* part : {"slam/path/", "slam/landmarks/"}) {
       const std::string block = part + std::string(method.name);
       ASSERT_TRUE(numbers.contains(block)) << block;
-      if (block != "slam/landmarks/dead-reckoning") is_told(block, numbers.at(block));
+      if (block != "slam/landmarks/dead-reckoning") is_reported(block, numbers.at(block));
     }
 }
 

@@ -26,7 +26,8 @@ using test::sample_log;
 void read_damaged(const fs::path& path) {
   try {
     const RangeLog log = read_range_log(path);
-    for (const RangeReading& reading : log.ranges) EXPECT_TRUE(std::isfinite(reading.range_m));
+    for (const RangeMeasurement& measured : log.ranges)
+      EXPECT_TRUE(std::isfinite(measured.range_m));
   } catch (const IoError& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
@@ -83,7 +84,7 @@ TEST(DamagedTexts, AreALogOrAnError) {
       {"b_DR.txt", test::dr_text_of(log)},
       {"set/ranges.csv", test::ranges_csv_of(log)},
       {"set/odometry.csv", test::odometry_csv_of(log)},
-      {"set/groundtruth.csv", test::truth_csv_of(log)},
+      {"set/groundtruth.csv", test::ground_truth_csv_of(log)},
       {"set/landmarks.csv", test::landmarks_csv_of(log)}};
   for (const auto& [name, text] : texts) folder.file(name, text);
   Random random(13);

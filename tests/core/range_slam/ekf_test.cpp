@@ -98,10 +98,10 @@ TEST(Ekf, ErrorsAreAsLargeAsItsCovariancesSay) {
     EkfOptions options{.range_sigma_m = 0.2, .gate = 1e9, .covariances = 2};
     options.known = all_known(log);
     const SlamEstimate estimate = ekf_slam(log, options);
-    const Eigen::Index last = log.truth->size() - 1;
+    const Eigen::Index last = log.ground_truth->size() - 1;
     ASSERT_EQ(estimate.position_cov_rows.back(), last);
     const Eigen::Vector2d error =
-        (estimate.path.positions_m.row(last) - log.truth->positions_m.row(last)).transpose();
+        (estimate.path.positions_m.row(last) - log.ground_truth->positions_m.row(last)).transpose();
     squared += error.dot(estimate.position_cov_m2.back().inverse() * error);
   }
   EXPECT_NEAR(squared / kDraws, 2.0, 0.4);
@@ -123,7 +123,7 @@ TEST(Ekf, TakesMotionsSidewaysAndBackwards) {
     const RangeLog log = turned_world(direction);
     const SlamEstimate found = ekf_slam(log, {.known = all_known(log)});
     EXPECT_LT(mean_error_m(log, found, Alignment::kNone), 1e-6) << direction;
-    EXPECT_LT((found.path.heading_rad - log.truth->heading_rad).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LT((found.path.heading_rad - log.ground_truth->heading_rad).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(Ekf, HardDataEndInAStatus) {
   const SlamEstimate lost = ekf_slam(log, options);
   ASSERT_FALSE(lost.statuses.empty());
   EXPECT_EQ(lost.statuses[0].code, StatusCode::kNotConverged);
-  for (RangeReading& reading : log.ranges) reading.range_m = 1e6;
+  for (RangeMeasurement& measured : log.ranges) measured.range_m = 1e6;
   EXPECT_TRUE(ekf_slam(log).path.positions_m.allFinite());
   log.ranges.clear();
   EXPECT_EQ(ekf_slam(log).path.positions_m, dead_reckoned(log).positions_m);

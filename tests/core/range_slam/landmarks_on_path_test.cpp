@@ -28,9 +28,9 @@ Eigen::MatrixXd half_squares(const Points& landmarks, const Points& path, double
 TEST(LandmarksOnPath, AreExactWithoutNoiseWhateverTheScaleOfTheRanges) {
   const Points landmarks = scattered(5, 1), path = scattered(60, 2);
   for (const double scale : {1.0, 1.07, 0.5}) {
-    const LandmarksOnPath told = landmarks_on_path(path, half_squares(landmarks, path, scale));
-    EXPECT_LT((told.landmarks_m - landmarks).norm(), 1e-10 * landmarks.norm());
-    EXPECT_NEAR(told.range_scale, scale, 1e-12);
+    const LandmarksOnPath observed = landmarks_on_path(path, half_squares(landmarks, path, scale));
+    EXPECT_LT((observed.landmarks_m - landmarks).norm(), 1e-10 * landmarks.norm());
+    EXPECT_NEAR(observed.range_scale, scale, 1e-12);
   }
 }
 
@@ -39,9 +39,9 @@ TEST(LandmarksOnPath, TakeTheRangesAsTheyAreWhereThePathIsACircle) {
   for (Eigen::Index t = 0; t < 40; ++t)
     circle.row(t) << 7.0 + 3.0 * std::cos(0.2 * double(t)), 1.0 + 3.0 * std::sin(0.2 * double(t));
   const Points landmarks = scattered(4, 3);
-  const LandmarksOnPath told = landmarks_on_path(circle, half_squares(landmarks, circle, 1.0));
-  EXPECT_EQ(told.range_scale, 1.0);
-  EXPECT_LT((told.landmarks_m - landmarks).norm(), 1e-9 * landmarks.norm());
+  const LandmarksOnPath observed = landmarks_on_path(circle, half_squares(landmarks, circle, 1.0));
+  EXPECT_EQ(observed.range_scale, 1.0);
+  EXPECT_LT((observed.landmarks_m - landmarks).norm(), 1e-9 * landmarks.norm());
 }
 
 TEST(NearlyALine, IsSaidWithItsConditionNumber) {

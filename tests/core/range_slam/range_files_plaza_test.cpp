@@ -30,7 +30,7 @@ TEST_F(PlazaFiles, TheMatlabFileIsTheTables) {
     EXPECT_EQ(mat.name, "Plaza" + number);
     EXPECT_EQ(mat.landmarks, (std::vector<std::string>{"0", "1", "5", "6"}));
     expect_same(mat, csv, 1e-9);
-    EXPECT_EQ(mat.truth->positions_m, csv.truth->positions_m);
+    EXPECT_EQ(mat.ground_truth->positions_m, csv.ground_truth->positions_m);
     EXPECT_EQ(*mat.true_landmarks, *csv.true_landmarks);
     EXPECT_NEAR(mat.start.heading_rad, csv.start.heading_rad, 1e-12);
     const RangeLog text = read_range_log(folder_ / ("raw_gtsam/Plaza" + number + "_DR.txt"));

@@ -41,12 +41,12 @@ bool shows_ranges(const fs::path& path) {
   return is_range_log(source);
 }
 
-void expect_same_truth(const RangeLog& log, const RangeLog& expected) {
+void expect_same_ground_truth(const RangeLog& log, const RangeLog& expected) {
   EXPECT_NEAR(log.start.heading_rad, expected.start.heading_rad, 1e-12);
   EXPECT_EQ(log.start.x_m, expected.start.x_m);
-  ASSERT_TRUE(log.truth && log.true_landmarks);
-  EXPECT_EQ(log.truth->positions_m, expected.truth->positions_m);
-  EXPECT_EQ(log.truth->heading_rad, expected.truth->heading_rad);
+  ASSERT_TRUE(log.ground_truth && log.true_landmarks);
+  EXPECT_EQ(log.ground_truth->positions_m, expected.ground_truth->positions_m);
+  EXPECT_EQ(log.ground_truth->heading_rad, expected.ground_truth->heading_rad);
   EXPECT_EQ(*log.true_landmarks, *expected.true_landmarks);
 }
 
@@ -55,7 +55,7 @@ TEST(RangeLogFiles, EveryFormatGivesTheSameLog) {
   const test::TemporaryFolder folder;
   const RangeLog from_csv = read_range_log(csv_folder(folder, log));
   expect_same(from_csv, log, 0.0);
-  expect_same_truth(from_csv, log);
+  expect_same_ground_truth(from_csv, log);
   EXPECT_EQ(from_csv.landmarks, log.landmarks);
   EXPECT_EQ(from_csv.name, "set");
   EXPECT_EQ(read_range_log(folder / "set/ranges.csv").name, "set");
@@ -64,18 +64,18 @@ TEST(RangeLogFiles, EveryFormatGivesTheSameLog) {
     test::write_mat(log, folder / "Sample_.mat", is_compressed);
     const RangeLog from_mat = read_range_log(folder / "Sample_.mat");
     expect_same(from_mat, log, 1e-12);
-    expect_same_truth(from_mat, log);
+    expect_same_ground_truth(from_mat, log);
     EXPECT_EQ(from_mat.name, "Sample");
     EXPECT_EQ(from_mat.landmarks, log.landmarks);
   }
 
   const RangeLog from_pyfg = read_range_log(folder.file("s.pyfg", test::pyfg_of(log)));
   expect_same(from_pyfg, log, 0.0);
-  expect_same_truth(from_pyfg, log);
+  expect_same_ground_truth(from_pyfg, log);
   EXPECT_EQ(from_pyfg.landmarks, (std::vector<std::string>{"L0", "L1", "L5"}));
 }
 
-TEST(RangeLogFiles, APairOfTextsIsALogWithoutTruthOrStart) {
+TEST(RangeLogFiles, APairOfTextsIsALogWithoutGroundTruthOrStart) {
   const RangeLog log = sample_log();
   const test::TemporaryFolder folder;
   const fs::path odometry = folder.file("a_DR.txt", test::dr_text_of(log));
@@ -84,7 +84,7 @@ TEST(RangeLogFiles, APairOfTextsIsALogWithoutTruthOrStart) {
     const RangeLog read = read_range_log(path);
     expect_same(read, log, 0.0);
     EXPECT_EQ(read.name, "a");
-    EXPECT_FALSE(read.truth);
+    EXPECT_FALSE(read.ground_truth);
     EXPECT_FALSE(read.true_landmarks);
     EXPECT_EQ(read.start.time_s, 10.0);
     EXPECT_EQ(read.start.heading_rad, 0.0);
@@ -104,15 +104,16 @@ TEST(RangeLogFiles, RangesOutOfOrderAreSortedAndSaidToBe) {
 
 TEST(RangeLogFiles, ATrueHeadingAgainstTheTravelIsTurned) {
   RangeLog log = sample_log();
-  log.truth->heading_rad.array() += std::numbers::pi;
+  log.ground_truth->heading_rad.array() += std::numbers::pi;
   const test::TemporaryFolder folder;
   const RangeLog read = read_range_log(csv_folder(folder, log));
   EXPECT_TRUE(remarks_hold(read, "off by half a turn"));
-  EXPECT_NEAR(std::cos(read.truth->heading_rad(3) - sample_log().truth->heading_rad(3)), 1.0,
-              1e-12);
+  EXPECT_NEAR(
+      std::cos(read.ground_truth->heading_rad(3) - sample_log().ground_truth->heading_rad(3)), 1.0,
+      1e-12);
 }
 
-TEST(RangeLogFiles, OdometryWithTheTruthsTurnsIsNamed) {
+TEST(RangeLogFiles, OdometryWithTheGroundTruthsTurnsIsNamed) {
   const RangeLog log =
       sample_log();  // Without noise the heading changes are those of the ground truth.
   const test::TemporaryFolder folder;
@@ -180,7 +181,7 @@ TEST(RangeLogFiles, TimesOfAPathMustAscend) {
   EXPECT_EQ(error_of(set), (set / "groundtruth.csv").string() +
                                ": line 3: the time 1 s is not after the one before, 1 s");
   folder.file("set/groundtruth.csv", "t,x,y\n1,0,0\n2,0,0\n");
-  EXPECT_EQ(read_range_log(set).truth->heading_rad.size(), 0);
+  EXPECT_EQ(read_range_log(set).ground_truth->heading_rad.size(), 0);
   folder.file("set/odometry_start.csv", "t,x,y,heading\n99,0,0,0\n");
   EXPECT_NE(error_of(set).find("is not before the first motion"), std::string::npos);
 }

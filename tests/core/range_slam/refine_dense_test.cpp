@@ -11,8 +11,8 @@
 namespace mapproof {
 namespace {
 
+using test::ground_truth_as_start;
 using test::noisy_world;
-using test::truth_as_start;
 
 /// The same problem written down a second time: dense, numeric Jacobians, Gauss and Newton's steps.
 struct DenseProblem {
@@ -62,10 +62,10 @@ struct DenseProblem {
   }
 
   double range_residual(const Eigen::VectorXd& x, std::size_t k) const {
-    const RangeReading& reading = log.ranges[k];
-    const Eigen::Vector3d at = pose(x, std::lround(reading.time_s));
-    const Eigen::Vector2d place = x.segment<2>(3 * (poses - 1) + 2 * reading.landmark);
-    return (x(size() - 1) * (at.head<2>() - place).norm() - reading.range_m) /
+    const RangeMeasurement& measured = log.ranges[k];
+    const Eigen::Vector3d at = pose(x, std::lround(measured.time_s));
+    const Eigen::Vector2d position = x.segment<2>(3 * (poses - 1) + 2 * measured.landmark);
+    return (x(size() - 1) * (at.head<2>() - position).norm() - measured.range_m) /
            options.range_sigma_m;
   }
 
@@ -86,10 +86,10 @@ struct DenseProblem {
 TEST(Refine, EndsWhereDenseGaussNewtonEnds) {
   const RangeLog log = noisy_world(2, 24);
   const RefineOptions options{.range_sigma_m = 0.2, .covariances = 25};
-  const SlamEstimate refined = refine(log, truth_as_start(log), options);
+  const SlamEstimate refined = refine(log, ground_truth_as_start(log), options);
   EXPECT_TRUE(refined.statuses.empty());
   const DenseProblem dense{.log = log, .options = options};
-  Eigen::VectorXd x = dense.packed(truth_as_start(log));
+  Eigen::VectorXd x = dense.packed(ground_truth_as_start(log));
   for (int round = 0; round < 100; ++round) {
     const Eigen::MatrixXd J = dense.jacobian(x);
     x -= (J.transpose() * J).ldlt().solve(J.transpose() * dense.residuals(x, x));
@@ -101,15 +101,15 @@ TEST(Refine, EndsWhereDenseGaussNewtonEnds) {
 TEST(Refine, CovariancesAreTheDenseOnesFreedOfTheFrame) {
   const RangeLog log = noisy_world(2, 24);
   const RefineOptions options{.range_sigma_m = 0.2, .covariances = 25};
-  const SlamEstimate refined = refine(log, truth_as_start(log), options);
+  const SlamEstimate refined = refine(log, ground_truth_as_start(log), options);
   const DenseProblem dense{.log = log, .options = options};
   const Eigen::MatrixXd J = dense.jacobian(dense.packed(refined));
   const Eigen::MatrixXd covariance = (J.transpose() * J).inverse();
   // The errors less the rigid motion that fits those of the landmarks best.
   const Eigen::Index first = 3 * (dense.poses - 1);
   Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(dense.size(), 3);
-  const auto fill = [&](Eigen::Index row, const Eigen::RowVector2d& place) {
-    moves.block<2, 3>(row, 0) << 1, 0, -place(1), 0, 1, place(0);
+  const auto fill = [&](Eigen::Index row, const Eigen::RowVector2d& position) {
+    moves.block<2, 3>(row, 0) << 1, 0, -position(1), 0, 1, position(0);
   };
   for (Eigen::Index i = 1; i < dense.poses; ++i) fill(3 * (i - 1), refined.path.positions_m.row(i));
   for (Eigen::Index n = 0; n < dense.landmarks; ++n)

@@ -43,12 +43,12 @@ TEST(KeyPoses, GiveTheDeadReckonedPathAtAnyTime) {
     EXPECT_EQ(keys.rows().front(), 0);
     EXPECT_EQ(keys.rows().back(), path.size() - 1);
     for (double time_s = 0.0; time_s <= 60.0; time_s += 0.25) {
-      const BetweenPoses place = keys.at(time_s);
+      const BetweenPoses position = keys.at(time_s);
       const auto pose = [&](Eigen::Index key) -> Eigen::Vector3d {
         const Eigen::Index row = keys.rows()[static_cast<std::size_t>(key)];
         return {path.positions_m(row, 0), path.positions_m(row, 1), path.heading_rad(row)};
       };
-      const Eigen::Vector3d at = place.pose(pose(place.before), pose(place.before + 1));
+      const Eigen::Vector3d at = position.pose(pose(position.before), pose(position.before + 1));
       const auto row = static_cast<Eigen::Index>(time_s);
       const double part = time_s - static_cast<double>(row);
       const Eigen::RowVector2d expected =
@@ -130,9 +130,9 @@ TEST(RefineResiduals, HaveTheirCentralDifferencesAsJacobians) {
     KeyMotion motion{.step = {0.5, 0.1, 0.2}};
     motion.root_information << 3, 0, 0, 1, 2, 0, -1, 0.5, 4;
     expect_true_jacobians(MotionResidual(motion), {3, 3}, random);
-    const BetweenPoses place{
+    const BetweenPoses position{
         .before = 0, .share = random.uniform(), .ahead = {0.3, 0.1, 0.2}, .behind = {-0.4, 0.2, 1}};
-    expect_true_jacobians(RangeResidual(place, 2.0, 0.5), {3, 3, 2, 1, 1}, random);
+    expect_true_jacobians(RangeResidual(position, 2.0, 0.5), {3, 3, 2, 1, 1}, random);
     expect_true_jacobians(OffsetPrior(0.3), {1}, random);
   }
 }
@@ -180,19 +180,20 @@ TEST(ChainInformation, GivesTheBlocksOfTheDenseInverse) {
 
 TEST(Trilateration, FindsLandmarksAlongATruePath) {
   const RangeLog log = slam_world(4, {.range_scale = 1.1});
-  EXPECT_LT((trilaterated(log, *log.truth, 1.1) - *log.true_landmarks).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_LT((trilaterated(log, *log.ground_truth, 1.1) - *log.true_landmarks).cwiseAbs().maxCoeff(),
+            1e-5);
 }
 
 TEST(Trilateration, FromAStraightPathEndsOnOneOfTheTwoMirrorImages) {
   const RangeLog log = slam_world(4, {.is_straight = true});
-  const Points places = trilaterated(log, *log.truth);
+  const Points positions = trilaterated(log, *log.ground_truth);
   const Eigen::RowVector2d along(std::cos(0.3), std::sin(0.3));
   const Eigen::RowVector2d origin(1.0, -2.0);
   for (Eigen::Index n = 0; n < 4; ++n) {
     const Eigen::RowVector2d gap = log.true_landmarks->row(n) - origin;
     const Eigen::RowVector2d mirrored = origin + 2.0 * gap.dot(along) * along - gap;
-    EXPECT_LT(std::min((places.row(n) - log.true_landmarks->row(n)).norm(),
-                       (places.row(n) - mirrored).norm()),
+    EXPECT_LT(std::min((positions.row(n) - log.true_landmarks->row(n)).norm(),
+                       (positions.row(n) - mirrored).norm()),
               1e-4);
   }
 }

@@ -15,11 +15,11 @@
 namespace mapproof {
 namespace {
 
+using test::ground_truth_as_start;
 using test::has;
 using test::mean_error_m;
 using test::noisy_world;
 using test::slam_world;
-using test::truth_as_start;
 using test::turned_world;
 
 /// Errors over many draws of the noise are as large as the covariances say.
@@ -31,7 +31,7 @@ TEST(Refine, CovariancesAreThoseOfManyDraws) {
         slam_world(100 + static_cast<std::uint64_t>(draw),
                    {.range_sigma_m = 0.05, .distance_sigma_m = 0.02, .turn_sigma_rad = 0.005});
     const RefineOptions options{.range_sigma_m = 0.05, .huber = 100.0, .covariances = 1};
-    const SlamEstimate refined = refine(log, truth_as_start(log), options);
+    const SlamEstimate refined = refine(log, ground_truth_as_start(log), options);
     const Similarity motion =
         fit_similarity(refined.landmarks_m, *log.true_landmarks, Alignment::kRigid);
     const Eigen::RowVector2d error =
@@ -63,15 +63,15 @@ TEST(Refine, IsBetterThanDeadReckoningAndTheSameFromEveryStart) {
   EXPECT_LT(mean_error_m(log, refined, Alignment::kRigid), 0.15);
   EXPECT_LT(mean_error_m(log, refined, Alignment::kRigid),
             0.3 * mean_error_m(log, start, Alignment::kRigid));
-  const SlamEstimate from_truth = refine(log, truth_as_start(log), options);
-  EXPECT_NEAR(*refined.cost, *from_truth.cost, 1e-4 * *refined.cost);
-  SlamEstimate without_headings = truth_as_start(log);
+  const SlamEstimate from_ground_truth = refine(log, ground_truth_as_start(log), options);
+  EXPECT_NEAR(*refined.cost, *from_ground_truth.cost, 1e-4 * *refined.cost);
+  SlamEstimate without_headings = ground_truth_as_start(log);
   without_headings.path.heading_rad.resize(0);
   EXPECT_NEAR(*refine(log, without_headings, options).cost, *refined.cost, 1e-4 * *refined.cost);
-  SlamEstimate sparse = truth_as_start(log);
+  SlamEstimate sparse = ground_truth_as_start(log);
   const std::vector<Eigen::Index> rows = {20, 90, 160, 280};
-  sparse.path = {.time_s = log.truth->time_s(rows),
-                 .positions_m = log.truth->positions_m(rows, Eigen::all),
+  sparse.path = {.time_s = log.ground_truth->time_s(rows),
+                 .positions_m = log.ground_truth->positions_m(rows, Eigen::all),
                  .heading_rad = {}};
   EXPECT_NEAR(*refine(log, sparse, options).cost, *refined.cost, 1e-4 * *refined.cost);
 }
@@ -104,29 +104,29 @@ TEST(Refine, KnownLandmarksTieTheFrame) {
 TEST(Refine, KnownLandmarksThatDoNotTieTheFrameAreSaidNotTo) {
   const RangeLog log = noisy_world(8);
   RefineOptions options{.range_sigma_m = 0.2, .covariances = 2};
-  const SlamEstimate without = refine(log, truth_as_start(log), options);
-  const Points& truth = *log.true_landmarks;
-  options.known = KnownLandmarks{.rows = {0, 2}, .positions_m = truth({0, 0}, Eigen::all)};
-  const SlamEstimate in_one_place = refine(log, truth_as_start(log), options);
-  EXPECT_TRUE(has(in_one_place.statuses, StatusCode::kUndetermined));
-  EXPECT_EQ(in_one_place.path.positions_m, without.path.positions_m);
-  EXPECT_EQ(in_one_place.landmarks_m, without.landmarks_m);
-  EXPECT_EQ(in_one_place.landmark_cov_m2, without.landmark_cov_m2);
+  const SlamEstimate without = refine(log, ground_truth_as_start(log), options);
+  const Points& ground_truth = *log.true_landmarks;
+  options.known = KnownLandmarks{.rows = {0, 2}, .positions_m = ground_truth({0, 0}, Eigen::all)};
+  const SlamEstimate in_one_position = refine(log, ground_truth_as_start(log), options);
+  EXPECT_TRUE(has(in_one_position.statuses, StatusCode::kUndetermined));
+  EXPECT_EQ(in_one_position.path.positions_m, without.path.positions_m);
+  EXPECT_EQ(in_one_position.landmarks_m, without.landmarks_m);
+  EXPECT_EQ(in_one_position.landmark_cov_m2, without.landmark_cov_m2);
 
   RangeLog half_heard = log;
   std::erase_if(half_heard.ranges,
-                [](const RangeReading& reading) { return reading.landmark == 2; });
-  options.known = KnownLandmarks{.rows = {0, 2}, .positions_m = truth({0, 2}, Eigen::all)};
-  const SlamEstimate one = refine(half_heard, truth_as_start(half_heard), options);
+                [](const RangeMeasurement& measured) { return measured.landmark == 2; });
+  options.known = KnownLandmarks{.rows = {0, 2}, .positions_m = ground_truth({0, 2}, Eigen::all)};
+  const SlamEstimate one = refine(half_heard, ground_truth_as_start(half_heard), options);
   EXPECT_TRUE(has(one.statuses, StatusCode::kUndetermined));
-  EXPECT_EQ(one.path.positions_m.row(0), log.truth->positions_m.row(0));
+  EXPECT_EQ(one.path.positions_m.row(0), log.ground_truth->positions_m.row(0));
   EXPECT_TRUE(one.landmarks_m({0, 1, 3}, Eigen::all).allFinite());
 }
 
 TEST(Refine, CovariancesRelativeToTheFirstPoseAreSaidToBe) {
   const RangeLog log = slam_world(3, {.landmarks = 1, .range_sigma_m = 0.1});
   const SlamEstimate refined =
-      refine(log, truth_as_start(log), {.estimate_scale = false, .covariances = 3});
+      refine(log, ground_truth_as_start(log), {.estimate_scale = false, .covariances = 3});
   ASSERT_EQ(refined.position_cov_m2.size(), 3U);
   EXPECT_EQ(refined.position_cov_m2[0], Eigen::Matrix2d::Zero());
   EXPECT_TRUE(has(refined.statuses, StatusCode::kUndetermined));
@@ -142,11 +142,11 @@ TEST(Refine, TakesMotionsSidewaysAndBackwards) {
 
 TEST(Refine, OffsetsOfALandmarkAreFound) {
   RangeLog log = slam_world(3);
-  for (RangeReading& reading : log.ranges)
-    if (reading.landmark == 1) reading.range_m += 0.4;
+  for (RangeMeasurement& measured : log.ranges)
+    if (measured.landmark == 1) measured.range_m += 0.4;
   const RefineOptions options{
       .range_sigma_m = 0.01, .estimate_scale = false, .offset_sigma_m = 1.0};
-  const SlamEstimate refined = refine(log, truth_as_start(log), options);
+  const SlamEstimate refined = refine(log, ground_truth_as_start(log), options);
   ASSERT_EQ(refined.range_offsets_m.size(), 4);
   EXPECT_NEAR(refined.range_offsets_m(1), 0.4, 0.02);
   EXPECT_NEAR(refined.range_offsets_m(2), 0.0, 0.02);
@@ -185,14 +185,14 @@ TEST(Refine, HardDataEndInAStatus) {
 
   RangeLog once = log;
   once.ranges.resize(1);
-  SlamEstimate start = truth_as_start(once);
+  SlamEstimate start = ground_truth_as_start(once);
   const SlamEstimate loose = refine(once, start, {.covariances = 2});
   EXPECT_TRUE(has(loose.statuses, StatusCode::kUndetermined));
   EXPECT_TRUE(loose.landmark_cov_m2.empty());
   EXPECT_TRUE(loose.path.positions_m.allFinite());
 
   RangeLog huge = log;
-  for (RangeReading& reading : huge.ranges) reading.range_m = 1e6;
+  for (RangeMeasurement& measured : huge.ranges) measured.range_m = 1e6;
   EXPECT_TRUE(refine(huge, dead_reckoning_start(huge)).path.positions_m.allFinite());
 
   RangeLog still = log;
@@ -215,7 +215,7 @@ TEST(Refine, RefusesCovariancesOfTooMuchBeforeItSolves) {
 TEST(Refine, APathThatIsNoneIsRefusedAsAStart) {
   const RangeLog log = noisy_world(1);
   const auto refused = [&](auto&& spoil) {
-    SlamEstimate start = truth_as_start(log);
+    SlamEstimate start = ground_truth_as_start(log);
     spoil(start.path);
     EXPECT_THROW(refine(log, start), InvalidInput);
   };

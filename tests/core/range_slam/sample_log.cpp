@@ -22,8 +22,8 @@ void add_table(mat_t* file, const char* name, Eigen::MatrixXd values, bool is_co
 }
 
 Eigen::MatrixXd path_table(const RangeLog& log) {
-  Eigen::MatrixXd values(log.truth->size(), 4);
-  values << log.truth->time_s, log.truth->positions_m, log.truth->heading_rad;
+  Eigen::MatrixXd values(log.ground_truth->size(), 4);
+  values << log.ground_truth->time_s, log.ground_truth->positions_m, log.ground_truth->heading_rad;
   return values;
 }
 
@@ -37,12 +37,12 @@ RangeLog sample_log() {
                .ranges = {},
                .start = {.time_s = 10.0, .x_m = 1.0, .y_m = 2.0, .heading_rad = 0.25},
                .odometry = {},
-               .truth = Trajectory{},
+               .ground_truth = Trajectory{},
                .true_landmarks = Points(3, 2),
                .remarks = {}};
   *log.true_landmarks << -4.0, 3.0, 9.0, -1.5, 5.0, 12.0;
   constexpr Eigen::Index kPoses = 13;
-  Trajectory& path = *log.truth;
+  Trajectory& path = *log.ground_truth;
   path.time_s.setLinSpaced(kPoses, 10.0, 16.0);
   path.positions_m.resize(kPoses, 2);
   path.heading_rad.resize(kPoses);
@@ -70,9 +70,10 @@ RangeLog sample_log() {
 
 std::string ranges_csv_of(const RangeLog& log) {
   std::string text = "t,beacon,range,raw_row\n";
-  for (const RangeReading& reading : log.ranges)
-    text += fmt::format("{},{},{},7\n", reading.time_s,
-                        log.landmarks[static_cast<std::size_t>(reading.landmark)], reading.range_m);
+  for (const RangeMeasurement& measured : log.ranges)
+    text +=
+        fmt::format("{},{},{},7\n", measured.time_s,
+                    log.landmarks[static_cast<std::size_t>(measured.landmark)], measured.range_m);
   return text;
 }
 
@@ -88,7 +89,7 @@ std::string start_csv_of(const RangeLog& log) {
                      log.start.heading_rad);
 }
 
-std::string truth_csv_of(const RangeLog& log) {
+std::string ground_truth_csv_of(const RangeLog& log) {
   std::string text = "t,x,y,heading\n";
   const Eigen::MatrixXd values = path_table(log);
   for (Eigen::Index i = 0; i < values.rows(); ++i)
@@ -118,19 +119,20 @@ std::string pyfg_of(const RangeLog& log) {
   for (std::size_t i = 0; i < log.odometry.size(); ++i)
     text += fmt::format("EDGE_SE2 {} A{} A{} {} 0 {} 1 0 0 1 0 1\n", log.odometry[i].time_s, i,
                         i + 1, log.odometry[i].distance_m, log.odometry[i].turn_rad);
-  for (const RangeReading& reading : log.ranges)
-    text += fmt::format("EDGE_RANGE {} A{} L{} {} 0.25\n", reading.time_s,
-                        std::lround(2.0 * (reading.time_s - 10.0)),
-                        log.landmarks[static_cast<std::size_t>(reading.landmark)], reading.range_m);
+  for (const RangeMeasurement& measured : log.ranges)
+    text +=
+        fmt::format("EDGE_RANGE {} A{} L{} {} 0.25\n", measured.time_s,
+                    std::lround(2.0 * (measured.time_s - 10.0)),
+                    log.landmarks[static_cast<std::size_t>(measured.landmark)], measured.range_m);
   return text;
 }
 
 std::string td_text_of(const RangeLog& log) {
   std::string text;
-  for (const RangeReading& reading : log.ranges)
-    text += "  " + number(reading.time_s) + "\t 2.0e+000\t " +
-            log.landmarks[static_cast<std::size_t>(reading.landmark)] + "\t " +
-            number(reading.range_m) + "\t \n";
+  for (const RangeMeasurement& measured : log.ranges)
+    text += "  " + number(measured.time_s) + "\t 2.0e+000\t " +
+            log.landmarks[static_cast<std::size_t>(measured.landmark)] + "\t " +
+            number(measured.range_m) + "\t \n";
   return text;
 }
 
@@ -145,7 +147,7 @@ std::string dr_text_of(const RangeLog& log) {
 std::filesystem::path csv_folder(const TemporaryFolder& folder, const RangeLog& log) {
   folder.file("set/odometry.csv", odometry_csv_of(log));
   folder.file("set/odometry_start.csv", start_csv_of(log));
-  folder.file("set/groundtruth.csv", truth_csv_of(log));
+  folder.file("set/groundtruth.csv", ground_truth_csv_of(log));
   folder.file("set/landmarks.csv", landmarks_csv_of(log));
   return folder.file("set/ranges.csv", ranges_csv_of(log)).parent_path();
 }
@@ -160,9 +162,9 @@ void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_c
   }
   Eigen::MatrixXd ranges(static_cast<Eigen::Index>(log.ranges.size()), 4);
   for (Eigen::Index i = 0; i < ranges.rows(); ++i) {
-    const RangeReading& reading = log.ranges[static_cast<std::size_t>(i)];
-    const double id = std::stod(log.landmarks[static_cast<std::size_t>(reading.landmark)]);
-    ranges.row(i) << reading.time_s, 2.0, id, reading.range_m;
+    const RangeMeasurement& measured = log.ranges[static_cast<std::size_t>(i)];
+    const double id = std::stod(log.landmarks[static_cast<std::size_t>(measured.landmark)]);
+    ranges.row(i) << measured.time_s, 2.0, id, measured.range_m;
   }
   Eigen::MatrixXd landmarks(log.true_landmarks->rows(), 3);
   for (Eigen::Index i = 0; i < landmarks.rows(); ++i)

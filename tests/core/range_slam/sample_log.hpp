@@ -15,7 +15,7 @@ RangeLog sample_log();
 std::string ranges_csv_of(const RangeLog& log);
 std::string odometry_csv_of(const RangeLog& log);
 std::string start_csv_of(const RangeLog& log);
-std::string truth_csv_of(const RangeLog& log);
+std::string ground_truth_csv_of(const RangeLog& log);
 std::string landmarks_csv_of(const RangeLog& log);
 std::string pyfg_of(const RangeLog& log);
 std::string td_text_of(const RangeLog& log);

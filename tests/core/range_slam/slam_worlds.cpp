@@ -16,7 +16,7 @@ RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options) {
                .ranges = {},
                .start = {.time_s = 0.0, .x_m = 1.0, .y_m = -2.0, .heading_rad = 0.3},
                .odometry = {},
-               .truth = Trajectory{},
+               .ground_truth = Trajectory{},
                .true_landmarks = Points(options.landmarks, 2),
                .remarks = {}};
   for (Eigen::Index n = 0; n < options.landmarks; ++n) {
@@ -27,7 +27,7 @@ RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options) {
         5.0 + 6.0 * std::sin(angle) + random.uniform(-1.0, 1.0);
   }
   const Eigen::Index poses = options.steps + 1;
-  Trajectory& path = *log.truth;
+  Trajectory& path = *log.ground_truth;
   path = {.time_s = Eigen::VectorXd::LinSpaced(poses, 0.0, static_cast<double>(options.steps)),
           .positions_m = Points(poses, 2),
           .heading_rad = Eigen::VectorXd(poses)};
@@ -66,7 +66,7 @@ RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps) {
 RangeLog turned_world(double direction_rad) {
   RangeLog log = slam_world(2);
   log.start.heading_rad += direction_rad;
-  log.truth->heading_rad.array() += direction_rad;
+  log.ground_truth->heading_rad.array() += direction_rad;
   for (Motion& motion : log.odometry) {
     const double forward_m = motion.distance_m;
     motion.distance_m = forward_m * std::cos(direction_rad);
@@ -75,9 +75,9 @@ RangeLog turned_world(double direction_rad) {
   return log;
 }
 
-SlamEstimate truth_as_start(const RangeLog& log) {
+SlamEstimate ground_truth_as_start(const RangeLog& log) {
   SlamEstimate start;
-  start.path = *log.truth;
+  start.path = *log.ground_truth;
   start.landmarks_m = *log.true_landmarks;
   return start;
 }

@@ -26,6 +26,6 @@ RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps = 60);
 /// or drives backwards, along the same path.
 RangeLog turned_world(double direction_rad);
 
-SlamEstimate truth_as_start(const RangeLog& log);
+SlamEstimate ground_truth_as_start(const RangeLog& log);
 
 }  // namespace mapproof::test

@@ -48,11 +48,11 @@ KnownSpaceLandmarks first_known(const SpacePoints& landmarks, Eigen::Index count
 double gap(const SpaceEstimate& estimate, const SpacePoints& landmarks, const SpacePoints& path,
            bool aligned) {
   if (estimate.empty()) return HUGE_VAL;
-  SpacePoints truth(landmarks.rows() + path.rows(), 3), found(truth.rows(), 3);
-  truth << landmarks, path;
+  SpacePoints ground_truth(landmarks.rows() + path.rows(), 3), found(ground_truth.rows(), 3);
+  ground_truth << landmarks, path;
   found << estimate.landmarks_m, estimate.positions_m;
-  if (aligned) found = fit_space_motion(found, truth, true)(found);
-  return (found - truth).rowwise().norm().maxCoeff();
+  if (aligned) found = fit_space_motion(found, ground_truth, true)(found);
+  return (found - ground_truth).rowwise().norm().maxCoeff();
 }
 
 Eigen::MatrixXd as_columns(const SpacePoints& points) {
@@ -210,9 +210,9 @@ TEST(SpaceSlam, RefusesWhatIsTooLittleOrNoWorld) {
   KnownSpaceLandmarks twice = first_known(landmarks, 6);
   twice.rows[5] = 0;
   EXPECT_THROW(space_slam(ranges, twice), InvalidInput);
-  Eigen::MatrixXd gappy = ranges;
-  gappy(0, 0) = NAN;
-  EXPECT_THROW(space_slam(gappy, std::nullopt), InvalidInput);
+  Eigen::MatrixXd incomplete = ranges;
+  incomplete(0, 0) = NAN;
+  EXPECT_THROW(space_slam(incomplete, std::nullopt), InvalidInput);
 }
 
 TEST(SpaceSlam, OfRangesThatAreNothingButNoiseIsNoSilentMap) {
@@ -263,7 +263,7 @@ SlamExperiment small_flight() {
   return experiment;
 }
 
-TEST(SpaceRun, HasARecordWithKnownLandmarksAndOneWithNoneInTheFrameOfTheTruth) {
+TEST(SpaceRun, HasARecordWithKnownLandmarksAndOneWithNoneInTheFrameOfTheGroundTruth) {
   const SpaceRun run = make_space_run(small_flight());
   EXPECT_EQ(run.known.size(), 6U);
   ASSERT_EQ(run.records.size(), 2U);

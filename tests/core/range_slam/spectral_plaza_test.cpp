@@ -20,7 +20,7 @@ struct PlazaTarget {
 
 class PlazaSlam : public ::testing::TestWithParam<PlazaTarget> {};
 
-TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutTruth) {
+TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutGroundTruth) {
   const std::optional<RangeLog> log = test::plaza(GetParam().name);
   if (!log) GTEST_SKIP() << test::kNoPlaza;
   const Trajectory odometry = dead_reckoned(*log);
@@ -30,7 +30,7 @@ TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutTruth) {
   EXPECT_LT(test::mean_error_m(*log, free.estimate, Alignment::kRigid), GetParam().free_m);
   EXPECT_NEAR(free.estimate.range_scale, 1.07, 0.02);
   const auto error =
-      trajectory_error(free.estimate, *log->truth, log->true_landmarks, Alignment::kRigid);
+      trajectory_error(free.estimate, *log->ground_truth, log->true_landmarks, Alignment::kRigid);
   EXPECT_LT(*error->landmarks_m, GetParam().landmarks_m);
   for (const bool with_heading : {false, true}) {
     const SpectralSlam known = spectral_slam(
@@ -38,7 +38,7 @@ TEST_P(PlazaSlam, ReachesItsErrorsWithWindowsChosenWithoutTruth) {
     EXPECT_LT(test::mean_error_m(*log, known.estimate, Alignment::kNone), GetParam().known_m);
     if (with_heading) {
       // Modulo pi: the true headings of Plaza 2 are turned about.
-      const Eigen::ArrayXd off = known.estimate.path.heading_rad - log->truth->heading_rad;
+      const Eigen::ArrayXd off = known.estimate.path.heading_rad - log->ground_truth->heading_rad;
       EXPECT_LT(off.sin().abs().mean(), 0.06);
     }
   }

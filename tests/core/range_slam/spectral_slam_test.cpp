@@ -34,9 +34,9 @@ TEST(Localise, FindsPositionsFromAMap) {
 
 TEST(OdometryFit, TellsScaleAndMirrorInSpiteOfDrift) {
   const test::Drive d = drive({.gyro_drift = 0.01}, 1);
-  const Points& truth = d.log.truth->positions_m;
-  const Points mirrored = 1.2 * truth * Eigen::RowVector2d(1.0, -1.0).asDiagonal();
-  const OdometryFit as_is = fit_to_odometry(truth, d.odometry.positions_m, 100);
+  const Points& ground_truth = d.log.ground_truth->positions_m;
+  const Points mirrored = 1.2 * ground_truth * Eigen::RowVector2d(1.0, -1.0).asDiagonal();
+  const OdometryFit as_is = fit_to_odometry(ground_truth, d.odometry.positions_m, 100);
   const OdometryFit other = fit_to_odometry(mirrored, d.odometry.positions_m, 100);
   EXPECT_FALSE(as_is.mirrored);
   EXPECT_TRUE(other.mirrored);
@@ -108,7 +108,7 @@ TEST(SpectralSlam, MapsADriveOfSingleNoisyRanges) {
   const SpectralSlam found = spectral_slam(d.log, d.odometry);
   ASSERT_EQ(found.estimate.path.size(), d.odometry.size());
   EXPECT_LT(
-      test::procrustes_gap(stacked(*d.log.true_landmarks, d.log.truth->positions_m),
+      test::procrustes_gap(stacked(*d.log.true_landmarks, d.log.ground_truth->positions_m),
                            stacked(found.estimate.landmarks_m, found.estimate.path.positions_m)),
       1.0);
   EXPECT_NEAR(found.estimate.range_scale, 1.05, 0.01);
@@ -123,7 +123,7 @@ TEST(SpectralSlam, PutsScaleOfRangesMapAndSquaresRightTogether) {
   ASSERT_EQ(found.estimate.path.size(), d.odometry.size());
   EXPECT_NEAR(found.estimate.range_scale, 1.07, 0.01);
   EXPECT_LT(
-      test::procrustes_gap(stacked(*d.log.true_landmarks, d.log.truth->positions_m),
+      test::procrustes_gap(stacked(*d.log.true_landmarks, d.log.ground_truth->positions_m),
                            stacked(found.estimate.landmarks_m, found.estimate.path.positions_m)),
       1.0);
   const Points again = localise(found.estimate.landmarks_m, found.Y);
@@ -182,15 +182,16 @@ TEST(SpectralSlam, OfPiecesThatTellNoMirrorSaysSo) {
 TEST(SpectralSlam, NamesTheLandmarkThatIsToldAtTheFewestPoses) {
   test::Drive d = drive({}, 5);
   d.log.landmarks[2] = "door";
-  std::erase_if(d.log.ranges, [](const RangeReading& reading) {
-    return reading.landmark == 2 && reading.time_s > 150.0;
+  std::erase_if(d.log.ranges, [](const RangeMeasurement& measured) {
+    return measured.landmark == 2 && measured.time_s > 150.0;
   });
   const WindowOptions window{.length_s = 20.0};
   const SpectralSlam some = spectral_slam(d.log, d.odometry, {.window = window});
   EXPECT_FALSE(has(some.estimate.statuses, StatusCode::kTooFewObservations));
   ASSERT_TRUE(has(some.estimate.statuses, StatusCode::kUndetermined));
   EXPECT_EQ(some.estimate.statuses[0].names, std::vector<std::string>{"door"});
-  std::erase_if(d.log.ranges, [](const RangeReading& reading) { return reading.landmark == 2; });
+  std::erase_if(d.log.ranges,
+                [](const RangeMeasurement& measured) { return measured.landmark == 2; });
   const SpectralSlam none = spectral_slam(d.log, d.odometry, {.window = window});
   ASSERT_TRUE(has(none.estimate.statuses, StatusCode::kTooFewObservations));
   EXPECT_EQ(none.estimate.statuses[0].names, std::vector<std::string>{"door"});
@@ -213,12 +214,15 @@ TEST(SpectralSlam, WithKnownLandmarksIsInTheirFrameWithHeadings) {
   for (const bool with_heading : {false, true}) {
     const SpectralSlam found =
         spectral_slam(d.log, d.odometry, {.known = all_known(d.log), .with_heading = with_heading});
-    const Points error = found.estimate.path.positions_m - d.log.truth->positions_m;
+    const Points error = found.estimate.path.positions_m - d.log.ground_truth->positions_m;
     EXPECT_LT(error.rowwise().norm().mean(), 0.3) << with_heading;
     if (with_heading) {
-      EXPECT_LT(
-          (found.estimate.path.heading_rad - d.log.truth->heading_rad).array().sin().abs().mean(),
-          0.1);
+      EXPECT_LT((found.estimate.path.heading_rad - d.log.ground_truth->heading_rad)
+                    .array()
+                    .sin()
+                    .abs()
+                    .mean(),
+                0.1);
     }
   }
 }
@@ -251,7 +255,8 @@ TEST(SpectralSlam, OfTooLittleSaysSo) {
 TEST(SpectralSlam, OfARobotThatStandsStillSaysSo) {
   test::Drive d = drive({}, 6);
   d.odometry.positions_m.setZero();
-  for (RangeReading& reading : d.log.ranges) reading.range_m = 3.0 + double(reading.landmark);
+  for (RangeMeasurement& measured : d.log.ranges)
+    measured.range_m = 3.0 + double(measured.landmark);
   const SpectralSlam found = spectral_slam(d.log, d.odometry);
   EXPECT_FALSE(found.estimate.statuses.empty());
   EXPECT_TRUE(found.estimate.path.positions_m.allFinite());

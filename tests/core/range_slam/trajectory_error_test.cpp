@@ -109,25 +109,28 @@ TEST(PathAt, IsStraightBetweenPosesAndNowhereBeyond) {
 }
 
 TEST(TrajectoryError, AShiftIsItsErrorUnlessItIsAligned) {
-  const Trajectory truth = straight_path(101);
-  Trajectory path = truth;
+  const Trajectory ground_truth = straight_path(101);
+  Trajectory path = ground_truth;
   path.positions_m.rowwise() += Eigen::RowVector2d(3.0, 4.0);
-  const auto error = trajectory_error(estimate_of(path), truth, std::nullopt, Alignment::kNone);
+  const auto error =
+      trajectory_error(estimate_of(path), ground_truth, std::nullopt, Alignment::kNone);
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->mean_m, 5.0, 1e-12);
   EXPECT_NEAR(error->rmse_m, 5.0, 1e-12);
   EXPECT_NEAR(error->best_tenth_m, 5.0, 1e-12);
   EXPECT_FALSE(error->landmarks_m);
-  EXPECT_NEAR(trajectory_error(estimate_of(path), truth, std::nullopt, Alignment::kRigid)->mean_m,
-              0.0, 1e-12);
+  EXPECT_NEAR(
+      trajectory_error(estimate_of(path), ground_truth, std::nullopt, Alignment::kRigid)->mean_m,
+      0.0, 1e-12);
 }
 
 /// Off to the side by .01 t: a tenth of 100 s is eleven poses, the last one from 90 to 100.
 TEST(TrajectoryError, TenthsAreTenthsOfTheTime) {
-  const Trajectory truth = straight_path(101);
-  Trajectory path = truth;
-  path.positions_m.col(1) = 0.01 * truth.time_s;
-  const auto error = trajectory_error(estimate_of(path), truth, std::nullopt, Alignment::kNone);
+  const Trajectory ground_truth = straight_path(101);
+  Trajectory path = ground_truth;
+  path.positions_m.col(1) = 0.01 * ground_truth.time_s;
+  const auto error =
+      trajectory_error(estimate_of(path), ground_truth, std::nullopt, Alignment::kNone);
   EXPECT_NEAR(error->mean_m, 0.5, 1e-12);
   EXPECT_NEAR(error->last_tenth_m, 0.95, 1e-12);
   EXPECT_NEAR(error->best_tenth_m, 0.05, 1e-12);
@@ -136,31 +139,33 @@ TEST(TrajectoryError, TenthsAreTenthsOfTheTime) {
 }
 
 TEST(TrajectoryError, OnlyTheCommonTimeIsCompared) {
-  const Trajectory truth = straight_path(101);
+  const Trajectory ground_truth = straight_path(101);
   Trajectory path = straight_path(11);
   path.time_s.array() += 20.5;
   path.positions_m.col(0) = path.time_s;
-  const auto error = trajectory_error(estimate_of(path), truth, std::nullopt, Alignment::kNone);
+  const auto error =
+      trajectory_error(estimate_of(path), ground_truth, std::nullopt, Alignment::kNone);
   EXPECT_EQ(error->poses, 10);
   EXPECT_NEAR(error->mean_m, 0.0, 1e-12);
   path.time_s.array() += 1000.0;
-  EXPECT_FALSE(trajectory_error(estimate_of(path), truth, std::nullopt, Alignment::kNone));
+  EXPECT_FALSE(trajectory_error(estimate_of(path), ground_truth, std::nullopt, Alignment::kNone));
 }
 
 TEST(TrajectoryError, LandmarksAreCarriedAlongWithThePath) {
   Random random(8);
-  Trajectory truth = straight_path(20);
-  truth.positions_m = random_points(20, random);
+  Trajectory ground_truth = straight_path(20);
+  ground_truth.positions_m = random_points(20, random);
   const Similarity motion = random_similarity(random, 1.0, false);
   Points landmarks = random_points(4, random);
-  SlamEstimate estimate = estimate_of(truth);
-  estimate.path.positions_m = motion(truth.positions_m);
+  SlamEstimate estimate = estimate_of(ground_truth);
+  estimate.path.positions_m = motion(ground_truth.positions_m);
   estimate.landmarks_m = motion(landmarks);
   estimate.landmarks_m(2, 0) = std::nan("");
   landmarks.row(0) += Eigen::RowVector2d(0.3, 0.4);
-  const auto error = trajectory_error(estimate, truth, landmarks, Alignment::kRigid);
+  const auto error = trajectory_error(estimate, ground_truth, landmarks, Alignment::kRigid);
   EXPECT_NEAR(*error->landmarks_m, 0.5 / 3.0, 1e-11);
-  EXPECT_THROW(trajectory_error(estimate, truth, Points(2, 2), Alignment::kRigid), InvalidInput);
+  EXPECT_THROW(trajectory_error(estimate, ground_truth, Points(2, 2), Alignment::kRigid),
+               InvalidInput);
 }
 
 TEST(TrajectoryError, TimesThatDoNotAscendAreRefusedOfEitherPath) {

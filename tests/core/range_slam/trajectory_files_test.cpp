@@ -23,8 +23,8 @@ TEST(TrajectoryFiles, APathReadsBackFromCsv) {
   const RangeLog log = sample_log();
   const test::TemporaryFolder folder;
   const fs::path set = csv_folder(folder, log);
-  folder.file("set/groundtruth.csv", trajectory_csv(*log.truth));
-  EXPECT_EQ(read_range_log(set).truth->positions_m, log.truth->positions_m);
+  folder.file("set/groundtruth.csv", trajectory_csv(*log.ground_truth));
+  EXPECT_EQ(read_range_log(set).ground_truth->positions_m, log.ground_truth->positions_m);
 }
 
 TEST(TrajectoryFiles, TumHoldsTheHeadingAsAQuaternion) {

@@ -70,7 +70,7 @@ std::vector<Input> make_inputs() {
       table("observations/wide_tabs.tsv", Sensor::kRange, Layout::kWide),
       table("observations/long.csv", Sensor::kBearing, Layout::kAuto),
       table("observations/long_detections.csv", Sensor::kVisibility, Layout::kLong),
-      {"landmarks", read_file(test::data_file("landmarks/truth.csv")),
+      {"landmarks", read_file(test::data_file("landmarks/groundtruth.csv")),
        as_file("l.csv", [](const fs::path& path) { read_landmarks(path); }), false},
       {"measurements", read_file(test::data_file("mrclam/Robot1_Measurement.dat")),
        [](const std::string& bytes) {

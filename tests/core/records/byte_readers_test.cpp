@@ -44,11 +44,11 @@ std::string text_of(const Eigen::MatrixXd& values) {
 
 std::string text_of(const RangeLog& log) {
   std::string text = fmt::format("{} {} {}", log.name, log.landmarks, log.remarks);
-  for (const RangeReading& range : log.ranges)
+  for (const RangeMeasurement& range : log.ranges)
     text += fmt::format("\n{} {} {}", range.time_s, range.landmark, range.range_m);
   for (const Motion& motion : log.odometry)
     text += fmt::format("\n{} {} {}", motion.time_s, motion.distance_m, motion.turn_rad);
-  if (log.truth) text += text_of(log.truth->positions_m);
+  if (log.ground_truth) text += text_of(log.ground_truth->positions_m);
   if (log.true_landmarks) text += text_of(*log.true_landmarks);
   return text;
 }
@@ -107,10 +107,10 @@ std::string long_table() {
 
 std::vector<Reader> make_readers() {
   const RangeLog log = test::sample_log();
-  Points places(9, 2);
+  Points locations(9, 2);
   for (Eigen::Index i = 0; i < 9; ++i)
-    places.row(i) << static_cast<double>(i % 3), 0.1 * static_cast<double>(i);
-  const DetectionLog scans = test::scans_at(places, 4000, 4, 3);
+    locations.row(i) << static_cast<double>(i % 3), 0.1 * static_cast<double>(i);
+  const DetectionLog scans = test::scans_at(locations, 4000, 4, 3);
   std::string rows = "step,landmark,range,bearing\n";
   for (const Detection& seen : scans.detections)
     rows += fmt::format("{},{},{},{}\n", seen.step,

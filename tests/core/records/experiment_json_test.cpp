@@ -24,11 +24,11 @@ const std::filesystem::path kTemplate =
 /// The error for small.json with one value replaced, or removed if it is null.
 std::string experiment_error(const std::string& pointer, const json& value) {
   json experiment = json::parse(read_file(test::data_file("experiments/small.json")));
-  const json::json_pointer place(pointer);
+  const json::json_pointer location(pointer);
   if (value.is_null())
-    experiment[place.parent_pointer()].erase(place.back());
+    experiment[location.parent_pointer()].erase(location.back());
   else
-    experiment[place] = value;
+    experiment[location] = value;
   return error_of([&] { parse_experiment(experiment.dump(), "e.json"); });
 }
 
@@ -155,13 +155,13 @@ TEST(ExperimentJson, RefusesTableIdsThatOthersCouldTake) {
 }
 
 TEST(ExperimentJson, RefusesOrderingsThatOrderNothing) {
-  const std::string place = "/sensors/visibility/published/orderings";
-  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca"})})),
-            "e.json: " + place + "/0: expected at least 2 elements, got 1");
-  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "isomap", "lpca"})})),
-            "e.json: " + place + "/0/2: is there twice: at " + place + "/0/0 before");
-  EXPECT_EQ(experiment_error(place, json::array({json::array({"lpca", "smakof"})})),
-            "e.json: " + place + "/0/1: unknown method \"smakof\": did you mean \"smacof\"?");
+  const std::string location = "/sensors/visibility/published/orderings";
+  EXPECT_EQ(experiment_error(location, json::array({json::array({"lpca"})})),
+            "e.json: " + location + "/0: expected at least 2 elements, got 1");
+  EXPECT_EQ(experiment_error(location, json::array({json::array({"lpca", "isomap", "lpca"})})),
+            "e.json: " + location + "/0/2: is there twice: at " + location + "/0/0 before");
+  EXPECT_EQ(experiment_error(location, json::array({json::array({"lpca", "smakof"})})),
+            "e.json: " + location + "/0/1: unknown method \"smakof\": did you mean \"smacof\"?");
 }
 
 TEST(ExperimentJson, RefusesACountOfABillion) {

@@ -22,20 +22,20 @@ TEST(LandmarksCsv, NeedsNoHeader) {
   Points expected(3, 2);
   expected << 0, 0, 4, 0.5, 0.25, 3;
   EXPECT_EQ(anchors.positions_m, expected);
-  EXPECT_EQ(anchors.places[2], "line 3");
+  EXPECT_EQ(anchors.locations[2], "line 3");
 }
 
 TEST(LandmarksCsv, FollowsTheNamesOfItsColumns) {
-  const NamedPoints truth = read_landmarks(data_file("landmarks/truth.csv"));
-  EXPECT_EQ(truth.names[2], "desk, left");
-  EXPECT_EQ(truth.positions_m(2, 0), 3.5);
-  EXPECT_EQ(truth.positions_m(2, 1), 2.75);
+  const NamedPoints ground_truth = read_landmarks(data_file("landmarks/groundtruth.csv"));
+  EXPECT_EQ(ground_truth.names[2], "desk, left");
+  EXPECT_EQ(ground_truth.positions_m(2, 0), 3.5);
+  EXPECT_EQ(ground_truth.positions_m(2, 1), 2.75);
 }
 
 TEST(LandmarksCsv, ReadsMrclamsGroundtruthToo) {
-  const NamedPoints truth = read_landmarks(data_file("mrclam/Landmark_Groundtruth.dat"));
-  EXPECT_EQ(truth.names, (std::vector<std::string>{"6", "7", "8"}));
-  EXPECT_EQ(truth.positions_m(0, 1), -1.25);
+  const NamedPoints ground_truth = read_landmarks(data_file("mrclam/Landmark_Groundtruth.dat"));
+  EXPECT_EQ(ground_truth.names, (std::vector<std::string>{"6", "7", "8"}));
+  EXPECT_EQ(ground_truth.positions_m(0, 1), -1.25);
 }
 
 TEST(LandmarksCsv, NamesTheLineThatIsWrong) {

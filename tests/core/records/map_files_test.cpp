@@ -26,7 +26,7 @@ TEST(MapJson, ComesBackTheSame) {
   EXPECT_EQ(*setting_of(map), (MethodSetting{Method::kIsomap, 4.0}));
   EXPECT_EQ(map.statuses[0].code, StatusCode::kLandmarkUnseen);
   EXPECT_TRUE(map.estimate.row(2).array().isNaN().all());
-  EXPECT_TRUE(map.truth_m->row(3).array().isNaN().all());
+  EXPECT_TRUE(map.ground_truth_m->row(3).array().isNaN().all());
   EXPECT_EQ(map_json(map), read_file(data_file("maps/map.json")));
 }
 
@@ -100,17 +100,17 @@ TEST(MapCsv, LeavesEmptyWhatIsNotKnown) {
             "yew,3,4,,,,0\r\n");
 }
 
-TEST(MapCsv, GivesNoErrorsOutsideTheFrameOfTheTruth) {
+TEST(MapCsv, GivesNoErrorsOutsideTheFrameOfTheGroundTruth) {
   MapRecord map = sample();
   map.frame = Frame::kSimilarity;
-  map.truth_m.reset();
+  map.ground_truth_m.reset();
   EXPECT_TRUE(map_csv(map).starts_with("name,x,y,true_x_m,true_y_m,anchor\r\noak,0,0,,,1\r\n"));
 }
 
 TEST(MapCsv, KeepsHostileNamesAsTheyAre) {
   MapRecord map = sample();
   map.names = {"=1+1", "a\"b,c", "two\nlines", " padded "};
-  map.truth_m.reset();
+  map.ground_truth_m.reset();
   const std::string csv = map_csv(map);
   EXPECT_NE(csv.find("\r\n=1+1,0,0,"), std::string::npos);
   EXPECT_NE(csv.find("\r\n\"a\"\"b,c\",4,0,"), std::string::npos);

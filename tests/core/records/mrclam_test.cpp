@@ -50,20 +50,20 @@ TEST(Mrclam, TakesWhatWasNotSeenAsMissingForBearingAndRange) {
   EXPECT_EQ(read_mrclam(data_file("mrclam"), Sensor::kRange).history.values(0, 2), 4.0);
 }
 
-TEST(Mrclam, TakesTheTruthFromItsFile) {
+TEST(Mrclam, TakesTheGroundTruthFromItsFile) {
   const ObservationSource source = read_mrclam(data_file("mrclam"), Sensor::kVisibility);
-  ASSERT_TRUE(source.truth_m.has_value());
+  ASSERT_TRUE(source.ground_truth_m.has_value());
   Points expected(3, 2);
   expected << 0.5, -1.25, 2.0, 1.5, -1.0, 3.0;
-  EXPECT_EQ(*source.truth_m, expected);
+  EXPECT_EQ(*source.ground_truth_m, expected);
 }
 
-TEST(Mrclam, DoesWithoutTheTruth) {
+TEST(Mrclam, DoesWithoutTheGroundTruth) {
   const test::TemporaryFolder folder;
   fs::copy(data_file("mrclam"), folder / "set");
   fs::remove(folder / "set/Landmark_Groundtruth.dat");
   const ObservationSource source = read_mrclam(folder / "set", Sensor::kVisibility);
-  EXPECT_FALSE(source.truth_m.has_value());
+  EXPECT_FALSE(source.ground_truth_m.has_value());
   EXPECT_NE(source.remarks.back().find("not known"), std::string::npos);
 }
 
@@ -103,8 +103,8 @@ TEST(MrclamData, HoldsFifteenLandmarksSeenInSomeTwentyThousandScans) {
   EXPECT_EQ(source.history.names.back(), "20");
   EXPECT_GT(source.history.steps(), 10'000);
   EXPECT_NEAR(source.history.values.sum() / static_cast<double>(source.history.steps()), 1.5, 0.2);
-  ASSERT_TRUE(source.truth_m.has_value());
-  EXPECT_TRUE(source.truth_m->allFinite());
+  ASSERT_TRUE(source.ground_truth_m.has_value());
+  EXPECT_TRUE(source.ground_truth_m->allFinite());
 }
 
 }  // namespace

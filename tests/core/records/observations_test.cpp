@@ -46,7 +46,7 @@ TEST(WideObservations, AreReadWithNamesHeaderAndComments) {
       read_observations(data_file("observations/wide_named.csv"), Sensor::kVisibility);
   EXPECT_EQ(source.history.names,
             (std::vector<std::string>{"door", "window", "desk, left", "shelf"}));
-  EXPECT_EQ(source.places[2], "line 5");
+  EXPECT_EQ(source.locations[2], "line 5");
   Eigen::MatrixXd expected(4, 5);
   expected << 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, kNaN, 1, 0, 0, 1, 1;
   expect_values(source.history, expected);
@@ -91,7 +91,7 @@ TEST(WideObservations, KeepHostileNamesAsTheyAre) {
                 Sensor::kVisibility);
   EXPECT_EQ(source.history.names[0], name);
   EXPECT_EQ(source.history.names[1].size(), 10'000U);
-  EXPECT_EQ(source.places[1], "line 3");
+  EXPECT_EQ(source.locations[1], "line 3");
 }
 
 TEST(WideObservations, NameTheLineAndCountsOfARaggedRow) {
@@ -161,7 +161,7 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
   expected << 0.5, 0.75, kNaN, -0.5, kNaN, 1.5, kNaN, kNaN, -2;
   expect_values(source.history, expected);
   EXPECT_TRUE(source.remarks.empty());
-  EXPECT_EQ(source.places[2], "line 5");
+  EXPECT_EQ(source.locations[2], "line 5");
 }
 
 TEST(LongObservations, OfDetectionsAloneTakeTheRestAsNotSeen) {
@@ -243,7 +243,7 @@ TEST(JsonObservations, NameTheirOwnSensorAndComeBackTheSame) {
   Eigen::MatrixXd expected(3, 4);
   expected << 0.5, kNaN, -1.5, 3, -0.25, 1.75, kNaN, 0.125, 2.5, -2.5, 0, kNaN;
   expect_values(source.history, expected);
-  EXPECT_EQ(source.places[1], "/values/1");
+  EXPECT_EQ(source.locations[1], "/values/1");
   const TemporaryFolder folder;
   const auto again = folder.file("again.json", observations_json(source.history));
   expect_values(read_observations(again, Sensor::kBearing).history, expected);

@@ -130,7 +130,7 @@ TEST(ResultsStudy, SaysWhichLabelsAreTheSame) {
 TEST(ResultsStudy, NamesFilesThatAreNotRead) {
   const test::TemporaryFolder folder;
   for (const char* file : {"maps/a.csv", "maps/b.txt", "maps/.hidden", "paths/a.csv", "paths/b.tum",
-                           "paths/b.truth.tum"})
+                           "paths/b.groundtruth.tum"})
     write_file(folder / file, "");
   EXPECT_EQ(passed_over_files(folder.path()),
             (std::vector<std::string>{"maps/b.txt: is not read: a map is maps/NAME.csv",
@@ -186,11 +186,11 @@ TEST(ResultsStudy, PathsAreAlignedAsItSays) {
   };
   write_file(folder / "paths/a.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n");
   EXPECT_EQ(alignment(R"(, "paths": {"align": "rigid"})"), Alignment::kNone) << "no ground truth";
-  write_file(folder / "paths/a.truth.tum", "0 0 0 0 0 0 0 1\n1 0 1 0 0 0 0 1\n");
+  write_file(folder / "paths/a.groundtruth.tum", "0 0 0 0 0 0 0 1\n1 0 1 0 0 0 0 1\n");
   EXPECT_EQ(alignment(R"(, "paths": {"align": "similarity"})"), Alignment::kSimilarity);
   EXPECT_EQ(alignment(R"(, "paths": {"align": "none"})"), Alignment::kNone);
   EXPECT_EQ(alignment(""), Alignment::kNone);
-  write_file(folder / "paths/a.truth.tum", "5 0 0 0 0 0 0 1\n6 0 1 0 0 0 0 1\n");
+  write_file(folder / "paths/a.groundtruth.tum", "5 0 0 0 0 0 0 1\n6 0 1 0 0 0 0 1\n");
   EXPECT_THROW(alignment(R"(, "paths": {"align": "rigid"})"), IoError) << "other times";
   EXPECT_EQ(alignment(""), Alignment::kNone);
   EXPECT_EQ(problem(kHead + R"(, "paths": {"align": "best"}})", kTable),

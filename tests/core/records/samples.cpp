@@ -124,7 +124,7 @@ RunResult made_up_result(const RunId& id) {
   map.names = {"L1", "L2", "L3", "L4"};
   map.estimate = run.world.landmarks_m;
   map.estimate.row(2).setConstant(nan);
-  map.truth_m = run.world.landmarks_m;
+  map.ground_truth_m = run.world.landmarks_m;
   map.anchors = run.anchors;
   map.score = score;
   result.maps = {map};

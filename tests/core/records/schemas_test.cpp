@@ -46,7 +46,7 @@ TEST(Schemas, HoldForEveryFileOfAStudy) {
         folder.path(), study_start(test::small_experiment(), test::made_up_provenance()));
     RunResult result = test::made_up_result({1, 1});
     result.maps.push_back(result.maps[0]);
-    result.maps[1].truth_m.reset();
+    result.maps[1].ground_truth_m.reset();
     store.write(part_of(result));
     store.write_session(test::made_up_session());
   }
@@ -164,11 +164,11 @@ TEST_P(Damaged, FileIsRefusedByTheSchemaAndByTheReader) {
   const Damage& damage = GetParam();
   json value = sound(damage.kind);
   ASSERT_EQ(schema_problem(damage.kind, value), "");
-  const json::json_pointer place(damage.pointer);
+  const json::json_pointer location(damage.pointer);
   if (damage.value.is_null())
-    value[place.parent_pointer()].erase(place.back());
+    value[location.parent_pointer()].erase(location.back());
   else
-    value[place] = damage.value;
+    value[location] = damage.value;
   EXPECT_NE(schema_problem(damage.kind, value), "");
   const fs::path path = folder_.file("damaged.json", value.dump());
   EXPECT_NE(validate(path).at(0).problem, "") << value.dump(1);
@@ -210,7 +210,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"details", "/sensors/0/distances/0", "far"},
         Damage{"details", "/sensors/0/spectra/0/method", "magic"}, Damage{"maps", "/names/0", ""},
         Damage{"maps", "/maps/0/estimate", nullptr}, Damage{"maps", "/maps/0/frame", "lies"},
-        Damage{"map", "/names", {"a", "a"}}, Damage{"map", "/truth_m", nullptr},
+        Damage{"map", "/names", {"a", "a"}}, Damage{"map", "/ground_truth_m", nullptr},
         Damage{"map", "/step", -1}, Damage{"map", "/estimate/0", {1, 2, 3}},
         Damage{"slam_experiment", "/colour", "red"}, Damage{"slam_experiment", "/methods", nullptr},
         Damage{"slam_experiment", "/methods/0", "magic"},
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"slam_experiment", "/convergence/noises/0/correlation", 1},
         Damage{"slam_experiment", "/data/0/id", "A b"},
         Damage{"slam_experiment", "/histories/methods/0", "magic"},
-        Damage{"slam_run", "/log/truth/x_m", nullptr}, Damage{"slam_run", "/log/start", {1}},
+        Damage{"slam_run", "/log/ground_truth/x_m", nullptr}, Damage{"slam_run", "/log/start", {1}},
         Damage{"slam_run", "/log/ranges/landmark/0", -1},
         Damage{"slam_run", "/records/0/method", "magic"},
         Damage{"slam_run", "/records/0/errors/0/alignment", "some"},

@@ -22,7 +22,7 @@ RangeLog made_up_log() {
   log.start = {.time_s = 0.5, .x_m = 1.5, .y_m = -2.0, .heading_rad = 0.1};
   log.odometry = {{.time_s = 1.0, .distance_m = 0.4, .turn_rad = 0.2, .sideways_m = 0.0},
                   {.time_s = 2.25, .distance_m = -0.3, .turn_rad = 0.0, .sideways_m = 0.05}};
-  log.truth = short_path(0.0, true);
+  log.ground_truth = short_path(0.0, true);
   log.true_landmarks = Points(3, 2);
   *log.true_landmarks << 0.0, 1.0, kNaN, kNaN, 5.0, 5.5;
   log.remarks = {"The stamps jump back once."};
@@ -84,7 +84,7 @@ SlamRun made_up_slam_run(const std::string& id) {
                  .mean_m = std::nullopt,
                  .iterations = 3,
                  .converged = false}};
-  run.published = PublishedDrive{.length_km = 1.9, .poses = 9658, .readings = 3529};
+  run.published = PublishedDrive{.length_km = 1.9, .poses = 9658, .measurements = 3529};
   run.upgrade.emplace();
   run.upgrade->steps = {0, 2};
   run.upgrade->before = {SpacePoints::Constant(2, 3, 1.0 / 7.0), Eigen::Matrix4d::Identity()};

@@ -95,7 +95,7 @@ TEST(SlamStudy, KnowsWhatItHoldsAndWhatIsDamagedOrOfAnotherLog) {
 TEST(SlamStudy, WritesEachPathAsTumAndCsv) {
   const test::TemporaryFolder folder;
   { filled(folder.path(), test::made_up_provenance()); }
-  for (const char* file : {"truth.tum", "truth.csv", "refined.tum", "refined.csv"})
+  for (const char* file : {"groundtruth.tum", "groundtruth.csv", "refined.tum", "refined.csv"})
     EXPECT_TRUE(fs::exists(folder / "paths/drive" / file)) << file;
   EXPECT_FALSE(fs::exists(folder / "paths/drive/ekf.csv"));
   EXPECT_TRUE(

@@ -93,7 +93,7 @@ TEST(StudyWriter, KeepsTheMapsOfARunWithTheirHoles) {
   result.maps.push_back(result.maps[0]);
   result.maps[1].id += "-other";
   result.maps[1].anchors = {2};
-  result.maps[1].truth_m.reset();
+  result.maps[1].ground_truth_m.reset();
   result.maps[1].frame = Frame::kSimilarity;
   open_store(folder.path()).write(part_of(result));
   const std::vector<MapRecord> maps = read_maps(folder.path(), id);
@@ -103,7 +103,7 @@ TEST(StudyWriter, KeepsTheMapsOfARunWithTheirHoles) {
     EXPECT_EQ(maps[i].names, result.maps[i].names);
     EXPECT_EQ(maps[i].anchors, result.maps[i].anchors);
     EXPECT_EQ(maps[i].frame, result.maps[i].frame);
-    EXPECT_EQ(maps[i].truth_m, result.maps[i].truth_m);
+    EXPECT_EQ(maps[i].ground_truth_m, result.maps[i].ground_truth_m);
     EXPECT_EQ(maps[i].estimate.topRows(2), result.maps[i].estimate.topRows(2));
     EXPECT_TRUE(maps[i].estimate.row(2).array().isNaN().all());
   }

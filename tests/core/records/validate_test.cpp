@@ -25,7 +25,7 @@ TEST(Validate, KnowsEveryKindOfFileThatIsRead) {
   const std::vector<std::pair<std::string, std::string>> kinds = {
       {"experiments/small.json", "mapproof.experiment 1"},
       {"landmarks/anchors.csv", "landmarks with positions"},
-      {"landmarks/truth.csv", "landmarks with positions"},
+      {"landmarks/groundtruth.csv", "landmarks with positions"},
       {"maps/map.json", "mapproof.map 1"},
       {"mrclam", "MRCLAM observations"},
       {"mrclam/Landmark_Groundtruth.dat", "landmarks with positions"},
@@ -80,12 +80,12 @@ TEST(Validate, TellsAFaultOfAStudyOnceAndRemarksBesideIt) {
   folder.file("results.csv", "setup,method,quantity,value\ns,m,q,0.5\n");
   const auto problems = [&](const std::string& end) {
     folder.file("study.json", head + end);
-    std::vector<std::string> told;
+    std::vector<std::string> reported;
     for (const Finding& finding : validate(folder.path())) {
-      if (!finding.problem.empty()) told.push_back(finding.problem);
-      told.insert(told.end(), finding.remarks.begin(), finding.remarks.end());
+      if (!finding.problem.empty()) reported.push_back(finding.problem);
+      reported.insert(reported.end(), finding.remarks.begin(), finding.remarks.end());
     }
-    return told;
+    return reported;
   };
   EXPECT_EQ(problems(", \"metods\": []}").size(), 1U);
   ASSERT_EQ(problems("}").size(), 1U);

@@ -6,7 +6,7 @@
 
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/gappy.hpp"
+#include "tests/support/incomplete.hpp"
 #include "tests/support/worlds.hpp"
 
 namespace mapproof {

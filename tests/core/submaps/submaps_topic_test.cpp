@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_words.hpp"
-#include "tests/support/gappy.hpp"
+#include "reports/sections/trials/topic_text.hpp"
+#include "tests/support/incomplete.hpp"
 
 namespace mapproof {
 namespace {

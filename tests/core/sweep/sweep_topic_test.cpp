@@ -10,7 +10,7 @@
 #include "core/simulate/sensors.hpp"
 #include "core/topics/trials.hpp"
 #include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_words.hpp"
+#include "reports/sections/trials/topic_text.hpp"
 
 namespace mapproof {
 namespace {

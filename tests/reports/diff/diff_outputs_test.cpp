@@ -91,7 +91,7 @@ TEST(DiffSettings, TakeEveryKeyThatTheSchemaHas) {
     "records": {"significance": 0.01, "least_effect": 0.5,
                 "tolerances": {"mpe_m": {"absolute": 0.001}, "other": {"relative": 0.1}}},
     "figures": {"position": {"absolute": 0.5}},
-    "pictures": {"noise": 3, "mean_noise": 1, "displacement_px": 1, "changed_share": 0.001,
+    "images": {"noise": 3, "mean_noise": 1, "displacement_px": 1, "changed_share": 0.001,
                  "svg_distance": 0.1, "svg_colour": 2},
     "ignore": [{"id": "a", "x": 1, "y": 2, "width": 3, "height": 4},
                {"id": "*", "x": 9, "y": 9, "width": 1, "height": 1}],
@@ -102,9 +102,9 @@ TEST(DiffSettings, TakeEveryKeyThatTheSchemaHas) {
   EXPECT_EQ(settings.records.significance, 0.01);
   EXPECT_EQ(settings.records.tolerances.at("mpe_m").absolute, 0.001);
   EXPECT_EQ(settings.records.tolerances.at("mpe_m").relative, 1e-6);  // As without settings.
-  EXPECT_EQ(settings.pictures_of("a").ignored.size(), 2U);
-  EXPECT_EQ(settings.pictures_of("b").ignored.size(), 1U);
-  EXPECT_EQ(settings.pictures.noise, 3.0);
+  EXPECT_EQ(settings.images_of("a").ignored.size(), 2U);
+  EXPECT_EQ(settings.images_of("b").ignored.size(), 1U);
+  EXPECT_EQ(settings.images.noise, 3.0);
   EXPECT_EQ(settings.allowed.size(), 2U);
 }
 
@@ -124,7 +124,7 @@ TEST(DiffSettings, AreRefusedWithFileAndPointer) {
             std::string::npos);
   EXPECT_NE(refusal(R"(, "records": {"significance": 2})").find("/records/significance"),
             std::string::npos);
-  EXPECT_NE(refusal(R"(, "pictures": {"noise": -1})").find("/pictures/noise"), std::string::npos);
+  EXPECT_NE(refusal(R"(, "images": {"noise": -1})").find("/images/noise"), std::string::npos);
   EXPECT_NE(refusal(R"(, "ignore": [{"id": "a", "x": 1, "y": 2, "width": 0, "height": 4}])")
                 .find("/ignore/0/width"),
             std::string::npos);

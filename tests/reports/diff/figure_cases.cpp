@@ -138,8 +138,8 @@ void add_records(std::vector<ValueCase>& cases) {
                                    [](Figure& f) { f.record_ids[0] = "layout-9-pose-1/x/y/1"; }));
 }
 
-ValueCase unknown_key(const Figure& figure, const std::string& place) {
-  return {.name = figure.id + ": an unknown key in " + place,
+ValueCase unknown_key(const Figure& figure, const std::string& location) {
+  return {.name = figure.id + ": an unknown key in " + location,
           .id = figure.id,
           .verdict = Verdict::kUnreadable,
           .cause = {figure.id + ".figure.json", "colour"},
@@ -148,7 +148,7 @@ ValueCase unknown_key(const Figure& figure, const std::string& place) {
               [=](const fs::path& folder) {
                 const fs::path file = folder / "figures" / (figure.id + ".figure.json");
                 auto root = nlohmann::ordered_json::parse(read_file(file));
-                root[nlohmann::ordered_json::json_pointer(place)]["colour"] = 1;
+                root[nlohmann::ordered_json::json_pointer(location)]["colour"] = 1;
                 write_file(file, root.dump(1));
               },
           .alone = true};
@@ -223,8 +223,8 @@ std::vector<ValueCase> figure_cases() {
   add_curve_styles(figures()[2], cases);
   add_data(cases);
   add_records(cases);
-  for (const char* place : {"", "/panels/0", "/panels/0/x", "/panels/0/layers/0"})
-    cases.push_back(unknown_key(figures()[1], place));
+  for (const char* location : {"", "/panels/0", "/panels/0/x", "/panels/0/layers/0"})
+    cases.push_back(unknown_key(figures()[1], location));
   return cases;
 }
 

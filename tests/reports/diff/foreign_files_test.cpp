@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kPictures = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines/";
+const std::string kImages = std::string(MAPPROOF_SOURCE_DIR) + "/tests/baselines/";
 
 /// Folders of images by other programs.
 struct Foreign {
@@ -32,11 +32,11 @@ struct Foreign {
   }
 };
 
-std::string picture(const std::string& name) { return read_file(kPictures + name + ".png"); }
+std::string image(const std::string& name) { return read_file(kImages + name + ".png"); }
 
 TEST(ForeignFiles, HaveEndingsInUpperCaseToo) {
   const Foreign two;
-  two.add("a.PNG", picture("map-usual"), picture("curve-usual"));
+  two.add("a.PNG", image("map-usual"), image("curve-usual"));
   two.add("b.Svg", "<svg><rect x='1'/></svg>", "<svg><rect x='9'/></svg>");
   EXPECT_EQ(two.item("a").judgement.verdict, Verdict::kChanged);
   EXPECT_EQ(two.item("b").judgement.verdict, Verdict::kChanged);
@@ -57,11 +57,11 @@ TEST(ForeignFiles, OfKindsThatAreNotComparedNeverPassIfTheirBytesDiffer) {
 
 TEST(ForeignFiles, AreNotIdenticalWhereAnIgnoredRegionHidesWhatDiffers) {
   const Foreign two;
-  two.add("a.png", picture("map-usual"), picture("map-usual"));
+  two.add("a.png", image("map-usual"), image("map-usual"));
   DiffSettings settings;
   settings.ignored = {{"a", {0, 0, 100'000, 100'000}}, {"mistyped", {0, 0, 1, 1}}};
   EXPECT_EQ(two.item("a", settings).judgement.verdict, Verdict::kIdentical);
-  two.add("a.png", picture("curve-usual"), picture("curve-log"));
+  two.add("a.png", image("curve-usual"), image("curve-log"));
   const DiffItem item = two.item("a", settings);
   EXPECT_EQ(item.judgement.verdict, Verdict::kWithinTolerance);
   EXPECT_NE(item.judgement.cause.find("ignored"), std::string::npos) << item.judgement.cause;
@@ -72,7 +72,7 @@ TEST(ForeignFiles, AreNotIdenticalWhereAnIgnoredRegionHidesWhatDiffers) {
 
 TEST(ForeignFiles, AFolderWithTheNameOfAnImageCannotBeRead) {
   const Foreign two;
-  write_file(two.before / "a.png", picture("map-usual"));
+  write_file(two.before / "a.png", image("map-usual"));
   fs::create_directories(two.after / "a.png");
   const DiffItem item = two.item("a");
   EXPECT_EQ(item.judgement.verdict, Verdict::kUnreadable) << item.judgement.cause;

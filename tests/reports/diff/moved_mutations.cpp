@@ -89,7 +89,7 @@ std::vector<std::size_t> last_label(const Drawing& drawing) {
 
 }  // namespace
 
-std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::string& picture) {
+std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::string& image) {
   std::vector<Mutation> found;
   const auto shared = std::make_shared<Drawing>(drawing);
   const auto add = [&](std::string name, const Change& before, const Change& after) {
@@ -98,8 +98,8 @@ std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::stri
       change(other);
       return drawn(other);
     };
-    found.push_back({std::move(name), picture, PictureState::kDifferent,
-                     [=] { return made(before); }, [=] { return made(after); }});
+    found.push_back({std::move(name), image, ImageState::kDifferent, [=] { return made(before); },
+                     [=] { return made(after); }});
   };
   const Change none = [](Drawing&) {};
   if (data_markers(drawing) >= 6) {

@@ -51,8 +51,8 @@ Image tinted(Image image, std::uint32_t from, std::uint32_t to) {
 
 class Mutations {
  public:
-  Mutations(const Drawing& drawing, std::string picture)
-      : drawing_(std::make_shared<Drawing>(drawing)), picture_(std::move(picture)) {}
+  Mutations(const Drawing& drawing, std::string image)
+      : drawing_(std::make_shared<Drawing>(drawing)), image_(std::move(image)) {}
 
   std::vector<Mutation> all() {
     harmless();
@@ -64,21 +64,21 @@ class Mutations {
   }
 
  private:
-  void add(std::string name, PictureState expected, std::function<Image()> current) {
-    found_.push_back({std::move(name), picture_, expected,
+  void add(std::string name, ImageState expected, std::function<Image()> current) {
+    found_.push_back({std::move(name), image_, expected,
                       [drawing = drawing_] { return drawn(*drawing); }, std::move(current)});
   }
   void style(std::string name, const Style& style) {
-    add(std::move(name), PictureState::kWithinTolerance,
+    add(std::move(name), ImageState::kWithinTolerance,
         [drawing = drawing_, style] { return drawn(*drawing, style); });
   }
   void text(std::string name, Style style) {
     style.outlined = false;
-    found_.push_back({std::move(name), picture_, PictureState::kWithinTolerance,
+    found_.push_back({std::move(name), image_, ImageState::kWithinTolerance,
                       [drawing = drawing_] { return drawn(*drawing, {.outlined = false}); },
                       [drawing = drawing_, style] { return drawn(*drawing, style); }});
   }
-  void change(std::string name, PictureState expected, const Change& change) {
+  void change(std::string name, ImageState expected, const Change& change) {
     add(std::move(name), expected, [drawing = drawing_, change] {
       Drawing other = *drawing;
       change(other);
@@ -103,11 +103,11 @@ class Mutations {
   }
 
   void harmless() {
-    add("the same", PictureState::kIdentical, [drawing = drawing_] { return drawn(*drawing); });
+    add("the same", ImageState::kIdentical, [drawing = drawing_] { return drawn(*drawing); });
     for (const std::uint64_t seed : {1, 2})
-      add("noise", PictureState::kWithinTolerance,
+      add("noise", ImageState::kWithinTolerance,
           [drawing = drawing_, seed] { return noisy(drawn(*drawing), seed); });
-    found_.push_back({"noise on both", picture_, PictureState::kWithinTolerance,
+    found_.push_back({"noise on both", image_, ImageState::kWithinTolerance,
                       [drawing = drawing_] { return noisy(drawn(*drawing), 3); },
                       [drawing = drawing_] { return noisy(drawn(*drawing), 4); }});
     style("moved 0.1 px right", {.right_px = 0.1});
@@ -128,7 +128,7 @@ class Mutations {
   }
 
   void whole_page() {
-    using enum PictureState;
+    using enum ImageState;
     for (const auto& [right, down] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {1, 1}})
       add(fmt::format("all moved {} {} px", right, down), kDifferent,
           [drawing = drawing_, right = right, down = down] {
@@ -148,7 +148,7 @@ class Mutations {
   }
 
   void marks() {
-    using enum PictureState;
+    using enum ImageState;
     const auto wanted = [](const Item& item) {
       return item.role == Role::kMarker && std::holds_alternative<Stamp>(item.what);
     };
@@ -187,7 +187,7 @@ class Mutations {
   }
 
   void lines() {
-    using enum PictureState;
+    using enum ImageState;
     const auto is_shape = [](const Item& item) { return std::holds_alternative<Shape>(item.what); };
     for (const std::size_t i : some([&](const Item& item) {
            return is_shape(item) && (item.role == Role::kLine || item.role == Role::kGrid ||
@@ -221,7 +221,7 @@ class Mutations {
   }
 
   void words() {
-    using enum PictureState;
+    using enum ImageState;
     for (const std::size_t i : some([](const Item& item) {
            return item.role == Role::kTickLabel && std::holds_alternative<TextLine>(item.what);
          }))
@@ -248,7 +248,7 @@ class Mutations {
   }
 
   std::shared_ptr<Drawing> drawing_;
-  std::string picture_;
+  std::string image_;
   std::vector<Mutation> found_;
 };
 
@@ -269,8 +269,8 @@ Theme pale_theme() {
 
 }  // namespace
 
-std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& picture) {
-  return Mutations(drawing, picture).all();
+std::vector<Mutation> mutations_of(const Drawing& drawing, const std::string& image) {
+  return Mutations(drawing, image).all();
 }
 
 std::vector<std::pair<std::string, Drawing>> mutable_drawings() {

@@ -52,7 +52,7 @@ ValueCase changed_study(const std::string& name, const std::string& id, Verdict 
 }
 
 void scale_errors(MapRecord& map, double by) {
-  map.estimate = *map.truth_m + by * (map.estimate - *map.truth_m);
+  map.estimate = *map.ground_truth_m + by * (map.estimate - *map.ground_truth_m);
 }
 
 void add_seeds(std::vector<ValueCase>& cases) {
@@ -82,7 +82,7 @@ void add_moves(std::vector<ValueCase>& cases) {
                           : fmt::format("landmark L{} moved 1 m", row + 1);
         const auto change = [=](SmallStudy& study) {
           MapRecord& map = study.map(record);
-          const Eigen::RowVector2d error = map.estimate.row(row) - map.truth_m->row(row);
+          const Eigen::RowVector2d error = map.estimate.row(row) - map.ground_truth_m->row(row);
           map.estimate.row(row) += moved_m * error.normalized();
           study.rescore();
         };

@@ -161,7 +161,7 @@ TEST(RecordDiff, TakesALostScoreForWorseAndAGainedOneForBetter) {
 TEST(RecordDiff, ReportsAMapAndAFileOnOnlyOneSide) {
   RecordSet before = set_of(3);
   const std::string record = "layout-2-pose-1/bearing/lpca/100";
-  before.points[record] = {.names = {"a"}, .points = Points::Zero(1, 2), .truth = {}};
+  before.points[record] = {.names = {"a"}, .points = Points::Zero(1, 2), .ground_truth = {}};
   RecordSet after = before;
   after.points.clear();
   for (const auto& [one, other] : {std::pair{before, after}, {after, before}}) {

@@ -1,4 +1,4 @@
-#include "reports/diff/images/image_judgement.hpp"
+#include "reports/diff/images/pixel_judgement.hpp"
 
 #include <gtest/gtest.h>
 

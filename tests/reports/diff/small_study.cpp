@@ -49,21 +49,21 @@ double mpe_of(const MapRecord& map) {
   for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) {
     if (std::ranges::find(map.anchors, i) != map.anchors.end()) continue;
     if (!map.estimate.row(i).allFinite()) continue;
-    sum += (map.estimate.row(i) - map.truth_m->row(i)).norm();
+    sum += (map.estimate.row(i) - map.ground_truth_m->row(i)).norm();
     ++count;
   }
   return sum / count;
 }
 
-MapRecord make_map(const RunId& run, const MethodSetting& setting, int step, const Points& truth,
-                   Random& random) {
+MapRecord make_map(const RunId& run, const MethodSetting& setting, int step,
+                   const Points& ground_truth, Random& random) {
   MapRecord map;
   map.id = record_id(run, kSensor, setting, step);
   map.origin = FromSensor{kSensor, setting};
   map.step = step;
   map.anchors = {0, 3, 8, 11};
-  map.truth_m = truth;
-  map.estimate = truth;
+  map.ground_truth_m = ground_truth;
+  map.estimate = ground_truth;
   const double error_m = (setting.method == Method::kLpca ? 0.1 : 0.05) * (step == 100 ? 1.4 : 1.0);
   for (Eigen::Index i = 0; i < kLandmarks; ++i) {
     map.names.push_back("L" + std::to_string(i + 1));

@@ -110,11 +110,11 @@ Change without(std::size_t item) {
 
 class SubtleMutations {
  public:
-  SubtleMutations(const Drawing& drawing, std::string picture)
-      : drawing_(drawing), picture_(std::move(picture)) {}
+  SubtleMutations(const Drawing& drawing, std::string image)
+      : drawing_(drawing), image_(std::move(image)) {}
 
   std::vector<Mutation> all() {
-    using enum PictureState;
+    using enum ImageState;
     const Change none = [](Drawing&) {};
     for (const Colour colour : line_colours(drawing_))
       for (const double times : {0.7, 1.25, 1.5})
@@ -135,15 +135,14 @@ class SubtleMutations {
   }
 
  private:
-  void add(std::string name, PictureState expected, const Change& before, const Change& after,
+  void add(std::string name, ImageState expected, const Change& before, const Change& after,
            const Style& style_before = {}, const Style& style = {}) {
     const auto made = [drawing = drawing_](const Change& change, const Style& as) {
       Drawing other = drawing;
       change(other);
       return drawn(other, as);
     };
-    found_.push_back({std::move(name), picture_, expected,
-                      [=] { return made(before, style_before); },
+    found_.push_back({std::move(name), image_, expected, [=] { return made(before, style_before); },
                       [=] { return made(after, style); }});
   }
 
@@ -178,7 +177,7 @@ class SubtleMutations {
     const Change none = [](Drawing&) {};
     const auto moved = [&](const std::string& name, const Change& change) {
       if (!is_seen(change)) return;
-      add(fmt::format("{}, all moved {} {} px", name, right, down), PictureState::kDifferent, none,
+      add(fmt::format("{}, all moved {} {} px", name, right, down), ImageState::kDifferent, none,
           change, {}, {.right_px = right, .down_px = down});
     };
     for (const std::size_t i : one(Role::kMarker)) moved("marker lost", without(i));
@@ -193,21 +192,21 @@ class SubtleMutations {
     const Style plain{.outlined = false};
     const Style automatic{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false, .font_hints = false};
     const Style own{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false};
-    add("hinted by the rasterizer", PictureState::kWithinTolerance, none, none, plain, automatic);
-    add("hinted by the font for the rasterizer", PictureState::kWithinTolerance, none, none,
+    add("hinted by the rasterizer", ImageState::kWithinTolerance, none, none, plain, automatic);
+    add("hinted by the font for the rasterizer", ImageState::kWithinTolerance, none, none,
         automatic, own);
     for (const auto& [right, down] : {std::pair{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}})
       add(fmt::format("hinted by the rasterizer and moved {} {} px", right, down),
-          PictureState::kWithinTolerance, none, LayerMove{"text", is_text, right, down}, plain,
+          ImageState::kWithinTolerance, none, LayerMove{"text", is_text, right, down}, plain,
           automatic);
     for (const std::size_t i : one(Role::kTickLabel))
       for (const int by : {1, 3, 6})
-        add(fmt::format("hinted digit {} further", by), PictureState::kDifferent, none,
+        add(fmt::format("hinted digit {} further", by), ImageState::kDifferent, none,
             other_digit(i, by), automatic, automatic);
   }
 
   Drawing drawing_;
-  std::string picture_;
+  std::string image_;
   std::vector<Mutation> found_;
 };
 
@@ -223,8 +222,8 @@ Change other_digit(std::size_t item, int by) {
   };
 }
 
-std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& picture) {
-  return SubtleMutations(drawing, picture).all();
+std::vector<Mutation> subtle_mutations_of(const Drawing& drawing, const std::string& image) {
+  return SubtleMutations(drawing, image).all();
 }
 
 }  // namespace mapproof::test

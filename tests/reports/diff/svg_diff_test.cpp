@@ -169,7 +169,7 @@ TEST(SvgDiff, AnEmptyRemarkThatIsNewIsListed) {
   EXPECT_EQ(body_diff("<g/>", "<g fill=''/>").total, 0);
 }
 
-TEST(SvgDiff, TextAndRemarksAreToldApart) {
+TEST(SvgDiff, DistinguishesTextFromRemarks) {
   const SvgDiff found = body_diff("<title>a</title><text>x</text><g data-p='1'/>",
                                   "<title>b</title><text>y</text><g data-p='2'/>");
   EXPECT_EQ(found.text, 1);
@@ -204,7 +204,7 @@ TEST(SvgDiff, OneOfCountedElementsThatIsGoneIsOneChange) {
   EXPECT_EQ(body_diff(all, "<g id='p1'><rect x='2'/></g><g id='p3'/>").geometry, 1);
 }
 
-TEST(SvgDiff, IdsThatAreMadeUpAnewAreRemarks) {
+TEST(SvgDiff, IdsThatAreMadeUpAgainAreRemarks) {
   const SvgDiff found = body_diff("<defs><path id='m1f' d='M0 0'/></defs><use xlink:href='#m1f'/>",
                                   "<defs><path id='x9a' d='M0 0'/></defs><use href='#x9a'/>");
   EXPECT_EQ(found.tolerated, found.total);

@@ -12,8 +12,8 @@ namespace {
 
 TrialStudy two_runs() {
   TrialStudy study;
-  study.experiment.name = "labels";
-  study.experiment.topic = "labels";
+  study.experiment.name = "association";
+  study.experiment.topic = "association";
   study.experiment.layouts = 2;
   study.design = {.setups = {{.id = "all", .title = "All"}},
                   .series = {{.id = "joint", .label = "Joint"}},

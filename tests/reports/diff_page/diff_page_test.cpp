@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-std::string page_of(const DiffResult& result, const PictureBudget& budget = {}) {
+std::string page_of(const DiffResult& result, const ImageBudget& budget = {}) {
   return diff_html(result, {}, load_templates(), budget);
 }
 
@@ -71,9 +71,8 @@ TEST(DiffPage, MakesAHeatMapWithinToleranceToo) {
   const test::TemporaryFolder folder;
   DiffResult result = test::compared_folders(folder.path());
   for (DiffItem& item : result.items)
-    for (PictureFile& file : item.pictures)
-      if (file.diff.state == PictureState::kDifferent)
-        file.diff.state = PictureState::kWithinTolerance;
+    for (ImageFile& file : item.images)
+      if (file.diff.state == ImageState::kDifferent) file.diff.state = ImageState::kWithinTolerance;
   EXPECT_EQ(count_of(page_of(result), "class=\"pane heat\""), 1);
 }
 
@@ -109,10 +108,10 @@ TEST(DiffPage, ShowsNoPngThatClaimsToBeHuge) {
   DiffItem item;
   item.id = "huge";
   item.judgement = {Verdict::kNew, true, "is not in the baseline"};
-  PictureFile file;
+  ImageFile file;
   file.format = "png";
   file.current = folder / "huge.png";
-  item.pictures = {file};
+  item.images = {file};
   DiffResult result;
   result.items = {item};
   const std::string page = page_of(result);

@@ -8,7 +8,7 @@
 #include "core/base/files.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/folder_diff.hpp"
-#include "reports/diff/images/picture_diff.hpp"
+#include "reports/diff/images/image_diff.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -51,7 +51,7 @@ FigureDiff figure(Trap& text) {
   diff.changes = {{ChangeKind::kData, text(), text(), text(), text()}};
   diff.total_changes = 1;
   MarkMove move;
-  move.place = text();
+  move.location = text();
   move.landmark = text();
   move.distance = 0.041;
   move.distance_px = 9.1;
@@ -97,13 +97,13 @@ RecordDiff records(Trap& text) {
   return diff;
 }
 
-PictureFile picture(Trap& text, const fs::path& baseline, const fs::path& current) {
-  PictureFile file;
+ImageFile image(Trap& text, const fs::path& baseline, const fs::path& current) {
+  ImageFile file;
   file.format = "png";
   file.baseline_key = text();
   file.baseline = baseline;
   file.current = current;
-  file.diff.state = PictureState::kDifferent;
+  file.diff.state = ImageState::kDifferent;
   file.diff.reason = text();
   file.diff.baseline_renderer = text();
   file.diff.current_renderer = text();
@@ -123,17 +123,17 @@ DiffItem hostile_item(Trap& text, ItemKind kind, Verdict verdict) {
 
 /// Two SVGs that differ, by hand: whatever a folder's comparison says of them.
 DiffItem drawn_item(const fs::path& folder) {
-  PictureFile file;
+  ImageFile file;
   file.format = "svg";
   file.baseline = folder / "drawn-a.svg";
   file.current = folder / "drawn-b.svg";
   write_file(file.baseline, circle_svg(30));
   write_file(file.current, circle_svg(60));
-  file.diff = picture_diff(file.baseline, file.current);
+  file.diff = image_diff(file.baseline, file.current);
   DiffItem item;
   item.id = "drawn";
   item.judgement = {Verdict::kChanged, true, file.diff.reason};
-  item.pictures = {std::move(file)};
+  item.images = {std::move(file)};
   return item;
 }
 
@@ -182,13 +182,13 @@ HostileDiff hostile_diff(const fs::path& folder) {
   first.records = records(text);
   DiffItem second = hostile_item(text, ItemKind::kFigure, Verdict::kWorse);
   second.figure = figure(text);
-  second.pictures = {picture(text, folder / "before.png", folder / "after.png")};
-  DiffItem third = hostile_item(text, ItemKind::kPicture, Verdict::kNew);
-  PictureFile svg;
+  second.images = {image(text, folder / "before.png", folder / "after.png")};
+  DiffItem third = hostile_item(text, ItemKind::kImage, Verdict::kNew);
+  ImageFile svg;
   svg.format = "svg";
   svg.current = folder / "trapped.svg";
-  third.pictures = {svg};
-  DiffItem last = hostile_item(text, ItemKind::kPicture, Verdict::kIdentical);
+  third.images = {svg};
+  DiffItem last = hostile_item(text, ItemKind::kImage, Verdict::kIdentical);
   last.judgement.cause.clear();
   out.texts.pop_back();  // An identical item has no cause to show.
   result.items = {first, second, third, last};

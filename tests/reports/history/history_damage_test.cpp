@@ -16,7 +16,7 @@
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
-#include "tests/reports/history/sample_nights.hpp"
+#include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -42,7 +42,7 @@ TEST(HistoryStore, ThatIsDamagedIsRefusedAsItIs) {
     const fs::path path = history_file(folder.path());
     {
       HistoryStore store = HistoryStore::open(folder.path());
-      for (int i = 1; i <= 3; ++i) store.append(sample_night(i, 1));
+      for (int i = 1; i <= 3; ++i) store.append(sample_nightly_run(i, 1));
     }
     std::string bytes = read_file(path);
     std::fill_n(bytes.begin() + (header ? 0 : 8192), header ? 64 : 20'000, '\x5a');
@@ -60,9 +60,9 @@ TEST(HistoryStore, WithWhatIsNoQuantityIsRefusedAsItIs) {
                   "is damaged: no quantity is better \"upper\""),
         std::pair("UPDATE quantities SET id = 'mpe_m'", "is damaged: \"mpe_m\" is a quantity")}) {
     const TemporaryFolder folder;
-    Night night = sample_night(1, 1);
-    night.studies[0].quantities.declare(found);
-    HistoryStore::open(folder.path()).append(night);
+    NightlyRun nightly_run = sample_nightly_run(1, 1);
+    nightly_run.studies[0].quantities.declare(found);
+    HistoryStore::open(folder.path()).append(nightly_run);
     Database(history_file(folder.path()), Database::Access::kWrite).execute(change);
     expect_refused(folder.path(), words);
   }
@@ -71,7 +71,7 @@ TEST(HistoryStore, WithWhatIsNoQuantityIsRefusedAsItIs) {
 TEST(HistoryStore, ThatIsCutAtAnyLengthIsRefusedAsItIs) {
   const TemporaryFolder folder;
   const fs::path path = history_file(folder.path());
-  HistoryStore::open(folder.path()).append(sample_night(1, 1));
+  HistoryStore::open(folder.path()).append(sample_nightly_run(1, 1));
   const std::string whole = read_file(path);
   constexpr std::size_t kHeader = 100, kPage = 4096;
   for (std::size_t length = 0; length < whole.size();) {
@@ -82,7 +82,7 @@ TEST(HistoryStore, ThatIsCutAtAnyLengthIsRefusedAsItIs) {
     length += length <= kHeader || to_page == 1 ? 1 : std::min<std::size_t>(to_page - 1, 777);
   }
   write_file(path, whole);
-  EXPECT_EQ(HistoryStore::open(folder.path()).nights().size(), 1U);
+  EXPECT_EQ(HistoryStore::open(folder.path()).nightly_runs().size(), 1U);
 }
 
 TEST(HistoryStore, IsBegunWhereThereIsNoneAndNowhereElse) {
@@ -98,7 +98,7 @@ TEST(HistoryStore, IsBegunWhereThereIsNoneAndNowhereElse) {
   write_file(path.string() + ".part", "left by one that was killed while it began");
   HistoryStore::open(store);
   EXPECT_EQ(std::distance(fs::directory_iterator(store), fs::directory_iterator()), 1);
-  EXPECT_TRUE(HistoryStore::open_existing(store).nights().empty());
+  EXPECT_TRUE(HistoryStore::open_existing(store).nightly_runs().empty());
 }
 
 /// A store of three nightly runs, damaged: its first `cut` bytes, `flips` of them changed.
@@ -106,9 +106,9 @@ std::string damaged_bytes(const fs::path& path, double cut, int flips, Random& r
   {
     HistoryStore store = HistoryStore::open(path.parent_path());
     for (int i = 1; i <= 3; ++i) {
-      Night night = sample_night(i, 1);
-      night.findings.push_back({.study = "sample", .sentence = "a finding"});
-      store.append(night);
+      NightlyRun nightly_run = sample_nightly_run(i, 1);
+      nightly_run.findings.push_back({.study = "sample", .sentence = "a finding"});
+      store.append(nightly_run);
     }
   }
   std::string bytes = read_file(path);
@@ -135,7 +135,7 @@ TEST(HistoryStore, WhateverByteIsDamagedIsReadOrRefusedAsItIs) {
     try {
       HistoryStore store = HistoryStore::open(folder.path());
       EXPECT_NO_THROW(history_json(store, true)) << round;
-      EXPECT_NO_THROW(store.append(sample_night(store.last_number() + 1, 1))) << round;
+      EXPECT_NO_THROW(store.append(sample_nightly_run(store.last_number() + 1, 1))) << round;
     } catch (const IoError&) {
       EXPECT_EQ(read_file(path), bytes) << round;
       ++refused;
@@ -159,7 +159,7 @@ TEST(HistoryStore, ThatIsInUseIsNotTakenForADamagedOne) {
     const FolderLock lock(folder, [] {});
     HistoryStore store = HistoryStore::open(folder);
     const int number = store.last_number() + 1;
-    store.append(sample_night(number, 1));
+    store.append(sample_nightly_run(number, 1));
     append_file(finished, std::to_string(number) + "\n");
   }
 }
@@ -171,7 +171,7 @@ std::set<int> numbers_in(const fs::path& path) {
   return numbers;
 }
 
-TEST(HistoryStore, LosesNoFinishedNightToAHundredKillsOfTwoWriters) {
+TEST(HistoryStore, LosesNoFinishedNightlyRunToAHundredKillsOfTwoWriters) {
   const TemporaryFolder folder;
   const fs::path store = folder.path() / "store";
   make_folder(store);
@@ -195,9 +195,9 @@ TEST(HistoryStore, LosesNoFinishedNightToAHundredKillsOfTwoWriters) {
   HistoryStore after = HistoryStore::open(store);
   EXPECT_TRUE(after.remarks().empty());
   std::set<int> recorded;
-  for (const NightFacts& night : after.nights()) {
-    recorded.insert(night.number);
-    EXPECT_EQ(after.scores(night.number, "sample").size(), 12U);
+  for (const NightlyFacts& nightly_run : after.nightly_runs()) {
+    recorded.insert(nightly_run.number);
+    EXPECT_EQ(after.scores(nightly_run.number, "sample").size(), 12U);
   }
   const std::set<int> promised = numbers_in(finished);
   EXPECT_TRUE(std::ranges::includes(recorded, promised));

@@ -9,9 +9,9 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/night_standing.hpp"
+#include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
-#include "tests/reports/history/sample_nights.hpp"
+#include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,18 +21,18 @@ namespace {
 TEST(HistoryPages, AreValidReportsAndFigures) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  NightFindings findings;
+  NightlyFindings findings;
   for (int number = 1; number <= 6; ++number) {
     Plant plant;
     if (number >= 5) plant.error = {{"lpca", 1.1}};
-    findings[number] = judged(store, sample_night(number, 1, plant)).findings;
+    findings[number] = judged(store, sample_nightly_run(number, 1, plant)).findings;
   }
   const HistoryPage page =
       trend_page(store.trend("sample", "d", 60, 6), findings, true, {"../../", "../../"});
   EXPECT_NO_THROW(check(page.report));
   ASSERT_EQ(page.figures.size(), 3U);  // MPE, seconds, memory.
   for (const Figure& figure : page.figures) EXPECT_EQ(problem(figure), "");
-  const HistoryPage index = index_page({.nights = store.nights(),
+  const HistoryPage index = index_page({.nightly_runs = store.nightly_runs(),
                                         .findings = findings,
                                         .trends = {store.trend("sample", "d", 60, 6)}},
                                        {});
@@ -43,20 +43,20 @@ TEST(HistoryPages, AreValidReportsAndFigures) {
 }
 
 TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
-  Night night{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
+  NightlyRun nightly_run{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
   for (int i = 1; i <= 7; ++i)
-    night.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
-  const Standing stands = study_standing(night.facts, night.findings, "mine", true);
+    nightly_run.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
+  const Standing stands = study_standing(nightly_run.facts, nightly_run.findings, "mine", true);
   EXPECT_EQ(stands.title, "Nightly run 5: 7 things got worse");
   ASSERT_EQ(stands.sentences.size(), 4U);
   EXPECT_EQ(stands.sentences[2], "worse 3.");
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
 
-  const Report index =
-      index_page(
-          {.nights = {night.facts}, .findings = {{5, night.findings}}, .studies = {{5, {"mine"}}}},
-          {})
-          .report;
+  const Report index = index_page({.nightly_runs = {nightly_run.facts},
+                                   .findings = {{5, nightly_run.findings}},
+                                   .studies = {{5, {"mine"}}}},
+                                  {})
+                           .report;
   EXPECT_EQ(index.subtitle, "1 nightly run, the last begun 2026-11-22 02:30 UTC");
   ASSERT_TRUE(index.opening.standing.has_value());
   EXPECT_TRUE(index.opening.standing->worse);
@@ -66,7 +66,7 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
 /// A trend of two settings of ISOMAP, the first of which was best until the last nightly run.
 StudyTrend best_got_worse() {
   StudyTrend trend{.name = "mine"};
-  for (int number = 1; number <= 4; ++number) trend.nights.push_back({.number = number});
+  for (int number = 1; number <= 4; ++number) trend.nightly_runs.push_back({.number = number});
   trend.peak_memory_mib = {80, 80, 80, 80};
   trend.medians[{"bearing", "isomap-K5", 150, "mpe_m"}] = {0.10, 0.10, 0.10, 0.20};
   trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.15, 0.15, 0.15, 0.15};
@@ -81,10 +81,10 @@ std::vector<std::string> curves(const Figure& figure) {
   return labels;
 }
 
-TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNight) {
+TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNightlyRun) {
   const StudyTrend trend = best_got_worse();
   EXPECT_EQ(curves(trend_figures(trend, {}).front()), std::vector<std::string>{"ISOMAP, K = 5"});
-  const NightFindings findings = {
+  const NightlyFindings findings = {
       {4,
        {{.study = "mine", .subject = "bearing, isomap-K5, 150 steps", .quantity = "mpe_m"},
         {.study = "mine", .subject = "bearing, isomap-K6, 150 steps", .quantity = "mpe_m"},
@@ -123,15 +123,15 @@ TEST(HistoryRules, JudgeOneOfTheTwoOrientationErrors) {
   EXPECT_EQ(rule_of(reflected, {}, alone), NightlyRule::kPoints);
 }
 
-TEST(HistoryPages, SayOfANightThatWasNotComparedThatItWasNot) {
+TEST(HistoryPages, SayOfANightlyRunThatWasNotComparedThatItWasNot) {
   const StudyTrend trend = best_got_worse();
   const auto& stands = trend_page(trend, {}, false, {}).report.opening.standing;
   ASSERT_TRUE(stands.has_value());
   EXPECT_TRUE(stands->title.starts_with("Nightly run 4: not compared")) << stands->title;
-  const NightFacts night{.number = 4};
-  EXPECT_EQ(verdict_word(night), "not compared");
+  const NightlyFacts nightly_run{.number = 4};
+  EXPECT_EQ(verdict_word(nightly_run), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "good");
-  EXPECT_TRUE(night_standing(night, {}).title.starts_with("Nightly run 4: not compared"));
+  EXPECT_TRUE(nightly_standing(nightly_run, {}).title.starts_with("Nightly run 4: not compared"));
 }
 
 /// The links of a paragraph, by what they say.
@@ -144,34 +144,34 @@ std::map<std::string, std::string> links_of(const Paragraph& paragraph,
 }
 
 TEST(HistoryPages, LeadToEachOtherInWords) {
-  Night night{.facts = {.number = 5, .reference = 3}};
+  NightlyRun nightly_run{.facts = {.number = 5, .reference = 3}};
   Report report;
-  NightLinks links({.pages = "../../../", .nights = "../../../"});
-  add_night(report, night, "mine", true, {}, links);
+  NightlyLinks links({.pages = "../../../", .nightly_runs = "../../../"});
+  add_nightly_run(report, nightly_run, "mine", true, {}, links);
   EXPECT_EQ(links_of(report.opening.findings.front(), links.words()),
             (std::map<std::string, std::string>{
                 {"all nightly runs", "../../../index.html"},
                 {"trends of mine", "../../../trends/mine/report.html"},
-                {"report of nightly run 3", "../../../nights/0003/mine/report.html"}}));
+                {"report of nightly run 3", "../../../nightly_runs/0003/mine/report.html"}}));
   const HistoryPage trends = trend_page(best_got_worse(), {}, false, {"../../", "../../"});
   EXPECT_EQ(links_of(trends.report.opening.findings.front(), trends.link_words),
             (std::map<std::string, std::string>{
                 {"all nightly runs", "../../index.html"},
-                {"report of nightly run 4", "../../nights/0004/mine/report.html"}}));
+                {"report of nightly run 4", "../../nightly_runs/0004/mine/report.html"}}));
 }
 
 TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
-  const Night night{.facts = {.number = 5}};
-  const LostNights lost{.kept_as = {"history.sqlite.damaged-1"}, .reports = {{4, {"mine"}}}};
+  const NightlyRun nightly_run{.facts = {.number = 5}};
+  const LostNightlyRuns lost{.kept_as = {"history.sqlite.damaged-1"}, .reports = {{4, {"mine"}}}};
   Report report;
-  NightLinks links({});
-  add_night(report, night, "mine", false, lost, links);
+  NightlyLinks links({});
+  add_nightly_run(report, nightly_run, "mine", false, lost, links);
   EXPECT_TRUE(report.opening.standing->worse);
   EXPECT_NE(report.opening.standing->sentences.back().find("history.sqlite.damaged-1"),
             std::string::npos);
   EXPECT_TRUE(
       links_of(report.opening.findings.at(1), links.words()).contains("report of nightly run 4"));
-  const HistoryPage index = index_page({.nights = {night.facts}, .lost = lost}, {});
+  const HistoryPage index = index_page({.nightly_runs = {nightly_run.facts}, .lost = lost}, {});
   EXPECT_NO_THROW(check(index.report));
   EXPECT_EQ(index.report.sections.back().id, "lost");
   const auto* damage = std::get_if<Callout>(&index.report.sections.front().blocks.front());
@@ -191,7 +191,7 @@ TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
 }
 
 TEST(HistoryPages, NameMethodsAsTheirStudyLabelsThem) {
-  const StudyLabels labels{.setups = {{"hall", "Indoors, at night"}},
+  const StudyLabels labels{.setups = {{"hall", "Indoors, at nightly run"}},
                            .methods = {{"ekf", "My EKF"},
                                        {"ekf slow", "My EKF, slower"},
                                        {"spectral", "spectral"},
@@ -204,7 +204,8 @@ TEST(HistoryPages, NameMethodsAsTheirStudyLabelsThem) {
   EXPECT_EQ(shown_method(labels, "spectral"), "spectral");
   EXPECT_EQ(shown_method(labels, "isomap-K6"), "Walk");
   EXPECT_EQ(shown_method(labels, "isomap-K7 noise=0.1"), "isomap-K7, noise=0.1");
-  EXPECT_EQ(shown_subject(labels, {"hall", "ekf", 20}), "Indoors, at night, My EKF, 20 steps");
+  EXPECT_EQ(shown_subject(labels, {"hall", "ekf", 20}),
+            "Indoors, at nightly run, My EKF, 20 steps");
   EXPECT_EQ(shown_subject(labels, {"", "ekf", 0}), "My EKF") << "there is one setup, without name";
 }
 
@@ -224,53 +225,55 @@ TEST(HistoryPages, TakeNoTwoMethodsOfAnotherProgramForSettingsOfOne) {
 TEST(HistoryExport, HasALineAValue) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  store.append(sample_night(1, 1));
+  store.append(sample_nightly_run(1, 1));
   const std::string csv = history_csv(store);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 2 * 25);
   EXPECT_NE(csv.find(",bearing,\"ISOMAP, K = 6\"\r\n"), std::string::npos);
-  EXPECT_EQ(history_json(store, true)["nights"][0]["studies"][0]["scores"].size(), 12U);
+  EXPECT_EQ(history_json(store, true)["nightly_runs"][0]["studies"][0]["scores"].size(), 12U);
 }
 
 TEST(HistoryExport, IsAsItsSchemasSay) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  std::vector<Night> nights;
+  std::vector<NightlyRun> nightly_runs;
   for (int number = 1; number <= 2; ++number) {
-    Night night = sample_night(number, 1, {.error = {{"lpca", number == 2 ? 1.1 : 1.0}}});
-    night.facts.provenance = json_line(to_json_value(Provenance{.version = "1.2"}));
-    StudyNight& study = night.studies[0];
+    NightlyRun nightly_run =
+        sample_nightly_run(number, 1, {.error = {{"lpca", number == 2 ? 1.1 : 1.0}}});
+    nightly_run.facts.provenance = json_line(to_json_value(Provenance{.version = "1.2"}));
+    NightlyStudy& study = nightly_run.studies[0];
     study.quantities.declare(study_quantity("found", "Found", "%", Better::kHigher));
     study.labels = {.setups = {{"bearing", "By compass"}}, .methods = {{"lpca", "Mine"}}};
     study.figures = {{"fig-1.svg", "00", 1}};
     study.scores.begin()->second.front().value = NAN;
-    nights.push_back(judged(store, night));
+    nightly_runs.push_back(judged(store, nightly_run));
   }
-  ASSERT_FALSE(nights[1].findings.empty());
-  for (const Night& night : nights) {
-    const auto file = nlohmann::json::parse(night_json(night));
-    EXPECT_EQ(schema_problem("night", file), "");
-    EXPECT_EQ(file["schema"], nlohmann::json::parse(R"({"name": "mapproof.night", "version": 1})"));
+  ASSERT_FALSE(nightly_runs[1].findings.empty());
+  for (const NightlyRun& nightly_run : nightly_runs) {
+    const auto file = nlohmann::json::parse(nightly_json(nightly_run));
+    EXPECT_EQ(schema_problem("nightly_run", file), "");
+    EXPECT_EQ(file["schema"],
+              nlohmann::json::parse(R"({"name": "mapproof.nightly_run", "version": 1})"));
     EXPECT_EQ(file["provenance"]["version"], "1.2");
   }
-  EXPECT_EQ(nlohmann::json::parse(night_json(nights[0]))["verdict"], "not compared");
+  EXPECT_EQ(nlohmann::json::parse(nightly_json(nightly_runs[0]))["verdict"], "not compared");
   for (const bool with_scores : {false, true}) {
     const auto exported = nlohmann::json::parse(history_json(store, with_scores).dump());
     EXPECT_EQ(schema_problem("history", exported), "");
-    EXPECT_EQ(exported["nights"][1]["studies"][0].contains("scores"), with_scores);
-    EXPECT_EQ(exported["nights"][1]["studies"][0]["methods"].dump(),
+    EXPECT_EQ(exported["nightly_runs"][1]["studies"][0].contains("scores"), with_scores);
+    EXPECT_EQ(exported["nightly_runs"][1]["studies"][0]["methods"].dump(),
               R"([{"id":"lpca","label":"Mine"}])");
   }
 }
 
-TEST(HistoryExport, KeepsWhatMadeANightAsThatNightWroteIt) {
+TEST(HistoryExport, KeepsWhatMadeANightlyRunAsThatNightlyRunWroteIt) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  Night night = sample_night(1, 1);
-  night.facts.provenance = R"({"compiler": "of another version"})";
-  store.append(night);
-  EXPECT_EQ(history_json(store, false)["nights"][0]["provenance"]["compiler"],
+  NightlyRun nightly_run = sample_nightly_run(1, 1);
+  nightly_run.facts.provenance = R"({"compiler": "of another version"})";
+  store.append(nightly_run);
+  EXPECT_EQ(history_json(store, false)["nightly_runs"][0]["provenance"]["compiler"],
             "of another version");
-  EXPECT_FALSE(night_value(night.facts, {}).contains("schema"));
+  EXPECT_FALSE(nightly_value(nightly_run.facts, {}).contains("schema"));
 }
 
 }  // namespace

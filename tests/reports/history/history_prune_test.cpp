@@ -5,7 +5,7 @@
 #include "reports/history/history_prune.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/object_folder.hpp"
-#include "tests/reports/history/sample_nights.hpp"
+#include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -14,11 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(HistoryPrune, KeepsTheLastEverySoManyPinnedAndWhatTheyWereComparedWith) {
-  std::vector<NightFacts> nights;
-  for (int i = 1; i <= 20; ++i) nights.push_back({.number = i});
-  nights[4].pinned = true;
-  nights[19].reference = 9;
-  EXPECT_EQ(nights_to_remove(nights, parse_prune_rule("last=3,every=7")),
+  std::vector<NightlyFacts> nightly_runs;
+  for (int i = 1; i <= 20; ++i) nightly_runs.push_back({.number = i});
+  nightly_runs[4].pinned = true;
+  nightly_runs[19].reference = 9;
+  EXPECT_EQ(nightly_runs_to_remove(nightly_runs, parse_prune_rule("last=3,every=7")),
             (std::vector<int>{1, 2, 3, 4, 6, 8, 10, 11, 12, 13, 15, 16, 17}));
   for (const char* bad : {"", "last=0", "last=3,", "every=7", "last=3,every=x", "last=99999999999"})
     EXPECT_THROW(parse_prune_rule(bad), InvalidInput) << bad;
@@ -28,24 +28,25 @@ TEST(HistoryPrune, FinishesWhatAnErrorLeftHalfDone) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
   for (int number = 1; number <= 4; ++number) {
-    store.append(sample_night(number, 1));
-    write_file(night_folder(folder.path(), number) / "night.json", "{}");
+    store.append(sample_nightly_run(number, 1));
+    write_file(nightly_folder(folder.path(), number) / "nightly_run.json", "{}");
   }
   const PruneRule rule{.last = 1};
   {
     Database other(history_file(folder.path()), Database::Access::kWrite);
     other.execute(
-        "CREATE TRIGGER no_room BEFORE DELETE ON nights BEGIN SELECT RAISE(ABORT, 'no'); END");
+        "CREATE TRIGGER no_room BEFORE DELETE ON nightly_runs BEGIN SELECT RAISE(ABORT, 'no'); "
+        "END");
     EXPECT_THROW(prune(store, folder.path(), rule), IoError);
     other.execute("DROP TRIGGER no_room");
   }
   prune(store, folder.path(), rule);
-  ASSERT_EQ(store.nights().size(), 1U);
+  ASSERT_EQ(store.nightly_runs().size(), 1U);
   for (int number = 1; number <= 4; ++number)
-    EXPECT_EQ(fs::exists(night_folder(folder.path(), number)), number == 4) << number;
+    EXPECT_EQ(fs::exists(nightly_folder(folder.path(), number)), number == 4) << number;
 }
 
-TEST(ObjectFolder, KeepsAFigureOfTwoNightsOnceAndDropsWhatNoNightNames) {
+TEST(ObjectFolder, KeepsAFigureOfTwoNightlyRunsOnceAndDropsWhatNoNightlyRunNames) {
   const TemporaryFolder folder;
   const ObjectFolder objects(folder.path() / "objects");
   write_file(folder.path() / "a" / "one.svg", "same");

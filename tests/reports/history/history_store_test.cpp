@@ -8,7 +8,7 @@
 #include "reports/history/history_store.hpp"
 #include "reports/history/schema.hpp"
 #include "reports/history/shown_names.hpp"
-#include "tests/reports/history/sample_nights.hpp"
+#include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -17,13 +17,13 @@ namespace {
 TEST(HistoryStore, GivesBackWhatItWasGiven) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  Night night = sample_night(1, 4);
-  night.studies[0].scores[{"bearing", "lpca", 2000, "mpe_m"}][3].value = std::nan("");
-  night.studies[0].figures = {{"fig-1.svg", sha256_hex("x"), 1}};
-  store.append(night);
+  NightlyRun nightly_run = sample_nightly_run(1, 4);
+  nightly_run.studies[0].scores[{"bearing", "lpca", 2000, "mpe_m"}][3].value = std::nan("");
+  nightly_run.studies[0].figures = {{"fig-1.svg", sha256_hex("x"), 1}};
+  store.append(nightly_run);
   const Scores scores = store.scores(1, "sample");
-  ASSERT_EQ(scores.size(), night.studies[0].scores.size());
-  for (const auto& [series, values] : night.studies[0].scores)
+  ASSERT_EQ(scores.size(), nightly_run.studies[0].scores.size());
+  for (const auto& [series, values] : nightly_run.studies[0].scores)
     for (std::size_t i = 0; i < values.size(); ++i) {
       EXPECT_EQ(scores.at(series)[i].run, values[i].run);
       if (std::isnan(values[i].value))
@@ -32,7 +32,7 @@ TEST(HistoryStore, GivesBackWhatItWasGiven) {
         EXPECT_EQ(scores.at(series)[i].value, values[i].value);
     }
   EXPECT_EQ(store.digests(), std::vector<std::string>{sha256_hex("x")});
-  EXPECT_THROW(store.append(night), InvalidInput);  // Never the same number twice.
+  EXPECT_THROW(store.append(nightly_run), InvalidInput);  // Never the same number twice.
 }
 
 TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
@@ -41,15 +41,16 @@ TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 1);
     old.execute(
-        "INSERT INTO nights VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', '{}', "
+        "INSERT INTO nightly_runs VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', "
+        "'{}', "
         "'h', 'p', 2, 2, NULL, 'good')");
   }
   EXPECT_THROW(HistoryStore::open_existing(folder.path()), IoError);
   HistoryStore store = HistoryStore::open(folder.path());
   ASSERT_EQ(store.remarks().size(), 1U);
-  ASSERT_EQ(store.nights().size(), 1U);
-  EXPECT_EQ(store.nights()[0].number, 4);
-  EXPECT_FALSE(store.nights()[0].pinned);
+  ASSERT_EQ(store.nightly_runs().size(), 1U);
+  EXPECT_EQ(store.nightly_runs()[0].number, 4);
+  EXPECT_FALSE(store.nightly_runs()[0].pinned);
   Database kept(folder.path() / "history.sqlite.v1-backup", Database::Access::kRead);
   EXPECT_EQ(version_of(kept), 1);
 }
@@ -57,15 +58,15 @@ TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
 TEST(HistoryStore, KeepsWhatAStudyDeclaresOfItsQuantities) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
-  Night night = sample_night(1, 4);
+  NightlyRun nightly_run = sample_nightly_run(1, 4);
   const Quantity found = study_quantity("found", "Landmarks found", "%", Better::kHigher);
-  night.studies[0].quantities.declare(found);
-  night.studies[0].scores[{"bearing", "lpca", 2000, "found"}] = {
+  nightly_run.studies[0].quantities.declare(found);
+  nightly_run.studies[0].scores[{"bearing", "lpca", 2000, "found"}] = {
       {"layout-1-pose-1", "layout-1", 9.0}};
-  store.append(night);
+  store.append(nightly_run);
   EXPECT_EQ(store.studies(1)[0].quantities.declared(), std::vector<Quantity>{found});
   EXPECT_EQ(store.trend("sample", "d", 60, 1).quantities.at("found"), found);
-  const auto exported = history_json(store, false)["nights"][0]["studies"][0]["quantities"];
+  const auto exported = history_json(store, false)["nightly_runs"][0]["studies"][0]["quantities"];
   EXPECT_EQ(exported.dump(),
             R"([{"id":"found","label":"Landmarks found","unit":"%","better":"higher"}])");
   store.remove({1});
@@ -81,7 +82,8 @@ TEST(HistoryStore, OfVersion2GivesOtherNumbersTheirNamesBack) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 2);
     old.execute(
-        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, processor, "
+        "INSERT INTO nightly_runs (number, started_utc, ended_utc, command, provenance, host, "
+        "processor, "
         "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
         "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
         "INSERT INTO studies VALUES (1, 1, 's', 'mapproof.trial_study', 'd', 1, NULL, NULL);"
@@ -101,9 +103,9 @@ TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsAndMethods) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
   const auto append = [&](int number, const StudyLabels& labels) {
-    Night night = sample_night(number, 4);
-    night.studies[0].labels = labels;
-    store.append(night);
+    NightlyRun nightly_run = sample_nightly_run(number, 4);
+    nightly_run.studies[0].labels = labels;
+    store.append(nightly_run);
   };
   const StudyLabels first{.setups = {{"bearing", "Compass"}},
                           .methods = {{"lpca", "Mine"}, {"smacof", "Gone later"}}};
@@ -127,7 +129,8 @@ TEST(HistoryStore, OfVersion3CallsMethodsThatAStudyDeclaresByTheirIds) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 3);
     old.execute(
-        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, processor, "
+        "INSERT INTO nightly_runs (number, started_utc, ended_utc, command, provenance, host, "
+        "processor, "
         "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
         "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
         "INSERT INTO studies VALUES (1, 1, 'theirs', 'mapproof.results_study', 'd', 1, NULL, NULL),"

@@ -1,0 +1,75 @@
+#include "app/output_paths.hpp"
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/byte_source.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/paths.hpp"
+#include "reports/diff/item_files.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An output and what an earlier one of its kind holds near its beginning.
+struct Output {
+  const char* option;
+  fs::path place;
+  std::string_view mark;
+};
+
+bool is_earlier_output(const Output& output) {
+  return ByteSource(output.place).peek(4096).find(output.mark) != std::string_view::npos;
+}
+
+void check_path(const Output& output, const fs::path& input) {
+  const fs::path place = real_path(output.place), compared = real_path(input);
+  const auto refuse = [&](const char* why) {
+    throw InvalidInput(
+        fmt::format("{} {}: {}", output.option, printable(output.place.string()), why));
+  };
+  std::error_code error;
+  if (place == compared) refuse("is what is compared");
+  if (!lies_in(place, compared) || !fs::is_directory(compared, error)) return;
+  if (!item_name(place, compared).kind.empty())
+    refuse("is the place of a figure, image, table or page that is compared");
+  if (fs::is_regular_file(place, error) && !is_earlier_output(output))
+    refuse("is a file of a folder that is compared");
+}
+
+void require_replaceable(const fs::path& place) {
+  std::error_code error;
+  const fs::file_status status = fs::status(place, error);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw IoError(place.string(), "is not a regular file, and cannot be replaced");
+}
+
+}  // namespace
+
+void check_output_paths(const DiffOptions& options, std::span<const fs::path> inputs) {
+  const std::array outputs = {
+      Output{"the page", options.page, "content=\"mapproof\""},
+      Output{"--json", options.json, "\"mapproof.diff\""},
+      Output{"--junit", options.junit, "<testsuites"},
+      Output{"--markdown", options.markdown, "### mapproof diff"},
+  };
+  const auto is_file = [](const Output& o) { return !o.place.empty() && o.place != "-"; };
+  for (const Output& output : outputs) {
+    if (!is_file(output)) continue;
+    for (const fs::path& input : inputs)
+      if (!input.empty()) check_path(output, input);
+    require_replaceable(output.place);
+    for (const Output& other : outputs)
+      if (&other != &output && is_file(other) && real_path(other.place) == real_path(output.place))
+        throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,
+                                       printable(output.place.string())));
+  }
+}
+
+}  // namespace mapproof

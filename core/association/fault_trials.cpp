@@ -1,0 +1,376 @@
+#include "core/association/fault_trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "core/association/association_search.hpp"
+#include "core/association/position_costs.hpp"
+#include "core/association/scan_costs.hpp"
+#include "core/association/two_positions.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kSettledPairs = 4;  ///< Pairs of IDs that are refined scan by scan.
+constexpr double kLeastGain = 0.3;        ///< Of the first pair's.
+/// Below this share, and so much below the other ID's, one ID's changes are chance.
+constexpr double kByChance = 0.1;
+constexpr double kRarer = 0.25;
+/// Scans that contradict a stretch, as a share of those that it explains, and how much more it may
+/// cost.
+constexpr double kStrays = 0.05;
+constexpr double kAsGood = 1.1;
+
+/// Detections that a hypothesis gives another ID, of each of both.
+struct Changes {
+  double all = 0.0;
+  double first_share = 0.0;  ///< Of those under the first ID.
+  double second_share = 0.0;
+
+  bool one_sided() const {
+    const auto [less, more] = std::minmax(first_share, second_share);
+    return less < kByChance && less < kRarer * more;
+  }
+};
+
+Changes changes_of(const std::vector<int>& ids, const FaultTrial& trial) {
+  double first = 0.0;
+  double second = 0.0;
+  double of_first = 1.0;
+  double of_second = 1.0;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const double changed = ids[k] != trial.ids[k] ? 1.0 : 0.0;
+    if (ids[k] == trial.fault.first) {
+      of_first += 1.0;
+      first += changed;
+    } else if (ids[k] == trial.fault.second) {
+      of_second += 1.0;
+      second += changed;
+    }
+  }
+  return {first + second, first / of_first, second / of_second};
+}
+
+/// A fault of the two IDs that share positions. @param turned  The second one comes first.
+AssociationHypothesis fault_of(const SharedPositions& shared, AssociationFault fault,
+                               bool turned = false) {
+  AssociationHypothesis result;
+  result.fault = fault;
+  result.first = turned ? shared.second : shared.first;
+  result.second = turned ? shared.first : shared.second;
+  return result;
+}
+
+/// The fault in single scans of the whole log, scans being judged at `predicted_m`.
+FaultTrial converged(const ScanLabels& of, const AssociationHypothesis& fault, const Points& start,
+                     double predicted_m, double width_m) {
+  FaultTrial trial;
+  trial.fault = fault;
+  trial.stretch = {0, 0, of.scans.positions.front().size()};
+  trial.scattered = true;
+  return converged_trial(of, std::move(trial), start, predicted_m, width_m);
+}
+
+/// Both ways of deciding which landmark has which position; of them the simpler one.
+FaultTrial simpler_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
+                         const SharedPositions& shared, double width_m) {
+  const Points& start = shared.map.positions_m;
+  Points exchanged = start;
+  exchanged.row(shared.first).swap(exchanged.row(shared.second));
+  const ScanLabels of{scans, ids, ids};
+  const double predicted_m = shared.map.width_m;
+  const AssociationHypothesis swap = fault_of(shared, AssociationFault::kSwapped);
+  FaultTrial best = converged(of, swap, start, predicted_m, width_m);
+  FaultTrial other = converged(of, swap, exchanged, predicted_m, width_m);
+  Changes changes = changes_of(ids, best);
+  const Changes of_other = changes_of(ids, other);
+  if (changes.one_sided() != of_other.one_sided() ? of_other.one_sided()
+                                                  : of_other.all < changes.all) {
+    best = std::move(other);
+    changes = of_other;
+  }
+  if (!changes.one_sided()) return best;
+  const Points positions = best.map.positions_m;
+  const bool turned = changes.second_share > changes.first_share;
+  return converged(of, fault_of(shared, AssociationFault::kInPart, turned), positions, predicted_m,
+                   width_m);
+}
+
+/// For each position of an order: scans given another ID, less those that have evidence and keep
+/// theirs.
+Eigen::VectorXi balance(const IdentifiedScans& scans, const std::vector<int>& ids,
+                        const FaultTrial& trial, std::size_t order) {
+  Eigen::VectorXi result = Eigen::VectorXi::Zero(scans.log.steps);
+  const bool both = trial.fault.fault == AssociationFault::kSwapped;
+  ScanCosts costs(scans, trial.map.positions_m, 1.0);
+  for (std::size_t row = 0, end = 0; row < ids.size(); row = end) {
+    end = costs.take(ids, row, trial.fault.first, trial.fault.second);
+    if (!costs.determines()) continue;
+    const auto step = static_cast<std::size_t>(scans.log.detections[row].step);
+    int& sum = result(static_cast<Eigen::Index>(scans.positions[order][step]));
+    for (std::size_t k = row; k < end; ++k)
+      if (ids[k] == trial.fault.first || (both && ids[k] == trial.fault.second))
+        sum = ids[k] != trial.ids[k] ? 1 : -1;
+  }
+  return result;
+}
+
+/// The stretch that holds the fault, if one does except for a few scans.
+std::optional<StepStretch> stretch_of(const IdentifiedScans& scans, const std::vector<int>& ids,
+                                      const FaultTrial& trial) {
+  for (std::size_t order = 0; order < scans.positions.size(); ++order) {
+    const Eigen::VectorXi balances = balance(scans, ids, trial, order);
+    const StepStretch best = greatest_sum(order, balances.cast<double>());
+    const auto begin = static_cast<Eigen::Index>(best.begin);
+    const auto length = static_cast<Eigen::Index>(best.end) - begin;
+    const auto changed = static_cast<double>((balances.array() > 0).count());
+    const auto inside = balances.segment(begin, length).array();
+    const double against = changed - static_cast<double>((inside > 0).count()) +
+                           static_cast<double>((inside < 0).count());
+    if (against <= kStrays * changed) return best;
+  }
+  return std::nullopt;
+}
+
+/// The same fault over a stretch, where detections without evidence from their scan are corrected
+/// too.
+FaultTrial over_stretch(const IdentifiedScans& scans, const std::vector<int>& ids, FaultTrial trial,
+                        double width_m) {
+  const std::optional<StepStretch> stretch = stretch_of(scans, ids, trial);
+  if (!stretch) return trial;
+  FaultTrial whole = trial;
+  whole.scattered = false;
+  whole.stretch = *stretch;
+  if (whole.fault.fault == AssociationFault::kInPart) whole.fault.fault = AssociationFault::kWrong;
+  whole.ids = corrected_ids(scans, ids, whole.fault, *stretch);
+  whole = converged_trial({scans, ids, std::vector(whole.ids)}, whole, trial.map.positions_m,
+                          width_m, width_m);
+  return whole.map.cost < kAsGood * trial.map.cost ? whole : trial;
+}
+
+/// Whether a scan holds a detection of a landmark.
+bool seen_in_scan(const DetectionLog& log, const std::vector<int>& ids, std::size_t row,
+                  int landmark) {
+  const int step = log.detections[row].step;
+  while (row > 0 && log.detections[row - 1].step == step) --row;
+  for (; row < ids.size() && log.detections[row].step == step; ++row)
+    if (ids[row] == landmark) return true;
+  return false;
+}
+
+/// What each detection costs in a map under each ID in place of its own, while the others in its
+/// scan keep theirs: detections x landmarks, zero but for those with the ID `label`.
+Eigen::MatrixXd id_costs(const IdentifiedScans& scans, const std::vector<int>& ids,
+                         const RobustMap& map, int id) {
+  const Eigen::Index M = map.positions_m.rows();
+  Eigen::MatrixXd costs = Eigen::MatrixXd::Zero(std::ssize(ids), M);
+  for (const ScanPair& pair : scans.pairs)
+    for (const auto& [own, other] :
+         {std::pair(pair.first, pair.second), std::pair(pair.second, pair.first)}) {
+      if (ids[own] != id) continue;
+      const Eigen::RowVector2d partner = map.positions_m.row(ids[other]);
+      for (Eigen::Index k = 0; k < M; ++k)
+        costs(static_cast<Eigen::Index>(own), k) +=
+            huber_cost(pair.distance_m - (map.positions_m.row(k) - partner).norm(), map.width_m);
+    }
+  return costs;
+}
+
+constexpr std::size_t kTried = 40;  ///< Hypotheses that a map is made for.
+/// The best of each type, whose maps are also made without a start.
+constexpr std::size_t kRestarted = 4;
+/// A fault in single scans has more freedom: it must cost less than this share of a stretch's cost.
+constexpr double kPlainer = 0.9;
+
+/// The stretch of steps over which the fault explains the scans better, in a map that holds it.
+StepStretch refined_width(const IdentifiedScans& scans, const std::vector<int>& ids,
+                          const AssociationHypothesis& one, const RobustMap& map) {
+  const auto order = static_cast<std::size_t>(one.order);
+  Eigen::VectorXd gains = Eigen::VectorXd::Zero(scans.log.steps);
+  const auto cost = [&](int a, int b, double distance) {
+    const double between = (map.positions_m.row(a) - map.positions_m.row(b)).norm();
+    return std::isnan(between) ? 0.0 : huber_cost(distance - between, map.width_m);
+  };
+  for (const ScanPair& pair : scans.pairs) {
+    const int a = ids[pair.first];
+    const int b = ids[pair.second];
+    gains(static_cast<Eigen::Index>(scans.positions[order][static_cast<std::size_t>(pair.step)])) +=
+        cost(a, b, pair.distance_m) - cost(other_id(one, a), other_id(one, b), pair.distance_m);
+  }
+  return greatest_sum(order, gains);
+}
+
+/// The items with the fault corrected in whole blocks: this makes many hypotheses cheap to test.
+std::vector<PairItem> corrected_items(const IdentifiedScans& scans,
+                                      const std::vector<PairItem>& items,
+                                      const AssociationHypothesis& one) {
+  std::vector<char> inside(static_cast<std::size_t>(scans.blocks.count), 0);
+  const std::vector<int>& order = scans.blocks.block_orders[static_cast<std::size_t>(one.order)];
+  for (int k = one.begin; k < one.end; ++k)
+    inside[static_cast<std::size_t>(order[static_cast<std::size_t>(k)])] = 1;
+  std::vector<PairItem> result;
+  result.reserve(items.size());
+  for (PairItem item : items) {
+    if (inside[static_cast<std::size_t>(item.block)] != 0) {
+      const int a = other_id(one, item.first);
+      const int b = other_id(one, item.second);
+      if (a == b) continue;
+      item.first = std::min(a, b);
+      item.second = std::max(a, b);
+    }
+    result.push_back(item);
+  }
+  return result;
+}
+
+/// The map under corrected IDs, from the previous one with both landmarks at the positions that the
+/// fault implies.
+RobustMap moved_map(const std::vector<PairItem>& items, const RobustMap& map,
+                    const AssociationHypothesis& one) {
+  Points start = map.positions_m;
+  start.row(one.first) = one.first_m;
+  start.row(one.second) = one.second_m;
+  return minimized_map(items, start, map.width_m);
+}
+
+/// The better one of that map and of one without a start: wrong IDs may have folded the previous
+/// map.
+RobustMap refolded_map(const IdentifiedScans& scans, const std::vector<PairItem>& items,
+                       const RobustMap& map, const AssociationHypothesis& one) {
+  RobustMap moved = moved_map(items, map, one);
+  const auto landmarks = static_cast<int>(map.positions_m.rows());
+  RobustMap resampled = minimized_map(items, robust_map(items, landmarks).positions_m, map.width_m);
+  return unfolded_map(items, resampled.cost < moved.cost ? std::move(resampled) : std::move(moved),
+                      scans.blocks.count);
+}
+
+/// The fault over the stretch of steps that its map yields.
+FaultTrial sharp_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
+                       AssociationHypothesis one, RobustMap map) {
+  FaultTrial trial{one, refined_width(scans, ids, one, map), {}, std::move(map)};
+  trial.ids = corrected_ids(scans, ids, one, trial.stretch);
+  trial.fault.first_m = trial.map.positions_m.row(one.first);
+  trial.fault.second_m = trial.map.positions_m.row(one.second);
+  trial.map = moved_map(pair_items(scans.pairs, trial.ids, scans.blocks), trial.map, trial.fault);
+  return trial;
+}
+
+/// The first few of each type of fault.
+void choose(const std::vector<AssociationHypothesis>& from,
+            std::vector<AssociationHypothesis>& chosen) {
+  std::map<AssociationFault, std::size_t> taken;
+  for (const AssociationHypothesis& one : from)
+    if (taken[one.fault]++ < kRestarted) chosen.push_back(one);
+}
+
+/// The hypotheses that are promising enough for a map without a start.
+std::vector<AssociationHypothesis> worth_a_map(const IdentifiedScans& scans,
+                                               const std::vector<PairItem>& items,
+                                               const RobustMap& map) {
+  std::vector<AssociationHypothesis> in_map = hypotheses_in_map(items, map, scans.blocks, kTried);
+  for (AssociationHypothesis& one : in_map)
+    one.gain = map.cost - moved_map(corrected_items(scans, items, one), map, one).cost;
+  std::ranges::stable_sort(in_map, std::greater<>(), &AssociationHypothesis::gain);
+  std::vector<AssociationHypothesis> chosen;
+  choose(in_map, chosen);
+  choose(hypotheses_of_distances(items, map, scans.blocks, kTried), chosen);
+  return chosen;
+}
+
+}  // namespace
+
+std::optional<FaultTrial> best_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
+                                     const RobustMap& map) {
+  const std::vector<PairItem> items = pair_items(scans.pairs, ids, scans.blocks);
+  std::map<AssociationFault, std::pair<AssociationHypothesis, RobustMap>> best;
+  for (const AssociationHypothesis& one : worth_a_map(scans, items, map)) {
+    RobustMap other = refolded_map(scans, corrected_items(scans, items, one), map, one);
+    const auto found = best.find(one.fault);
+    if (other.cost < (found == best.end() ? map.cost : found->second.second.cost))
+      best[one.fault] = {one, std::move(other)};
+  }
+  std::optional<FaultTrial> lowest;
+  for (const auto& [fault, found] : best) {
+    FaultTrial trial = sharp_trial(scans, ids, found.first, found.second);
+    trial = converged_trial({scans, ids, std::vector(trial.ids)}, trial, trial.map.positions_m,
+                            trial.map.width_m, map.width_m);
+    trial = plainest(scans, ids, std::move(trial));
+    if (trial.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(trial);
+  }
+  std::optional<FaultTrial> mixed = mixed_trial(scans, ids, map);
+  if (mixed)
+    mixed = converged_trial({scans, ids, ids}, *mixed, mixed->map.positions_m, map.width_m,
+                            map.width_m);
+  if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
+  std::optional<FaultTrial> scattered = scattered_trial(scans, ids, map);
+  if (scattered && scattered->map.cost < (lowest ? kPlainer * lowest->map.cost : map.cost))
+    lowest = std::move(scattered);
+  return lowest;
+}
+
+std::optional<FaultTrial> mixed_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
+                                      const RobustMap& map) {
+  const double much = 8.0 * residual_variance(map);
+  const auto M = static_cast<int>(map.positions_m.rows());
+  FaultTrial best;
+  double greatest = 0.0;
+  for (int a = 0; a < M && map.positions_m.row(a).allFinite(); ++a) {
+    const Eigen::MatrixXd costs = id_costs(scans, ids, map, a);
+    Eigen::VectorXd gains = Eigen::VectorXd::Zero(M);
+    const auto mistaken = [&](Eigen::Index row, int b) {
+      return costs(row, a) > much && costs(row, b) < 0.5 * costs(row, a);
+    };
+    for (Eigen::Index row = 0; row < costs.rows(); ++row)
+      for (int b = 0; b < M; ++b)
+        if (mistaken(row, b)) gains(b) += costs(row, a) - costs(row, b);
+    Eigen::Index other = 0;
+    if (gains.maxCoeff(&other) <= greatest) continue;
+    greatest = gains(other);
+    const auto b = static_cast<int>(other);
+    best.fault = {.fault = AssociationFault::kInPart, .first = a, .second = b};
+    best.stretch = {0, 0, scans.positions.front().size()};
+    best.ids = ids;
+    for (std::size_t row = 0; row < ids.size(); ++row)
+      if (ids[row] == a && mistaken(static_cast<Eigen::Index>(row), b) &&
+          !seen_in_scan(scans.log, ids, row, b))
+        best.ids[row] = b;
+  }
+  if (greatest == 0.0) return std::nullopt;
+  best.map =
+      minimized_map(pair_items(scans.pairs, best.ids, scans.blocks), map.positions_m, map.width_m);
+  return best;
+}
+
+FaultTrial plainest(const IdentifiedScans& scans, const std::vector<int>& ids, FaultTrial trial) {
+  if (trial.fault.fault != AssociationFault::kSwapped) return trial;
+  const Changes changes = changes_of(ids, trial);
+  if (!changes.one_sided()) return trial;
+  FaultTrial simple = trial;
+  simple.fault.fault = AssociationFault::kWrong;
+  if (changes.second_share > changes.first_share) {
+    std::swap(simple.fault.first, simple.fault.second);
+    std::swap(simple.fault.first_m, simple.fault.second_m);
+  }
+  for (std::size_t k = 0; k < ids.size(); ++k)
+    if (ids[k] != simple.fault.first) simple.ids[k] = ids[k];
+  const double width_m = trial.map.width_m;
+  simple = converged_trial({scans, ids, std::vector(simple.ids)}, simple, trial.map.positions_m,
+                           width_m, width_m);
+  return simple.map.cost < kAsGood * trial.map.cost ? simple : trial;
+}
+
+std::optional<FaultTrial> scattered_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
+                                          const RobustMap& map) {
+  std::optional<FaultTrial> best;
+  const std::vector<SharedPositions> all = shared_positions(scans, ids, map, kSettledPairs);
+  for (const SharedPositions& shared : all) {
+    if (shared.gain < kLeastGain * all.front().gain) break;
+    FaultTrial trial = simpler_trial(scans, ids, shared, map.width_m);
+    if (!best || trial.map.cost < best->map.cost) best = std::move(trial);
+  }
+  return best ? std::optional(over_stretch(scans, ids, std::move(*best), map.width_m)) : best;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/image/image.hpp"
+#include "reports/diff/images/change_map.hpp"
+#include "reports/diff/images/image_changes.hpp"
+
+namespace mapproof {
+
+struct PixelComparison {
+  PixelDiff pixels;
+  ChangeMap marks;  ///< Empty if the sizes differ.
+};
+
+/// Compares two images, as docs/diff-images.md describes.
+/// @param current  Consumed; its ignored pixels are overwritten.
+/// @throws InvalidInput if the options cannot be used.
+/// @note Linear time; equal tiles cost a comparison of their bytes. Parallel over tiles.
+PixelComparison image_diff(const Image& baseline, Image current, const ImageOptions& options = {});
+
+/// Compares two PNG or two SVG files. Invalid content is not an error: the state is then
+/// kUnreadable.
+///
+/// @param heat  If given, gets heat_map of two PNGs of one size that are not identical, else
+/// nothing.
+/// @throws IoError if a file cannot be opened or exceeds 2^28 bytes.
+/// @throws InvalidInput if the options cannot be used.
+/// @note Files with equal bytes, and PNGs that differ only in their texts, are not decoded.
+/// Otherwise memory holds two images of 4 bytes per pixel, and one byte per pixel where they
+/// differ. Uses
+///       oneTBB's threads; the result does not depend on them.
+ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
+                     const ImageOptions& options = {}, Image* heat = nullptr);
+
+/// The baseline in pale grey, changed pixels in red, pixels explained by noise or anti-aliasing in
+/// yellow. Empty (0 x 0) if the files are not PNGs, cannot be read, are identical or differ in
+/// size.
+/// @throws as image_diff.
+Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
+               const ImageOptions& options = {});
+
+}  // namespace mapproof

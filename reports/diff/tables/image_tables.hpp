@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/diff/diff_result.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// "1600 × 1200".
+std::string size_text(const ImageSize& size);
+
+/// Adds the comparison of the image files: sizes, pixels, clusters, SVG elements.
+/// @param suffix  The end of the tables' ids.
+void add_image_tables(std::vector<Block>& blocks, const std::vector<ImageFile>& files,
+                      const std::string& suffix);
+
+}  // namespace mapproof

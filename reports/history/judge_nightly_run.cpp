@@ -1,0 +1,160 @@
+#include "reports/history/judge_nightly_run.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
+
+namespace mapproof {
+namespace {
+
+void append(RuleOutcome& all, RuleOutcome more) {
+  std::ranges::move(more.findings, std::back_inserter(all.findings));
+  std::ranges::move(more.remarks, std::back_inserter(all.remarks));
+}
+
+/// Whether the nightly run has a study that was ordered in the same way as one of this nightly
+/// run's.
+bool can_be_compared(HistoryStore& store, int nightly_run, const NightlyRun& this_run) {
+  return std::ranges::any_of(this_run.studies, [&](const NightlyStudy& study) {
+    return has_study(store, nightly_run, study);
+  });
+}
+
+void drop_before(StudyTrend& trend, int nightly_run) {
+  const auto first = std::ranges::find_if(
+      trend.nightly_runs, [&](const NightlyFacts& facts) { return facts.number >= nightly_run; });
+  const auto count = std::distance(trend.nightly_runs.begin(), first);
+  trend.nightly_runs.erase(trend.nightly_runs.begin(), first);
+  trend.peak_memory_mib.erase(trend.peak_memory_mib.begin(), trend.peak_memory_mib.begin() + count);
+  for (auto* all : {&trend.medians, &trend.levels})
+    for (auto& [series, values] : *all) values.erase(values.begin(), values.begin() + count);
+}
+
+StudyEvidence evidence_of(HistoryStore& store, const NightlyRun& this_run,
+                          const NightlyStudy& study, int pinned) {
+  StudyEvidence evidence{
+      .trend = store.trend(study.name, study.order_digest, kTrendRuns, this_run.facts.number - 1),
+      .this_run = study.scores,
+      .draws_groups = study.draws_groups};
+  drop_before(evidence.trend, pinned);
+  add_this_run(evidence.trend, this_run.facts, study);
+  if (!this_run.facts.reference) return evidence;
+  for (const NightlyStudy& then : store.studies(*this_run.facts.reference))
+    if (then.name == study.name && then.order_digest == study.order_digest)
+      evidence.reference = {*this_run.facts.reference,
+                            store.scores(*this_run.facts.reference, study.name)};
+  return evidence;
+}
+
+}  // namespace
+
+void add_this_run(StudyTrend& trend, const NightlyFacts& facts, const NightlyStudy& study) {
+  const std::size_t before = trend.nightly_runs.size();
+  trend.nightly_runs.push_back(facts);
+  trend.peak_memory_mib.push_back(study.peak_memory_mib.value_or(kNaN));
+  const auto add = [&](auto& all, const auto& value_of) {
+    for (const auto& [series, values] : study.scores) all.try_emplace(series, before, kNaN);
+    for (auto& [series, of_nightly_runs] : all) {
+      if (of_nightly_runs.size() != before)
+        throw InvalidInput("add_this_run: a series has another number of nightly runs");
+      const auto found = study.scores.find(series);
+      of_nightly_runs.push_back(found == study.scores.end() ? kNaN
+                                                            : value_of(series, found->second));
+    }
+  };
+  add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });
+  for (const Quantity& quantity : study.quantities.declared()) trend.quantities.declare(quantity);
+  for (const auto& [id, label] : study.labels.setups) trend.labels.setups[id] = label;
+  for (const auto& [id, label] : study.labels.methods) trend.labels.methods[id] = label;
+  add(trend.levels, [&](const SeriesId& series, const auto& values) {
+    return level_of(trend.quantities.at(series.quantity), values);
+  });
+}
+
+RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& rules,
+                        const std::vector<NightlyFinding>& yesterday) {
+  RuleOutcome outcome = judge_accuracy(evidence, rules);
+  RuleOutcome costs = judge_costs(evidence, rules);
+  // Few groups are judged both ways: a series is reported once.
+  std::erase_if(costs.findings, [&](const NightlyFinding& finding) {
+    return std::ranges::any_of(outcome.findings, [&](const NightlyFinding& other) {
+      return other.subject == finding.subject && other.quantity == finding.quantity;
+    });
+  });
+  append(outcome, std::move(costs));
+  append(outcome, judge_drifts(evidence, rules, outcome.findings));
+  for (NightlyFinding& finding : outcome.findings) {
+    const auto same = std::ranges::find_if(yesterday, [&](const NightlyFinding& old) {
+      return old.study == finding.study && old.subject == finding.subject &&
+             old.quantity == finding.quantity;
+    });
+    if (same == yesterday.end() || same->since >= finding.since) continue;
+    finding.since = same->since;
+    finding.sentence += fmt::format("; since nightly run {}", same->since);
+  }
+  return outcome;
+}
+
+bool has_study(HistoryStore& store, int nightly_run, const NightlyStudy& this_run) {
+  return std::ranges::any_of(store.studies(nightly_run), [&](const NightlyStudy& then) {
+    return then.name == this_run.name && then.order_digest == this_run.order_digest;
+  });
+}
+
+std::optional<int> reference_nightly_run(HistoryStore& store, const NightlyRun& this_run,
+                                         std::optional<int> asked) {
+  const std::vector<NightlyFacts> nightly_runs = store.nightly_runs();
+  if (asked) {
+    if (std::ranges::find(nightly_runs, *asked, &NightlyFacts::number) == nightly_runs.end())
+      throw InvalidInput(fmt::format("--reference: there is no nightly run {}", *asked));
+    if (!can_be_compared(store, *asked, this_run))
+      throw InvalidInput(
+          fmt::format("--reference: nightly run {} has no requested study with the same "
+                      "settings",
+                      *asked));
+    return asked;
+  }
+  for (const NightlyFacts& nightly_run : nightly_runs)
+    if (nightly_run.pinned) return nightly_run.number;
+  for (auto nightly_run = nightly_runs.rbegin(); nightly_run != nightly_runs.rend(); ++nightly_run)
+    if (nightly_run->verdict == NightlyVerdict::kGood &&
+        can_be_compared(store, nightly_run->number, this_run))
+      return nightly_run->number;
+  return std::nullopt;
+}
+
+std::vector<std::string> judge_nightly_run(HistoryStore& store, NightlyRun& this_run,
+                                           std::optional<int> asked_reference,
+                                           const RegressionRules& rules) {
+  this_run.facts.reference = reference_nightly_run(store, this_run, asked_reference);
+  // A pinned reference may have no study of this nightly run.
+  if (this_run.facts.reference && !can_be_compared(store, *this_run.facts.reference, this_run))
+    this_run.facts.reference.reset();
+  const std::vector<NightlyFacts> nightly_runs = store.nightly_runs();
+  const std::vector<NightlyFinding> yesterday = nightly_runs.empty()
+                                                    ? std::vector<NightlyFinding>{}
+                                                    : store.findings(nightly_runs.back().number);
+  int pinned = 0;
+  for (const NightlyFacts& nightly_run : nightly_runs)
+    if (nightly_run.pinned) pinned = nightly_run.number;
+  std::vector<std::string> remarks;
+  if (!nightly_runs.empty() && this_run.facts.started_utc < nightly_runs.back().ended_utc)
+    remarks.push_back(fmt::format(
+        "the clock stands at {}, before the end of nightly run {} at {}: nightly runs are ordered "
+        "by their number",
+        this_run.facts.started_utc, nightly_runs.back().number, nightly_runs.back().ended_utc));
+  for (const NightlyStudy& study : this_run.studies) {
+    RuleOutcome outcome =
+        judge_study(evidence_of(store, this_run, study, pinned), rules, yesterday);
+    std::ranges::move(outcome.findings, std::back_inserter(this_run.findings));
+    std::ranges::move(outcome.remarks, std::back_inserter(remarks));
+  }
+  this_run.facts.verdict = verdict_of(this_run.findings);
+  return remarks;
+}
+
+}  // namespace mapproof

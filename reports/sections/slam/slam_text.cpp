@@ -1,0 +1,70 @@
+#include "reports/sections/slam/slam_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "render/figures/curves/log_log.hpp"
+
+namespace mapproof {
+
+std::string record_id(const SlamRun& run, const SlamRecord& record) {
+  return fmt::format("{}/{}", run.id, info(record.method).name);
+}
+
+const SlamRecord* record_of(const SlamRun& run, SlamMethod method) {
+  const auto found = std::ranges::find(run.records, method, &SlamRecord::method);
+  return found == run.records.end() ? nullptr : &*found;
+}
+
+const TrajectoryError* error_of(const SlamRun& run, SlamMethod method) {
+  const SlamRecord* record = record_of(run, method);
+  return record == nullptr || record->errors.empty() ? nullptr : &record->errors.front();
+}
+
+const SlamRecord* mapped_record(const SlamRun& run) {
+  const auto has_map = [](const SlamRecord& record) {
+    return record.estimate.landmarks_m.array().isFinite().any();
+  };
+  if (const SlamRecord* refined = record_of(run, SlamMethod::kRefined);
+      refined != nullptr && has_map(*refined))
+    return refined;
+  const auto found = std::ranges::find_if(run.records, has_map);
+  return found == run.records.end() ? nullptr : &*found;
+}
+
+bool is_of_paper(const SlamStudy& study) { return study.name == "boots2013"; }
+
+std::string title_of(const SlamRun& run) { return run.log.name.empty() ? run.id : run.log.name; }
+
+std::string path_figure_id(const SlamRun& run) {
+  return run.figure.empty() ? "path-" + run.id : run.figure;
+}
+
+std::optional<double> length_m(const RangeLog& log) {
+  double length = 0.0;
+  if (log.ground_truth) {
+    const Points& path = log.ground_truth->positions_m;
+    for (Eigen::Index i = 1; i < path.rows(); ++i)
+      if (const double step = (path.row(i) - path.row(i - 1)).norm(); std::isfinite(step))
+        length += step;
+    return length;
+  }
+  if (log.odometry.empty()) return std::nullopt;
+  for (const Motion& motion : log.odometry)
+    length += std::hypot(motion.distance_m, motion.sideways_m);
+  return length;
+}
+
+double convergence_slope(const ConvergenceCurve& curve) {
+  std::vector<double> steps, errors;
+  for (const ConvergencePoint& point : curve.points) {
+    steps.push_back(point.steps);
+    errors.push_back(point.observation.values > 0 ? point.observation.mean : kNaN);
+  }
+  return log_log_slope(steps, errors);
+}
+
+}  // namespace mapproof
