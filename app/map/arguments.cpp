@@ -8,6 +8,7 @@
 #include "app/map/option_table.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/retired_names.hpp"
 #include "core/base/words.hpp"
 #include "core/missing/filled.hpp"
 
@@ -93,13 +94,20 @@ void add_observation_options(CLI::App& app, MapJob& job) {
                "Visibility: no edge of the graph joins landmarks that were never seen together");
 }
 
+/// Empty unless another value has replaced it.
+std::string refuse_retired_value(const std::string& value) {
+  const std::string_view now = replacement_of(NameKind::kValue, value);
+  return now.empty() ? "" : fmt::format("{} is now called {}", value, now);
+}
+
 /// Missing data, sub-maps, ellipses.
 void add_capability_options(CLI::App& app, MapJob& job) {
   app.add_option(
          "--missing", job.missing,
-         "Strategy for missing data: distances over common steps, entries filled in by PPCA "
-         "or PCA, or distances of covisible landmarks alone. auto: by the pattern of what "
+         "Strategy for missing data: pairwise-complete distances, entries filled in by PPCA or "
+         "PCA, or distances of covisible landmarks alone. auto: by the pattern of what "
          "is missing")
+      ->check(refuse_retired_value)
       ->check(CLI::IsMember(missing_ways()))
       ->capture_default_str();
   app.add_option("--dimensions", job.dimensions,

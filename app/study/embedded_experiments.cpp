@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
 #include "core/base/input_file.hpp"
+#include "core/base/retired_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -51,6 +52,8 @@ ExperimentText experiment_text(const std::string& name,
     }
     return {std::string(resource.bytes), fmt::format("embedded {}", resource.name)};
   }
+  if (const std::string_view now = replacement_of(NameKind::kExperiment, name); !now.empty())
+    throw InvalidInput(fmt::format("the experiment {} is now called {}", name, now));
   throw InvalidInput(fmt::format("no experiment \"{}\"; there is {}", printable(name),
                                  fmt::join(experiment_names(), ", ")));
 }

@@ -138,7 +138,7 @@ enum class Filling {
   kMean,         ///< The landmark's mean. Fails: it is here for comparison.
 };
 
-/// The name used in files and on the command line: "common-steps", "ppca", "pca", "mean".
+/// The name used in files and on the command line: "pairwise-complete", "ppca", "pca", "mean".
 std::string_view name(Filling filling);
 
 /// The filling of that name; empty if there is none.

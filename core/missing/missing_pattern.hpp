@@ -29,7 +29,7 @@ MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index s
 /// The best strategy for such missing data.
 enum class MissingStrategy { kCommonSteps, kPpca, kCovisible };
 
-/// "common-steps", "ppca", "covisible": as on the command line.
+/// "pairwise-complete", "ppca", "covisible": as on the command line.
 std::string_view name(MissingStrategy way);
 
 /// Why a strategy is best for the missing data.

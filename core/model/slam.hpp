@@ -111,8 +111,8 @@ struct SpaceRecord {
 
 /// A simulated flight over landmarks at various heights, ranged to all at every step.
 struct SpaceRun {
-  SpacePoints landmarks_m;           ///< N x 3, the truth.
-  SpacePoints positions_m;           ///< T x 3, the truth.
+  SpacePoints landmarks_m;           ///< N x 3, the true positions.
+  SpacePoints positions_m;           ///< T x 3, the true positions.
   std::vector<Eigen::Index> known;   ///< Rows whose position was given to one record.
   std::string noise;                 ///< In words.
   std::vector<SpaceRecord> records;  ///< With known landmarks first.

@@ -83,7 +83,7 @@ struct RefinementStart {
   SlamMethod method = SlamMethod::kRefined;  ///< kRefined, …FromOdometry or …FromRandom.
   int number = 1;                            ///< Of the starts of that kind, from 1.
   double cost = 0.0;                         ///< Final; NaN: nothing came out.
-  std::optional<double> mean_m;  ///< Error of the path under the method's alignment, with truth.
+  std::optional<double> mean_m;  ///< Error of the path under the method's alignment, with ground truth.
   int iterations = 0;
   bool converged = true;
 };
@@ -139,7 +139,7 @@ struct RangeHistoryMap {
 
 /// The mapping methods and the spectral map on the same ranges of one simulated world.
 struct RangeHistoryStudy {
-  Points landmarks_m;  ///< N x 2, the truth.
+  Points landmarks_m;  ///< N x 2, the true positions.
   int steps = 0;
   std::vector<RangeHistoryMap> maps;  ///< Ranges first, then squared ranges; the spectral map last.
 };

@@ -159,7 +159,7 @@ std::string reason_words(const Status& status) {
       return fmt::format("{} of {} anchors are on the map; an affine map needs 3.", v(0), v(1));
     case StatusReason::kAnchorsOnALine:
       return "The anchors lie on one line in the embedding: nothing ties its second axis to the "
-             "truth.";
+             "ground truth.";
     case StatusReason::kFewAnchorsSoFar:
       return fmt::format(
           "{} on the map so far, or on one line; a fit to them needs 3 that span the plane.",

@@ -31,8 +31,8 @@ inline constexpr std::uint64_t kMostPngBytes = std::uint64_t{1} << 28;
 /// @note Linear; at most kMostPngBytes of memory.
 PngFile read_png(std::string_view bytes);
 
-/// All but the pixels, which are not decoded. @throws InvalidInput as read_png, as far as can be
-/// told.
+/// All but the pixels, which are not decoded. @throws InvalidInput as read_png, for what can be
+/// found without decoding.
 PngFile read_png_remarks(std::string_view bytes);
 
 }  // namespace mapproof

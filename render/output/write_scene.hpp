@@ -15,7 +15,7 @@ namespace mapproof {
 /// with the titles and
 /// records of the last frame as its texts.
 /// @throws InvalidInput if a frame cannot be drawn, their sizes differ or they are too many (see
-///         require_animation_size; told after the first); IoError; SceneError;
+///         require_animation_size; checked after the first); IoError; SceneError;
 ///         AnimationError.
 void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
                      SceneClient& client);

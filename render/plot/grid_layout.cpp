@@ -326,8 +326,6 @@ class CellGrid {
   std::size_t columns_ = 1;
 };
 
-}  // namespace
-
 std::size_t columns_within(const Figure& figure, double width, const Theme& theme) {
   const std::size_t count = figure.panels.size();
   const std::size_t most = figure.columns == 0 ? count : std::min(figure.columns, count);
@@ -341,6 +339,8 @@ std::size_t columns_within(const Figure& figure, double width, const Theme& them
   const std::size_t rows = (count + fit - 1) / fit;
   return (count + rows - 1) / rows;
 }
+
+}  // namespace
 
 void lay_out_grid(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing) {
   if (figure.shared_x || figure.shared_y)

@@ -27,7 +27,7 @@ struct Glyph {
   double y = 0.0;
 };
 
-/// Neighbouring glyphs that stand for neighbouring bytes and cannot be told apart further.
+/// Neighbouring glyphs that stand for neighbouring bytes and cannot be distinguished further.
 struct Cluster {
   std::size_t bytes = 0;
   std::size_t glyphs = 0;

@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-/// One map made of a person's own observations, and what came before it.
+/// One map made from user observations, and what came before it.
 struct MapReportInput {
   const MapRecord& record;
   std::string title;  ///< "Map of observations.csv".

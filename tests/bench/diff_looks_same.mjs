@@ -1,4 +1,4 @@
-// diff_looks_same.mjs BASELINE CURRENT OUT: all pictures of two folders by looks-same, in one process.
+// diff_looks_same.mjs BASELINE CURRENT OUT: all images of two folders by looks-same, in one process.
 import fs from 'node:fs';
 import path from 'node:path';
 import looksSame from 'looks-same';

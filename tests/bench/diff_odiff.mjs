@@ -1,4 +1,4 @@
-// diff_odiff.mjs BASELINE CURRENT OUT: all pictures of two folders by one server of odiff.
+// diff_odiff.mjs BASELINE CURRENT OUT: all images of two folders by one server of odiff.
 import fs from 'node:fs';
 import path from 'node:path';
 import { ODiffServer } from 'odiff-bin';

@@ -1,4 +1,4 @@
-// diff_pixelmatch.mjs BASELINE CURRENT OUT: all pictures of two folders by pixelmatch, in one process.
+// diff_pixelmatch.mjs BASELINE CURRENT OUT: all images of two folders by pixelmatch, in one process.
 import fs from 'node:fs';
 import path from 'node:path';
 import pixelmatch from 'pixelmatch';

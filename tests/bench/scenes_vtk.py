@@ -144,12 +144,12 @@ def main():
     first = 0.0
     for i in range(count):
         window.Render()
-        picture = vtkWindowToImageFilter()
-        picture.SetInput(window)
-        picture.ReadFrontBufferOff()
+        image = vtkWindowToImageFilter()
+        image.SetInput(window)
+        image.ReadFrontBufferOff()
         writer = vtkPNGWriter()
         writer.SetFileName(f"{folder}/vtk-{samples}-{i}.png")
-        writer.SetInputConnection(picture.GetOutputPort())
+        writer.SetInputConnection(image.GetOutputPort())
         writer.Write()
         if i == 0:
             first = time.time() - since

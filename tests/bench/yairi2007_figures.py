@@ -17,11 +17,11 @@ def finished(figure, axes, stem, **words):
     pyplot.close(figure)
 
 
-def draw_map(truth, estimate, stem):
+def draw_map(ground_truth, estimate, stem):
     figure, axes = pyplot.subplots(figsize=(8, 6), dpi=150)
-    ends = [[truth[:, k], estimate[:, k]] for k in (0, 1)]
+    ends = [[ground_truth[:, k], estimate[:, k]] for k in (0, 1)]
     axes.plot(*ends, color="#757575", linewidth=1.2)
-    axes.plot(*truth.T, "o", mfc="white", mec="#1a1a1a", markersize=6, label="true position")
+    axes.plot(*ground_truth.T, "o", mfc="white", mec="#1a1a1a", markersize=6, label="true position")
     axes.plot(*estimate.T, "o", color="#0072b2", markersize=5, label="estimate")
     axes.set_aspect("equal")
     finished(figure, axes, stem, title="Map, 2000 steps", xlabel="x [m]", ylabel="y [m]")

@@ -83,7 +83,7 @@ def blas_in_use():
 
 def map_checkpoint(clock, data, run, sensor, step, methods, with_sde):
     """Every map of one checkpoint; yields records as they go to disk."""
-    truth = numpy.array(run["world"]["landmarks_m"])
+    ground_truth = numpy.array(run["world"]["landmarks_m"])
     anchors = numpy.array(run["anchors"])
     iterations = {key_of(record): record["iterations"] for record in run["records"]}
     observed, _ = clock.time("distances", lambda: yairi2007_methods.Observed(data, sensor))
@@ -96,7 +96,7 @@ def map_checkpoint(clock, data, run, sensor, step, methods, with_sde):
         except (RuntimeError, ValueError, numpy.linalg.LinAlgError) as error:
             print(f"note no map of {sensor} {step} {method} {value}: {error}")
             continue
-        found, _ = clock.time("scores", lambda: yairi2007_scores.score(points, truth, anchors))
+        found, _ = clock.time("scores", lambda: yairi2007_scores.score(points, ground_truth, anchors))
         parameter = "-" if value is None else f"{value:g}"
         print(f"map {run['run']['layout']} {run['run']['pose']} {sensor} {step} {method} "
               f"{parameter} {seconds:.7f} {found['mpe_m']:.6g} {found['moe_percent']:.6g}",
@@ -146,11 +146,11 @@ def print_agreement(run, maps):
 
 
 def draw_figures(clock, run, maps):
-    truth = numpy.array(run["world"]["landmarks_m"])
+    ground_truth = numpy.array(run["world"]["landmarks_m"])
     with tempfile.TemporaryDirectory() as folder:
         for number, record in enumerate(maps[:FIGURES_OF_A_KIND]):
             clock.time("figures", lambda: yairi2007_figures.draw_map(
-                truth, numpy.array(record["estimate"]), f"{folder}/map-{number}"))
+                ground_truth, numpy.array(record["estimate"]), f"{folder}/map-{number}"))
         for number in range(FIGURES_OF_A_KIND):
             clock.time("figures",
                        lambda: yairi2007_figures.draw_curves(maps, f"{folder}/curve-{number}"))

@@ -43,12 +43,12 @@ def turns(points):
     return numpy.sign((x[j] - x[i]) * (y[k] - y[i]) - (y[j] - y[i]) * (x[k] - x[i]))
 
 
-def score(embedding, truth, anchors):
+def score(embedding, ground_truth, anchors):
     fit = through_three_of_four if len(anchors) == 4 else least_distances
-    estimate = with_ones(embedding) @ fit(embedding[anchors], truth[anchors])
-    errors = numpy.linalg.norm(estimate - truth, axis=1)
-    all_fitted = with_ones(embedding) @ least_distances(embedding, truth)
-    moe = 100.0 * numpy.mean(turns(estimate) != turns(truth))
+    estimate = with_ones(embedding) @ fit(embedding[anchors], ground_truth[anchors])
+    errors = numpy.linalg.norm(estimate - ground_truth, axis=1)
+    all_fitted = with_ones(embedding) @ least_distances(embedding, ground_truth)
+    moe = 100.0 * numpy.mean(turns(estimate) != turns(ground_truth))
     return {"estimate": estimate, "mpe_m": numpy.delete(errors, anchors).mean(),
-            "mpe_all_fitted_m": numpy.linalg.norm(all_fitted - truth, axis=1).mean(),
+            "mpe_all_fitted_m": numpy.linalg.norm(all_fitted - ground_truth, axis=1).mean(),
             "moe_percent": moe, "moe_unmirrored_percent": min(moe, 100.0 - moe)}

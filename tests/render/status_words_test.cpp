@@ -52,7 +52,7 @@ TEST(StatusReasons, HaveASentenceThatEndsAndTellsItsNames) {
   }
 }
 
-/// What tells a plane from space, or four dimensions from five, is told by its words.
+/// The words distinguish a plane from space, and four dimensions from five.
 TEST(StatusReasons, HaveASentenceThatTellsEveryValue) {
   for (const StatusReasonInfo& reason : kStatusReasons)
     for (std::size_t i = 0; i < reason.value_count(); ++i) {

@@ -12,7 +12,7 @@ std::map<std::string, std::string> comparison_schemas() {
           {"diff.schema.json", json_text(json_schema<DiffResult>())},
           {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())},
           {"history.schema.json", json_text(json_schema<ExportedHistory>())},
-          {"night.schema.json", json_text(json_schema<NightlyFile>())}};
+          {"nightly_run.schema.json", json_text(json_schema<NightlyFile>())}};
 }
 
 }  // namespace mapproof::test

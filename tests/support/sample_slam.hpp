@@ -16,7 +16,7 @@ SlamRun sample_drive(const std::string& id, int poses, std::uint64_t seed);
 /// A walk of 500 steps among six landmarks, four of them known, as the 2013 paper simulates it.
 SlamRun sample_walk();
 
-/// Falling errors: landmarks and model by the root of the readings, positions not at all.
+/// Falling errors: landmarks and model by the root of the number of measurements, positions not at all.
 ConvergenceCurve sample_convergence(const std::string& id, const std::string& title, double level);
 
 /// Seconds that follow N^2 T.

@@ -23,7 +23,7 @@ void add_paths(std::vector<Figure>& figures) {
     figures.push_back(path_map_figure({"path-" + id, "Paths and landmarks, Plaza 1", run, kShown}));
   };
   add("usual", [](SlamRun&) {});
-  add("no-truth", [](SlamRun& run) {
+  add("no-ground-truth", [](SlamRun& run) {
     run.log.ground_truth.reset();
     run.log.true_landmarks.reset();
     for (SlamRecord& record : run.records) record.errors.clear(), record.error_m.clear();
@@ -125,7 +125,7 @@ void add_choices(std::vector<Figure>& figures) {
   for (RefinementStart& start : run.starts) start.mean_m.reset();
   run.starts[5].cost = NAN;
   figures.push_back(refinement_starts_figure(
-      {"starts-no-truth", "Starts of the refinement, Plaza 1", run.starts, "plaza-1"}));
+      {"starts-no-ground-truth", "Starts of the refinement, Plaza 1", run.starts, "plaza-1"}));
   figures.push_back(refinement_starts_figure({"starts-none", "Starts", {}, "plaza-1"}));
   MapGridSpec maps = sample_maps(11);
   maps.id = "wall-eleven";

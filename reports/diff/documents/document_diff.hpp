@@ -10,7 +10,7 @@
 namespace mapproof {
 
 /// Compares a table in its formats, or a report's page. Both follow from records and figures.
-/// @param told  The items of records, figures and, for a page, tables. A page is compared without
+/// @param reported  The items of records, figures and, for a page, tables. A page is compared without
 /// the parts that have an item of their own that is not identical.
 /// @param baseline, current  Null if that side does not have the item.
 DiffItem document_item(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,

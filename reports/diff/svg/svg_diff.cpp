@@ -161,7 +161,7 @@ class Differ {
   }
 
   /// Whether the element's transform moves it by so little that nobody sees it, all that its groups
-  /// did added; what is moved farther is told once, and not of all below it.
+  /// did added; what is moved farther is reported once, and not of all below it.
   bool nudge(int i, const SvgElement& a, const SvgElement& b) {
     if (a.parent >= 0) moved_[i] = moved_[a.parent];
     const auto before = a.values.find("transform"), after = b.values.find("transform");

@@ -28,7 +28,7 @@ struct SvgDiff {
   std::int64_t geometry = 0, style = 0, text = 0, structure = 0, metadata = 0;
 };
 
-/// What is no change that anyone sees.
+/// Differences that nobody sees.
 struct SvgTolerances {
   double distance_px = 0.15;  ///< Pixels as drawn, >= 0: how far geometry may be moved.
   double colour = 0.0;        ///< Of 255, >= 0: what a channel of a colour may differ.

@@ -269,7 +269,7 @@ TEST(RangeLogFiles, ValidateKnowsThem) {
   EXPECT_TRUE(broken.problem.ends_with("line 1: unknown record \"NODE\""));
 }
 
-TEST(RangeLogFiles, AreToldByTheirFirstBytes) {
+TEST(RangeLogFiles, AreRecognizedByTheirFirstBytes) {
   const test::TemporaryFolder folder;
   const RangeLog log = sample_log();
   test::write_mat(log, folder / "a.mat", true);

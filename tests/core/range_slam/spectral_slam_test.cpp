@@ -179,7 +179,7 @@ TEST(SpectralSlam, OfPiecesThatTellNoMirrorSaysSo) {
   EXPECT_FALSE(has(found(400.0).statuses, StatusCode::kUndetermined));
 }
 
-TEST(SpectralSlam, NamesTheLandmarkThatIsToldAtTheFewestPoses) {
+TEST(SpectralSlam, NamesTheLandmarkThatIsObservedAtTheFewestPoses) {
   test::Drive d = drive({}, 5);
   d.log.landmarks[2] = "door";
   std::erase_if(d.log.ranges, [](const RangeMeasurement& measured) {

@@ -52,7 +52,7 @@ TEST(WindowedRanges, ShrugOffOneReadingInTenThatIsFarOff) {
   EXPECT_LT(worst(spoilt), 5.0 * worst(drive({.range_sigma_m = 0.05}, 2)));
 }
 
-TEST(WindowedRanges, LeaveOutTimesThatALandmarkIsNotToldAt) {
+TEST(WindowedRanges, LeaveOutTimesAtWhichALandmarkIsNotObserved) {
   Drive gap = drive({}, 3);
   std::erase_if(gap.log.ranges, [](const RangeMeasurement& measured) {
     return measured.landmark == 2 && measured.time_s > 80.0 && measured.time_s < 150.0;
@@ -124,7 +124,7 @@ TEST(WindowChoice, IsSummedUpForRecords) {
   EXPECT_TRUE(std::ranges::find(curve.lengths_s, curve.chosen_s) != curve.lengths_s.end());
 }
 
-TEST(WindowChoice, OfHardlyAnyReadingsSaysThatItCoversTooLittle) {
+TEST(WindowChoice, OfFewMeasurementsSaysThatItCoversTooLittle) {
   Drive sparse = drive({}, 7);
   sparse.log.ranges.resize(10);
   EXPECT_FALSE(

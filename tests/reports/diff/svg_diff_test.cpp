@@ -199,7 +199,7 @@ TEST(SvgDiff, OneOfCountedElementsThatIsGoneIsOneChange) {
     EXPECT_EQ(found.total - found.tolerated, 1) << gone;
     EXPECT_EQ(body_diff(counted(gone), counted(-1)).structure, 1) << gone;
   }
-  // Numbers with a gap are names: the one that moved is told by its own.
+  // Numbers with a gap are names: the one that moved is reported by its own.
   const std::string all = "<g id='p1'><rect x='1'/></g><g id='p2'><rect x='2'/></g><g id='p3'/>";
   EXPECT_EQ(body_diff(all, "<g id='p1'><rect x='2'/></g><g id='p3'/>").geometry, 1);
 }

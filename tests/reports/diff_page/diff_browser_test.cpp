@@ -132,7 +132,7 @@ TEST_F(DiffBrowser, ShowsImagesAndTablesWithoutItsScript) {
   std::string page = page_of(test::compared_folders(folder.path()));
   page.erase(page.find("<script"), page.find("</script>") - page.find("<script"));
   Findings found = look_at(page);
-  EXPECT_EQ(found["bare-pictures"], "9");
+  EXPECT_EQ(found["bare-images"], "9");
   EXPECT_EQ(found["bare-tables"], "1");
   EXPECT_EQ(found["bare-controls"], "0");
 }

@@ -263,9 +263,9 @@ function checkLooks() {
   }
 }
 
-// Without its script the page shows all pictures and tables.
+// Without its script the page shows all images and tables.
 function checkBare() {
-  say("bare-pictures", all("img").filter((image) => seen(image) && image.offsetWidth > 20).length);
+  say("bare-images", all("img").filter((image) => seen(image) && image.offsetWidth > 20).length);
   say("bare-tables", all("table").filter(seen).length);
   say("bare-controls", all("button, input").filter(seen).length);
 }

@@ -1,5 +1,5 @@
 // Simulated histories judged one nightly run after the other: how often the rules cry wolf, and
-// what they find. mapproof_nightly_bench [HISTORIES] [NIGHTS]
+// what they find. mapproof_nightly_bench [HISTORIES] [RUNS]
 
 #include <algorithm>
 #include <cmath>

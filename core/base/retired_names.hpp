@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace mapproof {
+
+/// What a name of the interface names.
+enum class NameKind {
+  kOption,      ///< Of the command line: "--kind".
+  kValue,       ///< Of an option: "common-steps".
+  kKey,         ///< Of a JSON file: "truth_m".
+  kExperiment,  ///< That `reproduce` knows: "labels".
+};
+
+/// A name that was replaced.
+struct RetiredName {
+  NameKind kind;
+  std::string_view name;
+  std::string_view now;
+};
+
+/// All of them. A name that is retired is refused in one line with its new one.
+std::span<const RetiredName> retired_names();
+
+/// The name that replaced `name`; empty if it is not a retired name of that kind.
+std::string_view replacement_of(NameKind kind, std::string_view name);
+
+}  // namespace mapproof

@@ -1,0 +1,85 @@
+#include "core/base/retired_names.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/base/errors.hpp"
+#include "core/json/json_cursor.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof {
+namespace {
+
+std::vector<RetiredName> retired(NameKind kind) {
+  std::vector<RetiredName> names;
+  for (const RetiredName& name : retired_names())
+    if (name.kind == kind) names.push_back(name);
+  EXPECT_FALSE(names.empty());
+  return names;
+}
+
+TEST(RetiredNames, OfOptionsAreRefusedInOneLineWithTheNewName) {
+  for (const RetiredName& option : retired(NameKind::kOption))
+    for (const std::string& word : {std::string(option.name), std::string(option.name) + "=x"}) {
+      const test::Outcome outcome = test::mapproof({"map", "seen.csv", word});
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_EQ(outcome.error, "mapproof: " + std::string(option.name) +
+                                   ": this option is now called " + std::string(option.now) + "\n");
+    }
+}
+
+TEST(RetiredNames, OfOptionsHaveANewNameThatACommandTakes) {
+  const std::string help =
+      test::mapproof({"map", "--help"}).out + test::mapproof({"slam", "--help"}).out;
+  for (const RetiredName& option : retired(NameKind::kOption)) {
+    EXPECT_NE(help.find(std::string(option.now) + " "), std::string::npos) << option.now;
+    EXPECT_EQ(help.find(std::string(option.name) + " "), std::string::npos) << option.name;
+  }
+}
+
+TEST(RetiredNames, OfValuesAndExperimentsAreRefusedWithTheNewName) {
+  for (const RetiredName& value : retired(NameKind::kValue)) {
+    const test::Outcome outcome =
+        test::mapproof({"map", "seen.csv", "--missing", std::string(value.name)});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.error.find("is now called " + std::string(value.now)), std::string::npos)
+        << outcome.error;
+  }
+  for (const RetiredName& experiment : retired(NameKind::kExperiment)) {
+    const test::Outcome outcome = test::mapproof({"reproduce", std::string(experiment.name)});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.error.find("is now called " + std::string(experiment.now)), std::string::npos)
+        << outcome.error;
+  }
+}
+
+TEST(RetiredNames, OfKeysAreRefusedWithTheNewNameWhereThatIsAKey) {
+  for (const RetiredName& key : retired(NameKind::kKey)) {
+    const JsonDocument document =
+        parse_json("{\"" + std::string(key.name) + "\": 1}", "settings.json");
+    try {
+      document.cursor().allow_only({key.now, "other"});
+      ADD_FAILURE() << key.name;
+    } catch (const IoError& error) {
+      EXPECT_NE(std::string(error.what())
+                    .find("\"" + std::string(key.name) + "\": this key is now called \"" +
+                          std::string(key.now) + "\""),
+                std::string::npos)
+          << error.what();
+    }
+    try {
+      document.cursor().allow_only({"other"});
+      ADD_FAILURE() << key.name;
+    } catch (const IoError& error) {
+      EXPECT_EQ(std::string(error.what()).find("is now called"), std::string::npos);
+    }
+  }
+}
+
+TEST(RetiredNames, GroundTruthHasItsShortName) {
+  for (const char* command : {"map", "slam"})
+    EXPECT_NE(test::mapproof({command, "--help"}).out.find("--ground-truth,--truth"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace mapproof
