@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/base/errors.hpp"
-#include "core/range_slam/factors/convergence.hpp"
+#include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
 #include "core/range_slam/refinement/bootstrap.hpp"
 #include "core/simulate/range_world.hpp"
