@@ -256,7 +256,7 @@ void compare_decoded(std::string_view before, std::string_view after, const Imag
   if (!diff.reason.empty()) return;
   const bool hidden = !options.ignored.empty() && differ(baseline.png.image, current.png.image);
   const PixelComparison found =
-      image_diff(baseline.png.image, std::move(current.png.image), options);
+      pixel_diff(baseline.png.image, std::move(current.png.image), options);
   diff.pixels = found.pixels;
   diff.state = state_of(found.pixels, options);
   const bool finer_differs = baseline.png.finer_digest != current.png.finer_digest;
@@ -344,7 +344,7 @@ void compare_svgs(std::string_view before, std::string_view after, const ImageOp
 
 }  // namespace
 
-PixelComparison image_diff(const Image& baseline, Image current, const ImageOptions& options) {
+PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
   if (const std::string problem = problem_of(options); !problem.empty())
     throw InvalidInput(problem);
   PixelComparison diff;

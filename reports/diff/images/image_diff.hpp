@@ -21,7 +21,7 @@ struct PixelComparison {
 /// @param current  Consumed; its ignored pixels are overwritten.
 /// @throws InvalidInput if the options cannot be used.
 /// @note Linear time; equal tiles cost a comparison of their bytes. Parallel over tiles.
-PixelComparison image_diff(const Image& baseline, Image current, const ImageOptions& options = {});
+PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options = {});
 
 /// Compares two PNG or two SVG files. Invalid content is not an error: the state is then
 /// kUnreadable.

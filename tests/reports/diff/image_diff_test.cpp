@@ -159,9 +159,9 @@ TEST_F(ImageDiffTest, AHeatMapShowsWhatChanged) {
 }
 
 TEST(PixelComparison, TheSmallestImagesCanBeCompared) {
-  EXPECT_EQ(image_diff({}, {}).pixels.differing, 0);
-  EXPECT_EQ(image_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.differing, 1);
-  EXPECT_EQ(image_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.changed, 1);
+  EXPECT_EQ(pixel_diff({}, {}).pixels.differing, 0);
+  EXPECT_EQ(pixel_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.differing, 1);
+  EXPECT_EQ(pixel_diff({1, 1, {0}}, {1, 1, {0xFFFFFF}}).pixels.changed, 1);
 }
 
 }  // namespace

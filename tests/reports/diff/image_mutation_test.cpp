@@ -38,7 +38,7 @@ TEST(ImageMutations, NoneIsMissedAndNoneFalselyAlarms) {
       std::ranges::move(mutate(drawing, image), std::back_inserter(all));
   std::vector<PixelDiff> found(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    found[i] = image_diff(all[i].baseline(), all[i].current()).pixels;
+    found[i] = pixel_diff(all[i].baseline(), all[i].current()).pixels;
   });
   Confusion confusion;
   int hidden = 0;
