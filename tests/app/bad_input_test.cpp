@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                kSeen,
                kAnchors,
                {"--method", "lpca", "-K", "5"},
-               "the method lpca has none"},
+               "the method lpca has no parameter"},
         BadMap{"MoreStepsThanThereAre",
                kSeen,
                kAnchors,

@@ -175,7 +175,7 @@ TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
   EXPECT_EQ(unknown.exit_code, 2);
   const Outcome dimensions = survey.mapped({"--dimensions", "4"}, folder / "b");
   EXPECT_EQ(dimensions.exit_code, 2);
-  EXPECT_NE(dimensions.error.find("--dimensions: --missing pairwise-complete has none"),
+  EXPECT_NE(dimensions.error.find("--dimensions: --missing pairwise-complete has no dimensions"),
             std::string::npos)
       << dimensions.error;
   const std::string seen = folder.file("v.csv", "a,1,0,1\nb,1,1,0\nc,0,1,1\nd,1,,1\n");
