@@ -24,7 +24,7 @@ namespace {
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
-    "  1  the check that was asked for says no, or no map came out\n"
+    "  1  the check that was asked for says no, or there is no map\n"
     "  2  usage or input\n"
     "  3  internal error\n"
     "  4  nightly: only seconds or memory grew\n";

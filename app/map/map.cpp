@@ -13,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-/// How the job's growing table is mapped.
+/// How the incremental map of the job is made.
 FollowOrder follow_order(const MapJob& job) {
   const std::optional<Sensor> sensor = sensor_named(job.kind);
   return {.path = job.path,

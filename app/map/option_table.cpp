@@ -162,7 +162,7 @@ constexpr OptionPair kApart[] = {
     {"--check-ids", "--follow", kAllScans},
     {"--repair-ids", "--follow", kAllScans},
     {"--find-moved without range-bearing", "--follow",
-     "ranges or bearings alone do not show which landmark moved; follow detections with --sensor "
+     "ranges or bearings alone do not show which landmark moved; use detections with --sensor "
      "range-bearing"},
     {"--uncertain-ids", "--follow", kComplete},
 };

@@ -99,7 +99,7 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   const SlamRecord* best = best_record(run);
   text += best == nullptr
               ? std::string("No method gave a map.\n")
-              : fmt::format("Path and landmarks handed out: {}.\n", info(best->method).label);
+              : fmt::format("Path and landmarks of the result: {}.\n", info(best->method).label);
   return text + (out / "report.html").string() + "\n";
 }
 
@@ -109,9 +109,10 @@ void require_followable(const SlamArguments& arguments) {
                                       {&arguments.ground_truth, "--ground-truth"},
                                       {&arguments.log.name, "--name"}})
     if (!value->empty())
-      throw InvalidInput(fmt::format(
-          "{}: not with --follow, which maps landmarks from ranges alone; map the log as a whole",
-          option));
+      throw InvalidInput(
+          fmt::format("{}: not with --follow, which maps landmarks from ranges alone; map the "
+                      "whole log instead",
+                      option));
 }
 
 int follow_ranges(const SlamArguments& arguments, const Templates& page,
@@ -179,7 +180,7 @@ Action slam_command(CLI::App& app) {
       "It may be compressed by gzip or xz. Ranges are single distances to named landmarks, at any\n"
       "times. The window that brings them to common times is chosen by prediction error. Errors "
       "are\n"
-      "reported only with ground truth. Without odometry the map may be mirrored.\n"
+      "reported only with ground truth. Without odometry the map may be reflected.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("DATA", arguments->data, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();

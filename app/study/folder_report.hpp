@@ -23,7 +23,7 @@ struct FolderReport {
   bool of_paper = true;  ///< A paper's study, not one beyond them.
   Report report = {};
   std::vector<Section> in_company =
-      {};                            ///< Its sections as they stand beside those of other studies.
+      {};                            ///< Its sections as they stand next to those of other studies.
   std::vector<Figure> figures = {};  ///< In the order of the report.
   std::vector<Scene> scenes = {};    ///< Likewise.
   std::vector<Film> films = {};      ///< Of some of the scenes.
@@ -33,7 +33,7 @@ struct FolderReport {
 };
 
 /// Reads the records of a folder and makes report and figures of them; no solver runs. The folder
-/// holds a study of any kind, or studies in folders below it (see study_folders()).
+/// holds a study of any type, or studies in folders below it (see study_folders()).
 /// @param command  The one that makes it again; empty: that of the session which made the records,
 ///                 or `fallback`.
 /// @throws IoError.
@@ -68,7 +68,7 @@ struct Drawn {
   std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
 
-/// Draws the images into `folder`: figures several at a time, scenes one by one beside them.
+/// Draws the images into `folder`: figures several at a time, scenes one by one at the same time.
 /// @throws IoError.
 Drawn write_images(const Images& images, const Theme& theme, const std::filesystem::path& folder,
                    int jobs, SceneClient& client);

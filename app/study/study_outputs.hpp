@@ -19,7 +19,7 @@ struct StudyNumbers {
   std::vector<std::string> missing = {};  ///< Data asked for that are not there.
 };
 
-/// How a kind of study is shown; its study.json has the schema of a StudyKind.
+/// How a type of study is shown; its study.json has the schema of a StudyKind.
 struct StudyOutputs {
   std::string_view study;
   /// Its report with its figures; no solver runs. `command` makes the study again. @throws IoError.
@@ -31,7 +31,7 @@ struct StudyOutputs {
 /// A file each; a new one is added to study_outputs.cpp.
 extern const StudyOutputs kMappingOutputs, kRangeOutputs, kTrialOutputs, kTableOutputs;
 
-/// Those of the study in a folder. @throws IoError if there is none, or of no kind that is known.
+/// Those of the study in a folder. @throws IoError if there is none, or if its type is not known.
 const StudyOutputs& outputs_of_study(const std::filesystem::path& folder);
 
 }  // namespace mapproof

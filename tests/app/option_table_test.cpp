@@ -96,7 +96,7 @@ bool are_alternatives(const Words& first, const Words& second) {
          (is_in_parameter_group(first[0]) && is_in_parameter_group(second[0]));
 }
 
-/// What is said of a job by refusal(), after require_compatible() has said the same.
+/// The sentence by which require_compatible() refuses a job, equal to refusal(); empty: accepted.
 std::string said_of(const MapJob& job) {
   std::string thrown;
   try {
@@ -115,9 +115,9 @@ std::string option_word(std::string_view name) {
   return std::string(name.substr(begin, name.find(' ', begin) - begin));
 }
 
-std::string text_of(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
+std::string line_of(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-/// Two options on one command line, with the words that the table of needs asks for beside them.
+/// Two options on one command line, with the words that the table of needs asks for in addition.
 class Combination {
  public:
   Combination(const MapOption& first, const MapOption& second) {
@@ -173,11 +173,11 @@ void expect_refused_by_program(const Words& words, const std::string& sentence) 
   const std::string rows = folder.file("rows.csv", "a,1,2\nb,2,3\nc,3,1\n");
   const std::string out = folder / "map";
   const test::Outcome outcome = test::mapproof(Words{"map", rows, "--out", out} + words);
-  EXPECT_EQ(outcome.exit_code, 2) << text_of(words);
-  EXPECT_EQ(outcome.error, "mapproof: " + sentence + "\n") << text_of(words);
+  EXPECT_EQ(outcome.exit_code, 2) << line_of(words);
+  EXPECT_EQ(outcome.error, "mapproof: " + sentence + "\n") << line_of(words);
   EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1);
   EXPECT_EQ(outcome.out, "");
-  EXPECT_FALSE(std::filesystem::exists(out)) << text_of(words);
+  EXPECT_FALSE(std::filesystem::exists(out)) << line_of(words);
 }
 
 /// All names of the options that the help lists: those in front of the descriptions.
@@ -250,7 +250,7 @@ TEST(OptionTable, RefusesWhatDoesNotGoTogetherInItsOwnSentence) {
     const Words words = words_of(option_named(row.option)) + words_of(option_named(row.other));
     const std::string sentence = said_of(job_of(words));
     const std::string begin = fmt::format("{}: not with {}: ", row.option, row.other);
-    EXPECT_TRUE(sentence.starts_with(begin)) << text_of(words) << ": " << sentence;
+    EXPECT_TRUE(sentence.starts_with(begin)) << line_of(words) << ": " << sentence;
     EXPECT_GT(sentence.size(), begin.size());
     EXPECT_EQ(sentence.find_first_of("{}\n"), std::string::npos) << sentence;
     expect_refused_by_program(words, sentence);
@@ -264,7 +264,7 @@ TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
                         (failing == kFailing.end() ? Words{} : failing->second);
     const std::string sentence = said_of(job_of(alone));
     EXPECT_TRUE(sentence.starts_with(fmt::format("{}: ", row.option)))
-        << text_of(alone) << ": " << sentence;
+        << line_of(alone) << ": " << sentence;
     EXPECT_EQ(sentence.find_first_of("{}\n"), std::string::npos) << sentence;
     // A need of the method names the method and its parameter.
     const std::string other = option_word(row.other);
@@ -272,7 +272,7 @@ TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
     // The program takes --method pairs for --sensor range-bearing.
     if (row.option != "--method pairs") expect_refused_by_program(alone, sentence);
     const Words both = words_of(option_named(row.option)) + words_of(option_named(row.other));
-    EXPECT_EQ(said_of(job_of(both)), "") << text_of(both);
+    EXPECT_EQ(said_of(job_of(both)), "") << line_of(both);
   }
 }
 
@@ -285,7 +285,7 @@ TEST(OptionTable, RefusesNoOtherPair) {
       if (is_condition(*first) || is_condition(*second)) continue;
       const Words one = words_of(*first), two = words_of(*second);
       if (are_alternatives(one, two)) {
-        EXPECT_THROW(job_of(one + two), CLI::ParseError) << text_of(one + two);
+        EXPECT_THROW(job_of(one + two), CLI::ParseError) << line_of(one + two);
         continue;
       }
       const Combination pair(*first, *second);
@@ -294,7 +294,7 @@ TEST(OptionTable, RefusesNoOtherPair) {
       const bool is_expected = std::ranges::any_of(
           expected, [&](const std::string& begin) { return sentence.starts_with(begin); });
       EXPECT_TRUE(expected.empty() ? sentence.empty() : is_expected)
-          << text_of(pair.words()) << ": \"" << sentence << "\", expected one of "
+          << line_of(pair.words()) << ": \"" << sentence << "\", expected one of "
           << ::testing::PrintToString(expected);
       ++(sentence.empty() ? accepted : refused);
     }
