@@ -15,7 +15,7 @@
 
 namespace mapproof {
 
-/// What a command is given beside its own arguments.
+/// What a command is given besides its own arguments.
 struct Invocation {
   const Console& console;
   std::string command;  ///< As typed, quoted so that a shell takes it again.
@@ -30,7 +30,7 @@ using AddCommand = Action (*)(CLI::App& app);
 /// The words of a command line, quoted for a POSIX shell where needed.
 std::string quoted_command(const std::vector<std::string>& words);
 
-/// Adds --jobs to a command: threads, by default one a core.
+/// Adds --jobs to a command: threads, by default one per core.
 void add_jobs_option(CLI::App& app, int& jobs);
 
 /// Adds --seed (a whole number from 0 to 2^64 - 1; others are refused, not wrapped round),

@@ -9,13 +9,13 @@ namespace mapproof {
 /// What every command ends with.
 enum ExitCode {
   kDone = 0,      ///< Done.
-  kNo = 1,        ///< The check that was asked for says no, or no map came out.
+  kNo = 1,        ///< The check that was asked for says no, or there is no map.
   kUsage = 2,     ///< Usage or input.
   kInternal = 3,  ///< A fault of the program.
   kCostGrew = 4,  ///< Of nightly: only seconds or memory got worse.
 };
 
-/// How much is said on standard error.
+/// How many messages go to standard error.
 enum class Verbosity { kQuiet, kNormal, kVerbose };
 
 /// Where a command talks: messages to standard error, its result to standard output.

@@ -7,7 +7,7 @@ namespace mapproof {
 
 /// Calls `work` and returns its exit code. An exception becomes one line on standard error,
 /// "mapproof: ", `of` and the message, and the exit code of its type.
-/// @param of  Whose work it is.
+/// @param of  A prefix that names the work.
 int exit_code_of(const std::function<int()>& work, const std::string& of = "");
 
 }  // namespace mapproof

@@ -22,7 +22,7 @@ namespace {
 /// Device and number of a stream.
 using StreamId = std::pair<dev_t, ino_t>;
 
-/// Of what can be read once; a file that has a name is opened anew by it.
+/// Of what can be read once; a file that has a name is opened again by it.
 std::optional<StreamId> stream_id(const std::string& path) {
   const std::optional<int> number = handed_in(path);
   struct stat facts {};

@@ -11,7 +11,7 @@ namespace mapproof {
 /// @throws InvalidInput.
 void refuse_shared_streams(std::span<const std::string> inputs);
 
-/// Reads a stream that was handed in and puts a file in its place, unpacked, which can be read as
+/// Reads a stream that was handed in and replaces it by a file, unpacked, which can be read as
 /// often as needed, by the same name. Other paths stay as they are.
 /// @return The path; /dev/stdin for "-".
 /// @throws IoError as read_input(), or if the stream holds more than 2^28 bytes.

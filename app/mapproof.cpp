@@ -1,30 +1,44 @@
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <csignal>
 #include <functional>
 #include <iostream>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include "app/build_facts.hpp"
 #include "app/commands.hpp"
 #include "app/failures.hpp"
-#include "app/retired_options.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/retired_names.hpp"
 #include "core/base/spelling.hpp"
 
 namespace mapproof {
+
 namespace {
+
+/// @param words  Of the command line, behind the program's name.
+/// @throws InvalidInput with the new name of the first retired option among them (see
+///         core/base/retired_names.hpp).
+void refuse_retired_options(std::span<char* const> words) {
+  for (const std::string_view word : words) {
+    if (word == "--") return;
+    const std::string_view name = word.substr(0, word.find('='));
+    if (const std::string_view now = replacement_of(NameKind::kOption, name); !now.empty())
+      throw InvalidInput(fmt::format("{}: this option is now called {}", name, now));
+  }
+}
 
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
-    "  1  the check that was asked for says no, or no map came out\n"
+    "  1  the check that was asked for says no, or there is no map\n"
     "  2  usage or input\n"
     "  3  internal error\n"
     "  4  nightly: only seconds or memory grew\n";
@@ -134,6 +148,7 @@ void open_standard_streams() {
 }
 
 }  // namespace
+
 }  // namespace mapproof
 
 int main(int argc, char** argv) {

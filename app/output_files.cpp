@@ -42,7 +42,7 @@ void check_png(const std::string& bytes, const std::string& source) {
   if (!problem.empty()) throw IoError(source, problem);
 }
 
-/// Files that are told whole by how they begin and end.
+/// Files whose beginning and end show that they are whole.
 void check_ends(const std::string& bytes, const std::string& source, std::string_view begin,
                 std::string_view end) {
   if (!bytes.starts_with(begin))
@@ -63,12 +63,12 @@ void check_page(const std::string& bytes, const std::string& source) {
 void check_latex(const std::string& bytes, const std::string& source) {
   for (const char* part : {"\\toprule", "\\bottomrule"})
     if (bytes.find(part) == std::string::npos)
-      throw IoError(source, fmt::format("is not a table of ours: {} is missing", part));
+      throw IoError(source, fmt::format("is not a table of mapproof: {} is missing", part));
 }
 
 void check_markdown(const std::string& bytes, const std::string& source) {
   if (bytes.find("\n|") == std::string::npos)
-    throw IoError(source, "is not a table of ours: it has no row");
+    throw IoError(source, "is not a table of mapproof: it has no row");
 }
 
 void check_csv(const std::string& bytes, const std::string& source) {
@@ -84,7 +84,7 @@ void check_csv(const std::string& bytes, const std::string& source) {
   if (width == 0) throw IoError(source, "is empty");
 }
 
-/// A kind of file that is written and never read again.
+/// A type of file that is written and never read again.
 struct StagedOutput {
   std::string_view extension;
   std::array<std::string_view, 2> starts;  ///< Of no other files; empty: none.
@@ -102,8 +102,8 @@ constexpr std::array kOutputs = {
     StagedOutput{".csv", {}, "table, CSV", check_csv},
 };
 
-/// The kind of an output file by its name; null for files that core reads. A table's CSV is told
-/// from observations by its folder.
+/// The type of an output file by its name; null for files that core reads. Its folder distinguishes
+/// a table's CSV from observations.
 const StagedOutput* output_named(const fs::path& path) {
   const auto* found =
       std::ranges::find(kOutputs, path.extension().string(), &StagedOutput::extension);
@@ -112,7 +112,7 @@ const StagedOutput* output_named(const fs::path& path) {
   return found;
 }
 
-/// By its name; where that says nothing, as of a stream, by its first bytes.
+/// By its name; if the name is of no use, as that of a stream, by its first bytes.
 const StagedOutput* output_of(ByteSource& source) {
   const fs::path name = unpacked_name(source.path());
   if (name.has_extension()) return output_named(name);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An output and what an earlier one of its kind holds near its beginning.
+/// An output and what an earlier one of its type holds near its beginning.
 struct Output {
   const char* option;
   fs::path place;
@@ -38,7 +38,7 @@ void check_path(const Output& output, const fs::path& input) {
   if (place == compared) refuse("is what is compared");
   if (!lies_in(place, compared) || !fs::is_directory(compared, error)) return;
   if (!item_name(place, compared).kind.empty())
-    refuse("is the place of a figure, image, table or page that is compared");
+    refuse("is the path of a figure, image, table or page that is compared");
   if (fs::is_regular_file(place, error) && !is_earlier_output(output))
     refuse("is a file of a folder that is compared");
 }

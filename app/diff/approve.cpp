@@ -110,7 +110,7 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
     const fs::path file = baseline / report;
     object["stale"].push_back(file.string());
     invocation.console.warning(fmt::format(
-        "{}: is of the records before, as are the figures and tables that were not taken; mapproof "
+        "{}: shows the earlier records, as do the figures and tables that were not taken; mapproof "
         "report {} makes them again",
         printable(file.string(), kLongestLine),
         printable(file.parent_path().string(), kLongestLine)));
@@ -148,8 +148,9 @@ Action approve_command(CLI::App& app) {
   app.add_flag("--force", arguments->order.force,
                "--all may remove more than half of the baseline's files");
   app.add_option("--from", arguments->from, "File of approvals, as the page of a diff writes it");
-  app.add_option("--key", arguments->order.key,
-                 "Keep the images beside the others, as ID@KEY: those of another valid renderer");
+  app.add_option(
+      "--key", arguments->order.key,
+      "Keep the images in addition to the others, as ID@KEY: those of another valid renderer");
   return [arguments](const Invocation& invocation) { return approve(*arguments, invocation); };
 }
 

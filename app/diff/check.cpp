@@ -57,7 +57,7 @@ int check(const CheckArguments& arguments, const Invocation& invocation) {
   // new.
   if (!fs::exists(arguments.baseline, error)) {
     invocation.console.warning(fmt::format(
-        "{}: there is no baseline. The candidate is kept in {}; look at it, and if it is right: "
+        "{}: there is no baseline. The candidate is kept in {}; check it, and if it is right: "
         "{}",
         arguments.baseline, arguments.out,
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));

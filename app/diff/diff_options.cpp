@@ -44,7 +44,7 @@ std::vector<Verdict> verdicts_in(const std::string& list) {
   return verdicts;
 }
 
-/// mapproof-diff.json of the baseline: in the folder, or beside the file.
+/// mapproof-diff.json of the baseline: in the folder, or next to the file.
 fs::path settings_beside(const std::string& baseline) {
   std::error_code error;
   const fs::path folder =
@@ -53,7 +53,7 @@ fs::path settings_beside(const std::string& baseline) {
   return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
-/// How many of the outputs take the place of the text.
+/// How many of the outputs replace the text.
 std::ptrdiff_t to_standard_output(const DiffOptions& options) {
   const std::array locations = {&options.page, &options.json, &options.junit, &options.markdown};
   return std::ranges::count_if(

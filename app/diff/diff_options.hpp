@@ -15,10 +15,10 @@ struct DiffOptions {
   std::string page, junit, json, markdown;  ///< Files to write; empty: none.
   std::optional<std::string> templates;     ///< Folder whose templates replace the embedded ones.
   std::string allow;                        ///< "better,style".
-  std::string settings;  ///< File; empty: mapproof-diff.json beside the baseline, if it is there.
+  std::string settings;  ///< File; empty: mapproof-diff.json next to the baseline, if it is there.
 };
 
-/// Adds --templates, --junit, --json FILE (in place of the common --json), --markdown, --allow and
+/// Adds --templates, --junit, --json FILE (instead of the common --json), --markdown, --allow and
 /// --settings. The page is the command's own option: --out may be taken.
 void add_diff_options(CLI::App& app, DiffOptions& options);
 

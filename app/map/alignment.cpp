@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFarOut = 2.0;  ///< The median landmark so many times as far out as any anchor.
 
-/// Errors of a map that no anchors tie to the ground truth: those that need none.
+/// Errors of a map without anchors: those that need none.
 std::optional<Score> anchor_free_score(const Points& coordinates, const Points& ground_truth_m,
                                        AffineFit fit) {
   std::optional<Score> score = score_map(coordinates, ground_truth_m, {}, fit);
@@ -23,7 +23,7 @@ std::optional<Score> anchor_free_score(const Points& coordinates, const Points& 
   return score;
 }
 
-/// Turns, shifts and perhaps mirrors the map onto those of the rows that it holds.
+/// Rotates, translates and perhaps reflects the map onto those of the rows that it holds.
 bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eigen::Index>& rows) {
   std::vector<Eigen::Index> both;
   for (const Eigen::Index row : rows)
@@ -55,9 +55,8 @@ CertaintyFrame align_metric(MapResult& result, const Reference& known, const Fra
   record.ground_truth_m = known.positions_m;
   if (known.anchors.empty())
     result.remarks.push_back(
-        "No anchors: for its errors the map was turned and shifted onto the ground truth, its "
-        "scale "
-        "kept.");
+        "No anchors: for its errors the map was rotated and translated onto the ground truth, and "
+        "keeps its scale.");
   if (known.has_ground_truth)
     record.score = score_map(record.estimate, known.positions_m, known.anchors, fit.affine);
   if (known.anchors.empty()) return {record.estimate, {}, true};
@@ -116,19 +115,18 @@ std::vector<std::string> frame_warnings(const MapRecord& record) {
   if (record.score && known > 0 && std::isfinite(record.score->mpe_m)) {
     trivial_m /= known;
     if (record.score->mpe_m < trivial_m) return {};
-    return {
-        fmt::format("The map is worth nothing in metres: its MPE is {:.3g} m, and all landmarks "
-                    "put at the mean "
-                    "of the anchors would have one of {:.3g} m.",
-                    record.score->mpe_m, trivial_m)};
+    return {fmt::format(
+        "The map is worth nothing in metres: its MPE is {:.3g} m; a map with all landmarks "
+        "at the mean of the anchors would have an MPE of {:.3g} m.",
+        record.score->mpe_m, trivial_m)};
   }
   const double reach_m = (anchors_m.rowwise() - centre).rowwise().norm().maxCoeff();
   const auto middle = away.begin() + std::ssize(away) / 2;
   std::ranges::nth_element(away, middle);
   if (*middle < kFarOut * reach_m) return {};
   return {fmt::format(
-      "Half of the landmarks lie {:.3g} m or more from the anchors' mean, no anchor beyond {:.3g} "
-      "m: the map, or its fit to the anchors, is likely to be worth nothing.",
+      "Half of the landmarks lie {:.3g} m or more from the mean of the anchors, but no anchor "
+      "beyond {:.3g} m: the map, or its fit to the anchors, is likely to be worth nothing.",
       *middle, reach_m)};
 }
 

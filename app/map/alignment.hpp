@@ -14,7 +14,7 @@ namespace mapproof {
 struct FrameFit {
   AffineFit affine = AffineFit::kLeastDistances;
   bool is_metric = false;  ///< The map is in metres before: its scale is worth keeping.
-  bool is_rigid = false;   ///< And it keeps it: rotated, shifted and perhaps reflected.
+  bool is_rigid = false;   ///< And it keeps it: rotated, translated and perhaps reflected.
 };
 
 /// The steps align and score: brings a map into the frame of its anchors, if there are any that
@@ -24,13 +24,13 @@ struct FrameFit {
 /// @return How other maps of the landmarks are brought to the same frame.
 CertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit);
 
-/// The same of a map that is not metric, without what it says of itself.
+/// The same for a map that is not metric, without remarks.
 void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
                      AffineFit fit);
 
-/// What a person should know of a map in the frame of its anchors that is worth little: errors as
-/// large as if all landmarks were put at the anchors' mean, or, without a ground truth, landmarks
-/// far outside of what the anchors span. A sentence each.
+/// Warnings of a map in the frame of its anchors that is worth little: errors as large as if all
+/// landmarks were put at the anchors' mean, or, without a ground truth, landmarks far outside of
+/// what the anchors span. A sentence each.
 std::vector<std::string> frame_warnings(const MapRecord& record);
 
 }  // namespace mapproof

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "app/command_line.hpp"
-#include "app/map/option_table.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 #include "core/base/retired_names.hpp"
@@ -14,31 +13,6 @@
 
 namespace mapproof {
 namespace {
-
-/// The method, and its parameter if one was given. @throws InvalidInput for an unknown method, or a
-/// parameter out of its bounds.
-MethodSetting chosen_setting(const MapJob& job) {
-  if (job.chooses_method()) return {Method::kIsomap, std::nullopt};
-  const Method method = *method_of(job);
-  const std::optional<GivenParameter> given = given_parameter(job);
-  if (!given) return {method, std::nullopt};
-  const ParameterInfo& parameter = *info(method).parameter;
-  if (!(given->value >= parameter.minimum && given->value <= parameter.maximum) ||
-      (parameter.integer && given->value != std::floor(given->value)))
-    throw InvalidInput(fmt::format(
-        "{}: {} = {:g} is not {} from {:g} to {:g}", given->option, parameter.shown, given->value,
-        parameter.integer ? "an integer" : "a number", parameter.minimum, parameter.maximum));
-  return {method, given->value};
-}
-
-/// Opens the observations, and looks into them for their kind where that was not given:
-/// range-bearing of detections. @throws IoError if they cannot be read.
-void open_observations(MapJob& job) {
-  if (is_folder(job.path)) return;
-  job.source = std::make_shared<ByteSource>(job.path);
-  if (job.kind.empty() && job.table_layout() == Layout::kAuto && is_detections(*job.source))
-    job.kind = kRangeBearing;
-}
 
 /// What is mapped, where to, and by which method.
 void add_method_options(CLI::App& app, MapJob& job) {
@@ -53,7 +27,7 @@ void add_method_options(CLI::App& app, MapJob& job) {
   parameter->require_option(0, 1);
   parameter->add_option("--parameter", job.parameter, "The parameter, whatever the method");
   parameter->add_option("-K,--neighbours", job.neighbours,
-                        "Number of nearest neighbours (default: 6, or what there can be)");
+                        "Number of nearest neighbours (default: 6, or as many as there can be)");
   parameter->add_option("--sigma2", job.variance,
                         "Variance of the Gaussian kernel (default: the median squared distance)");
   parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
@@ -64,7 +38,7 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option(
          "--sensor", job.kind,
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
-         "needed for CSV but detections")
+         "needed for CSV files, except detections")
       ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
   app.add_option(
          "--with", job.with,
@@ -85,13 +59,14 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option("--steps", job.steps, "Use only the first N steps")->check(CLI::Range(1, 1000000));
   app.add_option(
          "--fit", job.fit,
-         "How to fit the map to the anchors by an affine map. rigid: a map of range-bearing "
-         "keeps its scale and shape")
+         "How the affine map to the anchors is fitted. rigid: a map of range-bearing keeps its "
+         "scale and shape")
       ->check(CLI::IsMember({"least-distances", "least-squares", "rigid"}))
       ->capture_default_str();
   app.add_flag("--drop-unseen", job.drop_unseen, "Leave out landmarks that were never observed");
-  app.add_flag("--only-seen-together", job.embedder.only_seen_together,
-               "Visibility: no edge of the graph joins landmarks that were never seen together");
+  app.add_flag(
+      "--only-seen-together", job.embedder.only_seen_together,
+      "Visibility: no edge of the neighbour graph joins landmarks that were never seen together");
 }
 
 /// Empty unless another value has replaced it.
@@ -105,8 +80,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
   app.add_option(
          "--missing", job.missing,
          "Strategy for missing data: pairwise-complete distances, entries filled in by PPCA or "
-         "PCA, or distances of covisible landmarks alone. auto: by the pattern of what "
-         "is missing")
+         "PCA, or distances of covisible landmarks only. auto: by the pattern of the missing data")
       ->check(refuse_retired_value)
       ->check(CLI::IsMember(missing_ways()))
       ->capture_default_str();
@@ -117,7 +91,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
                  "Map overlapping groups of at most N landmarks separately, and join them")
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", job.overlap,
-                 "Share of each sub-map that it has from its neighbours (default: 0.5)")
+                 "Share of each sub-map that it has in common with its neighbours (default: 0.5)")
       ->check(CLI::Range(0.0, 0.8));
   app.add_option("--ellipses", job.ellipse_replicates,
                  "Draw the 95 % confidence ellipse of each landmark, from N bootstrap resamples of "
@@ -127,7 +101,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
       ->check(CLI::Range(10, 10000));
 }
 
-/// Files that grow, landmark IDs, templates.
+/// Incremental maps, landmark IDs, templates.
 void add_incremental_options(CLI::App& app, MapJob& job) {
   app.add_flag(
       "--follow", job.follow,
@@ -176,17 +150,6 @@ void add_map_options(CLI::App& app, MapJob& job) {
   add_observation_options(app, job);
   add_capability_options(app, job);
   add_incremental_options(app, job);
-}
-
-void settle(MapJob& job) {
-  if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
-  // What grows cannot be looked into first.
-  if (!job.follow) open_observations(job);
-  require_known_method(job);
-  require_compatible(job);
-  if (!job.is_range_bearing()) job.setting = chosen_setting(job);
-  job.known_anchors = read_points(job.anchors);
-  job.known_ground_truth = read_points(job.ground_truth);
 }
 
 }  // namespace mapproof

@@ -18,12 +18,12 @@
 
 namespace mapproof {
 
-/// What `mapproof map` is asked for: the words of the command line, and what settle() makes of
-/// them. Which of them go together stands in option_table.
+/// The options of `mapproof map`: those of the command line, and what complete() adds to them.
+/// option_table holds which of them go together.
 struct MapJob {
   std::string path;                         ///< Of the observations.
-  std::shared_ptr<ByteSource> source = {};  ///< Opened by settle(); none: the path is a folder.
-  std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as the file says.
+  std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
+  std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as in the file.
   std::string layout = "auto";
   bool degrees = false;
   std::vector<std::string> with;       ///< Files of other sensors,
@@ -43,9 +43,10 @@ struct MapJob {
 
   std::string missing = "pairwise-complete";  ///< One of missing_ways().
   std::optional<int> dimensions;              ///< Of PPCA or PCA.
-  int submaps = 0;                ///< Most landmarks of a sub-map, 6 or more; 0: one map.
-  std::optional<double> overlap;  ///< Share that a sub-map borrows, in [0, 0.8]; empty: the usual.
-  int ellipse_replicates = 0;     ///< Resamples for each landmark's ellipse; 0: none.
+  int submaps = 0;  ///< Most landmarks of a sub-map, 6 or more; 0: one map.
+  std::optional<double>
+      overlap;                 ///< Share in common with neighbours, in [0, 0.8]; empty: the usual.
+  int ellipse_replicates = 0;  ///< Resamples for each landmark's ellipse; 0: none.
   bool check_ids = false;
   bool repair_ids = false;
   bool find_moved = false;
@@ -72,17 +73,10 @@ struct MapJob {
   AngleUnit unit() const { return degrees ? AngleUnit::kDegrees : AngleUnit::kRadians; }
 };
 
-/// "common-steps", "ppca", "pca", "covisible", "auto": strategies for missing data.
+/// "pairwise-complete", "ppca", "pca", "covisible", "auto": strategies for missing data.
 std::vector<std::string> missing_ways();
 
 /// Adds all options of `map` to its command; they fill in the job.
 void add_map_options(CLI::App& app, MapJob& job);
-
-/// Makes a job of the words: unless the file is followed, opens it and looks into it where nothing
-/// says what it holds; checks what goes together, and method and parameter; reads anchors and
-/// truth.
-/// @throws InvalidInput for what does not go together, or an unknown method or parameter; IoError
-///         if a file cannot be read.
-void settle(MapJob& job);
 
 }  // namespace mapproof

@@ -14,20 +14,20 @@ namespace {
 
 constexpr std::string_view kLabelsFile = "labels.csv";
 
-/// Whose a reading was found to be.
+/// The landmark that a measurement was assigned to.
 struct AssignedMeasurement {
   double step = 0.0;     ///< Number of the step, as the file has it, or the column from 0.
   std::size_t line = 0;  ///< Of the file; 0: not known.
-  std::string given;     ///< The label in the file: "?" if it had none.
+  std::string given;     ///< The landmark ID in the file: "?" if it had none.
   std::string found;     ///< The landmark.
   double value = 0.0;    ///< As the history has it: rad, m, or 0 and 1.
-  bool clear = false;    ///< No exchange within its step would be nearly as likely.
+  bool clear = false;    ///< No swap within its step would be nearly as likely.
 };
 
-/// What came of estimating labels.
+/// The result of estimating data association.
 struct EstimatedIds {
   std::vector<AssignedMeasurement>
-      measurements;  ///< Of unlabelled ones all, of unsure ones the changed.
+      measurements;  ///< All without a landmark ID; of uncertain IDs, the reassigned.
   std::vector<std::string> remarks;
   std::vector<std::string> warnings;
 };
@@ -35,20 +35,20 @@ struct EstimatedIds {
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 using Lines = Eigen::Array<Eigen::Index, Eigen::Dynamic, Eigen::Dynamic>;
 
-constexpr double kManyUnclear = 0.1;  ///< Share of readings that is worth a warning.
+constexpr double kManyUnclear = 0.1;  ///< Share of measurements that causes a warning.
 
-/// A history without gaps, whose doubtful entries hold readings in any order.
+/// A history without missing data, whose doubtful entries hold measurements in any order.
 struct Dealt {
   Mask doubtful;   ///< M x N.
-  Lines measured;  ///< M x N: which of the unlabelled readings stands there; -1: none of them.
+  Lines measured;  ///< M x N: index of the unassociated measurement there; -1: none.
 };
 
-/// Puts each step's unlabelled readings where the step has no labelled one.
+/// Puts the measurements without a landmark ID into the empty entries of their step.
 Dealt deal(ObservationSource& source) {
   Eigen::MatrixXd& values = source.history.values;
   Dealt dealt{Mask::Constant(values.rows(), values.cols(), false),
               Lines::Constant(values.rows(), values.cols(), -1)};
-  // Of visibility, detections alone may be listed: what is not seen is 0, and as free as a gap.
+  // With visibility, a file may list detections only: 0, not seen, is then as free as NaN.
   const bool is_seen =
       source.history.sensor == Sensor::kVisibility && !values.array().isNaN().any();
   for (std::size_t k = 0; k < source.unassociated.size(); ++k) {
@@ -60,8 +60,8 @@ Dealt deal(ObservationSource& source) {
       ++row;
     if (row == values.rows())
       throw IoError(source.path, fmt::format("line {}", measured.line),
-                    fmt::format("step {:.0f} has more readings without a label than landmarks "
-                                "without a reading",
+                    fmt::format("step {:.0f} has more measurements without a landmark ID than "
+                                "landmarks without a measurement",
                                 measured.number));
     values(row, measured.step) = measured.value;
     dealt.measured(row, measured.step) = static_cast<Eigen::Index>(k);
@@ -81,8 +81,8 @@ void require_complete(const ObservationSource& source) {
       if (std::isnan(history.values(row, step)))
         throw IoError(
             source.path,
-            fmt::format("labels are estimated where every landmark has a reading at every step, "
-                        "labelled or not; step {} (of {}) has none left for \"{}\"",
+            fmt::format("data association needs a measurement of every landmark at every step, "
+                        "with a landmark ID or without; step {} (of {}) has none left for \"{}\"",
                         step + 1, history.steps(),
                         printable(history.names[static_cast<std::size_t>(row)])));
 }
@@ -90,7 +90,8 @@ void require_complete(const ObservationSource& source) {
 void mark_unsure(const ObservationSource& source, const std::vector<std::string>& unsure,
                  Mask& doubtful) {
   if (unsure.size() == 1)
-    throw IoError(source.path, "one unsure label has none to be confused with; name two or more");
+    throw IoError(source.path,
+                  "one uncertain landmark ID cannot be confused with another; name two or more");
   for (const std::string& label : unsure) {
     const auto row = std::ranges::find(source.history.names, label);
     if (row == source.history.names.end())
@@ -99,7 +100,7 @@ void mark_unsure(const ObservationSource& source, const std::vector<std::string>
   }
 }
 
-/// The readings that went to another landmark than the file says, or had none.
+/// The measurements without a landmark ID, and those assigned to another landmark than in the file.
 std::vector<AssignedMeasurement> assigned(const ObservationSource& source, const Dealt& dealt,
                                           const Correspondence& found) {
   std::vector<AssignedMeasurement> measurements;
@@ -108,7 +109,7 @@ std::vector<AssignedMeasurement> assigned(const ObservationSource& source, const
       const Eigen::Index from = found.measurement_of(row, step);
       const Eigen::Index unassociated = dealt.measured(from, step);
       const double value = found.history.values(row, step);
-      // Where nothing was seen there is no reading that could be another's.
+      // Where nothing was seen there is no measurement to assign to another landmark.
       const bool is_reading = source.history.sensor != Sensor::kVisibility || value != 0.0;
       if (unassociated < 0 && (from == row || !is_reading)) continue;
       AssignedMeasurement one{.step = static_cast<double>(step),
@@ -127,7 +128,7 @@ std::vector<AssignedMeasurement> assigned(const ObservationSource& source, const
   return measurements;
 }
 
-/// Landmarks that are doubtful at every step: nothing tells them apart to begin with.
+/// Landmarks that are doubtful at every step: no measurement distinguishes them at the start.
 std::vector<std::string> never_certain(const ObservationSource& source, const Mask& doubtful) {
   std::vector<std::string> names;
   for (Eigen::Index row = 0; row < doubtful.rows(); ++row)
@@ -142,37 +143,39 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
   const auto clear = (found.clear && doubtful).count();
   const double unclear = 1.0 - static_cast<double>(clear) / static_cast<double>(all);
   labels.remarks.push_back(fmt::format(
-      "Labels estimated together with the map: {} doubtful, {:.1f} % of them clear; {} went to "
-      "another landmark than given or had no label (labels.csv). What LPCA leaves unexplained fell "
-      "from {:.4f} to {:.4f} of the spread.",
-      counted(all, "reading"), 100.0 * (1.0 - unclear),
-      counted(std::ssize(labels.measurements), "reading"), found.loss_before, found.loss_after));
+      "Data association estimated together with the map: {} uncertain, {:.1f} % of them resolved "
+      "clearly; {} without a landmark ID, or assigned to another landmark than given (labels.csv). "
+      "The share of the variance that LPCA leaves unexplained fell from {:.4f} to {:.4f}.",
+      counted(all, "measurement"), 100.0 * (1.0 - unclear),
+      counted(std::ssize(labels.measurements), "measurement"), found.loss_before,
+      found.loss_after));
   if (!found.converged)
-    labels.warnings.push_back(
-        fmt::format("Labels still changed after {} rounds: they are not settled.", found.rounds));
+    labels.warnings.push_back(fmt::format(
+        "Data association still changed after {} rounds: it has not converged.", found.rounds));
   if (unclear > kManyUnclear)
-    labels.warnings.push_back(
-        fmt::format("{:.0f} % of the doubtful readings would fit another landmark nearly as well.",
-                    100.0 * unclear));
+    labels.warnings.push_back(fmt::format(
+        "{:.0f} % of the uncertain measurements would fit another landmark nearly as well.",
+        100.0 * unclear));
   if (const std::vector<std::string> names = never_certain(source, doubtful); names.size() > 1)
     labels.warnings.push_back(fmt::format(
-        "{} are never told apart for certain: which is which follows the labels as given, and is "
-        "undetermined where those are wrong about as often as right.",
+        "{} have no certain measurement: their data association follows the landmark IDs as given, "
+        "and is undetermined where those are wrong about as often as right.",
         listed(names, 10)));
 }
 
-/// Finds, together with the map, whose the readings without a label are, and those under labels
-/// that are confused with one another (see estimated_correspondence), and puts them in their place.
-/// @param unsure  Labels any of whose readings may be of any other of them; empty: none.
+/// Estimates, together with the map, the data association of measurements without a landmark ID and
+/// of uncertain IDs (see estimated_correspondence), and reorders the history accordingly.
+/// @param unsure  Landmark IDs whose measurements may belong to any of the others; empty: none.
 /// @throws IoError naming the line or the step for what cannot be estimated: an entry that is
-///         missing though there is no reading for it, more readings than landmarks without one,
-///         a label that is not there; or for fewer than two unsure labels.
+///         missing though there is no measurement for it, more measurements than free landmarks,
+///         an ID that is not there; or for a single uncertain ID.
 EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& unsure) {
   EstimatedIds labels;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
-    throw IoError(source.path, "labels need three landmarks that some readings are labelled with");
+    throw IoError(source.path,
+                  "data association needs three landmarks whose IDs some measurements have");
   mark_unsure(source, unsure, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
   labels.measurements = assigned(source, dealt, found);

@@ -17,7 +17,7 @@
 namespace mapproof {
 namespace {
 
-/// How a scan is called, by its file's own step or time: "step 1200", "12.5 s".
+/// The name of a scan, by its step or time in the file: "step 1200", "12.5 s".
 std::string scan_words(const DetectionLog& log, int step) {
   const auto scan = static_cast<std::size_t>(step);
   if (scan < log.times_s.size()) return fmt::format("{:.1f} s", log.times_s[scan]);
@@ -35,7 +35,7 @@ std::string robot_words(const DetectionLog& log, int step) {
 /// "from step 12 to step 90 of robot 3", "throughout", "in all scans of robot 3".
 std::string when_words(const AssociationFinding& finding, const DetectionLog& log) {
   if (finding.to_the_end && finding.from_the_start) return "throughout";
-  // Times of all robots' scans are of one clock: whose scan it was says nothing.
+  // The times of all robots' scans come from one clock: the robot adds nothing.
   const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
   const std::string of_first = robot(finding.first_step);
   const std::string of_last = robot(finding.last_step);
@@ -48,14 +48,14 @@ std::string when_words(const AssociationFinding& finding, const DetectionLog& lo
                              : "from " + first + of_first + " to " + last + of_last;
 }
 
-/// Times the loss that known places may be missed by: on sound logs it is less than the loss.
+/// Known positions may be missed by so many times the loss: on sound logs by less than the loss.
 constexpr double kMissed = 3.0;
 
 std::string label(const DetectionLog& log, int landmark) {
   return log.names[static_cast<std::size_t>(landmark)];
 }
 
-/// The places that the source and the files know, anchors' own first; NaN rows: none does.
+/// The known positions of the source and the files, anchors first; NaN rows: unknown.
 Points known_positions(const DetectionLog& log, const std::optional<Points>& given_m,
                        const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& ground_truth) {
@@ -77,36 +77,35 @@ std::vector<std::string> names_of(const std::vector<int>& landmarks, const Detec
   return names;
 }
 
-/// What a search for wrong labels leaves to be said besides its findings.
+/// Adds the remarks and warnings of a check besides its findings.
 void add_doubts(const AssociationCheck& check, bool repair, AssociationOutcome& outcome) {
   const DetectionLog& log = outcome.log;
   for (const AssociationFinding& finding : check.findings)
     if (finding.undetermined > 0 || finding.left_out > 0)
-      outcome.remarks.push_back(
-          fmt::format("Of {} and {}, {} with nothing else in the scan cannot be told and {}stay as "
-                      "they are; {} "
-                      "fit neither landmark and {} left out.",
-                      printable(label(log, finding.first)), printable(label(log, finding.second)),
-                      counted(finding.undetermined, "detection"), repair ? "" : "would ",
-                      finding.left_out, repair ? "are" : "would be"));
+      outcome.remarks.push_back(fmt::format(
+          "{} and {}: {} with no other landmark in the scan cannot be assigned and {}stay "
+          "as they are; {} fit neither landmark and {} left out.",
+          printable(label(log, finding.first)), printable(label(log, finding.second)),
+          counted(finding.undetermined, "detection"), repair ? "" : "would ", finding.left_out,
+          repair ? "are" : "would be"));
   const AssociationDoubts& doubts = check.doubts;
   if (doubts.grave())
     outcome.warnings.push_back(fmt::format(
-        "The scans do not fit one map{}: residual {:.3f} m against {:.3f} m of their own "
-        "spread{}.",
-        check.findings.empty() ? "" : ", what was found corrected", doubts.residual_m,
+        "The scans do not fit one map{}: residual {:.3f} m, but a spread of {:.3f} m of repeated "
+        "measurements{}.",
+        check.findings.empty() ? "" : ", even with the findings corrected", doubts.residual_m,
         doubts.spread_m,
         doubts.landmarks.empty()
             ? ""
             : "; most with landmarks " + listed(names_of(doubts.landmarks, log), 4)));
   if (check.findings.empty())
     outcome.remarks.push_back(fmt::format(
-        "No two labels swapped, and none wrong, over a stretch or in single scans explain the "
-        "looks clearly better: loss {:.3f} m.",
+        "No ID swap and no wrong data association, over a stretch or in single scans, explains the "
+        "scans clearly better: loss {:.3f} m.",
         check.loss_before_m));
 }
 
-/// Labels that contradict one another. @return The log without those contradictions.
+/// Finds landmark IDs that contradict one another. @return The log with these IDs corrected.
 DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
   AssociationCheck check = check_association(outcome.log);
   for (const AssociationFinding& finding : check.findings)
@@ -119,7 +118,7 @@ DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
   return std::move(check.repaired);
 }
 
-/// A label that two landmarks bear. @return The log with two labels then.
+/// Finds a landmark ID that two landmarks share. @return The log with an ID for each.
 DetectionLog check_shared(AssociationOutcome& outcome, DetectionLog log, bool repair) {
   const std::optional<SharedId> shared = shared_id(log);
   if (!shared) return log;
@@ -131,26 +130,27 @@ DetectionLog check_shared(AssociationOutcome& outcome, DetectionLog log, bool re
     row = static_cast<int>(unseen.front());
     second = label(log, row);
   } else {
-    log.names.push_back(first + " (second place)");
+    log.names.push_back(first + " (second position)");
   }
   outcome.facts.push_back(
       {"shared", first, second,
        fmt::format(
-           "{} stands at two places {:.2f} m apart ({} and {} detections): another landmark "
-           "bears its label{}: loss {:.3f} -> {:.3f} m",
+           "{} stands at two positions {:.2f} m apart ({} and {} detections): another landmark "
+           "has its landmark ID{}: loss {:.3f} -> {:.3f} m",
            printable(first), shared->apart_m, shared->first_detections, shared->second_detections,
-           second.empty() ? "" : ", likely " + printable(second) + ", which none shows",
+           second.empty() ? "" : ", likely " + printable(second) + ", which has no detection",
            shared->loss_before_m, shared->loss_after_m),
        shared->loss_before_m, shared->loss_after_m, repair});
   if (shared->undetermined > 0)
     outcome.remarks.push_back(
-        fmt::format("Of {}, {} cannot be told and {} left out.", printable(first),
+        fmt::format("{}: {} cannot be assigned and {} left out.", printable(first),
                     counted(shared->undetermined, "detection"), repair ? "are" : "would be"));
   outcome.loss_m = shared->loss_after_m;
   return split_id(log, *shared, row);
 }
 
-/// Labels that contradict known places throughout. @return The log without that.
+/// Finds landmark IDs that contradict known positions throughout. @return The log with these
+/// corrected.
 DetectionLog check_paths(AssociationOutcome& outcome, const DetectionLog& log,
                          const Points& known_m, bool repair) {
   AnchorCheck check = check_anchor_ids(log, known_m);
@@ -160,24 +160,24 @@ DetectionLog check_paths(AssociationOutcome& outcome, const DetectionLog& log,
                              exchange.misfit_after_m, repair});
   if (check.positions < kFewestKnownPositions)
     outcome.remarks.push_back(
-        fmt::format("An exchange of two labels in all detections would not show: that needs the "
-                    "places of {} landmarks or more.",
+        fmt::format("An ID swap in all detections would not show: that needs the positions of {} "
+                    "landmarks or more.",
                     kFewestKnownPositions));
   else if (check.exchanges.empty())
     outcome.remarks.push_back(fmt::format(
-        "No exchange of labels would fit the {} known places clearly better: missed by {:.3f} m.",
+        "No ID swap would fit the {} known positions clearly better: missed by {:.3f} m.",
         check.positions, check.misfit_before_m));
   if (check.positions >= kFewestKnownPositions && check.misfit_after_m > kMissed * outcome.loss_m)
     outcome.warnings.push_back(fmt::format(
-        "Known places are missed by {:.3f} m, far more than the loss of {:.3f} m explains: labels "
-        "may be wrong in a way that was not found{}.",
+        "Known positions are missed by {:.3f} m, far more than the loss of {:.3f} m explains: data "
+        "association may be wrong in a way that was not found{}.",
         check.misfit_after_m, outcome.loss_m,
         outcome.doubtful.empty() ? "" : "; most doubtful: " + listed(outcome.doubtful, 4)));
   return std::move(check.repaired);
 }
 
-/// Labels that contradict one another. Where a landmark is never seen, that another bears its label
-/// is tried first: it is taken if it leaves nothing else to be found.
+/// Finds landmark IDs that contradict one another. If a landmark is never seen, a shared ID is
+/// tried first: it is accepted if it leaves no other finding.
 DetectionLog check_scans(AssociationOutcome& outcome, bool repair) {
   if (!unseen_in(outcome.log).empty()) {
     AssociationOutcome tried{.log = outcome.log};
@@ -204,7 +204,8 @@ void check_and_repair(AssociationOutcome& outcome, bool repair, const Points& kn
   for (const AssociationFact& fact : outcome.facts)
     outcome.remarks.push_back(fact.sentence + (repair ? "; repaired." : "."));
   if (!outcome.facts.empty() && !repair)
-    outcome.remarks.emplace_back("The labels are mapped as they are; --repair-ids corrects them.");
+    outcome.remarks.emplace_back(
+        "The landmark IDs are used as they are; --repair-ids corrects them.");
   if (repair) outcome.log = std::move(corrected);
 }
 
@@ -224,8 +225,8 @@ void split_moved(AssociationOutcome& outcome) {
   outcome.log = std::move(check.split);
 }
 
-/// Checks the log of a source, and makes room for the second places of what moved: where those
-/// are, no survey says. @return The log to be mapped.
+/// Checks the log of a source, and adds rows for the second positions of landmarks that moved,
+/// whose ground truth is unknown. @return The log to be mapped.
 template <typename Source>
 DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& job,
                          MapResult& result) {
@@ -246,8 +247,8 @@ DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& 
   return std::move(outcome.log);
 }
 
-/// Range and bearing seen together tell; of one kind of value, those of a folder of MRCLAM, whose
-/// history is then made anew.
+/// The check needs range and bearing of the same scan. A map of one sensor can be checked only from
+/// a folder of MRCLAM files, whose history is then made again.
 MapDraft check_ids(MapDraft draft, const MapJob& job) {
   if (!job.judges_ids()) return draft;
   if (auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
@@ -257,9 +258,9 @@ MapDraft check_ids(MapDraft draft, const MapJob& job) {
   auto& source = std::get<ObservationSource>(draft.observed);
   if (!is_folder(source.path) || !is_mrclam(source.path))
     throw IoError(source.path,
-                  fmt::format("{} by range and bearing seen together: detections mapped with "
-                              "--sensor range-bearing, or a folder of MRCLAM",
-                              job.check_ids || job.repair_ids ? "labels are checked"
+                  fmt::format("{} by range and bearing of the same scan: detections mapped with "
+                              "--sensor range-bearing, or a folder of MRCLAM files",
+                              job.check_ids || job.repair_ids ? "landmark IDs are checked"
                                                               : "a landmark that moved is found"));
   const DetectionLog log =
       checked_log(source, read_mrclam_detections(source.path).log, job, draft.result);
@@ -321,8 +322,8 @@ std::string described(const MovedLandmark& moved, const DetectionLog& log) {
 std::string described(const AnchorExchange& exchange, const DetectionLog& log) {
   const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
   return fmt::format(
-      "{} and {} look exchanged in all detections: known places missed by {:.3f} m, then by {:.3f} "
-      "m",
+      "{} and {} look swapped in all detections: known positions missed by {:.3f} m, then by "
+      "{:.3f} m",
       label(exchange.first), label(exchange.second), exchange.misfit_before_m,
       exchange.misfit_after_m);
 }

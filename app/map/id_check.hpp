@@ -12,24 +12,24 @@
 
 namespace mapproof {
 
-/// What a person wants done about labels.
+/// What to check and to correct in the landmark IDs.
 struct AssociationChoice {
-  bool check = false;       ///< Name labels that contradict the others, or known places.
+  bool check = false;       ///< Report IDs that contradict the others, or known positions.
   bool repair = false;      ///< And correct them before mapping.
-  bool find_moved = false;  ///< Name landmarks that moved, and map both of their places.
+  bool find_moved = false;  ///< Report landmarks that moved, and map both positions.
 
   bool asked() const { return check || repair || find_moved; }
 };
 
-/// One thing that was found about labels.
+/// One finding about landmark IDs.
 struct AssociationFact {
   /// "swapped", "wrong", "mixed", "shared" (by two landmarks), "exchanged" (in all detections),
   /// "moved".
   std::string what;
-  std::string first;      ///< The label,
+  std::string first;      ///< The landmark ID,
   std::string second;     ///< and the other one; empty if it moved, or is not known.
   std::string sentence;   ///< The same in words, with when and how many.
-  double before_m = 0.0;  ///< The map's loss, or of "exchanged" its misfit to the known places,
+  double before_m = 0.0;  ///< The map's loss, or of "exchanged" its misfit to the known positions,
   double after_m = 0.0;   ///< and what is left of it without the fault.
   bool repaired = false;
 };
@@ -39,17 +39,17 @@ struct AssociationOutcome {
   DetectionLog log;
   std::vector<AssociationFact> facts = {};
   std::vector<std::string> remarks = {};   ///< A sentence each.
-  std::vector<std::string> warnings = {};  ///< The same, of what makes the map doubtful.
+  std::vector<std::string> warnings = {};  ///< Likewise: reasons to doubt the map.
   double loss_m = 0.0;  ///< Of the pairs, what was found corrected; 0: not checked.
   std::vector<std::string> doubtful = {};  ///< Landmarks that fit worst then.
 };
 
-/// Checks, and if that is chosen corrects, the labels of detections with range and bearing.
-/// @param known_m  M x 2; NaN rows: places that are not known.
+/// Checks, and if that is chosen corrects, the landmark IDs of detections with range and bearing.
+/// @param known_m  M x 2; NaN rows: unknown positions.
 AssociationOutcome with_association_checked(const DetectionLog& log,
                                             const AssociationChoice& choice, const Points& known_m);
 
-/// What was found, for the member "labels" of --json.
+/// The findings, for the member "data_association" of --json.
 nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts);
 
 /// A sentence: "7 and 12 look swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
@@ -58,7 +58,7 @@ std::string described(const AssociationFinding& finding, const DetectionLog& log
 /// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
 std::string described(const MovedLandmark& moved, const DetectionLog& log);
 
-/// A sentence: "3 and 10 look exchanged in all detections: known places missed by 1.930 m, then by
+/// A sentence: "3 and 10 look swapped in all detections: known positions missed by 1.930 m, then by
 /// 0.120 m".
 std::string described(const AnchorExchange& exchange, const DetectionLog& log);
 

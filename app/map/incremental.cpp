@@ -32,7 +32,7 @@ bool align_so_far(MapResult& result, const FollowedTable& table) {
   return is_tied(known);
 }
 
-/// The step explain: what has to be said of the files of anchors and ground truth in the end.
+/// The step explain: remarks on the files of anchors and ground truth in the end.
 void explain_so_far(MapResult& result, const FollowedTable& table) {
   for (std::string& remark : remarks_of_reference(result.record, table.anchors, table.ground_truth))
     result.remarks.push_back(std::move(remark));
@@ -57,8 +57,8 @@ class ValueFollower : public Follower {
     const std::vector<StreamedStep> steps = stream_.steps();
     if (steps.empty()) return 0;
     if (std::ssize(stream_.names()) > kMostFollowed)
-      throw IoError(table_.source, fmt::format("names more than {} landmarks; so many cannot be "
-                                               "followed, only mapped as a whole",
+      throw IoError(table_.source, fmt::format("names more than {} landmarks, too many for an "
+                                               "incremental map; map the whole file",
                                                kMostFollowed));
     map_.grow(std::ssize(stream_.names()));
     for (const StreamedStep& step : steps) {
@@ -174,11 +174,12 @@ class PairFollower : public Follower {
     return result;
   }
 
-  /// Turned and shifted, not mirrored: the scans tell which way round it is.
+  /// Rotated and translated, not reflected: the scans determine the reflection.
   void lay_on_last(MapRecord& record) {
     std::vector<Eigen::Index> here, there;
     for (std::size_t i = 0; i < record.names.size(); ++i) {
-      // By name: second places of what moved stand behind all landmarks, of which there are more.
+      // By name: the second positions of moved landmarks stand behind all landmarks, and their
+      // number grows.
       const auto found = std::ranges::find(last_names_, record.names[i]);
       if (found == last_names_.end()) continue;
       const auto row = static_cast<Eigen::Index>(i);
@@ -254,7 +255,7 @@ class RangeFollower : public Follower {
     std::vector<std::string>& remarks = result.remarks;
     for (const std::string& remark : stream_.remarks()) remarks.push_back(remark);
     if (incomplete_ > 0)
-      remarks.push_back(fmt::format("{} without a range to every landmark left out.",
+      remarks.push_back(fmt::format("{} without a range to every landmark: left out.",
                                     counted(incomplete_, "step")));
     std::vector<std::string> late;
     for (std::size_t i = 0; i < stream_.names().size(); ++i)

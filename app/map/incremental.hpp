@@ -15,7 +15,7 @@
 
 namespace mapproof {
 
-/// How a growing table is mapped.
+/// How an incremental map is made from a table.
 struct FollowedTable {
   std::string source = {};                      ///< What to call it in errors.
   Sensor sensor = Sensor::kRange;               ///< Of values alone.
@@ -27,8 +27,8 @@ struct FollowedTable {
   bool find_moved = false;  ///< Range and bearing: notice landmarks that moved.
 };
 
-/// A growing table as a map. Without anchors or ground truth each map is aligned to the one before,
-/// so that it does not jump.
+/// An incremental map of a table. Without anchors or ground truth each map is aligned to the one
+/// before, so that it does not jump.
 class Follower {
  public:
   virtual ~Follower() = default;
@@ -44,22 +44,22 @@ class Follower {
   virtual long take_steps() = 0;
   virtual long steps() const = 0;
 
-  /// The map so far; of what was noticed meanwhile, it says in its remarks.
+  /// The map so far; its remarks name moved landmarks.
   virtual MapResult update() = 0;
-  /// The map of all there was, with all that is to be said of it.
+  /// The map of all observations, with all remarks and warnings.
   virtual MapResult last_update() = 0;
 };
 
-/// Follows a long table of one sensor.
+/// The incremental map of a long table of one sensor.
 std::unique_ptr<Follower> value_follower(const FollowedTable& table);
 
-/// Follows detections of range and bearing.
+/// The incremental map of detections of range and bearing.
 std::unique_ptr<Follower> pair_follower(const FollowedTable& table);
 
-/// Follows a table of ranges that are taken together: step or time, landmark, range in metres. Each
-/// update is the spectral map (core/range_slam/factors/online) of all steps so far that have a
-/// range to every landmark of the first one. From four anchors on the map is that of known
-/// landmarks. `sensor` and `options` of the table do not count.
+/// The incremental map of a table of ranges that are taken together: step or time, landmark, range
+/// in metres. Each update is the spectral map (core/range_slam/factors/online) of all steps so far
+/// that have a range to every landmark of the first one. From four anchors on the map is that of
+/// known landmarks. `sensor` and `options` of the table do not count.
 std::unique_ptr<Follower> range_follower(const FollowedTable& table);
 
 }  // namespace mapproof

@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kWait_s = 0.2;  ///< Between two looks at a file that does not grow.
+constexpr double kWait_s = 0.2;  ///< Between two checks of a file that does not grow.
 
 volatile std::sig_atomic_t g_asked = 0;
 
@@ -98,7 +98,7 @@ StreamedFile::State StreamedFile::read(std::string& bytes, double seconds) {
   if (count > 0) return State::kMore;
   if (!regular_) return State::kEnd;
   if (replaced()) return State::kReplaced;
-  // Standard input that is a file does not grow for us: it ends here.
+  // A file as standard input is not streamed: it ends here.
   if (path_ == "-") return State::kEnd;
   ::poll(nullptr, 0, static_cast<int>(std::ceil(1000.0 * seconds)));
   return State::kNothing;
@@ -151,7 +151,7 @@ class Due {
   Clock::time_point last_ = Clock::now();
 };
 
-/// A file that is followed, and what came of it so far.
+/// A streamed file, and its map so far.
 struct FollowedFile {
   StreamedFile file;
   Unpacker unpacker;
@@ -170,10 +170,9 @@ bool follow_to_end(FollowedFile& followed, const FollowInterval& every, const En
     const StreamedFile::State state = followed.file.read(bytes, kWait_s);
     if (state == StreamedFile::State::kEnd) return true;
     if (state == StreamedFile::State::kReplaced) {
-      followed.remarks.push_back(
-          followed.file.name() +
-          " was cut short, removed or replaced: the map is that of what was read "
-          "before. Start again to follow the new file.");
+      followed.remarks.push_back(followed.file.name() +
+                                 " was cut short, removed or replaced: the map holds what was read "
+                                 "before. Start again for the new file.");
       return false;
     }
     followed.follower->take(followed.unpacker.take(bytes));
@@ -199,7 +198,7 @@ void take_rest(FollowedFile& followed, bool ended) {
   if (!ended || is_cut) follower.drop_half_line();
   follower.end();
   follower.take_steps();
-  if (follower.steps() == 0) throw IoError(followed.file.name(), "held no observations");
+  if (follower.steps() == 0) throw IoError(followed.file.name(), "holds no observations");
 }
 
 /// The map of all there was, explained.
@@ -209,7 +208,7 @@ MapResult last_map(FollowedFile& followed) {
   last.facts = {{"Observations", followed.file.name()},
                 {"Sensor", sensor_label(last.record)},
                 {"Landmarks", std::to_string(last.record.names.size())},
-                {"Steps followed", std::to_string(last.record.step)},
+                {"Steps read", std::to_string(last.record.step)},
                 {"Method", method_label(last.record)}};
   return last;
 }

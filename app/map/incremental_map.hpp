@@ -9,7 +9,7 @@
 
 namespace mapproof {
 
-/// How often a followed map is made again.
+/// How often an incremental map is updated.
 struct FollowInterval {
   long steps = 0;        ///< After so many; 0: by time.
   double seconds = 1.0;  ///< After so long, if there is a step more.
@@ -18,7 +18,7 @@ struct FollowInterval {
 /// "100": steps; "2s", "0.5s": seconds. @throws InvalidInput, naming the option.
 FollowInterval follow_interval(const std::string& text);
 
-/// What is followed, and how it is mapped.
+/// The streamed file, and how it is mapped.
 struct FollowOrder {
   std::string path;     ///< "-": standard input. Packed or not.
   FollowedTable table;  ///< Its source is set from the path.
@@ -26,7 +26,7 @@ struct FollowOrder {
   FollowInterval every;
 };
 
-/// Follows a growing file to its end, or to SIGINT or SIGTERM, and writes its map again and again:
+/// Reads a streamed file to its end, or to SIGINT or SIGTERM, and updates its map:
 /// map.json, map.csv and the figure after every update, each at once, and tables and report after
 /// the last. A file that is cut short or replaced ends it, too, with a remark. Without anchors each
 /// map is aligned to the one before, so that it does not jump. What is noticed meanwhile goes to

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -6,14 +7,58 @@
 #include "app/input_streams.hpp"
 #include "app/map/arguments.hpp"
 #include "app/map/incremental_map.hpp"
+#include "app/map/option_table.hpp"
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
+#include "app/map/reference.hpp"
+#include "core/base/errors.hpp"
 #include "core/base/input_file.hpp"
 
 namespace mapproof {
 namespace {
 
-/// How the job's growing table is mapped.
+/// The method, and its parameter if one was given. @throws InvalidInput for an unknown method, or a
+/// parameter out of its bounds.
+MethodSetting chosen_setting(const MapJob& job) {
+  if (job.chooses_method()) return {Method::kIsomap, std::nullopt};
+  const Method method = *method_of(job);
+  const std::optional<GivenParameter> given = given_parameter(job);
+  if (!given) return {method, std::nullopt};
+  const ParameterInfo& parameter = *info(method).parameter;
+  if (!(given->value >= parameter.minimum && given->value <= parameter.maximum) ||
+      (parameter.integer && given->value != std::floor(given->value)))
+    throw InvalidInput(fmt::format(
+        "{}: {} = {:g} is not {} from {:g} to {:g}", given->option, parameter.shown, given->value,
+        parameter.integer ? "an integer" : "a number", parameter.minimum, parameter.maximum));
+  return {method, given->value};
+}
+
+/// Opens the observations, and detects range-bearing from the columns if no sensor is given.
+/// @throws IoError if they cannot be read.
+void open_observations(MapJob& job) {
+  if (is_folder(job.path)) return;
+  job.source = std::make_shared<ByteSource>(job.path);
+  if (job.kind.empty() && job.table_layout() == Layout::kAuto && is_detections(*job.source))
+    job.kind = kRangeBearing;
+}
+
+/// Completes a parsed job: unless the map is incremental, opens the file and detects its sensor if
+/// none is given; checks which options go together, and method and parameter; reads anchors and
+/// ground truth.
+/// @throws InvalidInput for what does not go together, or an unknown method or parameter; IoError
+///         if a file cannot be read.
+void complete(MapJob& job) {
+  if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
+  // A stream cannot be opened before it is read.
+  if (!job.follow) open_observations(job);
+  require_known_method(job);
+  require_compatible(job);
+  if (!job.is_range_bearing()) job.setting = chosen_setting(job);
+  job.known_anchors = read_points(job.anchors);
+  job.known_ground_truth = read_points(job.ground_truth);
+}
+
+/// How the incremental map of the job is made.
 FollowOrder follow_order(const MapJob& job) {
   const std::optional<Sensor> sensor = sensor_named(job.kind);
   return {.path = job.path,
@@ -53,7 +98,7 @@ int run_map(MapJob job, const Invocation& invocation) {
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
   refuse_shared_streams(inputs);
-  settle(job);
+  complete(job);
   return job.follow ? write_followed(follow_order(job), location, invocation)
                     : map_once(std::move(job), location, invocation);
 }

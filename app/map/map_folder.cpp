@@ -22,7 +22,7 @@ const fs::path& made_map_folder(const fs::path& folder) {
   return folder;
 }
 
-/// Whether there is anything but what a killed process left beside its files.
+/// Whether there is anything but what a killed process left among its files.
 bool holds_files(const fs::path& folder) {
   std::error_code error;
   fs::directory_iterator entry(folder, error);
@@ -32,7 +32,7 @@ bool holds_files(const fs::path& folder) {
   return false;
 }
 
-/// Equal where both are numbers, and missing in the same places.
+/// Equal where both are numbers, and missing in the same rows.
 bool same_positions(const std::optional<Points>& a, const std::optional<Points>& b) {
   if (a.has_value() != b.has_value()) return false;
   if (!a) return true;
@@ -40,7 +40,7 @@ bool same_positions(const std::optional<Points>& a, const std::optional<Points>&
          ((a->array() == b->array()) || (a->array().isNaN() && b->array().isNaN())).all();
 }
 
-/// What tells two maps apart that are not the same one made twice; empty if nothing does.
+/// How two maps differ that are not the same map made twice; empty if they do not.
 std::string difference(const MapRecord& there, const MapRecord& here) {
   if (sensor_label(there) != sensor_label(here))
     return fmt::format("of {} there, of {} here", sensor_label(there), sensor_label(here));
@@ -74,7 +74,7 @@ void check_result_folder(const fs::path& folder, const char* file, const char* k
                   fmt::format("holds a study; choose another --out for the {}", kind));
   if (!fs::exists(folder / file, error) && holds_files(folder))
     throw IoError(folder.string(),
-                  fmt::format("holds files that are no {}; choose another --out", kind));
+                  fmt::format("holds files that are not a {}; choose another --out", kind));
 }
 
 void check_map_folder(const fs::path& folder) { check_result_folder(folder, kMapFile, "map"); }

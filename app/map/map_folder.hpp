@@ -19,7 +19,8 @@ void check_result_folder(const std::filesystem::path& folder, const char* file, 
 void check_map_folder(const std::filesystem::path& folder);
 
 /// Throws if the folder holds another map than `map`: of other landmarks, another sensor, method,
-/// parameter or number of steps, other anchors or another truth. The same one may be made again.
+/// parameter or number of steps, other anchors or another ground truth. The same one may be made
+/// again.
 /// @throws IoError saying what differs.
 void check_same_map(const std::filesystem::path& folder, const MapRecord& map);
 

@@ -25,7 +25,7 @@ struct NamedPart {
 /// What is known of a thing, in words: {"Landmarks", "50"}, ...
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-/// A map, what map.json holds of it, and what the steps that made it have to say.
+/// A map, what map.json holds of it, and the remarks of the steps that made it.
 struct MapResult {
   MapRecord record;
   std::optional<MapCertainty> certainty = {};  ///< If ellipses were asked for.
@@ -35,10 +35,10 @@ struct MapResult {
   std::vector<std::string> remarks = {};
   std::vector<std::string> warnings = {};  ///< What a person should know before trusting the map.
   std::vector<Section> sections = {};      ///< Of the report, after the landmarks.
-  std::vector<Figure> figures = {};        ///< Beside the map's own, below it.
-  /// Members of the result of --json; "labels" is an empty list unless a step gives it.
+  std::vector<Figure> figures = {};        ///< Besides the map's own, below it.
+  /// Members of the result of --json; "data_association" is an empty list unless a step gives it.
   std::vector<NamedPart<nlohmann::ordered_json>> members = {};
-  std::vector<NamedPart<std::string>> files = {};  ///< In the folder, beside the map's own.
+  std::vector<NamedPart<std::string>> files = {};  ///< In the folder, besides the map's own.
 };
 
 }  // namespace mapproof

@@ -68,8 +68,9 @@ Section choice_section(const MethodChoice& choice) {
   const CriterionInfo& criterion = info(choice.criterion);
   Section section{"choice", "Why this method", {}};
   section.blocks.emplace_back(Paragraph{{{fmt::format(
-      "No method was given: {} were tried, and the best by \"{}\" was taken ({}). None of these "
-      "criteria knows the ground truth; in simulated worlds this one picked best.",
+      "Chosen by --method auto: {} were tried, and the best by \"{}\" was taken ({}). None of "
+      "these "
+      "criteria uses the ground truth; in simulated worlds this one chose best.",
       counted(std::ssize(choice.maps), "candidate"), criterion.label, criterion.meaning)}}});
   section.blocks.emplace_back(ranking_table(choice));
   return section;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kCovisible = "covisible";
 constexpr const char* kAuto = "auto";
-constexpr double kMostWork = 5e10;  ///< Products of entries that judging gaps may take.
-constexpr double kFewPairs = 0.1;   ///< Share of pairs without ground that is worth a warning.
+constexpr double kMostWork = 5e10;  ///< Products of entries that judging missing data may take.
+constexpr double kFewPairs = 0.1;   ///< Share of unreliable pairs that causes a warning.
 
 Eigen::Index infinite_pairs(const Proximities& proximities) {
   return (!proximities.squared_distances.array().isFinite()).count() / 2;
@@ -24,11 +24,10 @@ ProximityRule covisible_rule(const std::shared_ptr<DistanceNotes>& notes) {
   return [notes](const ObservationHistory& history, Eigen::Index steps) {
     const CovisibleOptions options;
     if (notes->remarks.empty())
-      notes->remarks.push_back(
-          fmt::format("Distances are those of landmarks often observed together: the {} of each "
-                      "that share most "
-                      "of its steps, {} or more of them; others take the shortest path.",
-                      options.neighbours, options.least_common));
+      notes->remarks.push_back(fmt::format(
+          "Distances are measured between each landmark and the {} that share most of its "
+          "steps, {} steps or more; other pairs take the shortest path.",
+          options.neighbours, options.least_common));
     Proximities result = covisible_proximities(history, steps, options);
     const Eigen::Index left_out = infinite_pairs(result);
     if (left_out > 0)
@@ -38,18 +37,19 @@ ProximityRule covisible_rule(const std::shared_ptr<DistanceNotes>& notes) {
   };
 }
 
-/// Whether another way than the advised one makes much worse maps: gaps at random spoil covisible
-/// pairs, patterns spoil the others; common steps at random are but a little worse.
+/// Whether another strategy than the advised one makes much worse maps: data missing at random
+/// spoil covisible pairs, patterns spoil the others; pairwise-complete is only a little worse at
+/// random.
 bool worth_a_warning(const MissingPattern& pattern, const std::string& way) {
   constexpr double kPatterned = 2.0;
   return way == kCovisible || pattern.dispersion > kPatterned;
 }
 
-/// "entries are missing by distance (40 % missing, ...)": why a way is advised.
+/// "entries are missing by distance (40 % missing, ...)": why a strategy is advised.
 std::string advice_words(StrategyReason why, const MissingPattern& pattern) {
   const std::string numbers = fmt::format(
-      "{:.0f} % missing, pairs' common steps {:.1f} standard deviations from chance, rank "
-      "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five",
+      "{:.0f} % missing, common steps of pairs {:.1f} standard deviations from chance, rank "
+      "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five steps",
       100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
       100.0 * pattern.few_share);
   switch (why) {
@@ -82,8 +82,8 @@ ProximityRule filling_rule(Filling filling, int dimensions,
     const auto missing = history.values.leftCols(steps).array().isNaN().count();
     if (filled.model.loadings.size() > 0 && notes->remarks.empty()) {
       notes->remarks.push_back(fmt::format(
-          "Entries filled in by {2} of {1}: {0}. Distances over them differ from those over common "
-          "steps, where pairs have some, by {3:.1f} % in the median.",
+          "Entries filled in by {2} of {1}: {0}. The distances with them differ from the "
+          "pairwise-complete ones, where there are any, by {3:.1f} % in the median.",
           missing, counted(filled.model.loadings.cols(), "dimension"),
           filling == Filling::kPpca ? "PPCA" : "PCA",
           100.0 * median_disagreement(filled.proximities, proximities(history, steps))));
@@ -92,16 +92,16 @@ ProximityRule filling_rule(Filling filling, int dimensions,
   };
 }
 
-/// What a person wants done about missing entries.
+/// The chosen strategy for missing data.
 struct MissingChoice {
   std::string way;  ///< One of missing_ways().
   std::optional<int> dimensions;
 };
 
-/// What the pattern of the gaps advises against in what was chosen, and, for "auto", the choice.
+/// Warns if the pattern of missing data advises another strategy, and chooses one for "auto".
 /// Entries that are all there, or too many to be judged in short, are not judged.
 /// @param history  Landmarks that were never observed count for nothing.
-/// @return The choice with a way to be taken.
+/// @return The choice with a strategy other than "auto".
 MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& history,
                             Eigen::Index steps, MapResult& result) {
   const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
@@ -118,20 +118,20 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   if (is_auto) {
     choice.way = name(advice.way);
     if (choice.dimensions && advice.way != MissingStrategy::kPpca) choice.dimensions.reset();
-    result.remarks.push_back(fmt::format("Missing entries: {} was taken, as {}.", choice.way,
-                                         advice_words(advice.why, pattern)));
+    result.remarks.push_back(fmt::format("Missing data: the strategy is {}, because {}.",
+                                         choice.way, advice_words(advice.why, pattern)));
   } else if (const bool both_fill = advice.way == MissingStrategy::kPpca && choice.way == "pca";
              choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
              history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
-    result.warnings.push_back(
-        fmt::format("--missing {} is not what serves these gaps best: {}. --missing {} is likely "
-                    "to give a better map.",
-                    choice.way, advice_words(advice.why, pattern), name(advice.way)));
+    result.warnings.push_back(fmt::format(
+        "--missing {} does not suit these missing data best: {}. --missing {} is likely "
+        "to give a better map.",
+        choice.way, advice_words(advice.why, pattern), name(advice.way)));
   }
   if (pattern.few_share > kFewPairs)
     result.warnings.push_back(fmt::format(
         "{:.0f} % of the pairs of landmarks have fewer than five steps in common, {:.0f} % none: "
-        "their distances have little ground.",
+        "their distances are not reliable.",
         100.0 * pattern.few_share, 100.0 * pattern.apart_share));
   return choice;
 }

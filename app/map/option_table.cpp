@@ -12,7 +12,7 @@ namespace {
 
 using Job = const MapJob&;
 
-/// An option for the parameter of a symbol, as that of the methods that have it: "--sigma2".
+/// An option that sets one parameter of the methods that have it: "--sigma2".
 struct ParameterOption {
   std::string_view symbol;
   std::string_view option;
@@ -89,7 +89,7 @@ const std::vector<MapOption>& all_options() {
       {"--check-ids", [](Job job) { return job.check_ids; }, {"--check-ids"}},
       {"--repair-ids", [](Job job) { return job.repair_ids; }, {"--repair-ids"}},
       {"--find-moved", [](Job job) { return job.find_moved; }, {"--find-moved"}},
-      {"--find-moved of one kind of value",
+      {"--find-moved without range-bearing",
        [](Job job) { return job.find_moved && !job.is_range_bearing(); }},
       {"--uncertain-ids",
        [](Job job) { return !job.uncertain_ids.empty(); },
@@ -100,40 +100,41 @@ const std::vector<MapOption>& all_options() {
 }
 
 constexpr std::string_view kNoParameter = "the method pairs has no parameter";
-constexpr std::string_view kChosen = "it chooses the parameter, too; leave it out";
-constexpr std::string_view kOneSensor = "one map of several sensors is made by distances alone";
+constexpr std::string_view kChosen = "it chooses the parameter, too; leave out the parameter";
+constexpr std::string_view kOneSensor =
+    "a map of several sensors uses the distances of each sensor and nothing else";
 constexpr std::string_view kAllScans =
-    "labels are judged by all scans together; check the file as a whole";
+    "landmark IDs are checked by all scans together; check the whole file instead";
 constexpr std::string_view kComplete =
-    "data association is estimated for one kind of value that every landmark has at every step (of "
+    "data association is estimated for one sensor that measures every landmark at every step (for "
     "range and bearing, see --check-ids)";
 
 /// Options that do not go together.
 constexpr OptionPair kApart[] = {
     {"--method", "--sensor range-bearing",
-     "range and bearing together are mapped by pairs; for others say --sensor range, bearing or "
-     "visibility"},
+     "range and bearing together are mapped by pairs; for other methods use --sensor range, "
+     "bearing or visibility"},
     {"--method auto", "--sensor range-bearing",
-     "range and bearing together are mapped by pairs; for others say --sensor range, bearing or "
-     "visibility"},
+     "range and bearing together are mapped by pairs; for other methods use --sensor range, "
+     "bearing or visibility"},
     {"--parameter", "--sensor range-bearing", kNoParameter},
     {"-K", "--sensor range-bearing", kNoParameter},
     {"--sigma2", "--sensor range-bearing", kNoParameter},
     {"--degree", "--sensor range-bearing", kNoParameter},
-    {"--missing", "--sensor range-bearing", "pairs that were not measured are not filled in"},
-    {"--submaps", "--sensor range-bearing", "a map of pairs is made as a whole"},
+    {"--missing", "--sensor range-bearing", "missing distances of pairs are not filled in"},
+    {"--submaps", "--sensor range-bearing", "a map of range and bearing is made as a whole"},
     {"--with", "--sensor range-bearing",
-     "range and bearing together are mapped by pairs; name one of them by --sensor"},
+     "range and bearing together are mapped by pairs; choose one of them by --sensor"},
     {"--uncertain-ids", "--sensor range-bearing", kComplete},
 
     {"--parameter", "--method auto", kChosen},
     {"-K", "--method auto", kChosen},
     {"--sigma2", "--method auto", kChosen},
     {"--degree", "--method auto", kChosen},
-    {"--submaps", "--method auto", "the candidates are maps made as a whole"},
-    {"--submaps", "--ellipses", "resamples are mapped as a whole"},
+    {"--submaps", "--method auto", "the candidates are maps without sub-maps"},
+    {"--submaps", "--ellipses", "bootstrap resamples are mapped without sub-maps"},
     {"--missing covisible", "--sensor visibility",
-     "it is for bearings and ranges; visibility itself says what was seen"},
+     "it is for bearings and ranges; with visibility, every entry shows what was seen"},
 
     {"--with", "--method auto", kOneSensor},
     {"--with", "--submaps", kOneSensor},
@@ -143,53 +144,53 @@ constexpr OptionPair kApart[] = {
     {"--with", "--repair-ids", kOneSensor},
     {"--with", "--find-moved", kOneSensor},
     {"--with", "--uncertain-ids", kComplete},
-    {"--with", "--follow", "one file alone is read while it grows"},
+    {"--with", "--follow", "only one file can be read while it grows"},
 
     {"--method auto", "--follow",
-     "it makes some twenty maps by each method, far more than an update may take; choose on a part "
-     "of the file, then follow by that method"},
+     "it makes some twenty maps by each method, far more than an update may take; choose the "
+     "method on a part of the file, then use that method"},
     {"--ellipses", "--follow",
-     "they come of hundreds of maps of steps drawn anew, far more than an update may take; map the "
-     "file as a whole"},
+     "they need hundreds of maps of bootstrap resamples, far more than an update may take; map "
+     "the whole file instead"},
     {"--missing", "--follow",
-     "filling entries in takes the whole history, and followed steps are not kept; a followed map "
-     "takes the distances over common steps"},
-    {"--submaps", "--follow", "a followed map is made as a whole"},
-    {"--steps", "--follow", "it takes every step that comes"},
-    {"--drop-unseen", "--follow", "landmarks come as they are observed, there are no others"},
-    {"--layout wide", "--follow", "only a long table grows step by step"},
+     "filling in missing data takes the whole history, and an incremental map keeps no steps; it "
+     "uses pairwise-complete distances"},
+    {"--submaps", "--follow", "an incremental map is made as a whole"},
+    {"--steps", "--follow", "an incremental map uses every step of the file"},
+    {"--drop-unseen", "--follow", "an incremental map holds observed landmarks only"},
+    {"--layout wide", "--follow", "only a long table can be read step by step"},
     {"--check-ids", "--follow", kAllScans},
     {"--repair-ids", "--follow", kAllScans},
-    {"--find-moved of one kind of value", "--follow",
-     "one kind of value alone does not tell what moved; follow detections with --sensor "
+    {"--find-moved without range-bearing", "--follow",
+     "ranges or bearings alone do not show which landmark moved; use detections with --sensor "
      "range-bearing"},
     {"--uncertain-ids", "--follow", kComplete},
 };
 
-/// Options of which the first is of use with the second alone.
+/// Options of which the first has a use only with the second.
 constexpr OptionPair kNeeded[] = {
     {"--follow", "--sensor",
-     "say by --sensor what the values are: visibility, bearing, range or range-bearing"},
+     "add --sensor visibility, bearing, range or range-bearing: what the values are"},
     {"--method pairs", "--sensor range-bearing", "it maps observations of --sensor range-bearing"},
     {"--fit rigid", "--sensor range-bearing",
-     "only a map of range and bearing has a scale of its own"},
-    {"--with", "a --with-sensor for each", "each file needs a --with-sensor of its own"},
+     "only a map of --sensor range-bearing has its own scale"},
+    {"--with", "a --with-sensor for each", "each file needs its own --with-sensor"},
     {"--parameter", "a method with a parameter", "the method {method} has {has}"},
     {"-K", "a method with K", "the method {method} has {has}"},
     {"--sigma2", "a method with sigma2", "the method {method} has {has}"},
     {"--degree", "a method with d", "the method {method} has {has}"},
-    {"--dimensions", "--missing ppca, pca or auto", "--missing {missing} has none"},
-    {"--overlap", "--submaps", "it is of sub-maps; add --submaps SIZE"},
+    {"--dimensions", "--missing ppca, pca or auto", "--missing {missing} has no dimensions"},
+    {"--overlap", "--submaps", "it is the overlap of sub-maps; add --submaps N"},
 };
 
 bool is_asked(std::string_view name, Job job) {
   return std::ranges::find(all_options(), name, &MapOption::name)->is_asked(job);
 }
 
-/// "none", or the parameter of the job's method and its option.
+/// "no parameter", or the parameter of the job's method and its option.
 std::string parameter_words(Job job) {
   const ParameterInfo* parameter = parameter_of(job);
-  if (parameter == nullptr) return "none";
+  if (parameter == nullptr) return "no parameter";
   const auto* option =
       std::ranges::find(kParameterOptions, parameter->symbol, &ParameterOption::symbol);
   return fmt::format("the parameter {}; did you mean {}?", parameter->shown,

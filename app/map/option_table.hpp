@@ -11,16 +11,16 @@
 
 namespace mapproof {
 
-/// An option of `mapproof map`, or an option with certain values: what the table below is about.
+/// An option of `mapproof map`, an option with certain values, or a condition on the job.
 struct MapOption {
-  std::string_view name;  ///< As refusals call it: "--ellipses", "--method auto".
+  std::string_view name;  ///< As messages name it: "--ellipses", "--method auto".
   bool (*is_asked)(const MapJob& job);
-  /// Words of a command line that ask for it; empty: it is a condition alone.
+  /// Words of a command line that ask for it; empty: it is only a condition.
   std::vector<std::string> example = {};
 };
 
-/// Options that do not go together, or, in the table of needs, of which the first is of use with
-/// the second alone.
+/// Two options that do not go together, or, in the table of needs, an option that has a use only
+/// with the other.
 struct OptionPair {
   std::string_view option, other;
   /// {method}, {missing}: their values; {has}: what the method has for a parameter.
@@ -29,10 +29,10 @@ struct OptionPair {
 
 std::span<const MapOption> map_option_list();
 
-/// "--ellipses: not with --follow: they come of hundreds ...".
+/// "--ellipses: not with --follow: they need hundreds ...".
 std::span<const OptionPair> options_apart();
 
-/// "--overlap: it is of sub-maps; ...".
+/// "--overlap: it is the overlap of sub-maps; ...".
 std::span<const OptionPair> options_needed();
 
 /// The sentence by which the table refuses a job; empty if all that is asked for goes together.

@@ -9,7 +9,7 @@
 
 namespace mapproof {
 
-/// Where a map goes, and what its report says of where it came from.
+/// Where a map goes, and the origin that its report names.
 struct MapPlace {
   std::string out;
   std::string observations;

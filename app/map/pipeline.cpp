@@ -37,7 +37,7 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
   for (const ObservationSource& source : sources)
     if (!source.unassociated.empty())
       throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),
-                    "a reading without a label: not with --with");
+                    "a measurement without a landmark ID: not with --with");
   return sources;
 }
 
@@ -210,7 +210,7 @@ MapDraft align_to_reference(MapDraft draft, const MapJob& job) {
   return draft;
 }
 
-/// The head of the report, and what a person should know of the frame.
+/// The head of the report, and warnings about the frame.
 MapDraft explain(MapDraft draft, const MapJob& job) {
   MapResult& map = draft.result;
   const MapRecord& record = map.record;
@@ -238,7 +238,7 @@ constexpr MapStep kCheck{check}, kReference{refer}, kEmbedding{embed},
 /// A capability is deleted with its file, its line here and its options.
 constexpr std::array kSteps = {
     &kIdCheck,          // Landmark IDs that contradict one another; what moved.
-    &kDataAssociation,  // Whose the measurements without a landmark ID are.
+    &kDataAssociation,  // Measurements without a landmark ID.
     &kCheck,
     &kCommonLandmarks,  // Several sensors: the landmarks of all files.
     &kReference,
@@ -286,7 +286,7 @@ void require_neighbours(const MapJob& job, const MappedLandmarks& landmarks) {
   const double K = job.setting.parameter.value_or(0.0);
   if (on_graph(job.setting.method) && K >= static_cast<double>(M))
     throw IoError(landmarks.path,
-                  fmt::format("K = {:g} needs more than {:g} landmarks, {} are there", K, K, M));
+                  fmt::format("K = {:g} needs more than {:g} landmarks; there are {}", K, K, M));
 }
 
 void require_steps(const MapJob& job, const std::string& path, Eigen::Index steps) {

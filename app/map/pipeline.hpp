@@ -23,7 +23,7 @@ namespace mapproof {
 /// steps; values of several sensors, in common rows once they are checked.
 using Observed = std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>>;
 
-/// What a rule for distances has to say once it was called.
+/// Remarks and warnings of a rule for distances, once it was called.
 struct DistanceNotes {
   std::vector<Status> statuses;
   std::vector<std::string> remarks;
@@ -31,7 +31,7 @@ struct DistanceNotes {
   std::optional<Status> completed;
 };
 
-/// How distances come of observations.
+/// How distances are computed from observations.
 struct DistanceRule {
   ProximityRule of_map = {};     ///< See HistoryEmbedder.
   ProximityRule of_others = {};  ///< The same for candidates and resamples: it notes nothing.
@@ -58,7 +58,7 @@ struct MapStep {
   std::string_view file = {};                           ///< and the name of the file.
 };
 
-/// What `map` is capable of beside a plain map, a file each. Their places among the steps are in
+/// What `map` is capable of besides a plain map, one file each. Their order among the steps is in
 /// pipeline.cpp.
 extern const MapStep kIdCheck, kDataAssociation, kCommonLandmarks, kMissingData, kMethodChoice,
     kSubmaps, kJointMap, kUncertainty;

@@ -35,7 +35,7 @@ struct MappedLandmarks {
 /// What is known of the landmarks' true positions.
 struct Reference {
   Points positions_m;                 ///< M x 2; NaN rows: unknown.
-  bool has_ground_truth = false;      ///< More than the anchors is known: errors can be told.
+  bool has_ground_truth = false;      ///< More than the anchors is known: errors can be computed.
   std::vector<Eigen::Index> anchors;  ///< Ascending; empty: the map stays a shape.
 };
 
@@ -47,13 +47,13 @@ Reference reference_of(const MappedLandmarks& source, const std::optional<NamedP
                        const std::optional<NamedPointsFile>& ground_truth,
                        std::vector<std::string>& remarks);
 
-/// What files say of the landmarks that a growing map holds so far. Anchors that are not on it are
-/// left out, and all of them, with a status, while those that are do not span the plane.
+/// The known positions of the landmarks that an incremental map holds so far. Anchors that are not
+/// on it are left out, and all of them, with a status, while the others do not span the plane.
 /// @param record  Names and estimate are read; statuses are added to.
 Reference known_so_far(MapRecord& record, const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& ground_truth);
 
-/// What has to be said of the files in the end, a sentence each: names that never came, landmarks
+/// Remarks on the files in the end, one sentence each: names that never came, landmarks
 /// whose ground truth is not known.
 std::vector<std::string> remarks_of_reference(const MapRecord& record,
                                               const std::optional<NamedPointsFile>& anchors,

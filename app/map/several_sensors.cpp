@@ -29,7 +29,7 @@ void require_different(const Sources& sources) {
     for (std::size_t a = 0; a < b; ++a)
       if (sources[a].history.sensor == sources[b].history.sensor)
         throw IoError(sources[b].path,
-                      fmt::format("holds {}, as {} does; each kind once",
+                      fmt::format("holds {}, as {} does; each sensor only once",
                                   name(sources[b].history.sensor), sources[a].path));
 }
 
@@ -55,17 +55,18 @@ void remark_differences(const Sources& sources, const std::vector<std::string>& 
         }))
       partial.push_back(printable(name));
   if (!partial.empty())
-    result.remarks.push_back(
-        fmt::format("{} not in all files ({}): placed by the sensors that have them.",
-                    counted(std::ssize(partial), "landmark"), listed(partial, 10)));
+    result.remarks.push_back(fmt::format(
+        "{} not in all files ({}): their positions come from the sensors that have them.",
+        counted(std::ssize(partial), "landmark"), listed(partial, 10)));
   if (std::ranges::any_of(sources, [&](const ObservationSource& source) {
         return source.history.steps() != sources.front().history.steps();
       }))
     result.remarks.emplace_back(
-        "The files hold different numbers of steps: each sensor's distances are over its own.");
+        "The files hold different numbers of steps: the distances of each sensor use its own "
+        "steps.");
 }
 
-/// Names, kinds and steps of the files, for the report.
+/// Names, sensors and steps of the files, for the report.
 void list_sources(const Sources& sources, MapResult& result) {
   for (const ObservationSource& source : sources) {
     const std::string kind(name(source.history.sensor));
@@ -82,7 +83,7 @@ void list_sources(const Sources& sources, MapResult& result) {
 }
 
 /// All names of the files' landmarks, in the order in which they come.
-/// @throws IoError naming the file if a kind of sensor is there twice, or a file shares fewer than
+/// @throws IoError naming the file if a sensor is there twice, or a file shares fewer than
 ///         three landmarks with those before it.
 std::vector<std::string> joint_names(const Sources& sources) {
   require_different(sources);
@@ -150,7 +151,7 @@ std::vector<Eigen::Index> unseen_by_all(const Sources& sources, const MapJob& jo
 /// Brings what the files hold into common rows: landmarks are matched by name; those that some
 /// files alone name are placed by the sensors that have them, with a remark. Steps are not matched:
 /// each sensor's distances are over its own.
-/// @throws IoError naming the file if a kind is there twice, a file shares fewer than three
+/// @throws IoError naming the file if a sensor is there twice, a file shares fewer than three
 ///         landmarks with those before it, or nothing was observed.
 MapDraft take_common_landmarks(MapDraft draft, const MapJob& job) {
   auto* sources = std::get_if<Sources>(&draft.observed);
@@ -184,10 +185,10 @@ MapDraft take_common_landmarks(MapDraft draft, const MapJob& job) {
 struct ComparedMap {
   std::string what;         ///< "bearing alone", "joint map".
   MapRecord record;         ///< In the frame of the anchors, or aligned to the joint map.
-  double continuity = 0.0;  ///< Against all sensors' distances; NaN: not told.
+  double continuity = 0.0;  ///< Against all sensors' distances; NaN: not determined.
   bool is_joint = false;
 
-  /// In the anchors' frame, or else with the affine map fitted to all; NaN without a truth.
+  /// In the anchors' frame, or else with the affine map fitted to all; NaN without ground truth.
   double mpe_m() const {
     if (!record.score) return kNaN;
     return std::isnan(record.score->mpe_m) ? record.score->mpe_all_fitted_m : record.score->mpe_m;
@@ -222,7 +223,8 @@ const char* comparison(double joint, double single, double much) {
   return joint > single + much ? "worse than" : "about as good as";
 }
 
-/// Which map the neighbourhoods of all sensors' observations speak for, and which the truth.
+/// Which map is better by the neighbourhoods of all sensors' observations, and which by the ground
+/// truth.
 std::string verdict(const std::vector<ComparedMap>& maps) {
   const auto best_alone = [&](auto value) {
     const ComparedMap* best = nullptr;
@@ -238,22 +240,26 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
   if (const ComparedMap* best = best_alone(lost); best != nullptr && !std::isnan(joint.continuity))
     words = fmt::format(
         "By the share of all sensors' neighbourhoods that a map keeps (continuity) the joint map "
-        "is {} the best single one: {} against {} of {}.",
+        "is {} the best map of a single sensor: {}, compared with {} of {}.",
         comparison(lost(joint), lost(*best), kMuchContinuity), number_words(joint.continuity),
         number_words(best->continuity), best->what);
   else
-    words = "Whether the joint map is better than the sensors' own cannot be told without a truth.";
+    words =
+        "Whether the joint map is better than those of single sensors cannot be determined without "
+        "ground truth.";
   if (const ComparedMap* best = best_alone([](const ComparedMap& map) { return map.mpe_m(); });
       best != nullptr && !std::isnan(joint.mpe_m()))
     words += fmt::format(
-        " By the ground truth it is {} the best single one: MPE {} m against {} m of {}.",
+        " By the ground truth it is {} the best map of a single sensor: MPE {} m, compared with {} "
+        "m of "
+        "{}.",
         comparison(joint.mpe_m(), best->mpe_m(), kMuchMpe * best->mpe_m()),
         number_words(joint.mpe_m()), number_words(best->mpe_m()), best->what);
   return words;
 }
 
-/// The joint map, then each sensor's own, then those by the joint map's way, with what speaks for
-/// each.
+/// The joint map, then the map of each sensor, then those by the joint map's method, with their
+/// criteria.
 JointMapResult compared_maps(const MixedMap& made, const std::vector<ObservationHistory>& histories,
                              const Reference& reference, AffineFit fit) {
   JointMapResult mixed;
@@ -294,12 +300,12 @@ JointMapResult compared_maps(const MixedMap& made, const std::vector<Observation
   return mixed;
 }
 
-/// The joint map beside each sensor's own: weights, what speaks for which, errors where known.
+/// The joint map compared with the map of each sensor: weights, criteria, errors where known.
 Section mixed_section(const JointMapResult& mixed) {
   Section section{"mixed", "Several sensors in one map", {}};
   section.blocks.emplace_back(Paragraph{{{mixed.sensors.why}}});
   Table table{"mixed-maps",
-              "The joint map and each sensor's own",
+              "The joint map and the map of each sensor",
               {{"Map", "", "", ""},
                {"Method", "", "", ""},
                {"Steps", "", "", ""},
@@ -331,7 +337,8 @@ Section mixed_section(const JointMapResult& mixed) {
     table.rows.push_back(std::move(row));
   }
   table.notes.emplace_back(
-      "By order: the joint map's way on the one sensor alone; what it gains is not the mixing's.");
+      "By order: the joint map's method on one sensor only; what it gains is not due to the joint "
+      "map.");
   section.blocks.emplace_back(std::move(table));
   return section;
 }
@@ -354,11 +361,11 @@ nlohmann::ordered_json mixed_json(const JointMapResult& mixed) {
   return object;
 }
 
-/// The maps beside each other; empty if fewer than two came out.
+/// The maps side by side; empty if there are fewer than two.
 std::optional<Figure> mixed_figure(const JointMapResult& mixed) {
   const MapRecord& joint = mixed.maps.front().record;
   MapGridSpec spec{.id = std::string(kSensorsFigure),
-                   .title = "The joint map and each sensor's own",
+                   .title = "The joint map and the map of each sensor",
                    .maps = {}};
   const std::size_t shown = 1 + mixed.sensors.sensors.size();
   for (std::size_t k = 0; k < std::min(shown, mixed.maps.size()); ++k) {

@@ -29,17 +29,17 @@ MapDraft estimate_uncertainty(MapDraft draft, const MapJob& job) {
   if (job.ellipse_replicates == 0) return draft;
   MapResult& result = draft.result;
   if (result.record.estimate.array().isNaN().all()) {
-    result.remarks.emplace_back("No map came out: there are no ellipses.");
+    result.remarks.emplace_back("There is no map, so there are no ellipses.");
     return draft;
   }
   const MapCertainty certainty = certainty_of(draft, job);
   const auto without = std::ranges::count_if(
       certainty.covariances, [](const Eigen::Matrix2d& C) { return !C.allFinite(); });
   if (without > 0)
-    result.remarks.push_back(
-        fmt::format("{} of {} landmarks have no ellipse: fewer than half of the {} maps of steps "
-                    "drawn anew hold them.",
-                    without, certainty.covariances.size(), certainty.maps));
+    result.remarks.push_back(fmt::format(
+        "{} of {} landmarks have no ellipse: fewer than half of the {} maps of bootstrap "
+        "resamples hold them.",
+        without, certainty.covariances.size(), certainty.maps));
   result.sections.push_back(certainty_section(result.record, certainty));
   result.certainty = certainty;
   return draft;

@@ -53,7 +53,7 @@ int verify(HistoryStore& history, const fs::path& store, const Console& console)
   if (problems.empty())
     text =
         fmt::format("{} and {} are whole\n",
-                    counted(static_cast<long long>(history.nightly_runs().size()), "nightly_run"),
+                    counted(static_cast<long long>(history.nightly_runs().size()), "nightly run"),
                     counted(static_cast<long long>(digests.size()), "figure file"));
   console.result(text, {{"whole", problems.empty()}, {"problems", problems}});
   return problems.empty() ? kDone : kNo;
@@ -69,7 +69,7 @@ int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Con
     write_history_pages(history, arguments.store, arguments.store, {}, load_templates(), 1);
   console.result(
       fmt::format("{} and {} removed\n",
-                  counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly_run"),
+                  counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly run"),
                   counted(pruned.files, "figure file")),
       {{"removed_nights", pruned.nightly_runs}, {"removed_files", pruned.files}});
   return kDone;
@@ -107,9 +107,9 @@ Action history_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof history history\n"
       "  mapproof history history --prune last=30,every=7\n"
-      "  mapproof history history --export csv > nightly runs.csv\n\n"
-      "A pinned nightly run is what later ones are compared with: pin one to accept what it "
-      "changed.\n"
+      "  mapproof history history --export csv > nightly_runs.csv\n\n"
+      "Later nightly runs are compared with a pinned one: pin a nightly run to accept its "
+      "changes.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
   app.add_option("DIR", arguments->store, "Folder of the history")
       ->required()
@@ -117,8 +117,8 @@ Action history_command(CLI::App& app) {
   auto* what = app.add_option_group("what");
   what->add_option(
       "--prune", arguments->prune,
-      "Remove all nightly runs but the last N, those whose number K divides, the pinned and "
-      "what these were compared with: last=N,every=K");
+      "Remove all nightly runs except the last N, those whose number K divides, the pinned ones "
+      "and their reference runs: last=N,every=K");
   what->add_option("--export", arguments->format,
                    "Every value of every nightly run, to standard output")
       ->check(CLI::IsMember({"csv", "json"}));

@@ -15,7 +15,7 @@ HistoryFolders paths_from(const std::filesystem::path& folder, const std::filesy
                           const std::filesystem::path& store);
 
 /// Writes index.html and, of every study of the last nightly run, trends/STUDY/report.html with its
-/// figures, anew from the history.
+/// figures, again from the history.
 /// @param store    Where nightly_runs/ lies, and what is left of nightly runs that were lost.
 /// @param out      For the pages: the store or another folder.
 /// @param remarks  On the last nightly run.

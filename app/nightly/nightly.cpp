@@ -92,7 +92,7 @@ std::vector<NightlyStudy> read_all(const std::vector<StudyOrder>& orders, const 
   return studies;
 }
 
-/// Draws a study's report. @return Whether all of its scenes could be drawn; said if not.
+/// Draws a study's report. @return Whether all of its scenes could be drawn; a warning if not.
 bool draw(const FolderReport& report, const Templates& page, int jobs, const Console& console) {
   try {
     write_report(report, page, jobs);
@@ -171,7 +171,7 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   make_folder(store);
   const FolderLock lock(store, [&] {
     console.warning(store.string() +
-                    ": another mapproof is at work in it; waiting, since two at once would spoil "
+                    ": another mapproof runs in it; waiting, since two at once would spoil "
                     "each other's seconds");
   });
   HistoryStore history = HistoryStore::open(store);
@@ -218,7 +218,7 @@ Action nightly_command(CLI::App& app) {
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
       "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
-      "1: accuracy did, or results are lost; 4: seconds or memory alone grew.\n"
+      "1: accuracy got worse, or results are lost; 4: only seconds or memory grew.\n"
       "docs/nightly.md says by which rules, and how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,
@@ -229,10 +229,9 @@ Action nightly_command(CLI::App& app) {
       ->required()
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
-  app.add_option(
-         "--reference", arguments->reference,
-         "Nightly run to compare with: its number, refused if it had other settings or another "
-         "seed, or last-good (the pinned one if there is one)")
+  app.add_option("--reference", arguments->reference,
+                 "Reference run: its number, refused if it had other settings or another seed, or "
+                 "last-good (the pinned one if there is one)")
       ->capture_default_str();
   app.add_option("--profile", arguments->order.profile,
                  "Profile of those experiments that have it");

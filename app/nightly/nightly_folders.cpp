@@ -65,12 +65,12 @@ void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& or
     std::string left;
     if (fs::exists(order_file(folder), error)) left = read_file(order_file(folder));
     if (left == text) {
-      console.warning(folder.string() + ": goes on where a nightly run that was stopped left it");
+      console.warning(folder.string() + ": continues a nightly run that was stopped");
       remove_leftovers(folder);
       return;
     }
     console.warning(folder.string() +
-                    ": what a stopped nightly run of other experiments left is removed");
+                    ": removes the files of a stopped nightly run of other experiments");
     fs::remove_all(folder, error);
     if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
   }

@@ -13,7 +13,7 @@
 namespace mapproof {
 
 /// The number this nightly run gets: after all in the history and all finished folders, so that a
-/// history that was begun anew takes none again. @throws IoError.
+/// new history takes none again. @throws IoError.
 int next_nightly_run(HistoryStore& history, const std::filesystem::path& store);
 
 /// Makes the folder of a nightly run, or takes that of a nightly run of the same orders that was

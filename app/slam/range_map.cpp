@@ -36,9 +36,10 @@ std::vector<SlamMethod> methods_for(const RangeLog& log, bool knows) {
 void remark_on_limits(const std::optional<KnownLandmarks>& known, RangeLog& log) {
   if (log.odometry.empty())
     log.remarks.push_back(
-        "Without odometry single readings cannot be brought to common times: only times at which "
-        "every landmark was ranged to are used, nothing is refined, and unless four landmarks are "
-        "known the mirror image of the map fits as well as the map.");
+        "Without odometry, single measurements cannot be brought to common times: only times with "
+        "a "
+        "range to every landmark are used, nothing is refined, and unless four landmarks are known "
+        "the reflection of the map fits as well as the map.");
   if (log.landmarks.size() < kEnoughKnown)
     log.remarks.push_back(fmt::format(
         "The spectral methods need {} landmarks; there {}.", kEnoughKnown,
@@ -60,7 +61,7 @@ const SlamRecord* of_method(const SlamRun& run, SlamMethod method) {
   return nullptr;
 }
 
-/// What tells two results apart that are not the same one made twice; empty if nothing does.
+/// How two results differ that are not the same one made twice; empty if they do not.
 std::string difference(const SlamRun& there, const SlamRun& here) {
   const auto input = [](const SlamRun& run) {
     SlamRun bare;

@@ -17,12 +17,12 @@ inline constexpr const char* kSlamFile = "slam.json";
 /// @throws IoError naming file and line of a landmark that the log has no range to.
 KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path);
 
-/// Runs on a person's own log whatever the log allows, and says in its remarks what it does not:
-/// without odometry no windows, no mirror, no refinement; with fewer than four known landmarks no
-/// map by them.
+/// Runs every method that the log allows; its remarks name what the log does not allow:
+/// without odometry no windows, no reflection, no refinement; with fewer than four known landmarks
+/// no map by them.
 SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known);
 
-/// The record whose path and landmarks are handed out: of the refinements the one that fits best,
+/// The record whose path and landmarks are the result: of the refinements the one that fits best,
 /// else the first of the spectral ones that came out, known landmarks first, else what there is.
 /// Null if no method gave a path with a landmark.
 const SlamRecord* best_record(const SlamRun& run);

@@ -1,5 +1,7 @@
 #include <array>
+#include <filesystem>
 #include <memory>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -11,16 +13,80 @@
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
-#include "app/study/slam_outputs.hpp"
+#include "app/study/folder_report.hpp"
+#include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
+#include "core/model/slam_study.hpp"
 #include "core/records/observations/trajectory_files.hpp"
 #include "core/records/ranges/range_log_files.hpp"
 #include "core/records/studies/slam_store.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "render/figures/status_words.hpp"
+#include "reports/sections/slam/slam_figures.hpp"
+#include "reports/sections/slam/slam_report.hpp"
 
 namespace mapproof {
+
 namespace {
+
+namespace fs = std::filesystem;
+
+FolderReport range_report(const fs::path& folder, const std::string& command) {
+  return slam_folder_report(folder, read_slam_study(folder), read_slam_timings(folder),
+                            read_sessions(folder), command);
+}
+
+nlohmann::ordered_json range_object(const SlamStudy& study) {
+  nlohmann::ordered_json object{{"experiment", study.name},
+                                {"seed", study.seed},
+                                {"runs", study.runs.size()},
+                                {"missing", study.missing},
+                                {"results", nlohmann::ordered_json::array()}};
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records) {
+      nlohmann::ordered_json result{{"run", run.id}, {"method", info(record.method).name}};
+      put_slam_errors(result, record);
+      object["results"].push_back(std::move(result));
+    }
+  return object;
+}
+
+std::string range_text(const SlamStudy& study) {
+  std::string text;
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records)
+      text += fmt::format("{:<10}  {}\n", run.id, slam_record_text(record));
+  return text;
+}
+
+StudyNumbers range_numbers(const fs::path& folder) {
+  const SlamStudy study = read_slam_study(folder);
+  return {.text = range_text(study), .object = range_object(study), .missing = study.missing};
+}
+
+const StudyOutputs kRangeOutputs = {
+    .study = "mapproof.slam_study", .report = range_report, .numbers = range_numbers};
+
+/// The report of a range-only study that is at hand, with its figures.
+/// @param command  The one that makes the study again.
+FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
+                                const SlamTimings& timings, std::span<const Session> sessions,
+                                const std::string& command) {
+  const StudyFigures figures = slam_figures(study, timings);
+  const SlamReportInput input{.study = study,
+                              .sessions = sessions,
+                              .timings = timings,
+                              .figures = figures,
+                              .command = command};
+  FolderReport result{.folder = folder,
+                      .report = slam_report(input),
+                      .in_company = slam_sections(input),
+                      .runs = study.runs.size(),
+                      .missing = study.missing};
+  add_images(figures, result);
+  return result;
+}
 
 namespace fs = std::filesystem;
 
@@ -99,7 +165,7 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   const SlamRecord* best = best_record(run);
   text += best == nullptr
               ? std::string("No method gave a map.\n")
-              : fmt::format("Path and landmarks handed out: {}.\n", info(best->method).label);
+              : fmt::format("Path and landmarks of the result: {}.\n", info(best->method).label);
   return text + (out / "report.html").string() + "\n";
 }
 
@@ -109,9 +175,10 @@ void require_followable(const SlamArguments& arguments) {
                                       {&arguments.ground_truth, "--ground-truth"},
                                       {&arguments.log.name, "--name"}})
     if (!value->empty())
-      throw InvalidInput(fmt::format(
-          "{}: not with --follow, which maps landmarks from ranges alone; map the log as a whole",
-          option));
+      throw InvalidInput(
+          fmt::format("{}: not with --follow, which maps landmarks from ranges alone; map the "
+                      "whole log instead",
+                      option));
 }
 
 int follow_ranges(const SlamArguments& arguments, const Templates& page,
@@ -179,7 +246,7 @@ Action slam_command(CLI::App& app) {
       "It may be compressed by gzip or xz. Ranges are single distances to named landmarks, at any\n"
       "times. The window that brings them to common times is chosen by prediction error. Errors "
       "are\n"
-      "reported only with ground truth. Without odometry the map may be mirrored.\n"
+      "reported only with ground truth. Without odometry the map may be reflected.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("DATA", arguments->data, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();

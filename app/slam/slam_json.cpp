@@ -28,7 +28,7 @@ std::string slam_record_text(const SlamRecord& record) {
                 ? ""
                 : ": " + status_words(record.estimate.statuses.back()));
   if (record.errors.empty())
-    return method + fmt::format("  {} poses, no ground truth to hold them against",
+    return method + fmt::format("  {} poses, no ground truth to compare them with",
                                 record.estimate.path.size());
   const TrajectoryError& error = record.errors.front();
   return method +

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/study/study_outputs.hpp"
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -16,21 +17,6 @@
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {
-
-/// The report of a folder of records and the figures in it, as values.
-struct FolderReport {
-  std::filesystem::path folder;
-  bool of_paper = true;  ///< A paper's study, not one beyond them.
-  Report report = {};
-  std::vector<Section> in_company =
-      {};                            ///< Its sections as they stand beside those of other studies.
-  std::vector<Figure> figures = {};  ///< In the order of the report.
-  std::vector<Scene> scenes = {};    ///< Likewise.
-  std::vector<Film> films = {};      ///< Of some of the scenes.
-  std::size_t runs = 0;
-  std::vector<std::string> missing = {};               ///< Data asked for that are not there.
-  std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
-};
 
 /// Reads the records of a folder and makes report and figures of them; no solver runs. The folder
 /// holds a study of any kind, or studies in folders below it (see study_folders()).

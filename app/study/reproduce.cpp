@@ -130,7 +130,7 @@ Action reproduce_command(CLI::App& app) {
       "The Plaza data are not part of the program: without --plaza the simulated part of "
       "boots2013\n"
       "is made, and the report says how to get them.\n"
-      "A study that was stopped goes on where it was; a folder that holds another experiment is "
+      "A study that was stopped is continued; a folder that holds another experiment is "
       "refused.\n");
   app.add_option("NAME", arguments->name,
                  fmt::format("Experiment: {}, all (both papers), or extensions",

@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// What the command line says about any experiment.
+/// Options of the command line for any experiment.
 struct OrderOptions {
   std::string profile;            ///< "": none.
   bool profile_if_there = false;  ///< An experiment without that profile is taken as it stands.
@@ -25,7 +25,7 @@ struct OrderOptions {
 /// Adds --plaza and --data to a command.
 void add_data_options(CLI::App& app, OrderOptions& options);
 
-/// A study of any kind, ready to be made.
+/// A study of any type, ready to be made.
 struct StudyOrder {
   std::string name = {};
   std::string digest = {};           ///< SHA-256 of its text and profile.
@@ -33,7 +33,7 @@ struct StudyOrder {
   std::filesystem::path given = {};  ///< A study that another program made, which is copied.
 };
 
-/// Reads an experiment of any kind and looks up its data; nothing is made. Folders of data that it
+/// Reads an experiment of any type and looks up its data; nothing is made. Folders of data that it
 /// has no use for are left alone: see check_data_used().
 /// @throws IoError, InvalidInput, CLI::ValidationError.
 StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& options);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,9 +10,27 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/study/folder_report.hpp"
+#include "render/plot/figure.hpp"
+#include "render/scene/film.hpp"
+#include "render/scene/scene.hpp"
+#include "reports/model/report.hpp"
 
 namespace mapproof {
+
+/// The report of a folder of records and the figures in it, as values.
+struct FolderReport {
+  std::filesystem::path folder;
+  bool of_paper = true;  ///< A paper's study, not one beyond them.
+  Report report = {};
+  std::vector<Section> in_company =
+      {};                            ///< Its sections as they stand beside those of other studies.
+  std::vector<Figure> figures = {};  ///< In the order of the report.
+  std::vector<Scene> scenes = {};    ///< Likewise.
+  std::vector<Film> films = {};      ///< Of some of the scenes.
+  std::size_t runs = 0;
+  std::vector<std::string> missing = {};               ///< Data asked for that are not there.
+  std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
+};
 
 /// A study in numbers: as a few lines of text, and for --json.
 struct StudyNumbers {

@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-/// Data sets are told apart; simulated runs are repeats.
+/// Data sets are distinguished; simulated runs are repeats.
 std::vector<std::string> parts_apart(const TrialStudy& study) {
   std::vector<std::string> parts;
   for (const TrialDataSet& set : study.experiment.data) parts.push_back(set.id);
@@ -36,7 +36,7 @@ nlohmann::ordered_json mean_values(const TrialStudy& study, const ResultsView& v
 }
 
 /// Methods are compared by what the design judges them by first; by all of it would be too much.
-/// One group tells nothing of chance.
+/// One group shows nothing about chance.
 std::vector<MethodComparison> compare_series(const ResultsView& view) {
   std::vector<MethodComparison> comparisons = compare_methods(view);
   std::erase_if(comparisons, [&](const MethodComparison& comparison) {

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The places of some landmarks as a file of anchors.
+/// The positions of some landmarks as a file of anchors.
 std::string corners_csv(const DetectionLog& log) {
   std::string text = "name,x,y\n";
   const Points locations = noisy_landmarks();
@@ -31,7 +31,7 @@ std::string corners_csv(const DetectionLog& log) {
   return text;
 }
 
-/// What `mapproof map ... --json` says.
+/// The result of `mapproof map ... --json`.
 json mapped(const std::vector<std::string>& arguments) {
   std::vector<std::string> all = {"map"};
   all.insert(all.end(), arguments.begin(), arguments.end());
@@ -41,7 +41,7 @@ json mapped(const std::vector<std::string>& arguments) {
   return run.exit_code == 0 ? json::parse(run.out) : json();
 }
 
-/// How far the map is from the true places, turned and scaled onto them.
+/// How far the map is from the true positions, rotated and scaled onto them.
 double gap(const json& result, const DetectionLog& log) {
   Points map(noisy_landmarks().rows(), 2);
   for (const json& row : result.at("landmarks")) {
@@ -117,7 +117,7 @@ TEST(MapWithIds, CannotBeCheckedOfOneKindOfValue) {
   const Outcome run =
       mapproof({"map", file, "--sensor", "visibility", "--check-ids", "--out", folder / "map"});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.error.find("range and bearing seen together"), std::string::npos);
+  EXPECT_NE(run.error.find("range and bearing of the same scan"), std::string::npos);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace {
 
 DetectionLog ten_scans() { return {.names = {"A", "B", "C"}, .detections = {}, .steps = 10}; }
 
-TEST(LabelWords, SayWhenAndHowOften) {
+TEST(AssociationSentences, SayWhenAndHowOften) {
   const DetectionLog log = ten_scans();
   AssociationFinding finding{.fault = AssociationFault::kSwapped,
                              .first = 0,
@@ -22,9 +22,9 @@ TEST(LabelWords, SayWhenAndHowOften) {
             "A and C look swapped from step 5 on (6 detections): loss 0.410 -> 0.130 m");
 }
 
-TEST(LabelWords, SayWhatKnownPlacesWereMissedBy) {
+TEST(AssociationSentences, SayByHowMuchKnownPositionsWereMissed) {
   EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, ten_scans()),
-            "A and C look exchanged in all detections: known places missed by 1.930 m, then by "
+            "A and C look swapped in all detections: known positions missed by 1.930 m, then by "
             "0.120 m");
 }
 

@@ -17,7 +17,7 @@ constexpr const char* kSeen =
     "a,0.1,1,2,3\nb,0.2,1.2,2.1,3\nc,-0.3,0.9,2,2.9\nd,0.1,0.2,0.3,0.4\ne,1,2,0,1\n";
 constexpr const char* kAnchors = "name,x,y\na,0,0\nb,1,0\nc,0,1\nd,1,1\n";
 
-/// One thing wrong with a call of `map`, and what has to be said about it.
+/// One thing wrong with a call of `map`, and what the message has to contain.
 struct BadMap {
   std::string name;
   std::string observations;
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                kSeen,
                kAnchors,
                {"--method", "lpca", "-K", "5"},
-               "the method lpca has none"},
+               "the method lpca has no parameter"},
         BadMap{"MoreStepsThanThereAre",
                kSeen,
                kAnchors,

@@ -113,7 +113,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
     EXPECT_EQ(object["schema"]["name"], "mapproof.result." + call[0]);
     EXPECT_EQ(object["schema"]["version"], 1);
     call.back() = "--quiet";
-    // What is wrong with a map is said there, too.
+    // Warnings about a map go there, too.
     const std::string said = mapproof(call).error;
     EXPECT_TRUE(said.empty() || said.starts_with("warning: ")) << call.front() << said;
     std::filesystem::remove_all(folder / "baseline");

@@ -34,7 +34,7 @@ struct Hall {
   }
 };
 
-/// The landmarks' places in the order of `names`.
+/// The landmarks' positions in the order of `names`.
 Points locations(const json& result, const std::vector<std::string>& names, const char* x,
                  const char* y) {
   Points points(std::ssize(names), 2);

@@ -112,7 +112,7 @@ TEST(MapAuto, SaysWhatItComparedAndTakesTheFirst) {
             2);
 }
 
-/// Waits until a followed map has so many steps.
+/// Waits until an incremental map has so many steps.
 bool reaches(const std::string& folder, int steps) {
   for (int tries = 0; tries < 600; ++tries) {
     if (fs::exists(folder + "/map.json") && map_in(folder).step >= steps) return true;

@@ -165,8 +165,10 @@ TEST(FollowedMapFile, SaysWhatCannotBeCombinedAndWhy) {
       {{"--missing", "ppca"}, "--missing: not with --follow"},
       {{"--submaps", "8"}, "--submaps: not with --follow"},
       {{"--steps", "8"}, "--steps: not with --follow"},
-      {{"--check-ids"}, "--check-ids, --repair-ids: not with --follow"},
-      {{"--find-moved"}, "--find-moved: not with --follow: one kind of value"},
+      {{"--check-ids"}, "--check-ids: not with --follow"},
+      {{"--repair-ids"}, "--repair-ids: not with --follow"},
+      {{"--find-moved"},
+       "--find-moved without range-bearing: not with --follow: ranges or bearings"},
   };
   for (const auto& [options, expected] : cases) {
     std::vector<std::string> all = options;

@@ -14,7 +14,7 @@
 namespace mapproof::test {
 namespace {
 
-/// Bearings in a room, with gaps, as a person has them; and its anchors and truth.
+/// Bearings in a room, with missing data; and its anchors and ground truth.
 struct IncompleteSurvey {
   /// @param by_range  The most distant entries are missing, else any.
   explicit IncompleteSurvey(const TemporaryFolder& folder, double share, bool by_range = false)
@@ -58,7 +58,7 @@ struct IncompleteSurvey {
   std::string seen, ground_truth, anchors;
 };
 
-TEST(MapMissing, FilledInByPpcaOrPcaIsBetterThanCommonStepsWhereMostIsMissingAtRandom) {
+TEST(MapMissing, FilledInByPpcaOrPcaIsBetterThanPairwiseCompleteWhereMostIsMissingAtRandom) {
   const TemporaryFolder folder;
   const IncompleteSurvey survey(folder, 0.7);
   const auto mpe = [&](const std::string& way) {
@@ -85,7 +85,7 @@ TEST(MapMissing, OfSubmapsShowsThemAndIsNearTheGroundTruth) {
   EXPECT_EQ(result["remarks"][0].get<std::string>().substr(0, 11), "Joined from");
   EXPECT_TRUE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
   const std::string half = read_file(folder / "map/map.csv");
-  // Mapped as a whole into the same folder, nothing tells of sub-maps any more.
+  // Mapped as a whole into the same folder, nothing shows sub-maps any more.
   EXPECT_EQ(survey.mapped({}, folder / "map").exit_code, 0);
   EXPECT_FALSE(std::filesystem::exists(folder / "map" / "figures" / "submaps.svg"));
   EXPECT_EQ(survey.mapped({"--submaps", "5"}, folder / "small").exit_code, 2);
@@ -107,19 +107,20 @@ TEST(MapMissing, OfCovisiblePairsTellsTheOnesLeftOutFromThoseWithoutACommonStep)
   EXPECT_NE(result["statuses"].dump().find("(0 of them without a step in common)"),
             std::string::npos)
       << result["statuses"];
-  // These gaps say nothing of what is near, and that is said.
+  // These missing data show nothing of what is near, and a warning says so.
   ASSERT_EQ(result["warnings"].size(), 1U);
   EXPECT_NE(result["warnings"][0].get<std::string>().find("--missing ppca is likely"),
             std::string::npos);
 }
 
-TEST(MapMissing, AutoTakesWhatThePatternOfTheGapsAdvisesAndSaysSo) {
+TEST(MapMissing, AutoTakesWhatThePatternOfMissingDataAdvisesAndSaysSo) {
   const TemporaryFolder folder;
   const IncompleteSurvey survey(folder, 0.5);
   const Outcome outcome = survey.mapped({"--missing", "auto"}, folder / "map");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
-  EXPECT_NE(result["remarks"].dump().find("ppca was taken, as entries are missing as if at random"),
+  EXPECT_NE(result["remarks"].dump().find(
+                "the strategy is ppca, because entries are missing as if at random"),
             std::string::npos)
       << result["remarks"];
   EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
@@ -146,14 +147,14 @@ TEST(Map, RefusesAFolderOfAnotherMapBeforeItComputes) {
   const Outcome again = survey.mapped({"--steps", "100", "--missing", "ppca"}, folder / "map");
   EXPECT_EQ(again.exit_code, 2);
   EXPECT_NE(again.error.find("1000 steps there, 100 here"), std::string::npos) << again.error;
-  // What the mapping would have remarked was not said: it did not come to that.
+  // The remarks of the mapping are missing: it did not begin.
   EXPECT_EQ(again.error.find("PPCA"), std::string::npos) << again.error;
 }
 
 TEST(Map, WarnsOfAMapThatIsWorthNoMoreThanTheAnchorsMean) {
   const TemporaryFolder folder;
   IncompleteSurvey survey(folder, 0.0);
-  // The ground truth of other landmarks: names dealt out anew.
+  // The ground truth of other landmarks: names dealt out again.
   std::string csv = "name,x,y\n";
   const std::vector<std::string> names = landmark_names(50);
   for (Eigen::Index i = 0; i < 50; ++i)
@@ -175,7 +176,7 @@ TEST(MapMissing, RefusesWhatDoesNotFitTogether) {
   EXPECT_EQ(unknown.exit_code, 2);
   const Outcome dimensions = survey.mapped({"--dimensions", "4"}, folder / "b");
   EXPECT_EQ(dimensions.exit_code, 2);
-  EXPECT_NE(dimensions.error.find("--dimensions: --missing pairwise-complete has none"),
+  EXPECT_NE(dimensions.error.find("--dimensions: --missing pairwise-complete has no dimensions"),
             std::string::npos)
       << dimensions.error;
   const std::string seen = folder.file("v.csv", "a,1,0,1\nb,1,1,0\nc,0,1,1\nd,1,,1\n");

@@ -111,7 +111,7 @@ TEST(MapMixed, RefusesWhatDoesNotFitTogether) {
     EXPECT_EQ(outcome.exit_code, 2);
     return outcome.error;
   };
-  EXPECT_NE(refused({survey.files[1], "bearing"}).find("each kind once"), std::string::npos);
+  EXPECT_NE(refused({survey.files[1], "bearing"}).find("each sensor only once"), std::string::npos);
   const std::string other = folder.file("other.csv", "a,1,2,3\nb,2,3,4\nc,3,4,5\n");
   EXPECT_NE(refused({other, "range"}).find("shares 0 landmarks with"), std::string::npos);
   std::string nothing;

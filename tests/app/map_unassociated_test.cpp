@@ -13,12 +13,12 @@
 namespace mapproof::test {
 namespace {
 
-/// Bearings of 25 landmarks as long CSV, some of them under other labels than their own.
+/// Bearings of 25 landmarks as long CSV, some of them with wrong landmark IDs.
 struct LongSurvey {
   WalkedRoom room = walked_room(3, 500, 25);
   ObservationHistory history;
   std::vector<std::string> ground_truth =
-      {};  ///< Of each unlabelled reading, in the order of the lines.
+      {};  ///< Of each measurement without an ID, in the order of the lines.
 
   LongSurvey() {
     Random random(7);
@@ -70,7 +70,7 @@ TEST(MapUnassociated, FindsWhoseReadingsWithoutALabelAre) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_LT(result["score"]["mpe_all_fitted_m"], 0.15);
-  EXPECT_NE(result["remarks"].dump().find("Labels estimated together with the map"),
+  EXPECT_NE(result["remarks"].dump().find("Data association estimated together with the map"),
             std::string::npos);
   // Each line of labels.csv names the line of the file that it is about.
   std::istringstream lines(read_file(folder / "out" / "labels.csv"));
@@ -101,11 +101,11 @@ TEST(MapUnassociated, MendsSomeOfTwoLabelsThatAreConfusedInAQuarterOfTheStepsAnd
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   EXPECT_LT(result["score"]["mpe_all_fitted_m"], plain["score"]["mpe_all_fitted_m"]);
-  // Of the two readings in each fourth step some only are found: little tells two landmarks apart
-  // that are never certain.
+  // Of the two measurements in each fourth step some only are found: little distinguishes two
+  // landmarks that are never certain.
   const std::string csv = read_file(folder / "out" / "labels.csv");
   EXPECT_GT(std::ranges::count(csv, '\n'), 30);
-  EXPECT_NE(result["warnings"].dump().find("are never told apart for certain"), std::string::npos)
+  EXPECT_NE(result["warnings"].dump().find("have no certain measurement"), std::string::npos)
       << result["warnings"];
 }
 
@@ -121,7 +121,7 @@ TEST(MapUnassociated, RefusesWhatItCannotEstimate) {
     return survey.history.names[static_cast<std::size_t>(i)];
   };
   const std::string whole = survey.csv(own);
-  EXPECT_NE(refused(whole + "10,?,1\n", {}).find("more readings without a label than"),
+  EXPECT_NE(refused(whole + "10,?,1\n", {}).find("more measurements without a landmark ID than"),
             std::string::npos);
   EXPECT_NE(refused(whole + "5000,?,1\n", {}).find("has none left for"), std::string::npos);
   EXPECT_NE(refused(whole, {"--uncertain-ids", "L5"}).find("name two or more"), std::string::npos);
@@ -130,7 +130,7 @@ TEST(MapUnassociated, RefusesWhatItCannotEstimate) {
   const std::string scans = folder.file("scans.csv", "step,landmark,range,bearing\n0,?,1,1\n");
   const Outcome detections = mapproof({"map", scans, "--out", folder / "scans"});
   EXPECT_EQ(detections.exit_code, 2);
-  EXPECT_NE(detections.error.find("line 2: a reading without a label"), std::string::npos)
+  EXPECT_NE(detections.error.find("line 2: a measurement without a landmark ID"), std::string::npos)
       << detections.error;
 }
 

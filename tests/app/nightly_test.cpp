@@ -42,7 +42,7 @@ std::size_t lines_with(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// Runs statements on the store's file from beside the program.
+/// Runs statements on the store's file from outside the program.
 void change(const fs::path& store, const std::string& statements) {
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open((store / "history.sqlite").c_str(), &database), SQLITE_OK);

@@ -7,7 +7,7 @@
 namespace mapproof::test {
 
 /// A drive of 200 s past six landmarks, ranges 5 % long and 10 cm noisy, with odometry from a known
-/// start and the truth.
+/// start and the ground truth.
 RangeLog drive_log();
 
 /// Which files of a log's folder are written.

@@ -92,12 +92,13 @@ TEST_F(StudyOfAnotherProgram, WhoseRecordsAreApprovedAloneHasAStaleReport) {
   ASSERT_EQ(mapproof({"report", folder_ / "baseline"}).exit_code, 0);
   const Outcome records = mapproof({"approve", folder_ / "baseline", folder_ / "mine", "records"});
   EXPECT_EQ(records.exit_code, 0);
-  EXPECT_NE(records.error.find("baseline/report.html: is of the records before"), std::string::npos)
+  EXPECT_NE(records.error.find("baseline/report.html: shows the earlier records"),
+            std::string::npos)
       << records.error;
   make("baseline", "0.05");
   ASSERT_EQ(mapproof({"report", folder_ / "mine"}).exit_code, 0);
   const Outcome all = mapproof({"approve", folder_ / "baseline", folder_ / "mine", "--all"});
-  EXPECT_EQ(all.error.find("records before"), std::string::npos) << all.error;
+  EXPECT_EQ(all.error.find("earlier records"), std::string::npos) << all.error;
 }
 
 TEST_F(StudyOfAnotherProgram, HasItsPathsAlignedIfItAsks) {

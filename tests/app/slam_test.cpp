@@ -120,7 +120,7 @@ TEST(Slam, MayBeRepeatedIntoItsFolderButNoOtherLogMay) {
   EXPECT_EQ(contents(folder / "out").size(), before.size());
 }
 
-/// One thing wrong with a call of `slam`, and what has to be said about it.
+/// One thing wrong with a call of `slam`, and what the message has to contain.
 struct BadSlam {
   std::string name;
   std::string ranges;

@@ -118,7 +118,7 @@ std::string scans_csv() { return detections_csv(scans()); }
 
 std::string scans_json() { return detections_json(scans()); }
 
-/// The files beside the input of a command: observations, anchors, a log as `set` and, without its
+/// The files besides the input of a command: observations, anchors, a log as `set` and, without its
 /// odometry, as `bare`; after its first use, `map` with its figures and `slam`.
 class Samples {
  public:
@@ -397,7 +397,7 @@ TEST(Streams, AFollowedPipeThatNobodyWritesToCanBeStopped) {
   const Outcome outcome =
       shell(folder.path(),
             "timeout -s INT 0.5 $MAPPROOF map f --follow --sensor visibility --out out", 10.0);
-  EXPECT_NE(outcome.error.find("f: held no observations"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("f: holds no observations"), std::string::npos) << outcome.error;
 }
 
 TEST(Streams, ADiffOfPipesShowsBothOnItsPage) {
