@@ -1,7 +1,5 @@
 #include <array>
-#include <filesystem>
 #include <memory>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -13,80 +11,16 @@
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
-#include "app/study/folder_report.hpp"
-#include "app/study/study_outputs.hpp"
+#include "app/study/slam_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files.hpp"
-#include "core/model/slam_study.hpp"
 #include "core/records/observations/trajectory_files.hpp"
 #include "core/records/ranges/range_log_files.hpp"
 #include "core/records/studies/slam_store.hpp"
-#include "core/records/studies/study_store.hpp"
 #include "render/figures/status_words.hpp"
-#include "reports/sections/slam/slam_figures.hpp"
-#include "reports/sections/slam/slam_report.hpp"
 
 namespace mapproof {
-
 namespace {
-
-namespace fs = std::filesystem;
-
-FolderReport range_report(const fs::path& folder, const std::string& command) {
-  return slam_folder_report(folder, read_slam_study(folder), read_slam_timings(folder),
-                            read_sessions(folder), command);
-}
-
-nlohmann::ordered_json range_object(const SlamStudy& study) {
-  nlohmann::ordered_json object{{"experiment", study.name},
-                                {"seed", study.seed},
-                                {"runs", study.runs.size()},
-                                {"missing", study.missing},
-                                {"results", nlohmann::ordered_json::array()}};
-  for (const SlamRun& run : study.runs)
-    for (const SlamRecord& record : run.records) {
-      nlohmann::ordered_json result{{"run", run.id}, {"method", info(record.method).name}};
-      put_slam_errors(result, record);
-      object["results"].push_back(std::move(result));
-    }
-  return object;
-}
-
-std::string range_text(const SlamStudy& study) {
-  std::string text;
-  for (const SlamRun& run : study.runs)
-    for (const SlamRecord& record : run.records)
-      text += fmt::format("{:<10}  {}\n", run.id, slam_record_text(record));
-  return text;
-}
-
-StudyNumbers range_numbers(const fs::path& folder) {
-  const SlamStudy study = read_slam_study(folder);
-  return {.text = range_text(study), .object = range_object(study), .missing = study.missing};
-}
-
-const StudyOutputs kRangeOutputs = {
-    .study = "mapproof.slam_study", .report = range_report, .numbers = range_numbers};
-
-/// The report of a range-only study that is at hand, with its figures.
-/// @param command  The one that makes the study again.
-FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
-                                const SlamTimings& timings, std::span<const Session> sessions,
-                                const std::string& command) {
-  const StudyFigures figures = slam_figures(study, timings);
-  const SlamReportInput input{.study = study,
-                              .sessions = sessions,
-                              .timings = timings,
-                              .figures = figures,
-                              .command = command};
-  FolderReport result{.folder = folder,
-                      .report = slam_report(input),
-                      .in_company = slam_sections(input),
-                      .runs = study.runs.size(),
-                      .missing = study.missing};
-  add_images(figures, result);
-  return result;
-}
 
 namespace fs = std::filesystem;
 

@@ -7,6 +7,7 @@
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/sections/study_report.hpp"
+#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {

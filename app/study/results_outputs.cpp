@@ -4,6 +4,7 @@
 #include "core/records/studies/results_study_json.hpp"
 #include "core/score/trajectory_error.hpp"
 #include "reports/sections/results/results_report.hpp"
+#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {

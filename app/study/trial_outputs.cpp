@@ -10,6 +10,7 @@
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/trial_blocks.hpp"
 #include "reports/sections/trials/topic_text.hpp"
+#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {
