@@ -48,7 +48,7 @@ bool worth_a_warning(const MissingPattern& pattern, const std::string& way) {
 /// "entries are missing by distance (40 % missing, ...)": why a strategy is advised.
 std::string advice_words(StrategyReason why, const MissingPattern& pattern) {
   const std::string numbers = fmt::format(
-      "{:.0f} % missing, common steps of pairs {:.1f} standard deviations from chance, rank "
+      "{:.0f} % missing, steps that pairs share {:.1f} standard deviations from chance, rank "
       "correlation with their distances {:.2f}, {:.1f} % of the pairs with fewer than five steps",
       100.0 * pattern.missing_share, pattern.dispersion, pattern.nearness,
       100.0 * pattern.few_share);

@@ -71,7 +71,7 @@ int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Con
       fmt::format("{} and {} removed\n",
                   counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly run"),
                   counted(pruned.files, "figure file")),
-      {{"removed_nights", pruned.nightly_runs}, {"removed_files", pruned.files}});
+      {{"removed_nightly_runs", pruned.nightly_runs}, {"removed_files", pruned.files}});
   return kDone;
 }
 

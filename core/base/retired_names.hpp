@@ -8,8 +8,8 @@ namespace mapproof {
 /// What a name of the interface names.
 enum class NameKind {
   kOption,      ///< Of the command line: "--kind".
-  kValue,       ///< Of an option: "common-steps".
-  kKey,         ///< Of a JSON file: "truth_m".
+  kValue,       ///< Of an option: a strategy.
+  kKey,         ///< Of a JSON file: "landmarks".
   kExperiment,  ///< That `reproduce` knows: "labels".
 };
 

@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"--steps", "5"},
                "--steps 5: it holds 4 observations"},
         BadMap{"TwoLandmarks", "a,1,2\nb,2,3\n", "a,0,0\n", {}, "a map needs 3 or more"},
-        BadMap{"NoSuchTruth",
+        BadMap{"NoSuchGroundTruth",
                kSeen,
                kAnchors,
                {"--truth", "/nonexistent.csv"},
@@ -214,7 +214,7 @@ TEST(BadInput, AFullDiskLosesNothingAndLeavesNoPart) {
   EXPECT_EQ(contents(folder / "study"), before);
 }
 
-TEST(BadInput, ARealSetThatIsBrokenIsToldBeforeAnythingIsMade) {
+TEST(BadInput, ARealSetThatIsBrokenIsRefusedBeforeAnythingIsMade) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder / "sets");
   std::filesystem::copy(std::string(MAPPROOF_TEST_DATA) + "/mrclam", folder / "sets/whole");

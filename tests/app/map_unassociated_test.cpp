@@ -59,7 +59,7 @@ struct LongSurvey {
   }
 };
 
-TEST(MapUnassociated, FindsWhoseReadingsWithoutALabelAre) {
+TEST(MapUnassociated, FindsTheLandmarksOfMeasurementsWithoutAnId) {
   const TemporaryFolder folder;
   LongSurvey survey;
   Random random(9);

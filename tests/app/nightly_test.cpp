@@ -84,7 +84,7 @@ TEST(Nightly, LeavesAFileThatSaysWhatItIs) {
   const TemporaryFolder folder;
   const Outcome outcome = nightly_run(folder / "h");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  const json file = json::parse(read_file(folder / "h/nightly_runs/0001/night.json"));
+  const json file = json::parse(read_file(folder / "h/nightly_runs/0001/nightly_run.json"));
   EXPECT_EQ(schema_problem("nightly_run", file), "");
   EXPECT_EQ(file["schema"].dump(), R"({"name":"mapproof.nightly_run","version":1})");
   EXPECT_FALSE(file["provenance"]["version"].get<std::string>().empty());

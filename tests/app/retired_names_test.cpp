@@ -27,7 +27,7 @@ TEST(RetiredNames, OfOptionsAreRefusedInOneLineWithTheNewName) {
     }
 }
 
-TEST(RetiredNames, OfOptionsHaveANewNameThatACommandTakes) {
+TEST(RetiredNames, OfOptionsAreReplacedByOnesThatACommandTakes) {
   const std::string help =
       test::mapproof({"map", "--help"}).out + test::mapproof({"slam", "--help"}).out;
   for (const RetiredName& option : retired(NameKind::kOption)) {

@@ -177,7 +177,7 @@ const std::vector<Reader>& readers() {
       {"MapOfOneSensorOfDetections", scans_csv, "map {} --sensor range --method lpca --out out",
        kMap},
       {"Anchors", anchors, "map wide.csv --sensor bearing --anchors {} --out out", kMap},
-      {"Truth", anchors, "map wide.csv --sensor bearing --truth {} --out out", kMap},
+      {"GroundTruth", anchors, "map wide.csv --sensor bearing --truth {} --out out", kMap},
       {"OtherSensor", seen_table,
        "map wide.csv --sensor bearing --with {} --with-sensor visibility --out out", kMap},
       {"SlamOfMat", sample("log.mat"), slam, kSlam},
