@@ -264,7 +264,7 @@ TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
   EXPECT_NEAR(off[0].y[0], 0.2, 1e-12);
   EXPECT_DOUBLE_EQ(against[1].x[1], 5.0);
   EXPECT_NEAR(off[1].y[1], -0.2, 1e-12);
-  EXPECT_EQ(against[1].marks[1].id, "ground_truth-1-3");
+  EXPECT_EQ(against[1].marks[1].id, "ground-truth-1-3");
   EXPECT_TRUE(contains(figure.alt, "1 pair measured.")) << figure.alt;
   EXPECT_TRUE(contains(figure.alt, "within 0.250 m in the ground truth")) << figure.alt;
 }

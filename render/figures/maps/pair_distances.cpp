@@ -62,7 +62,7 @@ Distances distances_in(const Points& positions_shown_m, const PairDistancesSpec&
                  {"second", spec.map.names[static_cast<std::size_t>(pair.second)]},
                  {"scans", std::to_string(pair.scans)}};
     const std::string id =
-        fmt::format("{}-{}-{}", marker == Marker::kCircle ? "map" : "ground_truth", pair.first + 1,
+        fmt::format("{}-{}-{}", marker == Marker::kCircle ? "map" : "ground-truth", pair.first + 1,
                     pair.second + 1);
     mark.id = id;
     add_point(result.against, {known_m, pair.distance_m});

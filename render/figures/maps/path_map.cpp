@@ -168,7 +168,7 @@ class PathMap {
     panel.y = {.label = "y [m]", .limits = view_.limits.y};
     if (spec_.run.log.ground_truth)
       panel.layers.push_back(
-          path(*spec_.run.log.ground_truth, "true path", "ground_truth", kTrueInk, 2.4));
+          path(*spec_.run.log.ground_truth, "true path", "ground-truth", kTrueInk, 2.4));
     for (const SlamRecord* record : view_.shown) {
       const PathStyle style = path_style(record->method);
       panel.layers.push_back(

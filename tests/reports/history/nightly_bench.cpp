@@ -149,7 +149,7 @@ int main(int argc, char** argv) {
   fmt::print("{} histories of {} nightly runs, planted in nightly run {}\n", histories,
              nightly_runs, from);
   fmt::print("{:<38} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "", "false", "histories", "found",
-             "the same", "median", "nightly_run");
+             "the same", "median", "run");
   fmt::print("{:<38} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7}\n", "planted", "a nightly run %",
              "with any %", "%", "nightly run %", "delay", "off by");
   for (const Scenario& scenario : scenarios()) {
