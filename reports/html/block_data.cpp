@@ -356,7 +356,7 @@ class BlockVisitor {
       entry.set("long", place.detail.size() > kLong);
       places.push_back(std::move(entry));
     }
-    out.set("any_places", !item.places.empty());
+    out.set("any_locations", !item.places.empty());
     out.set("locations", places);
     const int more = item.count - static_cast<int>(item.places.size());
     out.set("more", more > 0 ? data(fmt::format("and {} more", more)) : data(false));

@@ -98,7 +98,7 @@ TEST(ScatterEllipse, TurnsWithItsPoints) {
 TEST(EllipseMapFigure, JoinsTheGroundTruthToTheMean) {
   const EllipseMapSpec spec = sample_runs(20, 5);
   const Figure figure = ellipse_map_figure(spec);
-  const auto bias = labelled<Segments>(figure.panels[0], "ground truth to mean").value();
+  const auto bias = labelled<Segments>(figure.panels[0], "error of the mean").value();
   ASSERT_EQ(bias.x0.size(), 20u);
   EXPECT_EQ(bias.x0[3], spec.ground_truth_m(3, 0));
   EXPECT_NEAR(bias.x1[3], scatter_ellipse(spec.estimates_m, 3).mean_m.x(), 1e-15);

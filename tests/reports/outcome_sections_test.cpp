@@ -115,7 +115,7 @@ TEST(CertificateSection, SaysWhetherTheMapIsProvedAndWhenNoPointsHaveTheDistance
   EXPECT_TRUE(says(certificate_section(proved), "No other map"));
   Certificate bad = proved;
   bad.constraint_residual = 0.1;
-  EXPECT_TRUE(says(certificate_section(bad), "not proved"));
+  EXPECT_TRUE(says(certificate_section(bad), "not certified"));
   bad.dual = -5e16;
   bool said = false;
   for (const Block& block : certificate_section(bad).blocks)

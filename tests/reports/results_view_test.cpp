@@ -74,7 +74,7 @@ TEST(ResultsView, AnAxisIsTheNumericFactorWithTheMostLevels) {
   Rows rows;
   for (const double noise : {0.1, 0.2, 0.3})
     for (const double size : {5.0, 10.0})
-      for (const char* light : {"day", "dark"})
+      for (const char* light : {"day", "noon"})
         rows.add("m", "a1", noise,
                  {{"noise", noise}, {"size", size}, {"light", std::string(light)}});
   const ResultsStudy study = rows.study();
@@ -293,7 +293,7 @@ TEST(ResultsComparison, SaysWherePairedTestAndMeanRanksContradictEachOther) {
 TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
   Rows rows;
   for (const double size : {1.0, 2.0, 3.0})
-    for (const char* light : {"day", "dusk", "dark"})
+    for (const char* light : {"day", "dusk", "noon"})
       for (const char* run : {"a", "b", "c", "d"})
         for (const char* method : {"m", "n", "o"}) {
           const bool swapped = light[0] == 'n';
@@ -502,7 +502,7 @@ TEST(ResultsFigures, HaveIdsOfTheirOwnWhereMethodsDifferByCaseAlone) {
 TEST(ResultsFigures, OneFactorOrATextGivesNoHeatMap) {
   Rows one, text;
   for (const double noise : {0.1, 0.2})
-    for (const char* light : {"day", "dark"}) {
+    for (const char* light : {"day", "noon"}) {
       one.add("m", std::string("a") + light, noise, {{"noise", noise}});
       text.add("m", "a1", noise, {{"noise", noise}, {"light", std::string(light)}});
     }
@@ -585,7 +585,7 @@ TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
 
 TEST(ResultsTables, MethodsOfTheSameLabelHaveARowEach) {
   Rows rows;
-  for (const char* light : {"day", "dark"})
+  for (const char* light : {"day", "noon"})
     rows.add("m", "a", 1.0, {{"light", std::string(light)}, {"size", 1.0}})
         .add("n", "a", 2.0, {{"light", std::string(light)}, {"size", 1.0}});
   ResultsStudy study = rows.study();

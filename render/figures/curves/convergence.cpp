@@ -42,7 +42,7 @@ double near_top(const ErrorAxis& axis) {
                                    : std::lerp(low, high, kShare);
 }
 
-constexpr const char* kMeasurements = "range measurements";
+constexpr const char* kMeasurements = "ranges";
 constexpr const char* kObservation = "error of \u0108";
 const SlopeGuide kRootLaw{"slope \u22121/2", -0.5};
 
@@ -162,7 +162,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
 }
 
 Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) {
-  LogLogSpec spec = spec_of(id, "Convergence of the map with the number of measurements", curve);
+  LogLogSpec spec = spec_of(id, "Convergence of the map with the number of ranges", curve);
   const ErrorLine observation =
       line_of(curve, &ConvergencePoint::observation, "measured", "observation");
   const ErrorLine landmarks =

@@ -49,7 +49,7 @@ PanelLimits limits_of(const Points& ground_truth_m) {
 struct EllipseLayers {
   Ellipses scatter{
       .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
-  Segments bias{.label = "ground truth to mean", .ink = Ink::kText, .width = 0.7};
+  Segments bias{.label = "error of the mean", .ink = Ink::kText, .width = 0.7};
   Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
   Scatter ground_truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
   Scatter anchors{.label = "anchor",

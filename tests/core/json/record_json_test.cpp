@@ -292,7 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"[\"x\"]", "[\"x\", \"x\", \"x\", \"x\"]",
               "/notes: expected at most 3 elements, got 4"},
         Fault{"\"location\": [0, 0, 0]", "\"location\": [0, 0]",
-              "/place: expected 3 elements, got 2"},
+              "/location: expected 3 elements, got 2"},
         Fault{"\"location\": [0, 0, 0]", "\"location\": [0, 0, null]",
               "/location/2: expected a number, got null"},
         Fault{"[[1, 2], null]", "[[1, null], null]", "/points/0/1: expected a number, got null"},

@@ -41,7 +41,7 @@ TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 1);
     old.execute(
-        "INSERT INTO nightly_runs VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', "
+        "INSERT INTO nights VALUES (4, '2026-01-01T00:00:00Z', '2026-01-01T01:00:00Z', 'c', "
         "'{}', "
         "'h', 'p', 2, 2, NULL, 'good')");
   }
@@ -82,7 +82,7 @@ TEST(HistoryStore, OfVersion2GivesOtherNumbersTheirNamesBack) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 2);
     old.execute(
-        "INSERT INTO nightly_runs (number, started_utc, ended_utc, command, provenance, host, "
+        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, "
         "processor, "
         "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
         "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
@@ -129,7 +129,7 @@ TEST(HistoryStore, OfVersion3CallsMethodsThatAStudyDeclaresByTheirIds) {
     Database old(history_file(folder.path()), Database::Access::kCreate);
     make_tables(old, 3);
     old.execute(
-        "INSERT INTO nightly_runs (number, started_utc, ended_utc, command, provenance, host, "
+        "INSERT INTO nights (number, started_utc, ended_utc, command, provenance, host, "
         "processor, "
         "cores, jobs, reference, verdict) VALUES (1, '2026-01-01T00:00:00Z', "
         "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
