@@ -77,7 +77,7 @@ TEST(SlamFollow, SaysWhatItLeavesOut) {
       followed("slam", folder, RangeTable().rows + late, {"--out", folder / "out"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(json::parse(outcome.out).at("steps"), 60);
-  EXPECT_NE(outcome.error.find("2 steps without a range to every landmark left out"),
+  EXPECT_NE(outcome.error.find("2 steps without a range to every landmark: left out"),
             std::string::npos)
       << outcome.error;
   EXPECT_NE(outcome.error.find("the first step has no range to them: new"), std::string::npos);
