@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/input_file.hpp"
 
 namespace mapproof {
 namespace {

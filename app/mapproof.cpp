@@ -16,8 +16,8 @@
 #include "app/commands.hpp"
 #include "app/failures.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/retired_names.hpp"
-#include "core/base/spelling.hpp"
+#include "core/base/text/retired_names.hpp"
+#include "core/base/text/spelling.hpp"
 
 namespace mapproof {
 
@@ -25,7 +25,7 @@ namespace {
 
 /// @param words  Of the command line, behind the program's name.
 /// @throws InvalidInput with the new name of the first retired option among them (see
-///         core/base/retired_names.hpp).
+///         core/base/text/retired_names.hpp).
 void refuse_retired_options(std::span<char* const> words) {
   for (const std::string_view word : words) {
     if (word == "--") return;

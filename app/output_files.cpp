@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/input_file.hpp"
-#include "core/records/observations/table_reader.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/records/tables/table_reader.hpp"
 #include "render/image/png_check.hpp"
 #include "reports/diff/svg/xml_place.hpp"
 

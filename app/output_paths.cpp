@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/paths.hpp"
-#include "reports/diff/item_files.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/paths.hpp"
+#include "reports/diff/items.hpp"
 
 namespace mapproof {
 namespace {

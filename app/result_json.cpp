@@ -5,7 +5,7 @@
 
 #include "core/json/record_writer.hpp"
 #include "core/records/value_fields.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/status_text.hpp"
 
 namespace mapproof {
 
@@ -17,7 +17,7 @@ nlohmann::ordered_json number_or_null(double value) {
 nlohmann::ordered_json statuses_json(const std::vector<Status>& statuses) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Status& status : statuses)
-    all.emplace_back(to_json_value(status))["detail"] = status_words(status);
+    all.emplace_back(to_json_value(status))["detail"] = status_text(status);
   return all;
 }
 

@@ -10,8 +10,8 @@
 
 #include "app/commands.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/paths.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "reports/diff/approvals/approvals.hpp"

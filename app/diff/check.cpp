@@ -11,7 +11,7 @@
 #include "app/study/study_order.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/paths.hpp"
+#include "core/base/files/paths.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {

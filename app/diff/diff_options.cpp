@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/spelling.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/json_text.hpp"
 #include "reports/diff/diff_outputs.hpp"
 #include "reports/html/diff/diff_html.hpp"

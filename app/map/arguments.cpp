@@ -6,9 +6,9 @@
 
 #include "app/command_line.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/retired_names.hpp"
-#include "core/base/words.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/text/retired_names.hpp"
+#include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
 
 namespace mapproof {

@@ -9,11 +9,11 @@
 #include <CLI/CLI.hpp>
 
 #include "app/map/reference.hpp"
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/observations/observations.hpp"
 
 namespace mapproof {

@@ -5,9 +5,9 @@
 
 #include "app/map/pipeline.hpp"
 #include "core/association/correspondence.hpp"
-#include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/csv.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

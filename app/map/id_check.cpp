@@ -9,10 +9,10 @@
 #include "app/result_json.hpp"
 #include "core/association/shared_id.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
-#include "core/records/observations/mrclam.hpp"
+#include "core/base/text/words.hpp"
+#include "core/records/detections/mrclam.hpp"
 
 namespace mapproof {
 namespace {

@@ -11,11 +11,11 @@
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/follow/moved_watch.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
-#include "core/records/observations/detection_stream.hpp"
+#include "core/records/detections/detection_stream.hpp"
 #include "core/records/observations/observation_stream.hpp"
 
 namespace mapproof {

@@ -11,7 +11,7 @@
 #include "app/map/reference.hpp"
 #include "core/follow/incremental_map.hpp"
 #include "core/model/sensor.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 
 namespace mapproof {
 

@@ -14,10 +14,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/unpacker.hpp"
+#include "core/base/files/descriptor.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/files/unpacker.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {

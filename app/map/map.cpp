@@ -12,7 +12,7 @@
 #include "app/map/pipeline.hpp"
 #include "app/map/reference.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "core/records/studies/study_store.hpp"
 
 namespace mapproof {

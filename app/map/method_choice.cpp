@@ -5,7 +5,7 @@
 
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/choice/judged_maps.hpp"
 
 namespace mapproof {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/map/pipeline.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
 #include "core/missing/missing_pattern.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

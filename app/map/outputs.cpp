@@ -10,13 +10,13 @@
 #include "app/build_facts.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
-#include "core/base/files.hpp"
-#include "core/base/input_file.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
-#include "render/figures/score_words.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/score_text.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/map_report.hpp"
@@ -122,7 +122,7 @@ std::string map_text(const MapResult& map, const fs::path& out) {
   std::string text =
       fmt::format("{}, {}, {} steps", method_label(record), sensor_label(record), record.step);
   if (record.score)
-    if (const std::string score = score_words(*record.score); !score.empty()) text += ": " + score;
+    if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
@@ -150,7 +150,7 @@ void write_map(const MapFolder& folder, const MapPlace& location, const MapResul
 
 int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation) {
   for (const Status& status : map.record.statuses)
-    invocation.console.warning(fmt::format("{}: {}", name(status.code), status_words(status)));
+    invocation.console.warning(fmt::format("{}: {}", name(status.code), status_text(status)));
   invocation.console.result(map_text(map, location.out), result_json(map, location.out));
   return map.record.estimate.array().isNaN().all() ? kNo : kDone;
 }

@@ -9,8 +9,8 @@
 #include "app/map/alignment.hpp"
 #include "app/map/option_table.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/words.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/text/words.hpp"
 #include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
 

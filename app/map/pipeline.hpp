@@ -13,7 +13,7 @@
 #include "app/map/reference.hpp"
 #include "core/certainty/history_certainty.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/observations/observations.hpp"
 
 namespace mapproof {

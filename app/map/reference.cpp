@@ -8,9 +8,9 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/linalg/planarity.hpp"
 
 namespace mapproof {

@@ -10,7 +10,7 @@
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/mixed/mixed_map.hpp"
 #include "render/figures/maps/map_grid.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/map/pipeline.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/submaps/submap_embedding.hpp"
 #include "render/figures/maps/submaps.hpp"
 

@@ -6,7 +6,7 @@
 #include "app/commands.hpp"
 #include "app/nightly/history_report.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"

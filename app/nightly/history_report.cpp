@@ -4,7 +4,7 @@
 
 #include "app/nightly/nightly_folders.hpp"
 #include "app/study/folder_report.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/html/report_html.hpp"

@@ -19,7 +19,7 @@
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"

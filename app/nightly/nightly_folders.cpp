@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 

@@ -7,10 +7,10 @@
 
 #include "app/map/map_folder.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/studies/slam_store.hpp"
 
 namespace mapproof {

@@ -13,11 +13,11 @@
 #include "app/slam/slam_json.hpp"
 #include "app/study/slam_outputs.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/observations/trajectory_files.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/observations/trajectories.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/slam_store.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/status_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -154,7 +154,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
       invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
-                                             name(status.code), status_words(status)));
+                                             name(status.code), status_text(status)));
   write_outputs(arguments, result, page, invocation.command);
   invocation.console.result(slam_text(result.run, arguments.out),
                             slam_result(result.run, arguments.out));

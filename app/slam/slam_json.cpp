@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/status_text.hpp"
 
 namespace mapproof {
 
@@ -24,9 +24,8 @@ std::string slam_record_text(const SlamRecord& record) {
   const std::string method = fmt::format("{:<30}", info(record.method).label);
   if (record.estimate.path.size() == 0)
     return method + "  no path" +
-           (record.estimate.statuses.empty()
-                ? ""
-                : ": " + status_words(record.estimate.statuses.back()));
+           (record.estimate.statuses.empty() ? ""
+                                             : ": " + status_text(record.estimate.statuses.back()));
   if (record.errors.empty())
     return method + fmt::format("  {} poses, no ground truth to compare them with",
                                 record.estimate.path.size());

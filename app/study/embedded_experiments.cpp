@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/retired_names.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/text/retired_names.hpp"
 
 namespace mapproof {
 namespace {

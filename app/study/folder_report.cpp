@@ -11,7 +11,7 @@
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/parallel.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "render/output/write_figure.hpp"

@@ -6,7 +6,7 @@
 
 #include "app/build_facts.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/studies/results_study_json.hpp"

@@ -11,7 +11,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/progress_line.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/topics/study_kind.hpp"

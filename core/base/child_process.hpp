@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/base/descriptor.hpp"
+#include "core/base/files/descriptor.hpp"
 
 namespace mapproof {
 

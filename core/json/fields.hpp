@@ -20,8 +20,8 @@ namespace mapproof {
 ///   }
 ///
 /// From it record_writer.hpp makes the writer, record_reader.hpp the strict reader, and
-/// tests/support/record_schema.hpp the schema in docs/schemas; other visitors may ask it for more.
-/// FieldVisitor lists the calls that a visitor receives.
+/// tests/support/schemas/record_schema.hpp the schema in docs/schemas; other visitors may ask it
+/// for more. FieldVisitor lists the calls that a visitor receives.
 ///
 /// An enumeration has its names in `EnumNames enum_names(Enum)`; what is an array of fixed size in
 /// files has its elements in `auto as_tuple(T&)`, a std::tuple of references. A map has any keys.

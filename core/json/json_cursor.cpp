@@ -7,8 +7,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/retired_names.hpp"
-#include "core/base/spelling.hpp"
+#include "core/base/text/retired_names.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {

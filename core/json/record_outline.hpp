@@ -20,7 +20,8 @@
 namespace mapproof {
 
 // What the writer (record_writer.hpp) and the reader (record_reader.hpp) of records have in common:
-// the kinds of values, and the keys of a record. tests/support/record_schema.hpp makes the schema.
+// the kinds of values, and the keys of a record. tests/support/schemas/record_schema.hpp makes the
+// schema.
 
 namespace record_json {
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/spelling.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof::record_json {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/utf8.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/utf8.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

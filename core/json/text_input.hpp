@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

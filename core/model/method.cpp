@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/spelling.hpp"
+#include "core/base/text/spelling.hpp"
 
 namespace mapproof {
 namespace {

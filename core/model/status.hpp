@@ -36,7 +36,7 @@ enum class StatusCode {
   kFailed,               ///< No map came out at all; the reason gives the cause.
 };
 
-/// Why, in the order of kStatusReasons. The sentences are in render/figures/status_words.
+/// Why, in the order of kStatusReasons. The sentences are in render/figures/status_text.
 enum class StatusReason {
   // Of the embeddings.
   kSameObservations,

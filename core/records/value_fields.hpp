@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/fields.hpp"
 #include "core/model/study.hpp"
 #include "core/records/limits.hpp"

@@ -4,7 +4,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/base/csv.hpp"
+#include "core/base/text/csv.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/experiment/run.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/experiments/profiles.hpp"

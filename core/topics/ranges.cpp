@@ -13,7 +13,7 @@
 #include "core/experiment/slam_worlds.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/study_folder.hpp"

@@ -5,7 +5,7 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/studies/results_table.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/records/experiments/profiles.hpp"

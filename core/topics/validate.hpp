@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 
 namespace mapproof {
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/child_process.hpp"
-#include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/descriptor.hpp"
 #include "core/base/out_of_memory.hpp"
 #include "render/image/png.hpp"
 

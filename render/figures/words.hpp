@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 

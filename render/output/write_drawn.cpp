@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/out_of_memory.hpp"
 
 namespace mapproof {

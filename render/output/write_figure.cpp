@@ -1,6 +1,6 @@
 #include "render/output/write_figure.hpp"
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/figure_json.hpp"

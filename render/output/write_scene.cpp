@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/animation/animation.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/image.hpp"

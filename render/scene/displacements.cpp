@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/scene/room.hpp"
 
 namespace mapproof {

@@ -9,7 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/diagrams/measurement_geometry.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/cloud_box.hpp"

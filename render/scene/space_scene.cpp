@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
-#include "render/figures/status_words.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/cloud_box.hpp"
 #include "render/scene/room.hpp"
@@ -30,7 +30,7 @@ void require_usable(const SpaceRun& run) {
 
 /// What went wrong, after a space; nothing if that is not known.
 std::string words_of(const SpaceEstimate& estimate) {
-  return estimate.statuses.empty() ? "" : " " + status_words(estimate.statuses.front());
+  return estimate.statuses.empty() ? "" : " " + status_text(estimate.statuses.front());
 }
 
 std::vector<Point3> as_points(const SpacePoints& rows) {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/words.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"

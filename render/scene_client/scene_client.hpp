@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/base/child_process.hpp"
-#include "core/base/descriptor.hpp"
+#include "core/base/files/descriptor.hpp"
 #include "render/image/image.hpp"
 #include "render/scene/scene.hpp"
 #include "render/theme/theme.hpp"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/base64.hpp"
-#include "core/base/utf8.hpp"
+#include "core/base/text/base64.hpp"
+#include "core/base/text/utf8.hpp"
 #include "render/image/png.hpp"
 
 namespace mapproof {

@@ -9,7 +9,7 @@
 #include <hb.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/utf8.hpp"
+#include "core/base/text/utf8.hpp"
 
 namespace mapproof {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/record_writer.hpp"
 #include "reports/diff/diff_fields.hpp"
 #include "reports/model/format.hpp"

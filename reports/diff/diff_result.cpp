@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 

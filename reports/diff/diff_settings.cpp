@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/spelling.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/record_reader.hpp"
 
 namespace mapproof {

@@ -11,13 +11,13 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/documents/document_diff.hpp"
 #include "reports/diff/item_diff.hpp"
-#include "reports/diff/item_files.hpp"
+#include "reports/diff/items.hpp"
 #include "reports/diff/records/record_set.hpp"
 
 namespace mapproof {

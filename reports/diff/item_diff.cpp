@@ -10,16 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/json_cursor.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/images/image_diff.hpp"
-#include "reports/diff/records/number_words.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
 

@@ -6,7 +6,7 @@
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
-#include "reports/diff/item_files.hpp"
+#include "reports/diff/items.hpp"
 #include "reports/diff/records/record_tie.hpp"
 
 namespace mapproof {

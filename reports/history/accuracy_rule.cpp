@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/binomial.hpp>
 
-#include "core/base/unit_text.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "reports/history/regression_rules.hpp"

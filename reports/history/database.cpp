@@ -6,7 +6,7 @@
 
 #include <sqlite3.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/text/csv.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 #include "reports/history/shown_names.hpp"
@@ -52,7 +52,8 @@ ExportedStudy exported(HistoryStore& history, int nightly_run, NightlyStudy stud
 
 std::string history_csv(HistoryStore& history) {
   std::string text =
-      "nightly_run,started_utc,study,sensor,method,step,quantity,run,value,sensor_label,method_label\r\n";
+      "nightly_run,started_utc,study,sensor,method,step,quantity,run,value,sensor_label,method_"
+      "label\r\n";
   for (const NightlyFacts& nightly_run : history.nightly_runs())
     for (const NightlyStudy& study : history.studies(nightly_run.number))
       for (const auto& [series, values] : history.scores(nightly_run.number, study.name)) {

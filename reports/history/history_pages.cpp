@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/report.hpp"
@@ -198,19 +198,19 @@ std::string to_the_minute(const std::string& utc) {
 Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
                          const NightlyFindings& findings, const NightlyStudies& studies,
                          NightlyLinks& links) {
-  Table table{.id = "nightly-runs",
-              .caption = "Every nightly run, the last one first.",
-              .columns = {{"Run", "", "",
-                           "Its number: the order of nightly runs, whatever clocks say"},
-                          {"Started", "", "", "UTC"},
-                          {"Verdict", "", "", ""},
-                          {"Findings", "", "", "How many"},
-                          {"Compared with", "", "", "The nightly run it was compared with"},
-                          {"Host", "", "", ""},
-                          {"Report", "", "",
-                           "The report of that nightly run; its folder if there are several"}},
-              .rows = {},
-              .notes = {}};
+  Table table{
+      .id = "nightly-runs",
+      .caption = "Every nightly run, the last one first.",
+      .columns = {{"Run", "", "", "Its number: the order of nightly runs, whatever clocks say"},
+                  {"Started", "", "", "UTC"},
+                  {"Verdict", "", "", ""},
+                  {"Findings", "", "", "How many"},
+                  {"Compared with", "", "", "The nightly run it was compared with"},
+                  {"Host", "", "", ""},
+                  {"Report", "", "",
+                   "The report of that nightly run; its folder if there are several"}},
+      .rows = {},
+      .notes = {}};
   for (const NightlyFacts& nightly_run : nightly_runs | std::views::reverse) {
     const auto found = findings.find(nightly_run.number);
     const std::size_t count = found == findings.end() ? 0 : found->second.size();

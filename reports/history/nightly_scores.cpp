@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_text.hpp"

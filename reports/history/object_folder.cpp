@@ -6,7 +6,7 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 
 namespace mapproof {

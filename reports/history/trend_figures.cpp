@@ -12,7 +12,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "reports/history/shown_names.hpp"

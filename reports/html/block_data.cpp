@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/html/escape.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"

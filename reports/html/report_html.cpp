@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_frame.hpp"
 #include "reports/model/format.hpp"

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/base/base64.hpp"
+#include "core/base/text/base64.hpp"
 
 namespace mapproof {
 

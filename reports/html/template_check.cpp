@@ -9,7 +9,7 @@
 #include <kainjow/mustache.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/resource.hpp"
 #include "reports/html/template_check.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/wording.hpp"

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
-#include "render/figures/score_words.hpp"
-#include "render/figures/status_words.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/score_text.hpp"
+#include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/wording.hpp"
@@ -121,7 +121,7 @@ Paragraph worst_finding(const MapRecord& record) {
 
 /// Why a map has a shape alone, and what that leaves undetermined.
 std::string shape_finding(const MapRecord& record) {
-  const bool scored = record.score && !score_words(*record.score).empty();
+  const bool scored = record.score && !score_text(*record.score).empty();
   return fmt::format(
       "{}: the map is defined up to a translation, a rotation, a scale and a reflection{}",
       record.anchors.empty() ? "No anchors were given"
@@ -186,7 +186,7 @@ Section statuses(const MapRecord& record) {
                           1,
                           1,
                           status.code == StatusCode::kFailed,
-                          {{record.id, status_words(status)}}});
+                          {{record.id, status_text(status)}}});
   section.blocks.emplace_back(std::move(list));
   return section;
 }

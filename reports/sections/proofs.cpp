@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
-#include "reports/sections/sessions_table.hpp"
 #include "reports/sections/study_report.hpp"
+#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
-#include "render/figures/status_words.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/findings.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/study_counts.hpp"
-#include "reports/sections/study_tables.hpp"
+#include "reports/sections/tables/study_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -71,7 +71,7 @@ void add_record(StatusList::Item& item, const RunId& run, const RunRecord& recor
   for (const Status& status : record.statuses)
     if (status.code == code)
       item.places.push_back(
-          {record_id(run, record.sensor, record.setting, record.step), status_words(status)});
+          {record_id(run, record.sensor, record.setting, record.step), status_text(status)});
 }
 
 /// Severest first: no map, then by share.

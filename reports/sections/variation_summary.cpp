@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/cells.hpp"
 #include "reports/sections/run_scores.hpp"
+#include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

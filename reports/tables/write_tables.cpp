@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/csv.hpp"
-#include "core/base/files.hpp"
-#include "core/base/unit_text.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/text/csv.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {

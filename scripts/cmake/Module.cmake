@@ -22,7 +22,7 @@ endfunction()
 # The module in the folder PATH ("core/align"), as the object library mapproof_core_align of the
 # library that PATH begins with. Call it in that folder.
 # USES: the modules that its files may include, itself apart. They must be there already, so that
-# there is no circle. tests/app/layers_test holds every #include to them.
+# there is no circle. tests/app/tree/layers_test holds every #include to them.
 # PACKAGES: what this module needs and others do not. HEADERS: what users of the library may include.
 function(mapproof_module path)
   cmake_parse_arguments(PARSE_ARGV 1 module "" "" "USES;PACKAGES;SOURCES;HEADERS")

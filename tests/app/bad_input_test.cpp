@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {

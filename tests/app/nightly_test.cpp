@@ -9,9 +9,9 @@
 #include <sqlite3.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -1,6 +1,6 @@
 #include "tests/app/range_logs.hpp"
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/core/range_slam/drives.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/app/range_logs.hpp"
 #include "tests/support/plaza.hpp"
 #include "tests/support/program.hpp"

@@ -1,4 +1,4 @@
-#include "core/base/retired_names.hpp"
+#include "core/base/text/retired_names.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/program.hpp"
 

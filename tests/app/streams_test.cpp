@@ -11,15 +11,15 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
-#include "tests/support/detections_csv.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/detections_csv.hpp"
+#include "tests/support/samples/scans.hpp"
 
 namespace mapproof::test {
 namespace {

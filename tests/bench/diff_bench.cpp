@@ -9,12 +9,12 @@
 #include <png.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
 #include "reports/diff/images/image_diff.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof {
 namespace {

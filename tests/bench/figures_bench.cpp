@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace {
 

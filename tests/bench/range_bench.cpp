@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/experiment/slam_worlds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"

@@ -11,12 +11,12 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
 #include "reports/html/report_html.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

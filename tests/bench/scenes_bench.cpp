@@ -13,12 +13,12 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/image/png.hpp"
 #include "render/scene/projection.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene_client/scene_client.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
 namespace {
 

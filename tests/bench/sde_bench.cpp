@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/embed/sde/sde.hpp"
-#include "tests/support/observed.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/observed.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

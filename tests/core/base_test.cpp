@@ -7,14 +7,14 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
-#include "core/base/utf8.hpp"
+#include "core/base/text/csv.hpp"
+#include "core/base/text/utf8.hpp"
+#include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
-#include "core/base/words.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,8 +9,8 @@
 #include "core/embed/lpca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/linalg/planarity.hpp"
+#include "tests/support/samples/worlds.hpp"
 #include "tests/support/statuses.hpp"
-#include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {

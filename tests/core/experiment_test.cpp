@@ -4,7 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/experiment/run.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

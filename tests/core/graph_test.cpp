@@ -6,7 +6,7 @@
 #include "core/graph/components.hpp"
 #include "core/graph/neighbours.hpp"
 #include "core/graph/shortest_paths.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

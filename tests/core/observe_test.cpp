@@ -9,7 +9,7 @@
 #include "core/observe/features.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/experiment/run.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 

@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/score/map_score.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -18,8 +18,8 @@
 #include "core/embed/sde/csdp.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/model/sensor.hpp"
-#include "tests/support/observed.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/observed.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

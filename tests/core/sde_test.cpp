@@ -7,8 +7,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/embed/lpca.hpp"
+#include "tests/support/samples/worlds.hpp"
 #include "tests/support/statuses.hpp"
-#include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {

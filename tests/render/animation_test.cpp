@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "render/output/write_scene.hpp"
-#include "tests/support/apng_reader.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/faults.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/images/apng_reader.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

@@ -12,13 +12,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/image/png_read.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

@@ -1,4 +1,4 @@
-#include "tests/support/baselines.hpp"
+#include "tests/support/images/baselines.hpp"
 
 #include <filesystem>
 
@@ -6,7 +6,7 @@
 
 #include "render/cairo/cairo_backend.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

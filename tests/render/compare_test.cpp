@@ -7,9 +7,9 @@
 #include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/baselines.hpp"
-#include "tests/support/image_comparison.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/images/baselines.hpp"
+#include "tests/support/images/image_comparison.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -5,8 +5,8 @@
 #include "core/base/errors.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/figure_parts.hpp"
-#include "tests/support/sample_comparisons.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_comparisons.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -1,13 +1,13 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_scene.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/baselines.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/images/baselines.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
 namespace {
 

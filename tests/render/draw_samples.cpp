@@ -3,14 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
-#include "tests/support/sample_figures.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/samples/sample_figures.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
-/// Draws the sample figures and scenes whose ids begin with PREFIX into a folder, in every theme, for
-/// people to look at.
+/// Draws the sample figures and scenes whose ids begin with PREFIX into a folder, in every theme,
+/// for people to look at.
 int main(int argc, char** argv) {
   using namespace mapproof;
   if (argc != 2 && argc != 3) {

@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
-#include "tests/support/drawing_schemas.hpp"
-#include "tests/support/sample_figures.hpp"
-#include "tests/support/sample_scenes.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/samples/sample_figures.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
+#include "tests/support/schemas/drawing_schemas.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "core/base/errors.hpp"
 #include "render/figures/curves/error_curve.hpp"
-#include "tests/support/figure_parts.hpp"
-#include "tests/support/sample_studies.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_studies.hpp"
 
 namespace mapproof::test {
 namespace {

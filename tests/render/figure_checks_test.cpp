@@ -1,10 +1,10 @@
-#include "tests/support/figure_checks.hpp"
+#include "tests/support/images/figure_checks.hpp"
 
 #include <gtest/gtest.h>
 
 #include "render/plot/layout.hpp"
 #include "render/plot/panel_layout.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

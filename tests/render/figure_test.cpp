@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "render/plot/figure_json.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -7,9 +7,9 @@
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
 #include "render/figures/maps/pair_distances.hpp"
-#include "render/figures/score_words.hpp"
+#include "render/figures/score_text.hpp"
 #include "render/figures/words.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -205,12 +205,12 @@ TEST(ErrorCurveFigure, RefusesCurvesWhosePartsDisagree) {
 }
 
 TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
-  EXPECT_EQ(score_words({0.219, 4.7, 0.2, 4.7}), "MPE 0.219 m, MOE 4.70 %");
+  EXPECT_EQ(score_text({0.219, 4.7, 0.2, 4.7}), "MPE 0.219 m, MOE 4.70 %");
   // Every landmark an anchor: no other is left to average over.
-  EXPECT_EQ(score_words({NAN, 95.0, 0.31, 5.0}),
+  EXPECT_EQ(score_text({NAN, 95.0, 0.31, 5.0}),
             "MPE 0.310 m after the best affine fit to all landmarks, MOE 5.00 % up to a mirror");
-  EXPECT_EQ(score_words({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
-  EXPECT_EQ(score_words({NAN, NAN, NAN, NAN}), "");
+  EXPECT_EQ(score_text({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
+  EXPECT_EQ(score_text({NAN, NAN, NAN, NAN}), "");
 }
 
 TEST(Words, NumbersAreReadable) {

@@ -7,8 +7,8 @@
 #include "core/base/errors.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/plot/axis_map.hpp"
-#include "tests/support/figure_checks.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/images/figure_checks.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

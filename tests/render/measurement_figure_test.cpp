@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "tests/support/figure_parts.hpp"
-#include "tests/support/sample_studies.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_studies.hpp"
 
 namespace mapproof::test {
 namespace {

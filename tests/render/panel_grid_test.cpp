@@ -6,7 +6,7 @@
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
 #include "render/plot/outlines.hpp"
-#include "tests/support/figure_checks.hpp"
+#include "tests/support/images/figure_checks.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/base/errors.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "tests/support/figure_parts.hpp"
-#include "tests/support/sample_slam.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 
 namespace mapproof::test {
 namespace {

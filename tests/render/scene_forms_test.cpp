@@ -8,8 +8,8 @@
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
-#include "tests/support/sample_figures.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/samples/sample_figures.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
 namespace mapproof::test {
 namespace {

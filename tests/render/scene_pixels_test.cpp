@@ -14,9 +14,9 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_scene.hpp"
 #include "render/scene/projection.hpp"
-#include "tests/support/baselines.hpp"
 #include "tests/support/environment.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/images/baselines.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

@@ -10,8 +10,8 @@
 #include "render/scene/scene_figure.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
-#include "tests/support/figure_checks.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/images/figure_checks.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
 namespace mapproof::test {
 namespace {

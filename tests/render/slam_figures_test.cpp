@@ -8,9 +8,9 @@
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/maps/map_grid.hpp"
-#include "tests/support/figure_parts.hpp"
-#include "tests/support/sample_comparisons.hpp"
-#include "tests/support/sample_slam.hpp"
+#include "tests/support/samples/drawn_panels.hpp"
+#include "tests/support/samples/sample_comparisons.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 
 namespace mapproof::test {
 namespace {

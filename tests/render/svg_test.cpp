@@ -6,7 +6,7 @@
 
 #include "render/figures/maps/map.hpp"
 #include "render/output/write_figure.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/xml.hpp"
 
 namespace mapproof::test {

@@ -1,10 +1,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "core/base/files.hpp"
-#include "tests/support/comparison_schemas.hpp"
-#include "tests/support/drawing_schemas.hpp"
-#include "tests/support/file_schemas.hpp"
+#include "core/base/files/files.hpp"
+#include "tests/support/schemas/comparison_schemas.hpp"
+#include "tests/support/schemas/drawing_schemas.hpp"
+#include "tests/support/schemas/file_schemas.hpp"
 
 /// Writes into a folder the schemas that the code makes.
 int main(int argc, char** argv) {

@@ -4,7 +4,7 @@
 
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/study_report.hpp"
-#include "tests/reports/section_words.hpp"
+#include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
 
 namespace mapproof {

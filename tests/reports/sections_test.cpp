@@ -8,9 +8,9 @@
 #include "core/experiment/run.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_report.hpp"
-#include "tests/reports/section_words.hpp"
+#include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

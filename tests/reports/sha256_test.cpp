@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/base64.hpp"
+#include "core/base/text/base64.hpp"
 
 namespace mapproof {
 namespace {

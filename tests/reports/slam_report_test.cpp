@@ -8,9 +8,9 @@
 
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/study_report.hpp"
-#include "tests/reports/section_words.hpp"
+#include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
-#include "tests/support/sample_slam.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 
 namespace mapproof {
 namespace {

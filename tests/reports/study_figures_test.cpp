@@ -9,7 +9,7 @@
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/synthetic_study.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/template_check.hpp"
 

@@ -5,14 +5,14 @@
 #include <exception>
 #include <map>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/tables/write_tables.hpp"
 #include "tests/reports/synthetic_study.hpp"
-#include "tests/support/sample_slam.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 
 namespace mapproof::test {
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 
 namespace mapproof::test {
 

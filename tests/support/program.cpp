@@ -13,7 +13,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
   ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
   ::dup2(out, STDOUT_FILENO);
   ::dup2(error, STDERR_FILENO);
-  for (const auto& [what, bytes] : {std::pair(RLIMIT_FSIZE, limits.file_bytes),
-                                    std::pair(RLIMIT_AS, limits.address_bytes)})
+  for (const auto& [what, bytes] :
+       {std::pair(RLIMIT_FSIZE, limits.file_bytes), std::pair(RLIMIT_AS, limits.address_bytes)})
     if (const rlimit limit{bytes, bytes}; bytes > 0) ::setrlimit(what, &limit);
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 
 namespace mapproof::test {
 

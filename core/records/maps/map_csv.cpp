@@ -11,7 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/observations/table_reader.hpp"
+#include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 
 namespace mapproof {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 
 namespace mapproof {
 

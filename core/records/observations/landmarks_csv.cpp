@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/name_list.hpp"
-#include "core/records/observations/number_rows.hpp"
-#include "core/records/observations/table_reader.hpp"
+#include "core/records/tables/number_rows.hpp"
+#include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
 namespace {

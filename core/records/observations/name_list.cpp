@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 

@@ -7,7 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
-#include "core/records/observations/cells.hpp"
+#include "core/records/tables/cells.hpp"
 
 namespace mapproof {
 

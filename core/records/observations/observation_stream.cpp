@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/json/text_input.hpp"
+#include "core/records/detections/scan_rows.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/scan_rows.hpp"
 
 namespace mapproof {
 

@@ -10,11 +10,11 @@
 #include <Eigen/Core>
 
 #include "core/model/sensor.hpp"
-#include "core/records/observations/detection_stream.hpp"
-#include "core/records/observations/detections.hpp"
-#include "core/records/observations/streamed_table.hpp"
-#include "core/records/observations/table_reader.hpp"
-#include "core/records/observations/value_rows.hpp"
+#include "core/records/detections/detection_stream.hpp"
+#include "core/records/detections/detections.hpp"
+#include "core/records/tables/streamed_table.hpp"
+#include "core/records/tables/table_reader.hpp"
+#include "core/records/tables/value_rows.hpp"
 
 namespace mapproof {
 

@@ -8,19 +8,19 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/detections/detections.hpp"
+#include "core/records/detections/mrclam.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/cells.hpp"
-#include "core/records/observations/detections.hpp"
 #include "core/records/observations/input_kind.hpp"
-#include "core/records/observations/mrclam.hpp"
 #include "core/records/observations/name_list.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/sources.hpp"
-#include "core/records/observations/table_reader.hpp"
-#include "core/records/observations/value_rows.hpp"
+#include "core/records/tables/cells.hpp"
+#include "core/records/tables/table_reader.hpp"
+#include "core/records/tables/value_rows.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/records/observations/cells.hpp"
+#include "core/records/tables/cells.hpp"
 
 namespace mapproof {
 

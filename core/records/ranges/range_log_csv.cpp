@@ -8,16 +8,16 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
-#include "core/base/words.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/table_reader.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
+#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_readers.hpp"
 #include "core/records/ranges/range_tables.hpp"
+#include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
 namespace {

@@ -12,15 +12,15 @@
 #include <matio.h>
 
 #include "core/base/angle.hpp"
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/range_log_files.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
+#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_readers.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/model/range_log.hpp"
-#include "core/records/observations/table_reader.hpp"
 #include "core/records/ranges/range_log_options.hpp"
+#include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
 

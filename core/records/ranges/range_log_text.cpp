@@ -1,10 +1,10 @@
 #include <system_error>
 
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/observations/number_rows.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
+#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_readers.hpp"
+#include "core/records/tables/number_rows.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/observations/cells.hpp"
+#include "core/records/tables/cells.hpp"
 
 namespace mapproof {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "core/base/descriptor.hpp"
+#include "core/base/files/descriptor.hpp"
 
 namespace mapproof {
 

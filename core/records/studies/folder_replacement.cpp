@@ -13,10 +13,10 @@
 #include <system_error>
 #include <vector>
 
-#include "core/base/descriptor.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/paths.hpp"
+#include "core/base/files/descriptor.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
-#include "core/records/observations/trajectory_files.hpp"
+#include "core/records/observations/trajectories.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_store.hpp"

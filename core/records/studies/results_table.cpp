@@ -9,14 +9,14 @@
 
 #include <fmt/format.h>
 
-#include "core/base/csv.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/spelling.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/csv.hpp"
+#include "core/base/text/spelling.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/observations/table_reader.hpp"
+#include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
-#include "core/records/observations/trajectory_files.hpp"
+#include "core/records/observations/trajectories.hpp"
 #include "core/records/studies/slam_fields.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"

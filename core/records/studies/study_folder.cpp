@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/json_cursor.hpp"
 
 namespace mapproof {

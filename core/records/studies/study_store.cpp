@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/studies/run_json.hpp"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"

@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"

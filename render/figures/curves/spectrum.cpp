@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/unit_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "render/figures/parts.hpp"
 #include "render/figures/words.hpp"
 

@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/diagrams/measurement_geometry.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/parts.hpp"
-#include "render/figures/score_words.hpp"
+#include "render/figures/score_text.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -301,7 +301,7 @@ Figure idea_figure(const IdeaSpec& spec) {
   figure.panels = {room_of(spec), history_of(spec), map_of(spec)};
   for (Panel& panel : figure.panels) std::erase_if(panel.layers, is_empty);
   figure.arrows = {{0, "observe"}, {1, "embed"}};
-  const std::string score = spec.map.score ? score_words(*spec.map.score) : "";
+  const std::string score = spec.map.score ? score_text(*spec.map.score) : "";
   figure.caption = fmt::format(
       "The robot walks among landmarks (left); each landmark's row of observations, {} (middle); "
       "landmarks with like rows come to stand close together (right: {}, {}{}). Open circles: true "

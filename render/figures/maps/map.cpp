@@ -9,8 +9,8 @@
 #include "core/base/not_finite.hpp"
 #include "render/base/geometry.hpp"
 #include "render/figures/parts.hpp"
-#include "render/figures/score_words.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/score_text.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -121,7 +121,7 @@ std::string subject(const MapRecord& record, std::string_view separator) {
 }
 
 std::string score_text(const MapRecord& record) {
-  return record.score ? score_words(*record.score) : std::string();
+  return record.score ? score_text(*record.score) : std::string();
 }
 
 std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& rows) {
@@ -174,7 +174,7 @@ class MapFigure {
       notes.push_back(
           {"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
     std::vector<std::string> statuses;
-    for (const Status& status : record_.statuses) statuses.push_back(status_words(status));
+    for (const Status& status : record_.statuses) statuses.push_back(status_text(status));
     add_status_notes(statuses, notes);
   }
 
@@ -205,7 +205,7 @@ class MapFigure {
     if (!view_.outside.empty()) caption += " " + outside_text();
     if (!view_.unmapped.empty())
       caption += " Not on the map: " + names_of(record_, view_.unmapped) + ".";
-    for (const Status& status : record_.statuses) caption += " " + status_words(status);
+    for (const Status& status : record_.statuses) caption += " " + status_text(status);
 
     const std::size_t mapped = record_.names.size() - view_.unmapped.size();
     figure_.alt =

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/figures/score_words.hpp"
+#include "render/figures/score_text.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -42,7 +42,7 @@ std::vector<const TitledMap*> all_of(const std::vector<TitledMap>& maps) {
 
 /// The score, or the first error alone.
 std::string scored(const TitledMap& one, bool whole) {
-  const std::string words = one.map.score ? score_words(*one.map.score) : "";
+  const std::string words = one.map.score ? score_text(*one.map.score) : "";
   if (words.empty()) return "no score";
   return whole ? words : words.substr(0, words.find(','));
 }

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"

@@ -8,14 +8,14 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/parts.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
 
 namespace mapproof {
@@ -314,11 +314,11 @@ class PathMap {
     for (const SlamRecord* record : view_.failed) {
       const auto& statuses = record->estimate.statuses;
       others.push_back(fmt::format("{}: {}", label_of(*record),
-                                   statuses.empty() ? "no path." : status_words(statuses.front())));
+                                   statuses.empty() ? "no path." : status_text(statuses.front())));
     }
     for (const SlamRecord* record : view_.shown)
       for (const Status& status : record->estimate.statuses)
-        others.push_back(fmt::format("{}: {}", label_of(*record), status_words(status)));
+        others.push_back(fmt::format("{}: {}", label_of(*record), status_text(status)));
     add_status_notes(others, notes);
     return notes;
   }

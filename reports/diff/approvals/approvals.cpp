@@ -13,18 +13,18 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/paths.hpp"
-#include "core/base/spelling.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/topics/study_kind.hpp"
 #include "render/plot/figure_json.hpp"
-#include "reports/diff/approvals/approval_files.hpp"
+#include "reports/diff/approvals/approval_items.hpp"
 #include "reports/diff/diff_settings.hpp"
-#include "reports/diff/item_files.hpp"
+#include "reports/diff/items.hpp"
 #include "reports/diff/records/record_set.hpp"
 
 namespace mapproof {

@@ -5,13 +5,13 @@
 
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
-#include "reports/diff/item_files.hpp"
+#include "reports/diff/items.hpp"
 
 namespace mapproof {
 
 /// Compares a table in its formats, or a report's page. Both follow from records and figures.
-/// @param reported  The items of records, figures and, for a page, tables. A page is compared without
-/// the parts that have an item of their own that is not identical.
+/// @param reported  The items of records, figures and, for a page, tables. A page is compared
+/// without the parts that have an item of their own that is not identical.
 /// @param baseline, current  Null if that side does not have the item.
 DiffItem document_item(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
                        const std::vector<DiffItem>& reported, const DiffSettings& settings);

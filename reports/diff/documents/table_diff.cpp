@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
-#include "core/records/observations/table_reader.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/text/words.hpp"
+#include "core/records/tables/table_reader.hpp"
 #include "reports/diff/documents/excerpts.hpp"
-#include "reports/diff/records/number_words.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,14 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/plot/figure_fields.hpp"
 #include "reports/diff/documents/excerpts.hpp"
 #include "reports/diff/figures/figure_layers.hpp"
 #include "reports/diff/figures/figure_log.hpp"
 #include "reports/diff/figures/figure_match.hpp"
 #include "reports/diff/figures/figure_positions.hpp"
-#include "reports/diff/records/number_words.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
 namespace {

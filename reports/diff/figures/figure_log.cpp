@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
-#include "reports/diff/records/number_words.hpp"
+#include "core/base/text/words.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
 

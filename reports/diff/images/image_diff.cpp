@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"

@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "core/align/rigid.hpp"
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/json/json_cursor.hpp"
 #include "reports/diff/documents/excerpts.hpp"
-#include "reports/diff/records/number_words.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/base/input_file.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/record_writer.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/topics/study_kind.hpp"

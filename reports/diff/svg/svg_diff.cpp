@@ -10,8 +10,8 @@
 
 #include "core/base/errors.hpp"
 #include "reports/diff/documents/excerpts.hpp"
+#include "reports/diff/svg/svg_attributes.hpp"
 #include "reports/diff/svg/svg_tree.hpp"
-#include "reports/diff/svg/svg_values.hpp"
 
 namespace mapproof {
 namespace {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/diff/svg/xml_place.hpp"
 
 namespace mapproof {

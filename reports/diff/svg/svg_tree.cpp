@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/diff/svg/svg_values.hpp"
+#include "reports/diff/svg/svg_attributes.hpp"
 
 namespace mapproof {
 namespace {

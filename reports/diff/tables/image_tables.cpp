@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/diff/svg/svg_diff.hpp"
-#include "reports/diff/tables/table_parts.hpp"
+#include "reports/diff/tables/table_builder.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {

@@ -10,15 +10,15 @@
 
 #include <fmt/format.h>
 
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/words.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/text/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/tables/image_tables.hpp"
-#include "reports/diff/tables/table_parts.hpp"
+#include "reports/diff/tables/table_builder.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
 #include "reports/model/report.hpp"
 

@@ -14,12 +14,12 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
-#include "core/base/base64.hpp"
-#include "core/base/byte_source.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/text/base64.hpp"
+#include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
-#include "core/base/words.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/diff_result.hpp"

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/maps/ellipse_map.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
+#include "render/figures/maps/scatter_map.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/unit_text.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/unit_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/diagrams/critical_difference.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/sections/wording.hpp"
 

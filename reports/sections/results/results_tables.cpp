@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
-#include "reports/sections/cells.hpp"
+#include "core/base/text/words.hpp"
+#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
-#include "core/base/unit_text.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

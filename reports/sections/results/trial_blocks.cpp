@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/results/results_view.hpp"
-#include "reports/sections/sessions_table.hpp"
+#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 #include "reports/sections/wording.hpp"
 

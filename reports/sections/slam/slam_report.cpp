@@ -7,16 +7,16 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/status_words.hpp"
+#include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/opening.hpp"
-#include "reports/sections/sessions_table.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
+#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -102,7 +102,7 @@ void add_statuses(const std::string& where, const std::string& id,
       item = list.items.end() - 1;
     }
     item->count = 1;
-    item->places.push_back({id, status_words(status)});
+    item->places.push_back({id, status_text(status)});
   }
 }
 

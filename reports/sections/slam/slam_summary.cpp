@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/maps/path_styles.hpp"

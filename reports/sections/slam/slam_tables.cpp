@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "reports/sections/cells.hpp"
 #include "reports/sections/slam/slam_text.hpp"
+#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {

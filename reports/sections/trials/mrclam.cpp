@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/sections/trials/topic_text.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 

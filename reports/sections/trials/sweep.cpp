@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/unit_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "reports/sections/trials/topic_text.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 

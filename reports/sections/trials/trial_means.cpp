@@ -8,8 +8,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/base/unit_text.hpp"
-#include "core/base/words.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "noisy_scans.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/scans.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "core/base/random.hpp"
-#include "tests/support/scans.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/scans.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -10,7 +10,7 @@
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/records/observations/mrclam.hpp"
+#include "core/records/detections/mrclam.hpp"
 #include "noisy_scans.hpp"
 
 namespace mapproof::test {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/model/detection_log.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 
 namespace mapproof::test {
 

@@ -6,7 +6,7 @@
 
 #include "core/pairs/pair_map.hpp"
 #include "noisy_scans.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof::test {
 namespace {

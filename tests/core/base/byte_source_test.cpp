@@ -1,4 +1,4 @@
-#include "core/base/byte_source.hpp"
+#include "core/base/files/byte_source.hpp"
 
 #include <gtest/gtest.h>
 

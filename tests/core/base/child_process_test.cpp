@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

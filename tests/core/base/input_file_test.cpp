@@ -1,4 +1,4 @@
-#include "core/base/input_file.hpp"
+#include "core/base/files/input_file.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/base/unpacker.hpp"
+#include "core/base/files/unpacker.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "tests/support/scans.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/scans.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof::test {
 namespace {

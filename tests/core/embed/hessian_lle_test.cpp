@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

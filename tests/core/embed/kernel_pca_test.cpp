@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/embed/lpca.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

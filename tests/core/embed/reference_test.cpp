@@ -8,7 +8,7 @@
 #include <Eigen/SVD>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/records/observations/observations.hpp"
 

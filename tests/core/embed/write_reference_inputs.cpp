@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"

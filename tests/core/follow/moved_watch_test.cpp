@@ -6,7 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "tests/core/association/noisy_scans.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/scans.hpp"
 
 namespace mapproof::test {
 namespace {

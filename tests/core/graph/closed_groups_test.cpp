@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/base/errors.hpp"
 #include "core/json/json_text.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/support/record_schema.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/record_schema.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof::fields_test {
 

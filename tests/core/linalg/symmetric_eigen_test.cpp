@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

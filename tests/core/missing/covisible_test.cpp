@@ -8,8 +8,8 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/incomplete.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/incomplete.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

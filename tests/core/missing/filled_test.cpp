@@ -8,7 +8,7 @@
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

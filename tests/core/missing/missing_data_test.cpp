@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

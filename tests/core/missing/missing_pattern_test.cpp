@@ -7,7 +7,7 @@
 #include "core/base/random.hpp"
 #include "core/simulate/gaps.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

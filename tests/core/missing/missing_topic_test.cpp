@@ -7,7 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/trials/topics.hpp"
 #include "reports/sections/trials/topic_text.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/errors.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/SVD>
 
 #include "core/base/errors.hpp"
-#include "tests/support/incomplete.hpp"
+#include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {

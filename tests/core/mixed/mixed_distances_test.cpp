@@ -9,7 +9,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -8,8 +8,8 @@
 #include "core/base/errors.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/simulate/sensors.hpp"
-#include "tests/support/incomplete.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/incomplete.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/align/diagonal_anchors.hpp"
 #include "core/pairs/pair_map.hpp"
-#include "core/records/observations/mrclam.hpp"
+#include "core/records/detections/mrclam.hpp"
 #include "core/score/map_score.hpp"
 
 namespace mapproof {

@@ -8,9 +8,9 @@
 
 #include "core/base/errors.hpp"
 #include "reports/sections/trials/topic_text.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/scans.hpp"
+#include "tests/support/samples/worlds.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {

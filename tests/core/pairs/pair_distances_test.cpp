@@ -9,8 +9,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
-#include "tests/support/scans.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/scans.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/base/random.hpp"
 #include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_solution.hpp"
-#include "tests/support/scans.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/scans.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

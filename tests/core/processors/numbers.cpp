@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/embed/sde/sde.hpp"
@@ -14,8 +14,8 @@
 #include "core/experiment/slam_run.hpp"
 #include "core/records/observations/observations.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 #include "tests/support/slam_checks.hpp"
-#include "tests/support/worlds.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/model/method.hpp"
 #include "core/model/slam_study.hpp"
 #include "tests/core/processors/numbers.hpp"

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/temporary_folder.hpp"
 

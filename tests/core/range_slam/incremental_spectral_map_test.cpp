@@ -7,8 +7,8 @@
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/localise.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 #include "tests/support/slam_checks.hpp"
-#include "tests/support/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/plaza.hpp"
 

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/packing.hpp"

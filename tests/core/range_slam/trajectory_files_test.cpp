@@ -1,4 +1,4 @@
-#include "core/records/observations/trajectory_files.hpp"
+#include "core/records/observations/trajectories.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/experiments/profiles.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observations.hpp"
 #include "core/records/studies/run_json.hpp"

@@ -7,19 +7,19 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/ranges/range_log_files.hpp"
+#include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/byte_sources.hpp"
 #include "tests/support/packing.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/scans.hpp"
 
 namespace mapproof {
 namespace {

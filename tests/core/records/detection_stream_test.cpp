@@ -1,8 +1,8 @@
-#include "core/records/observations/detection_stream.hpp"
+#include "core/records/detections/detection_stream.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/temporary_folder.hpp"
 

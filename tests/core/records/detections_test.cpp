@@ -1,4 +1,4 @@
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -9,7 +9,7 @@
 #include "core/records/observations/observations.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/packing.hpp"
-#include "tests/support/scans.hpp"
+#include "tests/support/samples/scans.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

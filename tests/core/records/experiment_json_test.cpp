@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "tests/core/records/samples.hpp"
 

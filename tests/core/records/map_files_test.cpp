@@ -1,14 +1,14 @@
-#include "core/records/maps/map_files.hpp"
+#include "core/records/maps/map_json.hpp"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/records/observations/mrclam.hpp"
+#include "core/records/detections/mrclam.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

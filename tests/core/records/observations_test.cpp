@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "tests/core/records/samples.hpp"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "core/base/files/files.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {

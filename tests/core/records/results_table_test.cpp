@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/base/csv.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/csv.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/study_store.hpp"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 
 namespace mapproof::test {

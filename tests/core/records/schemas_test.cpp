@@ -5,12 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/detections/detections.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
-#include "core/records/maps/map_files.hpp"
-#include "core/records/observations/detections.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
 #include "core/records/studies/slam_store.hpp"
@@ -18,8 +18,8 @@
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
-#include "tests/support/file_schemas.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/file_schemas.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof {
 namespace {

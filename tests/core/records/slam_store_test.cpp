@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/topics/validate.hpp"

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "tests/core/records/samples.hpp"
 

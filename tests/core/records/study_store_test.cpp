@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/experiment/run.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "tests/core/records/samples.hpp"

@@ -1,4 +1,4 @@
-#include "core/records/observations/table_stream.hpp"
+#include "core/records/tables/table_stream.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/trial_json.hpp"
 #include "core/topics/validate.hpp"
 #include "tests/core/records/samples.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

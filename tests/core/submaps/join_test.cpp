@@ -9,7 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/submaps/submap_embedding.hpp"
-#include "tests/support/worlds.hpp"
+#include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/unit_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/experiment/run.hpp"
 #include "core/records/studies/trial_json.hpp"
 #include "core/simulate/sensors.hpp"

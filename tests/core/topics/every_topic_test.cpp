@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/topics/study_kind.hpp"

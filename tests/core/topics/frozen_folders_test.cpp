@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"

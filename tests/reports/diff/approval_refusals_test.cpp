@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/html/diff/diff_html.hpp"

@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "tests/reports/diff/value_cases.hpp"
-#include "tests/support/comparison_schemas.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/comparison_schemas.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/xml.hpp"
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/tables/write_tables.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <libdeflate.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "render/image/png_read.hpp"
 #include "tests/reports/diff/small_study.hpp"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 
 namespace mapproof::test {
@@ -78,7 +78,8 @@ std::vector<ValueCase> field_cases() {
       reported(run, "/occlusion", {{"within_reach", 9}, {"hidden", 2}}),
       field(run, "/records/1/iterations", 44, Verdict::kWithinTolerance, {"within tolerance"}),
       field(run, "/records/1/stress", 0.25, Verdict::kChanged, {"stress"}),
-      field(run, "/anchors", Json::array({0, 3, 8, 10}), Verdict::kChanged, {"different anchors in"}),
+      field(run, "/anchors", Json::array({0, 3, 8, 10}), Verdict::kChanged,
+            {"different anchors in"}),
       reported("details/layout-2-pose-1.json", "/path/headings_rad", Json::array({0.5})),
       lost(maps),
       lost("details/layout-2-pose-1.json")};

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/reports/diff/small_study.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 
 namespace mapproof::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "tests/support/temporary_folder.hpp"
 

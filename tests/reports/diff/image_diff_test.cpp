@@ -4,14 +4,14 @@
 #include <png.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
-#include "tests/support/baselines.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/images/baselines.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/images/image_diff.hpp"
 #include "tests/reports/diff/mutations.hpp"

@@ -8,8 +8,8 @@
 
 #include "core/base/random.hpp"
 #include "render/plot/layout.hpp"
-#include "tests/support/baselines.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/images/baselines.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

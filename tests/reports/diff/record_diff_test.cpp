@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/records/maps/map_files.hpp"
+#include "core/records/maps/map_json.hpp"
 #include "reports/diff/records/number_diff.hpp"
 #include "tests/support/temporary_folder.hpp"
 

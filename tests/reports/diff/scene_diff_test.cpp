@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "render/scene/scene_json.hpp"
-#include "tests/support/sample_scenes.hpp"
+#include "tests/support/samples/sample_scenes.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/statistics/intervals.hpp"

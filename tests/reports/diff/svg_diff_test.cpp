@@ -12,9 +12,9 @@
 #include "render/figures/maps/map.hpp"
 #include "render/plot/layout.hpp"
 #include "render/svg/svg.hpp"
+#include "reports/diff/svg/svg_attributes.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
-#include "reports/diff/svg/svg_values.hpp"
-#include "tests/support/sample_figures.hpp"
+#include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
 namespace {

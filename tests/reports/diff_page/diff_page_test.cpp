@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/base64.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/text/base64.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/sha256.hpp"
 #include "tests/reports/diff_page/page_samples.hpp"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/diff/images/image_diff.hpp"

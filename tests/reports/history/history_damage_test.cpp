@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"

@@ -12,7 +12,7 @@
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"
-#include "tests/support/schema_problem.hpp"
+#include "tests/support/schemas/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

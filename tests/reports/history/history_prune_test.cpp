@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files.hpp"
+#include "core/base/files/files.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/object_folder.hpp"

@@ -1,0 +1,97 @@
+#include "core/base/files/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+#include "core/base/files/descriptor.hpp"
+#include "core/base/files/input_file.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason() { return std::strerror(errno); }
+
+/// Where the file itself is that a path names: behind links, so that these stay.
+/// @throws IoError for what is there and no regular file: it cannot be replaced.
+fs::path replaceable_path(const fs::path& path) {
+  if (handed_in(path))
+    throw IoError(path.string(), "is a stream, no file that can be written at once");
+  struct stat facts {};
+  if (::stat(path.c_str(), &facts) != 0) return path;
+  if (S_ISDIR(facts.st_mode)) throw IoError(path.string(), "is a folder, no file to be replaced");
+  if (!S_ISREG(facts.st_mode))
+    throw IoError(path.string(),
+                  std::string("is ") + endless_kind(facts.st_mode) + ", no file to be replaced");
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  if (error) throw IoError(path.string(), "cannot be followed: " + error.message());
+  return target;
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path, std::size_t limit) {
+  const std::string name = input_name(path);
+  const Descriptor file = open_input(path);
+  std::string bytes;
+  struct stat facts {};
+  if (::fstat(file.get(), &facts) == 0 && facts.st_size > 0 &&
+      static_cast<std::size_t>(facts.st_size) <= limit)
+    bytes.reserve(static_cast<std::size_t>(facts.st_size) + 1);
+  std::string block(std::size_t{1} << 16, '\0');
+  while (const std::size_t count = read_some(file, block, name)) {
+    bytes.append(block, 0, count);
+    if (bytes.size() > limit)
+      throw IoError(name, "is larger than " + std::to_string(limit) + " bytes");
+  }
+  return bytes;
+}
+
+void require_file(const fs::path& path) { open_input(path); }
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw IoError(path.string(), "folder cannot be made: " + error.message());
+  if (!fs::is_directory(path, error)) throw IoError(path.string(), "is not a folder");
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  if (path.has_parent_path()) make_folder(path.parent_path());
+  const fs::path location = replaceable_path(path);
+  fs::path beside = location;
+  beside += ".part-" + std::to_string(::getpid());
+  try {
+    Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+    if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
+    if (!write_all(file, bytes) || !file.close())
+      throw IoError(path.string(), "cannot be written: " + reason());
+    if (::rename(beside.c_str(), location.c_str()) != 0)
+      throw IoError(path.string(), "cannot be put in place: " + reason());
+  } catch (...) {
+    ::unlink(beside.c_str());
+    throw;
+  }
+}
+
+void append_file(const fs::path& path, std::string_view bytes) {
+  if (bytes.empty()) return;
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
+  const off_t size = file.get() < 0 ? -1 : ::lseek(file.get(), 0, SEEK_END);
+  if (size >= 0 && write_all(file, bytes) && file.close()) return;
+  const std::string why = reason();
+  // Where that fails too, a part of the bytes stays.
+  if (size >= 0) static_cast<void>(::ftruncate(file.get(), size) == 0);
+  throw IoError(path.string(), "cannot be appended to: " + why);
+}
+
+}  // namespace mapproof

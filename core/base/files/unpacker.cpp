@@ -1,0 +1,246 @@
+#include "core/base/files/unpacker.hpp"
+
+#include <lzma.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+
+namespace mapproof {
+namespace unpacking {
+
+/// Decodes one compression format piece by piece.
+class Decoder {
+ public:
+  virtual ~Decoder() = default;
+
+  /// Decodes the front of `packed`, and removes from it what was used.
+  /// @param is_last  No bytes follow those of `packed`.
+  /// @return How many bytes were written to `to`; fewer than its size: all of `packed` was used.
+  /// @throws IoError.
+  virtual std::size_t decode(std::string_view& packed, bool is_last, std::span<char> to) = 0;
+
+  /// Whether the packed bytes so far end where a file may end.
+  virtual bool is_whole() const = 0;
+};
+
+class GzipDecoder : public Decoder {
+ public:
+  static constexpr std::string_view kName = "gzip";
+  static constexpr std::string_view kMagic = "\x1f\x8b";
+
+  explicit GzipDecoder(const std::string& source) : source_(source) {
+    constexpr int kGzipWindowBits = 15 + 16;  // The largest window, a gzip header.
+    if (::inflateInit2(&stream_, kGzipWindowBits) != Z_OK) throw std::bad_alloc();
+  }
+  ~GzipDecoder() override { ::inflateEnd(&stream_); }
+  GzipDecoder(const GzipDecoder&) = delete;
+  GzipDecoder& operator=(const GzipDecoder&) = delete;
+
+  std::size_t decode(std::string_view& packed, bool, std::span<char> to) override {
+    stream_.next_out = reinterpret_cast<Bytef*>(to.data());
+    stream_.avail_out = static_cast<uInt>(to.size());
+    while (stream_.avail_out > 0 && begins_member(packed)) {
+      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+      stream_.avail_in =
+          static_cast<uInt>(std::min<std::size_t>(packed.size(), std::numeric_limits<uInt>::max()));
+      const std::size_t given = stream_.avail_in;
+      const int code = ::inflate(&stream_, Z_NO_FLUSH);
+      packed.remove_prefix(given - stream_.avail_in);
+      if (code == Z_MEM_ERROR) throw std::bad_alloc();
+      if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR)
+        throw IoError(source_, fmt::format("the gzip'ed file is damaged{}{}",
+                                           stream_.msg == nullptr ? "" : ": ",
+                                           stream_.msg == nullptr ? "" : stream_.msg));
+      if (code == Z_STREAM_END) is_in_member_ = false;
+      if (code == Z_BUF_ERROR) break;
+    }
+    return to.size() - stream_.avail_out;
+  }
+
+  bool is_whole() const override { return !is_in_member_; }
+
+ private:
+  /// Skips the padding between members. @return Whether there is more to decode.
+  bool begins_member(std::string_view& packed) {
+    if (is_in_member_) return true;
+    packed.remove_prefix(std::min(packed.find_first_not_of('\0'), packed.size()));
+    if (packed.empty()) return false;
+    ::inflateReset(&stream_);
+    is_in_member_ = true;
+    return true;
+  }
+
+  const std::string& source_;
+  z_stream stream_{};
+  bool is_in_member_ = true;
+};
+
+class XzDecoder : public Decoder {
+ public:
+  static constexpr std::string_view kName = "xz";
+  static constexpr std::string_view kMagic = std::string_view("\3757zXZ\0", 6);
+
+  explicit XzDecoder(const std::string& source) : source_(source) {
+    if (::lzma_stream_decoder(&stream_, kMostMemory, LZMA_CONCATENATED) != LZMA_OK)
+      throw std::bad_alloc();
+  }
+  ~XzDecoder() override { ::lzma_end(&stream_); }
+  XzDecoder(const XzDecoder&) = delete;
+  XzDecoder& operator=(const XzDecoder&) = delete;
+
+  std::size_t decode(std::string_view& packed, bool is_last, std::span<char> to) override {
+    stream_.next_out = reinterpret_cast<std::uint8_t*>(to.data());
+    stream_.avail_out = to.size();
+    stream_.next_in = reinterpret_cast<const std::uint8_t*>(packed.data());
+    stream_.avail_in = packed.size();
+    lzma_ret code = LZMA_OK;
+    // After the last input lzma_code() is called once more, without progress, to find the end.
+    while (code == LZMA_OK && !is_over_ && stream_.avail_out > 0 &&
+           (stream_.avail_in > 0 || is_last))
+      code = ::lzma_code(&stream_, is_last ? LZMA_FINISH : LZMA_RUN);
+    packed.remove_prefix(packed.size() - stream_.avail_in);
+    is_over_ = is_over_ || code == LZMA_STREAM_END;
+    if (code == LZMA_MEM_ERROR) throw std::bad_alloc();
+    if (code == LZMA_MEMLIMIT_ERROR)
+      throw IoError(source_, "the xz'ed file takes more than 128 MB of memory to unpack");
+    if (code != LZMA_OK && code != LZMA_STREAM_END && code != LZMA_BUF_ERROR)
+      throw IoError(source_, "the xz'ed file is damaged");
+    return to.size() - stream_.avail_out;
+  }
+
+  bool is_whole() const override { return is_over_; }
+
+ private:
+  static constexpr std::uint64_t kMostMemory = std::uint64_t{128} << 20;  ///< xz -9 takes 65 MB.
+
+  const std::string& source_;
+  lzma_stream stream_ = LZMA_STREAM_INIT;
+  bool is_over_ = false;
+};
+
+}  // namespace unpacking
+
+namespace {
+
+constexpr std::size_t kUnpackedBlock = std::size_t{1} << 16;
+
+/// Refuses more than 64 MB that are more than 300 times as large as their packed bytes.
+void refuse_bomb(const std::string& source, double packed_bytes, double unpacked_bytes) {
+  constexpr double kHarmless = 64.0 * 1024.0 * 1024.0;
+  constexpr double kMostSwelling = 300.0;
+  if (unpacked_bytes > kHarmless && unpacked_bytes > kMostSwelling * packed_bytes)
+    throw IoError(source, "unpacks to more than 300 times its size: no table does");
+}
+
+}  // namespace
+
+struct Unpacker::State {
+  explicit State(std::string name) : source(std::move(name)) {}
+
+  /// Whether the input may be of this format; makes its decoder as soon as the first bytes show it.
+  template <typename Way>
+  bool may_be() {
+    if (packed().size() < Way::kMagic.size()) return !is_ended && Way::kMagic.starts_with(packed());
+    if (!packed().starts_with(Way::kMagic)) return false;
+    decoder = std::make_unique<Way>(source);
+    packing = Way::kName;
+    return true;
+  }
+
+  void choose() {
+    if (is_known) return;
+    const bool is_open = may_be<unpacking::GzipDecoder>() || may_be<unpacking::XzDecoder>();
+    is_known = decoder != nullptr || !is_open;
+  }
+
+  /// Appends up to `count` bytes to `bytes`; fewer: all of `packed` was used.
+  std::size_t decode(std::string_view& packed, std::string& bytes, std::size_t count) {
+    room.resize(kUnpackedBlock);
+    for (std::size_t added = 0;;) {
+      const std::size_t wanted = std::min(room.size(), count - added);
+      const std::size_t got =
+          decoder->decode(packed, is_ended, std::span<char>(room).first(wanted));
+      bytes.append(room, 0, got);
+      added += got;
+      if (got < wanted || added == count) return added;
+    }
+  }
+
+  /// The fed bytes that are not used yet.
+  std::string_view packed() const { return std::string_view(fed).substr(used); }
+
+  std::string source;
+  std::string fed;
+  std::size_t used = 0;
+  bool is_ended = false;
+  bool is_known = false;
+  std::unique_ptr<unpacking::Decoder> decoder;  ///< Null: the bytes pass unchanged.
+  std::string room;                             ///< Buffer of decoded bytes.
+  std::string_view packing = {};
+  double packed_bytes = 0.0;
+  double unpacked_bytes = 0.0;
+};
+
+Unpacker::Unpacker(std::string source) : state_(std::make_unique<State>(std::move(source))) {}
+
+Unpacker::~Unpacker() = default;
+Unpacker::Unpacker(Unpacker&&) noexcept = default;
+Unpacker& Unpacker::operator=(Unpacker&&) noexcept = default;
+
+void Unpacker::feed(std::string_view packed) {
+  State& state = *state_;
+  state.fed.erase(0, std::exchange(state.used, 0));
+  state.fed += packed;
+  state.packed_bytes += static_cast<double>(packed.size());
+}
+
+void Unpacker::end() { state_->is_ended = true; }
+
+std::size_t Unpacker::drain(std::string& bytes, std::size_t count) {
+  State& state = *state_;
+  state.choose();
+  if (!state.is_known) return 0;
+  std::string_view packed = state.packed();
+  const std::size_t added =
+      state.decoder ? state.decode(packed, bytes, count) : std::min(count, packed.size());
+  if (!state.decoder) {
+    bytes += packed.substr(0, added);
+    packed.remove_prefix(added);
+  }
+  state.used = state.fed.size() - packed.size();
+  state.unpacked_bytes += static_cast<double>(added);
+  if (state.decoder) refuse_bomb(state.source, state.packed_bytes, state.unpacked_bytes);
+  return added;
+}
+
+std::string Unpacker::take(std::string_view packed) {
+  feed(packed);
+  std::string bytes;
+  while (drain(bytes, kUnpackedBlock) == kUnpackedBlock) {
+  }
+  return bytes;
+}
+
+std::string_view Unpacker::packing() const { return state_->packing; }
+
+bool Unpacker::is_passing() const {
+  return state_->is_known && !state_->decoder && state_->packed().empty();
+}
+
+bool Unpacker::is_cut() const { return state_->decoder && !state_->decoder->is_whole(); }
+
+double Unpacker::ratio() const {
+  const double used = state_->packed_bytes - static_cast<double>(state_->packed().size());
+  return used > 0.0 && state_->unpacked_bytes > 0.0 ? state_->unpacked_bytes / used : 1.0;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,41 @@
+#include "core/base/text/retired_names.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace mapproof {
+namespace {
+
+using enum NameKind;
+
+constexpr std::array kRetired = {
+    RetiredName{kOption, "--kind", "--sensor"},
+    RetiredName{kOption, "--with-kind", "--with-sensor"},
+    RetiredName{kOption, "--true-landmarks", "--ground-truth-landmarks"},
+    RetiredName{kOption, "--check-labels", "--check-ids"},
+    RetiredName{kOption, "--repair-labels", "--repair-ids"},
+    RetiredName{kOption, "--labels-unsure", "--uncertain-ids"},
+    RetiredName{kValue, "common-steps", "pairwise-complete"},
+    RetiredName{kKey, "truth", "ground_truth"},
+    RetiredName{kKey, "truth_m", "ground_truth_m"},
+    RetiredName{kKey, "readings", "measurements"},
+    RetiredName{kKey, "pictures", "images"},
+    RetiredName{kKey, "night", "nightly_run"},
+    RetiredName{kKey, "nights", "nightly_runs"},
+    RetiredName{kKey, "place", "location"},
+    RetiredName{kExperiment, "labels", "association"},
+    RetiredName{kExperiment, "online", "incremental"},
+};
+
+}  // namespace
+
+std::span<const RetiredName> retired_names() { return kRetired; }
+
+std::string_view replacement_of(NameKind kind, std::string_view name) {
+  const auto found = std::ranges::find_if(kRetired, [&](const RetiredName& retired) {
+    return retired.kind == kind && retired.name == name;
+  });
+  return found == kRetired.end() ? std::string_view{} : found->now;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,48 @@
+#include "core/base/text/spelling.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kCompared = 64;
+
+/// Levenshtein distance.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
+  if (candidates.empty()) return {};
+  const std::string_view start = word.substr(0, kCompared);
+  return *std::ranges::min_element(
+      candidates, {}, [&](std::string_view candidate) { return edit_distance(start, candidate); });
+}
+
+std::string_view likely_word(std::string_view word, std::span<const std::string_view> candidates) {
+  for (const std::string_view candidate : candidates)
+    if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word) &&
+        candidate[word.size()] == '_')
+      return candidate;
+  const std::string_view nearest = nearest_word(word, candidates);
+  if (word.size() > kCompared || nearest.empty()) return {};
+  const std::size_t allowed = std::max<std::size_t>(1, std::min(word.size(), nearest.size()) / 3);
+  return edit_distance(word, nearest) <= allowed ? nearest : std::string_view();
+}
+
+}  // namespace mapproof

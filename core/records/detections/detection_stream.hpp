@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/model/detection_log.hpp"
+#include "core/records/detections/detection_rows.hpp"
+#include "core/records/tables/streamed_table.hpp"
+
+namespace mapproof {
+
+/// All that one scan of a growing file showed.
+struct StreamedScan {
+  ScanKey scan;
+  std::vector<Detection> detections;  ///< Ascending by landmark; their step is 0.
+};
+
+/// Gathers the rows of a long table of detections (see read_detections) into scans as they come. A
+/// scan is complete once a later row of the same robot is there. A robot's scans come in ascending
+/// order.
+class ScanGatherer {
+ public:
+  /// @param source  What to call the table in errors; must outlive the object.
+  ScanGatherer(const std::string& source, const DetectionFormat& format)
+      : source_(source), rows_(source, format) {}
+
+  /// @param row  The first one may be a header. @throws IoError with the line, as read_detections;
+  ///             or for a scan that is not ascending.
+  void take(const TableRow& row);
+
+  /// There will be no more: the last scans are complete.
+  void end();
+
+  /// The scans that became complete since the last call, in order of each robot.
+  std::vector<StreamedScan> scans() { return std::exchange(complete_, {}); }
+
+  const DetectionRows& rows() const { return rows_; }
+
+ private:
+  void open(const ScanKey& scan, const TableRow& row);
+  void close(StreamedScan& scan);
+
+  const std::string& source_;
+  DetectionRows rows_;
+  bool begun_ = false;              ///< The first row was read.
+  std::vector<StreamedScan> open_;  ///< The last scan of each robot.
+  std::vector<StreamedScan> complete_;
+  std::size_t scans_ = 0;
+  std::size_t detections_ = 0;
+};
+
+/// Reads a long table of detections as it grows: see StreamedTable and ScanGatherer.
+class DetectionStream {
+ public:
+  /// @param source  What to call the file in errors.
+  DetectionStream(std::string source, const DetectionFormat& format)
+      : table_(std::move(source)), gatherer_(table_.source(), format) {}
+  DetectionStream(const DetectionStream&) = delete;
+  DetectionStream& operator=(const DetectionStream&) = delete;
+
+  /// @throws IoError with the line.
+  void take(std::string_view bytes) {
+    table_.take(bytes, [this](const TableRow& row) { gatherer_.take(row); });
+  }
+
+  /// Forgets a line whose end has not come, as of a file that is still being written.
+  void drop_half_line() { table_.drop_half_line(); }
+
+  /// There will be no more: the last line needs no end. @throws IoError as take().
+  void end() {
+    table_.end([this](const TableRow& row) { gatherer_.take(row); });
+    gatherer_.end();
+  }
+
+  std::vector<StreamedScan> scans() { return gatherer_.scans(); }
+
+  /// Remarks after end(), a sentence each.
+  std::vector<std::string> remarks() const;
+
+  bool is_timed() const { return gatherer_.rows().scans().is_timed(); }
+  /// Of all landmarks so far, in the order in which they came.
+  const std::vector<std::string>& names() const { return gatherer_.rows().names().names(); }
+
+ private:
+  StreamedTable table_;
+  ScanGatherer gatherer_;
+};
+
+}  // namespace mapproof

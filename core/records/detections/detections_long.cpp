@@ -1,0 +1,157 @@
+#include "core/records/detections/detections_long.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/detections/detection_rows.hpp"
+#include "core/records/limits.hpp"
+#include "core/records/tables/cells.hpp"
+#include "core/records/tables/table_stream.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Rows of one scan, one behind the other.
+struct RowRun {
+  double key;
+  int robot;
+  std::uint32_t line;  ///< Of its first row.
+
+  ScanKey scan() const { return {robot, key}; }
+};
+
+/// Gathers rows into scans. A detection's step is at first the number of its run.
+class LongDetections {
+ public:
+  LongDetections(TableStream& stream, const DetectionFormat& format)
+      : stream_(stream), rows_(stream.source(), format) {}
+
+  DetectionSource read() && {
+    TableRow row;
+    if (!stream_.next(row)) throw IoError(stream_.source(), "holds no rows");
+    if (!rows_.begin(row)) add(row);
+    while (stream_.next(row)) add(row);
+    if (log_.detections.empty()) throw IoError(stream_.source(), "holds a header and no rows");
+    order();
+    log_.names = rows_.names().names();
+    return {.log = std::move(log_),
+            .ground_truth_m = std::nullopt,
+            .remarks = remarks(),
+            .locations = rows_.names().locations(),
+            .path = stream_.source()};
+  }
+
+ private:
+  void add(const TableRow& row) {
+    if (log_.detections.size() == kMostDetections)
+      rows_.scans().fail(row.line, fmt::format("more than {} rows", kMostDetections));
+    const ScanKey scan = rows_.scan_of(row);
+    if (runs_.empty() || runs_.back().scan() != scan)
+      runs_.push_back({scan.key, scan.robot, static_cast<std::uint32_t>(row.line)});
+    log_.detections.push_back(rows_.detection_of(row));
+    Detection& seen = log_.detections.back();
+    seen.step = static_cast<int>(runs_.size()) - 1;
+    const auto landmark = static_cast<std::size_t>(seen.landmark);
+    if (landmark >= last_.size()) last_.resize(landmark + 1);
+    if (last_[landmark].run == seen.step)
+      refuse_repeat(fmt::format("line {}", row.line), landmark,
+                    fmt::format("on line {}", last_[landmark].line));
+    last_[landmark] = {seen.step, row.line};
+    reserve(row);
+  }
+
+  /// Estimates the number of rows from the file's size after some of them.
+  void reserve(const TableRow& row) {
+    constexpr std::size_t kSample = 20'000;
+    if (log_.detections.size() > kSample) return;
+    for (const std::string_view cell : row.cells) bytes_ += cell.size() + 1;
+    if (log_.detections.size() < kSample) return;
+    const double rows =
+        stream_.expected_size().value_or(0.0) / static_cast<double>(bytes_) * kSample;
+    log_.detections.reserve(static_cast<std::size_t>(
+        std::clamp(1.05 * rows, double{kSample}, static_cast<double>(kMostDetections))));
+  }
+
+  /// Numbers the scans by robot and step, and sorts the detections by scan and landmark.
+  void order() {
+    std::vector<ScanKey> distinct;
+    distinct.reserve(runs_.size());
+    std::ranges::transform(runs_, std::back_inserter(distinct), &RowRun::scan);
+    std::ranges::sort(distinct);
+    const auto rest = std::ranges::unique(distinct);
+    distinct.erase(rest.begin(), rest.end());
+    if (distinct.size() > static_cast<std::size_t>(kMostSteps))
+      throw IoError(stream_.source(), "as a whole",
+                    fmt::format("{} scans; at most {}", distinct.size(), kMostSteps));
+    std::vector<int> step;
+    for (const RowRun& run : runs_)
+      step.push_back(
+          static_cast<int>(std::ranges::lower_bound(distinct, run.scan()) - distinct.begin()));
+    const auto location = [&](const Detection& seen) {
+      return std::pair(step[static_cast<std::size_t>(seen.step)], seen.landmark);
+    };
+    if (!std::ranges::is_sorted(log_.detections, {}, location))
+      std::ranges::sort(log_.detections, {}, location);
+    const auto repeat = std::ranges::adjacent_find(log_.detections, {}, location);
+    if (repeat != log_.detections.end()) refuse_repeat(*repeat, *std::next(repeat));
+    for (Detection& seen : log_.detections) seen.step = step[static_cast<std::size_t>(seen.step)];
+    log_.steps = static_cast<int>(distinct.size());
+    log_.scans = distinct;
+    log_.robots = rows_.scans().robots();
+    if (rows_.scans().is_timed())
+      for (const ScanKey& scan : distinct) log_.times_s.push_back(scan.key);
+  }
+
+  /// Two detections of one landmark in different runs of one scan.
+  [[noreturn]] void refuse_repeat(const Detection& first, const Detection& second) {
+    const auto [one, other] = std::minmax(first.step, second.step);
+    // The lines within a run are not kept.
+    const auto where = [&](int run, const char* exact) {
+      const auto rows = std::ranges::count(log_.detections, run, &Detection::step);
+      return fmt::format(fmt::runtime(rows == 1 ? exact : "from line {} on"),
+                         runs_[static_cast<std::size_t>(run)].line);
+    };
+    refuse_repeat(where(other, "line {}"), static_cast<std::size_t>(first.landmark),
+                  where(one, "on line {}"));
+  }
+
+  [[noreturn]] void refuse_repeat(const std::string& location, std::size_t landmark,
+                                  const std::string& first) {
+    throw IoError(stream_.source(), location,
+                  fmt::format("landmark {} is in that scan already, {}",
+                              in_quotes(rows_.names().names()[landmark]), first));
+  }
+
+  std::vector<std::string> remarks() const {
+    std::vector<std::string> remarks = rows_.scans().remarks();
+    if (stream_.is_cut()) remarks.emplace_back(kCutRemark);
+    return remarks;
+  }
+
+  TableStream& stream_;
+  DetectionRows rows_;
+  DetectionLog log_;
+  std::vector<RowRun> runs_;
+  /// Where a landmark was seen last.
+  struct LastRow {
+    int run = -1;
+    std::size_t line = 0;
+  };
+  std::vector<LastRow> last_;  ///< By landmark.
+  std::size_t bytes_ = 0;      ///< Of the first rows.
+};
+
+}  // namespace
+
+DetectionSource read_long_detections(ByteSource& source, const DetectionFormat& format) {
+  TableStream stream(source);
+  return LongDetections(stream, format).read();
+}
+
+}  // namespace mapproof

@@ -1,0 +1,135 @@
+#include "core/records/ranges/range_logs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+
+#include "core/base/errors.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/detections/scan_rows.hpp"
+#include "core/records/ranges/range_log_readers.hpp"
+#include "core/records/tables/table_stream.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class Form { kNone, kCsv, kMat, kPyfg, kText };
+
+constexpr std::array<std::string_view, 2> kTextEnds = {"_DR.txt", "_TD.txt"};
+
+bool is_ranges_csv(const fs::path& path) { return unpacked_name(path).filename() == "ranges.csv"; }
+
+/// The form that a name suggests.
+Form form_named(const fs::path& path) {
+  const fs::path extension = unpacked_name(path).extension();
+  if (is_ranges_csv(path)) return Form::kCsv;
+  if (extension == ".mat") return Form::kMat;
+  if (extension == ".pyfg") return Form::kPyfg;
+  return text_stem(path).empty() ? Form::kNone : Form::kText;
+}
+
+bool is_pyfg(const TableRow& row) {
+  return row.cells[0].starts_with("VERTEX_") || row.cells[0].starts_with("EDGE_");
+}
+
+bool is_ranges_text(const TableRow& row) {
+  return row.cells.size() == 4 &&
+         std::ranges::all_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
+}
+
+/// The form that the first bytes show.
+Form form_seen(ByteSource& source) {
+  if (source.peek().starts_with("MATLAB")) return Form::kMat;
+  try {
+    if (first_row_is(source, names_range_columns)) return Form::kCsv;
+    if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
+    if (first_row_is(source, is_ranges_text, TableReader::kBlanks)) return Form::kText;
+  } catch (const IoError&) {  // No text: its reader reports what is wrong.
+  }
+  return Form::kNone;
+}
+
+Form form_of(ByteSource& source) {
+  const Form seen = form_seen(source);
+  return seen == Form::kNone ? form_named(source.path()) : seen;
+}
+
+/// "Plaza1" of Plaza1_.mat, "plaza1" of plaza1/ranges.csv.
+std::string log_name(const fs::path& path) {
+  if (path.empty()) return "stream";
+  const fs::path plain = unpacked_name(fs::absolute(path).lexically_normal());
+  const fs::path stem = text_stem(path);
+  std::string name = is_ranges_csv(path) ? plain.parent_path().filename().string()
+                     : stem.empty()      ? plain.stem().string()
+                                         : stem.filename().string();
+  while (name.size() > 1 && name.back() == '_') name.pop_back();
+  return name;
+}
+
+[[noreturn]] void refuse_log(const std::string& source) {
+  throw IoError(source,
+                "holds no ranges: expected a folder with ranges.csv, or NAME.mat, NAME.pyfg, "
+                "NAME_DR.txt with NAME_TD.txt");
+}
+
+/// The word of range logs for what others call a landmark.
+bool names_beacons(const TableRow& row) {
+  return std::ranges::any_of(
+      row.cells, [](std::string_view cell) { return lower_case(trimmed(cell)) == "beacon"; });
+}
+
+}  // namespace
+
+fs::path text_stem(const fs::path& path) {
+  const fs::path plain = unpacked_name(path);
+  const std::string whole = plain.string();
+  for (const std::string_view end : kTextEnds)
+    if (plain.filename().string().ends_with(end)) return whole.substr(0, whole.size() - end.size());
+  return {};
+}
+
+RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
+  RangeLogOptions named = options;
+  if (named.name.empty()) named.name = log_name(source.path());
+  switch (form_of(source)) {
+    case Form::kCsv:
+      return read_range_log_csv(source, named);
+    case Form::kMat:
+      return read_range_log_mat(source, named);
+    case Form::kPyfg:
+      return read_range_log_pyfg(source, named);
+    case Form::kText:
+      return read_range_log_text(source, named);
+    case Form::kNone:
+      break;
+  }
+  refuse_log(source.name());
+}
+
+RangeLog read_range_log(const fs::path& path, const RangeLogOptions& options) {
+  if (is_folder(path) && !is_range_log_folder(path)) refuse_log(path.string());
+  ByteSource source(is_folder(path) ? plain_or_packed(path / "ranges.csv") : path);
+  return read_range_log(source, options);
+}
+
+bool is_range_log_folder(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(plain_or_packed(folder / "ranges.csv"), error);
+}
+
+bool is_range_log(ByteSource& source) {
+  const Form seen = form_seen(source), named = form_named(source.path());
+  if (seen == Form::kCsv)
+    return named == Form::kCsv || !first_row_is(source, names_detection_columns) ||
+           first_row_is(source, names_beacons);
+  if (seen == Form::kText || seen == Form::kNone)
+    return named != Form::kNone && named != Form::kCsv;
+  return true;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,87 @@
+#include "core/records/tables/table_stream.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 20;
+constexpr std::size_t kLongestRow = std::size_t{1} << 24;
+
+bool is_comment(std::string_view line) {
+  const std::string_view content = trimmed(line);
+  return !content.empty() && content.front() == '#';
+}
+
+/// Bytes up to the last end of a row: of a line that no quotes run on beyond.
+std::size_t whole_rows(std::string_view bytes) {
+  if (bytes.find('"') == std::string_view::npos) return bytes.rfind('\n') + 1;
+  std::size_t whole = 0;
+  bool is_quoted = false;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = bytes.find('\n', at);
+    if (end == std::string_view::npos) break;
+    const std::string_view line = bytes.substr(at, end - at);
+    if (is_quoted || !is_comment(line))
+      is_quoted = is_quoted != (std::ranges::count(line, '"') % 2 == 1);
+    at = end + 1;
+    if (!is_quoted) whole = at;
+  }
+  return whole;
+}
+
+}  // namespace
+
+bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
+                  std::optional<char> separator) {
+  for (std::size_t count = ByteSource::kPeek;; count *= 4) {
+    const std::string_view start = source.peek(count);
+    const bool is_all = start.size() < count;
+    const std::size_t whole = is_all ? start.size() : whole_rows(start);
+    if (whole > 0 || is_all) {
+      const std::string_view text = checked_text(start.substr(0, whole), source.name());
+      TableReader reader(text, source.name(), separator.value_or(TableReader::separator_in(text)));
+      if (TableRow row; reader.next(row)) return sort(row);
+    }
+    if (is_all || start.size() > kLongestRow) return false;
+  }
+}
+
+/// The next rows to the front of bytes_; false: there are no more.
+bool TableStream::read_rows() {
+  lines_ += static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.begin() + whole_, '\n'));
+  bytes_.erase(0, whole_);
+  whole_ = 0;
+  while (whole_ == 0 && !is_over_) {
+    is_over_ = !source_.append(bytes_, kBlock);
+    whole_ = is_over_ ? bytes_.size() : whole_rows(bytes_);
+    if (whole_ == 0 && bytes_.size() > kLongestRow)
+      throw IoError(source(), fmt::format("line {}", lines_ + 1),
+                    "a row of more than 16 MB: do its quotes end?");
+  }
+  if (is_over_) is_cut_ = is_cut_table(bytes_);
+  if (whole_ == 0) {
+    if (lines_ == 0) throw IoError(source(), "is empty");
+    return false;
+  }
+  const std::string_view text =
+      checked_text(std::string_view(bytes_).substr(0, whole_), source(), lines_ + 1);
+  if (separator_ == '\0') separator_ = TableReader::separator_in(text);
+  reader_.emplace(text, source(), separator_, lines_ + 1);
+  return true;
+}
+
+bool TableStream::next(TableRow& row) {
+  while (!reader_ || !reader_->next(row)) {
+    if (!read_rows()) return false;
+  }
+  return true;
+}
+
+}  // namespace mapproof

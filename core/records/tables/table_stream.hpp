@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/base/files/byte_source.hpp"
+#include "core/records/tables/table_reader.hpp"
+
+namespace mapproof {
+
+/// Whether a table's first row is of some sort. The table stays unread; comments before the row do
+/// not count. False if there is no row, or if it does not end within 16 MB.
+/// @param separator  Of the cells; empty: as TableReader determines it.
+/// @throws IoError if the source is empty, cannot be read, or begins with what is not a text.
+bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
+                  std::optional<char> separator = std::nullopt);
+
+/// The rows of a table of any length, as TableReader has them; a few megabytes of it are held at a
+/// time.
+class TableStream {
+ public:
+  /// @param source  Must outlive the object.
+  explicit TableStream(ByteSource& source) : source_(source) {}
+
+  /// @return Whether there was a row. @throws IoError with the line for what is not a text, for
+  /// broken
+  ///         quotes, or a row of more than 16 MB.
+  bool next(TableRow& row);
+
+  /// After the last row: it has no line end, see kCutRemark.
+  bool is_cut() const { return is_cut_; }
+
+  const std::string& source() const { return source_.name(); }
+  /// See ByteSource.
+  std::optional<double> expected_size() const { return source_.expected_size(); }
+
+ private:
+  bool read_rows();
+
+  ByteSource& source_;
+  std::string bytes_;      ///< Whole rows, then the start of the next one.
+  std::size_t whole_ = 0;  ///< Bytes of them that are whole rows.
+  std::size_t lines_ = 0;  ///< Before them.
+  bool is_over_ = false;
+  bool is_cut_ = false;
+  char separator_ = '\0';  ///< Not known before the first row.
+  std::optional<TableReader> reader_;
+};
+
+}  // namespace mapproof

@@ -1,0 +1,208 @@
+#include "render/figures/maps/scatter_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
+#include "render/base/span.hpp"
+#include "render/figures/maps/covariance_ellipse.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+#include "render/plot/axis_map.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kRoomReach = 0.15;  // Room sides about the room that are shown.
+
+void require_consistent(const EllipseMapSpec& spec) {
+  const auto refuse = [&spec](const std::string& what) {
+    throw InvalidInput("figure " + printable(spec.id) + ": " + what);
+  };
+  const auto rows = static_cast<Eigen::Index>(spec.names.size());
+  if (spec.ground_truth_m.rows() != rows) refuse("not as many true positions as names");
+  if (!spec.ground_truth_m.allFinite()) refuse("a true position is not finite");
+  for (const Points& run : spec.estimates_m) {
+    if (run.rows() != rows) refuse("not as many estimates as names");
+    if (run.array().isInf().any()) refuse("an infinite estimate");
+  }
+  for (const Eigen::Index anchor : spec.anchors)
+    if (anchor < 0 || anchor >= rows) refuse(fmt::format("anchor {} is not a landmark", anchor));
+}
+
+/// The room, as far as landmarks show it, and some space about it.
+PanelLimits limits_of(const Points& ground_truth_m) {
+  Span x, y;
+  for (Eigen::Index i = 0; i < ground_truth_m.rows(); ++i)
+    x.see(ground_truth_m(i, 0)), y.see(ground_truth_m(i, 1));
+  if (!x.known()) return {{0.0, 1.0}, {0.0, 1.0}};
+  const double side = std::max(x.high - x.low, y.high - y.low);
+  const double by = side > 0.0 ? kRoomReach * side : 1.0;
+  return {{x.low - by, x.high + by}, {y.low - by, y.high + by}};
+}
+
+/// What is drawn, landmark by landmark.
+struct EllipseLayers {
+  Ellipses scatter{
+      .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
+  Segments bias{.label = "error of the mean", .ink = Ink::kText, .width = 0.7};
+  Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
+  Scatter ground_truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
+  Scatter anchors{.label = "anchor",
+                  .ink = Ink::kSeries2,
+                  .marker = Marker::kSquare,
+                  .filled = false,
+                  .size = 1.3};
+
+  void add(const EllipseMapSpec& spec, Eigen::Index i, const ScatterEllipse& e) {
+    const bool anchor = std::ranges::find(spec.anchors, i) != spec.anchors.end();
+    const Point at = point_of(spec.ground_truth_m.row(i));
+    add_point(anchor ? anchors : ground_truth, at);
+    if (e.runs == 0) return;
+    const std::vector<std::pair<std::string, std::string>> data = {{"landmark", spec.names[i]},
+                                                                   {"runs", std::to_string(e.runs)},
+                                                                   {"a", data_number(e.a_m)},
+                                                                   {"b", data_number(e.b_m)}};
+    const Point mean = point_of(e.mean_m);
+    add_line(bias, at, mean);
+    add_point(means, mean);
+    means.marks.push_back({fmt::format("mean-{}", i + 1), data});
+    if (std::isnan(e.a_m)) return;
+    scatter.x.push_back(mean.x), scatter.y.push_back(mean.y);
+    scatter.a.push_back(e.a_m), scatter.b.push_back(e.b_m);
+    scatter.turn_rad.push_back(e.turn_rad);
+    scatter.marks.push_back({fmt::format("ellipse-{}", i + 1), data});
+  }
+};
+
+/// The limits with all of the ellipses, as far as half the width beyond where they began.
+PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
+  const auto reach = [&](bool along_x, std::size_t i) {
+    const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+    const double a = ellipses.a[i] * (along_x ? c : s), b = ellipses.b[i] * (along_x ? s : c);
+    return std::hypot(a, b);
+  };
+  const auto widen = [&](Range range, const std::vector<double>& centres, bool along_x) {
+    const double most = 0.5 * (range.high - range.low);
+    const Range bound{range.low - most, range.high + most};
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      range.low = std::min(range.low, centres[i] - reach(along_x, i));
+      range.high = std::max(range.high, centres[i] + reach(along_x, i));
+    }
+    return Range{std::max(range.low, bound.low), std::min(range.high, bound.high)};
+  };
+  return {widen(limits.x, ellipses.x, true), widen(limits.y, ellipses.y, false)};
+}
+
+/// What the text reports.
+struct EllipseSummary {
+  std::size_t placed = 0;        ///< Landmarks with a mean.
+  std::size_t with_ellipse = 0;  ///< With three runs or more.
+  std::size_t outside = 0;       ///< Means outside the image.
+  double sum_bias_m = 0.0;       ///< Over those placed.
+  double sum_a_m = 0.0;          ///< Over those with an ellipse.
+  double worst_a_m = 0.0;
+  std::string worst;  ///< The first with the longest axis.
+
+  void add(const EllipseMapSpec& spec, Eigen::Index i, const ScatterEllipse& e,
+           const PanelLimits& limits) {
+    if (e.runs == 0) return;
+    ++placed;
+    sum_bias_m += (e.mean_m - spec.ground_truth_m.row(i)).norm();
+    const Point mean = point_of(e.mean_m);
+    outside += limits.x.low > mean.x || mean.x > limits.x.high || limits.y.low > mean.y ||
+               mean.y > limits.y.high;
+    if (std::isnan(e.a_m)) return;
+    ++with_ellipse;
+    sum_a_m += e.a_m;
+    if (with_ellipse == 1 || e.a_m > worst_a_m) worst_a_m = e.a_m, worst = spec.names[i];
+  }
+};
+
+std::string alt_of(const EllipseMapSpec& spec, const EllipseSummary& summary) {
+  std::string text =
+      fmt::format("Scatter of the estimates of {} over {}.", counted(spec.names.size(), "landmark"),
+                  counted(spec.estimates_m.size(), "run"));
+  if (summary.placed > 0)
+    text += fmt::format(" The means are {} m from the ground truth on average.",
+                        significant(summary.sum_bias_m / static_cast<double>(summary.placed)));
+  if (summary.with_ellipse > 0)
+    text +=
+        fmt::format(" Half the long axis of an ellipse is {} m on average, {} m at most, of {}.",
+                    significant(summary.sum_a_m / static_cast<double>(summary.with_ellipse)),
+                    significant(summary.worst_a_m), summary.worst);
+  return text;
+}
+
+std::vector<Note> notes_of(const EllipseSummary& summary) {
+  std::vector<Note> notes;
+  if (summary.placed == 0) notes.push_back({"No run gave a landmark a place.", Ink::kWarning});
+  if (summary.placed > 0 && summary.with_ellipse == 0)
+    notes.push_back({"Fewer than three runs: no ellipses.", Ink::kWarning});
+  if (summary.outside > 0)
+    notes.push_back(
+        {counted(summary.outside, "mean estimate") + " outside the image.", Ink::kWarning});
+  return notes;
+}
+
+}  // namespace
+
+ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::Index row) {
+  ScatterEllipse ellipse;
+  Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
+  for (const Points& run : estimates_m)
+    if (!run.row(row).hasNaN()) sum += run.row(row), ++ellipse.runs;
+  ellipse.mean_m = sum / ellipse.runs;
+  ellipse.a_m = ellipse.b_m = kNaN;
+  if (ellipse.runs < 3) return ellipse;
+  Eigen::Matrix2d C = Eigen::Matrix2d::Zero();
+  for (const Points& run : estimates_m) {
+    if (run.row(row).hasNaN()) continue;
+    const Eigen::RowVector2d off = run.row(row) - ellipse.mean_m;
+    C += off.transpose() * off;
+  }
+  C /= ellipse.runs - 1;
+  const Ellipse axes = covariance_ellipse(C);
+  ellipse.a_m = axes.a, ellipse.b_m = axes.b, ellipse.turn_rad = axes.turn_rad;
+  return ellipse;
+}
+
+Figure ellipse_map_figure(const EllipseMapSpec& spec) {
+  require_consistent(spec);
+  EllipseLayers layers;
+  std::vector<ScatterEllipse> ellipses;
+  for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i) {
+    ellipses.push_back(scatter_ellipse(spec.estimates_m, i));
+    layers.add(spec, i, ellipses.back());
+  }
+  const PanelLimits limits = widened(limits_of(spec.ground_truth_m), layers.scatter);
+  EllipseSummary summary;
+  for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i)
+    summary.add(spec, i, ellipses[static_cast<std::size_t>(i)], limits);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  Panel& panel = figure.panels.emplace_back();
+  panel.equal_aspect = true;
+  panel.x.label = "x [m]";
+  panel.y.label = "y [m]";
+  panel.x.limits = limits.x;
+  panel.y.limits = limits.y;
+  panel.layers = {layers.scatter, layers.bias, layers.ground_truth, layers.anchors, layers.means};
+  std::erase_if(panel.layers, is_empty);
+  figure.caption = fmt::format(
+      "Estimates of {} over {}: dots are means, joined to the true positions (open circles); "
+      "ellipses hold 95 % of a normal scatter; squares: anchors.",
+      counted(spec.names.size(), "landmark"), counted(spec.estimates_m.size(), "run"));
+  figure.alt = alt_of(spec, summary);
+  figure.notes = notes_of(summary);
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#include "render/figures/score_text.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+
+std::vector<ErrorWords> error_words(const Score& score) {
+  const bool usual = std::isfinite(score.mpe_m);
+  const double mpe = usual ? score.mpe_m : score.mpe_all_fitted_m;
+  const double moe = usual ? score.moe_percent : score.moe_unmirrored_percent;
+  std::vector<ErrorWords> words;
+  if (std::isfinite(mpe))
+    words.push_back({"MPE", significant(mpe) + " m",
+                     usual ? "mean position error, anchors left out" : "mean position error",
+                     usual ? "" : "after the best affine fit to all landmarks"});
+  if (std::isfinite(moe))
+    words.push_back({"MOE", fmt::format("{:.2f} %", moe),
+                     "landmark triples with a wrong orientation", usual ? "" : "up to a mirror"});
+  return words;
+}
+
+std::string score_text(const Score& score) {
+  std::string text;
+  for (const ErrorWords& error : error_words(score)) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", error.name, error.value);
+    if (!error.limit.empty()) text += " " + error.limit;
+  }
+  return text;
+}
+
+}  // namespace mapproof

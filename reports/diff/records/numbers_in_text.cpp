@@ -1,0 +1,81 @@
+#include "reports/diff/records/numbers_in_text.hpp"
+
+#include <cstdlib>
+
+namespace mapproof {
+namespace {
+
+constexpr std::string_view kMinus = "\u2212";  // As tables print it.
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// The number of bytes of the sign at `at`, 0 if there is none.
+std::size_t sign_at(std::string_view text, std::size_t at) {
+  if (text.substr(at).starts_with(kMinus)) return kMinus.size();
+  return at < text.size() && (text[at] == '-' || text[at] == '+') ? 1 : 0;
+}
+
+std::size_t digits_end(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return at;
+}
+
+/// The end of the number that begins at `at`; `at` if none does.
+std::size_t number_end(std::string_view text, std::size_t at) {
+  const bool inside_word = at > 0 && (is_letter(text[at - 1]) || is_digit(text[at - 1]));
+  std::size_t end = at + (inside_word ? 0 : sign_at(text, at));
+  const std::size_t whole = digits_end(text, end);
+  if (whole == end) return at;
+  end = whole;
+  if (end + 1 < text.size() && text[end] == '.' && is_digit(text[end + 1]))
+    end = digits_end(text, end + 1);
+  if (end < text.size() && (text[end] == 'e' || text[end] == 'E')) {
+    const std::size_t power = end + 1 + sign_at(text, end + 1);
+    if (digits_end(text, power) > power) end = digits_end(text, power);
+  }
+  return end;
+}
+
+double parsed_number(std::string_view text) {
+  std::string plain(text);
+  if (text.starts_with(kMinus)) plain.replace(0, kMinus.size(), "-");
+  return std::strtod(plain.c_str(), nullptr);
+}
+
+}  // namespace
+
+std::string without_numbers(std::string_view text) {
+  std::string words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = number_end(text, at);
+    words += end > at ? '#' : text[at];
+    at = end > at ? end : at + 1;
+  }
+  return words;
+}
+
+std::vector<double> numbers_in(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = number_end(text, at);
+    if (end > at) numbers.push_back(parsed_number(text.substr(at, end - at)));
+    at = end > at ? end : at + 1;
+  }
+  return numbers;
+}
+
+bool same_numbers(std::string_view a, std::string_view b) { return numbers_in(a) == numbers_in(b); }
+
+TextChange text_change(std::string_view a, std::string_view b, const Tolerance& tolerance) {
+  if (a == b) return TextChange::kNone;
+  if (without_numbers(a) != without_numbers(b)) return TextChange::kWords;
+  const std::vector<double> first = numbers_in(a), second = numbers_in(b);
+  if (first.size() != second.size()) return TextChange::kWords;  // "##" is "#" and "#" as well.
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (!tolerance.holds(first[i], second[i])) return TextChange::kNumbers;
+  return TextChange::kWithin;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,167 @@
+#include "tests/support/images/figure_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "render/cairo/cairo_backend.hpp"
+
+namespace mapproof::test {
+namespace {
+
+constexpr double kPixelsPerPoint = 2.0;
+
+bool is_data(Role role) {
+  return role == Role::kBand || role == Role::kCells || role == Role::kLine ||
+         role == Role::kMarker;
+}
+
+bool blocks_text(Role role) {
+  return is_data(role) || role == Role::kFrame || role == Role::kTick || role == Role::kLeader;
+}
+
+/// The pixels of the drawing's items of some roles alone.
+template <typename Wanted>
+Image image_of(const Drawing& drawing, Wanted wanted) {
+  Drawing part = drawing;
+  std::erase_if(part.items, [&](const Item& item) { return !wanted(item.role); });
+  part.dpi = 72.0 * kPixelsPerPoint;
+  return to_image(part);
+}
+
+/// Whether a pixel wholly inside the box has ink.
+bool has_ink(const Image& image, const Box& box, Colour background) {
+  const std::uint32_t paper = background.red << 16 | background.green << 8 | background.blue;
+  const auto pixel = [](double points) { return points * kPixelsPerPoint; };
+  const int x0 = std::max(static_cast<int>(std::ceil(pixel(box.x0))), 0);
+  const int y0 = std::max(static_cast<int>(std::ceil(pixel(box.y0))), 0);
+  const int x1 = std::min(static_cast<int>(std::floor(pixel(box.x1))), image.width);
+  const int y1 = std::min(static_cast<int>(std::floor(pixel(box.y1))), image.height);
+  for (int y = y0; y < y1; ++y)
+    for (int x = x0; x < x1; ++x)
+      if ((image.row(y)[x] & 0xFFFFFF) != paper) return true;
+  return false;
+}
+
+class Inspector {
+ public:
+  explicit Inspector(const Drawing& drawing) : drawing_(drawing) {}
+
+  std::vector<std::string> inspect() {
+    for (const Item& item : drawing_.items)
+      if (const auto* line = std::get_if<TextLine>(&item.what))
+        texts_.push_back({&item, line, ink_box(*line)});
+    check_frames();
+    check_borders();
+    check_text_on_text();
+    check_text_on_marks();
+    check_legend_on_data();
+    check_contrast();
+    check_glyphs();
+    return std::move(flaws_);
+  }
+
+ private:
+  struct Text {
+    const Item* item;
+    const TextLine* line;
+    Box ink;
+  };
+
+  static std::string named(const Text& text) {
+    return fmt::format("{} '{}'", name(text.item->role), text.line->shaped.text);
+  }
+
+  void check_frames() {
+    // Panels of a grid may be small.
+    const double share = drawing_.frames.size() == 1 ? 0.25 : 0.1;
+    const double least = share * std::min(drawing_.width, drawing_.height);
+    for (const Box& frame : drawing_.frames)
+      if (frame.width() < least || frame.height() < least)
+        flaws_.push_back(fmt::format("frame of {:.0f} x {:.0f} pt", frame.width(), frame.height()));
+  }
+
+  void check_borders() {
+    const Box page{0.0, 0.0, drawing_.width, drawing_.height};
+    for (const Text& text : texts_)
+      if (!page.holds(text.ink)) flaws_.push_back(named(text) + " is cut by the border");
+    for (const Item& item : drawing_.items)
+      if (const auto* stamp = std::get_if<Stamp>(&item.what)) {
+        const Box reach =
+            bounds(drawing_.symbols[stamp->symbol].path).moved(stamp->at.x, stamp->at.y);
+        if (!page.holds(reach)) flaws_.push_back("a marker is cut by the border");
+      }
+  }
+
+  void check_text_on_text() {
+    for (std::size_t i = 0; i < texts_.size(); ++i)
+      for (std::size_t j = i + 1; j < texts_.size(); ++j)
+        if (texts_[i].ink.overlaps(texts_[j].ink))
+          flaws_.push_back(named(texts_[i]) + " and " + named(texts_[j]) + " overlap");
+  }
+
+  void check_text_on_marks() {
+    const Image marks = image_of(drawing_, blocks_text);
+    const Image no_cells =
+        image_of(drawing_, [](Role role) { return blocks_text(role) && role != Role::kCells; });
+    for (const Text& text : texts_) {
+      const bool is_on_cell = text.item->role == Role::kCellText;
+      if (has_ink(is_on_cell ? no_cells : marks, text.ink, drawing_.background))
+        flaws_.push_back(named(text) + " covers a line or a mark");
+    }
+  }
+
+  /// What a text of a cell stands on.
+  Colour below(const Text& text) const {
+    if (text.item->role != Role::kCellText) return drawing_.background;
+    if (cells_.width == 0)
+      cells_ = image_of(drawing_, [](Role role) { return role == Role::kCells; });
+    const Point middle = text.ink.centre();
+    const auto pixel = [](double points) { return static_cast<int>(points * kPixelsPerPoint); };
+    return colour(cells_.row(pixel(middle.y))[pixel(middle.x)] & 0xFFFFFF);
+  }
+
+  void check_legend_on_data() {
+    const Image data = image_of(drawing_, is_data);
+    for (const Item& item : drawing_.items) {
+      if (item.role != Role::kLegendBox && item.role != Role::kLegendSample) continue;
+      const auto* shape = std::get_if<Shape>(&item.what);
+      if (shape != nullptr && has_ink(data, bounds(shape->path).grown(0.5), drawing_.background))
+        flaws_.push_back(fmt::format("{} covers data", name(item.role)));
+    }
+  }
+
+  void check_contrast() {
+    for (const Text& text : texts_)
+      if (contrast(text.line->colour, below(text)) < 4.5)
+        flaws_.push_back(named(text) + " has too little contrast");
+    for (const Item& item : drawing_.items) {
+      const auto* stamp = std::get_if<Stamp>(&item.what);
+      const auto* shape =
+          stamp != nullptr ? &drawing_.symbols[stamp->symbol] : std::get_if<Shape>(&item.what);
+      const bool counts = item.role == Role::kLine || item.role == Role::kMarker ||
+                          item.role == Role::kFrame || item.role == Role::kTick;
+      if (shape == nullptr || !counts) continue;
+      if (contrast(shape->stroke ? shape->stroke->colour : *shape->fill, drawing_.background) < 3.0)
+        flaws_.push_back(fmt::format("a {} has too little contrast", name(item.role)));
+    }
+  }
+
+  void check_glyphs() {
+    for (const Text& text : texts_)
+      for (const Glyph& glyph : text.line->shaped.glyphs)
+        if (glyph.index == 0) flaws_.push_back(named(text) + " has a glyph that the font lacks");
+  }
+
+  const Drawing& drawing_;
+  std::vector<Text> texts_;
+  mutable Image cells_;  ///< The cells alone, once a text on one is met.
+  std::vector<std::string> flaws_;
+};
+
+}  // namespace
+
+std::vector<std::string> flaws(const Drawing& drawing) { return Inspector(drawing).inspect(); }
+
+}  // namespace mapproof::test
