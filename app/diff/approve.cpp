@@ -1,3 +1,5 @@
+#include "app/diff/approve.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -8,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/paths.hpp"

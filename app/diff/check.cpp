@@ -1,10 +1,11 @@
+#include "app/diff/check.hpp"
+
 #include <array>
 #include <memory>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "app/diff/diff_options.hpp"
 #include "app/output_paths.hpp"
 #include "app/study/folder_report.hpp"

@@ -1,8 +1,9 @@
+#include "app/diff/diff.hpp"
+
 #include <array>
 #include <filesystem>
 #include <memory>
 
-#include "app/commands.hpp"
 #include "app/diff/diff_options.hpp"
 #include "app/input_streams.hpp"
 #include "app/output_paths.hpp"

@@ -1,9 +1,10 @@
+#include "app/map/map.hpp"
+
 #include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/arguments.hpp"
 #include "app/map/incremental_map.hpp"

@@ -1,9 +1,10 @@
+#include "app/nightly/history.hpp"
+
 #include <iostream>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "app/nightly/history_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
@@ -66,7 +67,7 @@ int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Con
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
   std::error_code error;
   if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
-    write_history_pages(history, arguments.store, arguments.store, {}, load_templates(), 1);
+    write_history_pages(history, {arguments.store, arguments.store, load_templates()}, {});
   console.result(
       fmt::format("{} and {} removed\n",
                   counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly run"),

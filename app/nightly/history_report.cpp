@@ -16,15 +16,14 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Writes trends/STUDY/report.html of a study of the last nightly run. @return The trend.
-StudyTrend write_trend(HistoryStore& history, const fs::path& store, const fs::path& out,
-                       const NightlyStudy& study, const IndexFacts& facts, const Templates& page,
-                       int jobs) {
+StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
+                       const NightlyStudy& study, const IndexFacts& facts) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
   StudyTrend trend = history.trend(study.name, study.order_digest, kTrendRuns, this_run.number);
   const bool is_compared = this_run.reference && has_study(history, *this_run.reference, study);
-  const fs::path folder = out / "trends" / study.name;
-  HistoryPage shown =
-      trend_page(trend, facts.findings, is_compared, paths_from(folder, out, store));
+  const fs::path folder = outputs.out / "trends" / study.name;
+  HistoryPage shown = trend_page(trend, facts.findings, is_compared,
+                                 paths_from(folder, outputs.out, outputs.store));
   const FolderReport report{.folder = folder,
                             .report = std::move(shown.report),
                             .in_company = {},
@@ -34,7 +33,7 @@ StudyTrend write_trend(HistoryStore& history, const fs::path& store, const fs::p
                             .runs = 0,
                             .missing = {},
                             .link_words = std::move(shown.link_words)};
-  write_report(report, page, jobs);
+  write_report(report, outputs.page, outputs.jobs);
   return trend;
 }
 
@@ -63,14 +62,14 @@ HistoryFolders paths_from(const fs::path& folder, const fs::path& out, const fs:
   return {.pages = to(out), .nightly_runs = to(store)};
 }
 
-fs::path write_history_pages(HistoryStore& history, const fs::path& store, const fs::path& out,
-                             std::span<const std::string> remarks, const Templates& page,
-                             int jobs) {
-  IndexFacts facts = read_facts(history, store, remarks);
+fs::path write_history_pages(HistoryStore& history, const HistoryOutputs& outputs,
+                             std::span<const std::string> remarks) {
+  const fs::path& out = outputs.out;
+  IndexFacts facts = read_facts(history, outputs.store, remarks);
   if (!facts.nightly_runs.empty())
     for (const NightlyStudy& study : history.studies(facts.nightly_runs.back().number))
-      facts.trends.push_back(write_trend(history, store, out, study, facts, page, jobs));
-  const HistoryPage shown = index_page(facts, paths_from(out, out, store));
+      facts.trends.push_back(write_trend(history, outputs, study, facts));
+  const HistoryPage shown = index_page(facts, paths_from(out, out, outputs.store));
   HtmlOptions options{.figure_folder = "", .table_folder = ""};
   options.link_words = shown.link_words;
   const auto drawing = [&](const std::string& id) {
@@ -78,7 +77,7 @@ fs::path write_history_pages(HistoryStore& history, const fs::path& store, const
     return figure == shown.figures.end() ? std::string() : figure_svg(*figure, report_theme());
   };
   const fs::path index = out / "index.html";
-  write_file(index, report_html(shown.report, page, drawing, options));
+  write_file(index, report_html(shown.report, outputs.page, drawing, options));
   return index;
 }
 

@@ -14,15 +14,19 @@ namespace mapproof {
 HistoryFolders paths_from(const std::filesystem::path& folder, const std::filesystem::path& out,
                           const std::filesystem::path& store);
 
+/// Where a history lies and its pages go.
+struct HistoryOutputs {
+  std::filesystem::path store;  ///< Where nightly_runs/ lies, and what is left of lost ones.
+  std::filesystem::path out;    ///< For the pages: the store or another folder.
+  const Templates& page;
+  int jobs = 1;
+};
+
 /// Writes index.html and, of every study of the last nightly run, trends/STUDY/report.html with its
 /// figures, again from the history.
-/// @param store    Where nightly_runs/ lies, and what is left of nightly runs that were lost.
-/// @param out      For the pages: the store or another folder.
 /// @param remarks  On the last nightly run.
 /// @return The path of index.html. @throws IoError.
-std::filesystem::path write_history_pages(HistoryStore& history, const std::filesystem::path& store,
-                                          const std::filesystem::path& out,
-                                          std::span<const std::string> remarks,
-                                          const Templates& page, int jobs);
+std::filesystem::path write_history_pages(HistoryStore& history, const HistoryOutputs& outputs,
+                                          std::span<const std::string> remarks);
 
 }  // namespace mapproof

@@ -1,3 +1,5 @@
+#include "app/nightly/nightly.hpp"
+
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -12,7 +14,6 @@
 #include <fmt/ranges.h>
 
 #include "app/build_facts.hpp"
-#include "app/commands.hpp"
 #include "app/nightly/history_report.hpp"
 #include "app/nightly/nightly_folders.hpp"
 #include "app/nightly/nightly_study.hpp"
@@ -111,21 +112,23 @@ fs::path out_of(const NightlyArguments& arguments) {
 /// Draws the report of each study of a nightly run that has been judged, and keeps its figures.
 /// @return Whether all scenes could be drawn.
 bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& folder,
-               const Templates& page, const NightlyArguments& arguments,
-               const Invocation& invocation) {
-  const ObjectFolder objects(fs::path(arguments.store) / "objects");
+               const HistoryOutputs& outputs, const Invocation& invocation) {
+  const ObjectFolder objects(outputs.store / "objects");
   const bool begins = history.nightly_runs().empty();
-  const LostNightlyRuns lost = begins ? lost_nightly_runs(arguments.store, {}) : LostNightlyRuns{};
+  const LostNightlyRuns lost = begins ? lost_nightly_runs(outputs.store, {}) : LostNightlyRuns{};
   bool scenes_drawn = true;
   for (NightlyStudy& study : nightly_run.studies) {
     FolderReport report =
         read_folder_report(folder / study.name, invocation.command, invocation.command);
     const bool is_compared =
         nightly_run.facts.reference && has_study(history, *nightly_run.facts.reference, study);
-    NightlyLinks links(paths_from(folder / study.name, out_of(arguments), arguments.store));
-    add_nightly_run(report.report, nightly_run, study.name, is_compared, lost, links);
+    NightlyLinks links(paths_from(folder / study.name, outputs.out, outputs.store));
+    add_nightly_run(
+        report.report,
+        {.nightly_run = nightly_run, .name = study.name, .is_compared = is_compared, .lost = lost},
+        links);
     report.link_words = links.words();
-    scenes_drawn &= draw(report, page, arguments.jobs, invocation.console);
+    scenes_drawn &= draw(report, outputs.page, outputs.jobs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
   }
   return scenes_drawn;
@@ -168,6 +171,7 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   const std::vector<StudyOrder> orders =
       read_nightly_orders(arguments.experiments, arguments.order);
   const fs::path store = arguments.store;
+  const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs};
   make_folder(store);
   const FolderLock lock(store, [&] {
     console.warning(store.string() +
@@ -193,12 +197,11 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   }
   nightly_run.studies = read_all(orders, folder);
   const std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
-  const bool scenes_drawn = write_all(nightly_run, history, folder, page, arguments, invocation);
+  const bool scenes_drawn = write_all(nightly_run, history, folder, outputs, invocation);
   nightly_run.facts.ended_utc = now_utc();
   history.append(nightly_run);
   end_nightly_run(folder, nightly_run);
-  const fs::path index =
-      write_history_pages(history, store, out_of(arguments), remarks, page, arguments.jobs);
+  const fs::path index = write_history_pages(history, outputs, remarks);
 
   nlohmann::ordered_json object = nightly_value(nightly_run.facts, nightly_run.findings);
   object["remarks"] = remarks;

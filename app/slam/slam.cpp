@@ -1,10 +1,11 @@
+#include "app/slam/slam.hpp"
+
 #include <array>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
-#include "app/commands.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"

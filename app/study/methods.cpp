@@ -1,6 +1,7 @@
+#include "app/study/methods.hpp"
+
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "core/model/method.hpp"
 
 namespace mapproof {

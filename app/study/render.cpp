@@ -1,3 +1,5 @@
+#include "app/study/render.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <memory>
@@ -5,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/commands.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "render/output/write_scene.hpp"

@@ -1,8 +1,9 @@
+#include "app/study/report.hpp"
+
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "app/study/folder_report.hpp"
 
 namespace mapproof {

@@ -1,3 +1,5 @@
+#include "app/study/reproduce.hpp"
+
 #include <algorithm>
 #include <memory>
 #include <system_error>
@@ -5,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "app/commands.hpp"
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
 #include "app/study/study_order.hpp"

@@ -1,6 +1,7 @@
+#include "app/study/run.hpp"
+
 #include <memory>
 
-#include "app/commands.hpp"
 #include "app/study/study_order.hpp"
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"

@@ -1,8 +1,9 @@
+#include "app/study/validate.hpp"
+
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "app/commands.hpp"
 #include "app/input_streams.hpp"
 #include "app/output_files.hpp"
 #include "core/base/errors.hpp"

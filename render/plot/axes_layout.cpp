@@ -125,16 +125,24 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
   rim.stroke = Stroke{theme.text, theme.hairline_pt, {}};
   add(std::move(rim));
   for (std::size_t i = 0; i < bar.texts.size(); ++i)
-    add_text(drawing, Role::kLegendText, panel_index, bar.texts[i], bar.texts[i].text,
-             {box.x1 + 2.0 * bar.tick_pt,
-              y(bar.ticks.at[i]) + FontFacts::kCapHeight * theme.tick_font_pt / 2.0},
-             theme.tick_font_pt, theme.text);
+    drawing.add_text(Role::kLegendText, panel_index,
+                     {.shaped = bar.texts[i],
+                      .whole = bar.texts[i].text,
+                      .at = {box.x1 + 2.0 * bar.tick_pt,
+                             y(bar.ticks.at[i]) + FontFacts::kCapHeight * theme.tick_font_pt / 2.0},
+                      .size = theme.tick_font_pt,
+                      .colour = theme.text});
   const double em = theme.font_pt;
   const std::string whole = whole_label(*cells, bar.ticks);
   double x = box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em;
   for (const ShapedText& line : upward_lines(whole, frame.height(), em)) {
-    add_text(drawing, Role::kLegendText, panel_index, line, whole,
-             {x, frame.centre().y + line.advance * em / 2.0}, em, theme.text, true);
+    drawing.add_text(Role::kLegendText, panel_index,
+                     {.shaped = line,
+                      .whole = whole,
+                      .at = {x, frame.centre().y + line.advance * em / 2.0},
+                      .size = em,
+                      .upward = true,
+                      .colour = theme.text});
     x += FontFacts::kLine * em;
   }
 }
@@ -296,12 +304,6 @@ void AxesLayout::shrink_to_aspect(Box& frame) const {
   const double height = width / aspect;
   frame.x1 = frame.x0 + width;
   frame.y1 = frame.y0 + height;
-}
-
-void add_text(Drawing& drawing, Role role, std::size_t panel_index, const ShapedText& shaped,
-              const std::string& whole, Point at, double size, Colour colour, bool upward) {
-  TextLine line{shaped, shaped.text == whole ? "" : whole, at, size, upward, colour};
-  drawing.add(role, panel_index, std::move(line));
 }
 
 }  // namespace mapproof

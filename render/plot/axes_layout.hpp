@@ -77,6 +77,8 @@ class AxesLayout {
   PanelMap map(const Box& frame) const;
 
   double tick_length() const { return 0.6 * theme_.space_pt; }
+  const Panel& panel() const { return panel_; }
+  const Theme& theme() const { return theme_; }
   double tick_gap() const { return 0.6 * theme_.space_pt; }
   /// From the frame down to the foot of the axis label, in points.
   double below_frame() const;
@@ -97,9 +99,5 @@ class AxesLayout {
   AxisLabels shown_;
   PanelLimits limits_;
 };
-
-/// Adds text whose baseline starts at `at`; `whole` is what was asked for.
-void add_text(Drawing& drawing, Role role, std::size_t panel_index, const ShapedText& shaped,
-              const std::string& whole, Point at, double size, Colour colour, bool upward = false);
 
 }  // namespace mapproof

@@ -115,6 +115,10 @@ struct Drawing {
     item.what = std::forward<What>(what);
     return item;
   }
+
+  /// Adds a line of text on top of the others. Its `whole` is what was asked for, also if that is
+  /// what is drawn.
+  Item& add_text(Role role, std::size_t panel, TextLine line);
 };
 
 }  // namespace mapproof

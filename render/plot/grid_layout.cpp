@@ -80,8 +80,12 @@ class SharedGrid {
       const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em);
       const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
       top += 0.5 * em;
-      add_text(drawing_, Role::kAxisLabel, 0, text, panels_.front().x.label,
-               {start, top + FontFacts::kAscent * em}, em, theme_.text);
+      drawing_.add_text(Role::kAxisLabel, 0,
+                        {.shaped = text,
+                         .whole = panels_.front().x.label,
+                         .at = {start, top + FontFacts::kAscent * em},
+                         .size = em,
+                         .colour = theme_.text});
       top += (FontFacts::kAscent + FontFacts::kDescent) * em;
     }
     if (figure_.shared_y && !panels_.front().y.label.empty()) draw_y_label();
@@ -161,10 +165,9 @@ class SharedGrid {
     const std::size_t first = p - p % columns_;
     const double title_top = top - title_height(first, std::min(first + columns_, panels_.size()));
     draw_panel_title(panels_[p], p, {left, title_top, left + width_, top}, theme_, drawing_);
-    draw_panel(panels_[p], p, axes, layouts_[p], theme_, drawing_);
+    draw_panel(layouts_[p], p, axes, drawing_);
     const PanelMap map = layouts_[p].map(frame);
-    draw_mark_labels(panels_[p], p, map, frame, data_obstacles(panels_[p], map, theme_), theme_,
-                     drawing_);
+    draw_mark_labels(layouts_[p], p, frame, data_obstacles(panels_[p], map, theme_), drawing_);
     return layouts_[p].margins(axes).bottom;
   }
 
@@ -174,8 +177,13 @@ class SharedGrid {
     const std::string& label = panels_.front().y.label;
     double x = room_.x0 + FontFacts::kAscent * em;
     for (const ShapedText& line : upward_lines(label, bottom - top, em)) {
-      add_text(drawing_, Role::kAxisLabel, 0, line, label,
-               {x, (top + bottom + line.advance * em) / 2.0}, em, theme_.text, true);
+      drawing_.add_text(Role::kAxisLabel, 0,
+                        {.shaped = line,
+                         .whole = label,
+                         .at = {x, (top + bottom + line.advance * em) / 2.0},
+                         .size = em,
+                         .upward = true,
+                         .colour = theme_.text});
       x += FontFacts::kLine * em;
     }
   }
@@ -307,7 +315,9 @@ class CellGrid {
     line.stroke = Stroke{theme_.text, theme_.line_pt, {}};
     drawing_.add(Role::kPanelArrow, arrow.from, std::move(line));
     drawing_.add(Role::kPanelArrow, arrow.from, arrow_head(a, b, theme_.text, theme_));
-    add_text(drawing_, Role::kPanelArrowLabel, arrow.from, text, arrow.label, at, em, theme_.text);
+    drawing_.add_text(
+        Role::kPanelArrowLabel, arrow.from,
+        {.shaped = text, .whole = arrow.label, .at = at, .size = em, .colour = theme_.text});
   }
 
   double title_top(std::size_t panel) const {

@@ -54,10 +54,17 @@ std::optional<double> leader_cost(const Box& box, Point at, const Obstacles& tak
   return cost;
 }
 
+/// What a label must not cover, and where it has to stay.
+struct Surroundings {
+  Box frame;
+  Obstacles taken;
+  std::vector<Box> texts = {};
+};
+
 /// A free place: in the innermost ring that has one the first from the right; farther out the one
 /// whose leader is short and crosses few marks.
-std::optional<Place> find_place(Point at, Point size, const Box& frame, const Obstacles& taken,
-                                const std::vector<Box>& texts, const Theme& theme) {
+std::optional<Place> find_place(Point at, Point size, const Surroundings& around,
+                                const Theme& theme) {
   const double near = 0.5 * theme.marker_pt + 0.4 * theme.space_pt;
   std::optional<Place> best;
   double best_cost = kInfinity;
@@ -67,9 +74,9 @@ std::optional<Place> find_place(Point at, Point size, const Box& frame, const Ob
       // 0, -1, 1, -2, 2, …: from the right outward to both sides.
       const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
       const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
-      if (!frame.holds(box) || taken.hit(box)) continue;
+      if (!around.frame.holds(box) || around.taken.hit(box)) continue;
       if (ring == 0) return Place{box, false};
-      const auto crossed = leader_cost(box, at, taken, texts);
+      const auto crossed = leader_cost(box, at, around.taken, around.texts);
       if (!crossed || ring + 1.5 * *crossed >= best_cost) continue;
       best_cost = ring + 1.5 * *crossed;
       best = Place{box, true};
@@ -80,11 +87,14 @@ std::optional<Place> find_place(Point at, Point size, const Box& frame, const Ob
 
 }  // namespace
 
-void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMap& map,
-                      const Box& frame, Obstacles taken, const Theme& theme, Drawing& drawing) {
+void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const Box& frame,
+                      Obstacles taken, Drawing& drawing) {
+  const Theme& theme = layout.theme();
+  const PanelMap map = layout.map(frame);
   const double em = theme.tick_font_pt;
-  std::vector<Box> texts;
-  for (const Layer& layer : panel.layers) {
+  const double gap = 0.25 * theme.space_pt;
+  Surroundings around{frame.grown(-gap), std::move(taken)};
+  for (const Layer& layer : layout.panel().layers) {
     const auto* labels = std::get_if<PointLabels>(&layer);
     if (labels == nullptr) continue;
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
@@ -96,19 +106,19 @@ void draw_mark_labels(const Panel& panel, std::size_t panel_index, const PanelMa
           .colour = theme.of(labels->ink)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
       const Box ink = line.shaped.ink;
-      const double gap = 0.25 * theme.space_pt;
       const Point size{ink.width() * em + 2 * gap, ink.height() * em + 2 * gap};
-      const auto position = find_place(at, size, frame.grown(-gap), taken, texts, theme);
+      const auto position = find_place(at, size, around, theme);
       if (!position) continue;
       line.at = {position->box.x0 + gap - ink.x0 * em, position->box.y0 + gap - ink.y0 * em};
       if (position->far) {
         Shape leader = leader_line(at, nearest_in(position->box.grown(-0.5 * gap), at), theme);
         leader.stroke->colour = theme.of(labels->ink);
-        taken.lines.push_back({leader.path.points[0], leader.path.points[1], theme.hairline_pt});
+        around.taken.lines.push_back(
+            {leader.path.points[0], leader.path.points[1], theme.hairline_pt});
         drawing.add(Role::kLeader, panel_index, std::move(leader)).clipped = true;
       }
-      taken.boxes.push_back(position->box);
-      texts.push_back(position->box);
+      around.taken.boxes.push_back(position->box);
+      around.texts.push_back(position->box);
       drawing.add(Role::kMarkLabel, panel_index, std::move(line));
     }
   }

@@ -13,12 +13,11 @@ namespace {
 /// Draws grid, frame, ticks and their labels.
 class AxesPainter {
  public:
-  AxesPainter(const Axes& axes, std::size_t index, const AxesLayout& layout, const Theme& theme,
-              Drawing& drawing)
+  AxesPainter(const Axes& axes, std::size_t index, const AxesLayout& layout, Drawing& drawing)
       : axes_(axes),
         index_(index),
         layout_(layout),
-        theme_(theme),
+        theme_(layout.theme()),
         drawing_(drawing),
         map_(layout.map(axes.frame)) {}
 
@@ -32,6 +31,14 @@ class AxesPainter {
     stroke(Role::kGrid, std::move(grid), theme_.grid);
   }
 
+  /// Draws frame, ticks and their labels, and the axes' own labels.
+  void draw_axes() {
+    draw_frame();
+    draw_tick_labels();
+    draw_axis_labels(layout_.panel());
+  }
+
+ private:
   void draw_frame() {
     const Box& f = axes_.frame;
     Outline frame;
@@ -58,13 +65,17 @@ class AxesPainter {
       const ShapedText& text = axes_.x.texts[i];
       const Point at{map_.x(axes_.x.ticks.at[i]) - text.advance * em / 2.0,
                      f.y1 + away + FontFacts::kCapHeight * em};
-      add_text(drawing_, Role::kTickLabel, index_, text, text.text, at, em, theme_.text);
+      drawing_.add_text(
+          Role::kTickLabel, index_,
+          {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
     }
     for (std::size_t i = 0; i < axes_.y.texts.size(); ++i) {
       const ShapedText& text = axes_.y.texts[i];
       const Point at{f.x0 - away - text.advance * em,
                      map_.y(axes_.y.ticks.at[i]) + FontFacts::kCapHeight * em / 2.0};
-      add_text(drawing_, Role::kTickLabel, index_, text, text.text, at, em, theme_.text);
+      drawing_.add_text(
+          Role::kTickLabel, index_,
+          {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
     }
   }
 
@@ -75,10 +86,13 @@ class AxesPainter {
     if (layout_.has_x_label()) {
       const std::string whole = axis_title(panel.x, axes_.x.ticks);
       const ShapedText text = shape_text_within(whole, f.width() / em);
-      add_text(drawing_, Role::kAxisLabel, index_, text, whole,
-               {f.centre().x - text.advance * em / 2.0,
-                f.y1 + layout_.below_frame() - FontFacts::kDescent * em},
-               em, theme_.text);
+      drawing_.add_text(Role::kAxisLabel, index_,
+                        {.shaped = text,
+                         .whole = whole,
+                         .at = {f.centre().x - text.advance * em / 2.0,
+                                f.y1 + layout_.below_frame() - FontFacts::kDescent * em},
+                         .size = em,
+                         .colour = theme_.text});
     }
     if (layout_.has_y_label()) {
       const std::string whole = axis_title(panel.y, axes_.y.ticks);
@@ -86,14 +100,18 @@ class AxesPainter {
       double x =
           f.x0 - away - axes_.y.widest * theme_.tick_font_pt - 0.6 * em - further_lines(lines, em);
       for (const ShapedText& line : lines) {
-        add_text(drawing_, Role::kAxisLabel, index_, line, whole,
-                 {x, f.centre().y + line.advance * em / 2.0}, em, theme_.text, true);
+        drawing_.add_text(Role::kAxisLabel, index_,
+                          {.shaped = line,
+                           .whole = whole,
+                           .at = {x, f.centre().y + line.advance * em / 2.0},
+                           .size = em,
+                           .upward = true,
+                           .colour = theme_.text});
         x += FontFacts::kLine * em;
       }
     }
   }
 
- private:
   static void add_line(Outline& path, Point a, Point b) {
     path.move_to(a);
     path.line_to(b);
@@ -203,19 +221,6 @@ class Arranger {
 
 }  // namespace
 
-void draw_grid(const Axes& axes, std::size_t panel_index, const AxesLayout& layout,
-               const Theme& theme, Drawing& drawing) {
-  AxesPainter(axes, panel_index, layout, theme, drawing).draw_grid();
-}
-
-void draw_axes(const Panel& panel, const Axes& axes, std::size_t panel_index,
-               const AxesLayout& layout, const Theme& theme, Drawing& drawing) {
-  AxesPainter painter(axes, panel_index, layout, theme, drawing);
-  painter.draw_frame();
-  painter.draw_tick_labels();
-  painter.draw_axis_labels(panel);
-}
-
 std::vector<TitleLine> title_lines(const std::string& title, double most) {
   std::vector<TitleLine> lines;
   for (std::size_t begin = 0; begin < title.size();) {
@@ -234,19 +239,26 @@ Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, con
   const double em = theme.font_pt;
   double y = cell.y0;
   for (const TitleLine& line : title_lines(panel.title, cell.width() / em)) {
-    add_text(drawing, Role::kPanelTitle, index, line.shaped, line.whole,
-             {cell.x0, y + FontFacts::kAscent * em}, em, theme.text);
+    drawing.add_text(Role::kPanelTitle, index,
+                     {.shaped = line.shaped,
+                      .whole = line.whole,
+                      .at = {cell.x0, y + FontFacts::kAscent * em},
+                      .size = em,
+                      .colour = theme.text});
     y += FontFacts::kLine * em;
   }
   return {cell.x0, y, cell.x1, cell.y1};
 }
 
-void draw_panel(const Panel& panel, std::size_t panel_index, const Axes& axes,
-                const AxesLayout& layout, const Theme& theme, Drawing& drawing) {
+void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& axes,
+                Drawing& drawing) {
+  const Panel& panel = layout.panel();
+  const Theme& theme = layout.theme();
+  AxesPainter painter(axes, panel_index, layout, drawing);
   drawing.frames.push_back(axes.frame);
-  if (!panel.bare) draw_grid(axes, panel_index, layout, theme, drawing);
+  if (!panel.bare) painter.draw_grid();
   draw_layers(panel, panel_index, layout.map(axes.frame), theme, drawing);
-  if (!panel.bare) draw_axes(panel, axes, panel_index, layout, theme, drawing);
+  if (!panel.bare) painter.draw_axes();
   draw_colour_bar(panel, panel_index, axes.frame, theme, drawing);
 }
 
@@ -257,7 +269,7 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
   const Legend legend(panel, theme, 0.62 * cell.width());
   const Arrangement arrangement = Arranger(layout, legend, panel, theme).arrange(room);
   const Box& frame = arrangement.axes.frame;
-  draw_panel(panel, panel_index, arrangement.axes, layout, theme, drawing);
+  draw_panel(layout, panel_index, arrangement.axes, drawing);
 
   const PanelMap map = layout.map(frame);
   Obstacles taken = data_obstacles(panel, map, theme);
@@ -269,7 +281,7 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
     legend.draw(at, arrangement.legend_columns, panel_index, drawing);
     taken.boxes.push_back(position);
   }
-  draw_mark_labels(panel, panel_index, map, frame, std::move(taken), theme, drawing);
+  draw_mark_labels(layout, panel_index, frame, std::move(taken), drawing);
 }
 
 }  // namespace mapproof

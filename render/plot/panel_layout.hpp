@@ -9,21 +9,13 @@
 
 namespace mapproof {
 
-/// Draws the lines of a panel's grid; they belong below its layers.
-void draw_grid(const Axes& axes, std::size_t panel_index, const AxesLayout& layout,
-               const Theme& theme, Drawing& drawing);
-
-/// Draws frame, ticks and their labels, and the axes' own labels.
-void draw_axes(const Panel& panel, const Axes& axes, std::size_t panel_index,
-               const AxesLayout& layout, const Theme& theme, Drawing& drawing);
-
 /// Lays one panel out in `cell`: axes, legend, layers and labels.
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
                    Drawing& drawing);
 
 /// Draws a panel whose axes stand already: grid, layers, frame and labels of the axes.
-void draw_panel(const Panel& panel, std::size_t panel_index, const Axes& axes,
-                const AxesLayout& layout, const Theme& theme, Drawing& drawing);
+void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& axes,
+                Drawing& drawing);
 
 /// A line of a panel's title as it is drawn, and what was asked for.
 struct TitleLine {

@@ -1,3 +1,5 @@
+#include "reports/history/accuracy_rule.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>

@@ -1,3 +1,5 @@
+#include "reports/history/cost_rule.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -8,6 +10,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/robust_noise.hpp"
+#include "reports/history/accuracy_rule.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 
@@ -128,8 +131,14 @@ std::optional<std::size_t> nightly_before(const StudyTrend& trend, const Nightly
   return std::nullopt;
 }
 
+/// By how much two nightly runs in a row have to be beyond what is usual.
+struct SustainedRule {
+  double p = 0.0;              ///< The chance that both are.
+  int least_nightly_runs = 1;  ///< That define what is usual.
+};
+
 void judge_sustained(const NightlySeries& series, const StudyTrend& trend,
-                     const std::vector<std::size_t>& usual, double p, int least_nightly_runs,
+                     const std::vector<std::size_t>& usual, const SustainedRule& rule,
                      RuleOutcome& outcome) {
   const auto before = nightly_before(trend, series);
   if (std::isnan(series.values.back()) || !before) return;
@@ -137,8 +146,8 @@ void judge_sustained(const NightlySeries& series, const StudyTrend& trend,
   std::vector<std::size_t> others = usual;
   std::erase(others, *before);
   // Both nightly runs have to be beyond it, each by a chance of its own.
-  const Limit limit = limit_of(series, others, std::sqrt(p));
-  if (limit.nightly_runs < least_nightly_runs || series.values.back() <= limit.most) return;
+  const Limit limit = limit_of(series, others, std::sqrt(rule.p));
+  if (limit.nightly_runs < rule.least_nightly_runs || series.values.back() <= limit.most) return;
   const std::string word = series.rule == HistoryRule::kAllSeconds ? "slower" : "higher";
   const int since = trend.nightly_runs[*before].number;
   if (series.values[*before] > limit.most) {
@@ -277,7 +286,7 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   const SharedNoise shared = shared_noise(seconds, HistoryRule::kSeconds, usual);
   for (const NightlySeries& series : seconds) {
     if (series.rule == HistoryRule::kAllSeconds) {
-      judge_sustained(series, trend, usual, p, rules.least_good_nightly_runs - 1, outcome);
+      judge_sustained(series, trend, usual, {p, rules.least_good_nightly_runs - 1}, outcome);
       continue;
     }
     const Limit limit = limit_of(series, usual, p, shared);
@@ -286,9 +295,10 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
           finding_of(series, limit, trend, trend.nightly_runs.back().number, "slower"));
   }
   for (const NightlySeries& series : memory_series(trend, rules))
-    judge_sustained(series, trend, usual, rules.alpha, rules.least_good_nightly_runs - 1, outcome);
+    judge_sustained(series, trend, usual, {rules.alpha, rules.least_good_nightly_runs - 1},
+                    outcome);
   for (const NightlySeries& series : unpaired_series(evidence, rules))
-    judge_sustained(series, trend, usual, rules.alpha, 1, outcome);
+    judge_sustained(series, trend, usual, {rules.alpha, 1}, outcome);
   return outcome;
 }
 

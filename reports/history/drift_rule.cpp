@@ -1,3 +1,5 @@
+#include "reports/history/drift_rule.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,6 +8,8 @@
 
 #include "core/statistics/robust_noise.hpp"
 #include "core/statistics/signed_rank.hpp"
+#include "reports/history/accuracy_rule.hpp"
+#include "reports/history/cost_rule.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 

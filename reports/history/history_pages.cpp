@@ -332,14 +332,16 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places) {
   return page;
 }
 
-void add_nightly_run(Report& report, const NightlyRun& nightly_run, const std::string& study,
-                     bool is_compared, const LostNightlyRuns& lost, NightlyLinks& links) {
+void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links) {
+  const NightlyRun& nightly_run = study.nightly_run;
+  const LostNightlyRuns& lost = study.lost;
   Opening& opening = report.opening;
-  opening.standing = study_standing(nightly_run.facts, nightly_run.findings, study, is_compared);
+  opening.standing =
+      study_standing(nightly_run.facts, nightly_run.findings, study.name, study.is_compared);
   std::optional<Phrase> reference;
-  if (is_compared && nightly_run.facts.reference)
-    reference = links.report(*nightly_run.facts.reference, study);
-  std::vector<Paragraph> head = {ways({links.index(), links.trends(study)}, reference)};
+  if (study.is_compared && nightly_run.facts.reference)
+    reference = links.report(*nightly_run.facts.reference, study.name);
+  std::vector<Paragraph> head = {ways({links.index(), links.trends(study.name)}, reference)};
   if (!lost.kept_as.empty()) {
     opening.standing->worse = true;
     opening.standing->sentences.push_back(
@@ -348,8 +350,8 @@ void add_nightly_run(Report& report, const NightlyRun& nightly_run, const std::s
                     lost.kept_as.back()));
     std::vector<Phrase> reports;
     for (const auto& [number, studies] : lost.reports)
-      if (std::ranges::find(studies, study) != studies.end())
-        reports.push_back(links.report(number, study));
+      if (std::ranges::find(studies, study.name) != studies.end())
+        reports.push_back(links.report(number, study.name));
     if (reports.size() > kMostLinked)
       reports.erase(reports.begin(), reports.end() - static_cast<long>(kMostLinked));
     if (!reports.empty()) {

@@ -96,12 +96,16 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
 /// last one first.
 HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places);
 
+/// A study of one nightly run.
+struct StudyOfNightlyRun {
+  const NightlyRun& nightly_run;
+  std::string name;
+  bool is_compared = false;     ///< As for trend_page().
+  const LostNightlyRuns& lost;  ///< Not empty: reported, since the history was found damaged.
+};
+
 /// Puts the verdict on a study's nightly run at the head of its report, with links to related
 /// pages.
-/// @param is_compared  As for trend_page().
-/// @param lost         Not empty: reported, since the history was found damaged in that nightly
-/// run.
-void add_nightly_run(Report& report, const NightlyRun& nightly_run, const std::string& study,
-                     bool is_compared, const LostNightlyRuns& lost, NightlyLinks& links);
+void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links);
 
 }  // namespace mapproof

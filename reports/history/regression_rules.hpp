@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -48,60 +47,5 @@ struct RuleOutcome {
   std::vector<NightlyFinding> findings = {};
   std::vector<std::string> remarks = {};  ///< What could not be judged, or is only suspected yet.
 };
-
-/// Accuracy by pairs of equal seed: per method, of the last step and of the mean over its steps,
-/// the ratio (or difference) of the two nightly runs by paired_change(), and of results lost by the
-/// sign test; p corrected for all of them by Holm. Units are layouts where there are enough, else
-/// runs; where groups are drawn, groups. Losses of many results, and series that are not there any
-/// more, count without a test.
-RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules& rules);
-
-/// Seconds and memory against the usual of the passing nightly runs on the same machine. What all
-/// methods of a nightly run have in common (the machine was busy) is taken off each: a method
-/// counts by what it is slower beyond that. The common part, memory, and accuracy of single logs
-/// count where two nightly runs in a row are beyond the limit: a single noisy nightly run is not
-/// flagged.
-RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& rules);
-
-/// Rises at an unknown nightly run, by rise_in(), of all of these over the nightly runs of the
-/// trend; p corrected by Holm.
-/// @param found  What other rules found of this nightly run: it is not reported twice.
-RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& rules,
-                         const std::vector<NightlyFinding>& found);
-
-/// One number per nightly run of each thing that is judged over nightly runs; NaN: none.
-struct NightlySeries {
-  HistoryRule rule = HistoryRule::kSeconds;  ///< Of a step; a drift's is made of it.
-  std::string subject = {};
-  std::string shown = {};  ///< The subject, for readers.
-  std::string quantity = {};
-  bool ratio = true;   ///< Logarithms.
-  double least = 0.0;  ///< As in RegressionRules, of the values as they are stored.
-  double floor = 0.0;  ///< Likewise.
-  std::vector<double> values = {};
-};
-
-/// The seconds of each method, what is common to all taken off, and the common part last (where
-/// there are four methods or more; else each method as it is).
-/// @param usual  The nightly runs, counted from 0, that define what is usual.
-std::vector<NightlySeries> seconds_series(const StudyTrend& trend,
-                                          const std::vector<std::size_t>& usual,
-                                          const RegressionRules& rules);
-
-/// Empty if no nightly run knows it.
-std::vector<NightlySeries> memory_series(const StudyTrend& trend, const RegressionRules& rules);
-
-/// Levels (see level_of) at the last step of each method.
-std::vector<NightlySeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules);
-
-/// The nightly runs before this one that were good and on the same machine, the last ones.
-std::vector<std::size_t> usual_nightly_runs(const StudyTrend& trend, const RegressionRules& rules);
-
-/// "12 % higher", "0.8 points higher" of a change in a series' own values.
-std::string change_words(double change, bool ratio, const std::string& word);
-
-/// The same of a change for the worse of a level (see level_of): "12 % higher", or "lower" of what
-/// is better if it is higher.
-std::string worse_words(const Quantity& quantity, double worsening);
 
 }  // namespace mapproof

@@ -1,3 +1,5 @@
+#include "reports/sections/provenance.hpp"
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -8,7 +10,6 @@
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
-#include "reports/sections/study_report.hpp"
 #include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 

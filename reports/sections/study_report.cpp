@@ -1,5 +1,7 @@
 #include "reports/sections/study_report.hpp"
 
+#include "reports/sections/provenance.hpp"
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -15,7 +17,8 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/study_counts.hpp"
-#include "reports/sections/tables/study_tables.hpp"
+#include "reports/sections/tables/accuracy_tables.hpp"
+#include "reports/sections/tables/comparison_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -28,7 +28,5 @@ Section figures_section(const FigureGroup& group);
 /// Empty if the experiment has none.
 std::optional<Section> variations_section(const Study& study);
 Section statuses_section(const Study& study);
-Section provenance_section(const Study& study, std::span<const Session> sessions,
-                           std::span<const Timing> timings, const std::string& command);
 
 }  // namespace mapproof

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "reports/sections/proofs.hpp"
+#include "reports/sections/provenance.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"

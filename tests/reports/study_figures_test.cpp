@@ -6,7 +6,7 @@
 
 #include "core/experiment/run.hpp"
 #include "render/figures/curves/error_lines.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/synthetic_study.hpp"
 #include "tests/support/samples/worlds.hpp"

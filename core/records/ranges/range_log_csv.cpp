@@ -1,3 +1,5 @@
+#include "core/records/ranges/range_log_csv.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -15,7 +17,6 @@
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
 

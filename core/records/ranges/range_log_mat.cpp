@@ -1,3 +1,5 @@
+#include "core/records/ranges/range_log_mat.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -19,7 +21,6 @@
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/ranges/range_tables.hpp"
 

@@ -1,3 +1,5 @@
+#include "core/records/ranges/range_log_pyfg.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +14,6 @@
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
 #include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {

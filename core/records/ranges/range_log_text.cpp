@@ -1,15 +1,20 @@
+#include "core/records/ranges/range_log_text.hpp"
+
+#include <array>
+#include <string_view>
 #include <system_error>
 
 #include "core/base/files/input_file.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
 #include "core/records/tables/number_rows.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 2> kTextEnds = {"_DR.txt", "_TD.txt"};
 
 NumberTable read_numbers(ByteSource& source, std::size_t width) {
   NumberTable table{.source = source.name()};
@@ -57,6 +62,14 @@ RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options)
         "cannot be determined without the ground truth.");
   }
   return assemble(std::move(parts), options);
+}
+
+fs::path text_stem(const fs::path& path) {
+  const fs::path plain = unpacked_name(path);
+  const std::string whole = plain.string();
+  for (const std::string_view end : kTextEnds)
+    if (plain.filename().string().ends_with(end)) return whole.substr(0, whole.size() - end.size());
+  return {};
 }
 
 }  // namespace mapproof

@@ -10,7 +10,10 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
-#include "core/records/ranges/range_log_readers.hpp"
+#include "core/records/ranges/range_log_csv.hpp"
+#include "core/records/ranges/range_log_mat.hpp"
+#include "core/records/ranges/range_log_pyfg.hpp"
+#include "core/records/ranges/range_log_text.hpp"
 #include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {
@@ -19,8 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class Form { kNone, kCsv, kMat, kPyfg, kText };
-
-constexpr std::array<std::string_view, 2> kTextEnds = {"_DR.txt", "_TD.txt"};
 
 bool is_ranges_csv(const fs::path& path) { return unpacked_name(path).filename() == "ranges.csv"; }
 
@@ -84,14 +85,6 @@ bool names_beacons(const TableRow& row) {
 }
 
 }  // namespace
-
-fs::path text_stem(const fs::path& path) {
-  const fs::path plain = unpacked_name(path);
-  const std::string whole = plain.string();
-  for (const std::string_view end : kTextEnds)
-    if (plain.filename().string().ends_with(end)) return whole.substr(0, whole.size() - end.size());
-  return {};
-}
 
 RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
   RangeLogOptions named = options;

@@ -1,3 +1,5 @@
+#include "reports/sections/figures/comparison_figures.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,7 +13,7 @@
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/critical_difference.hpp"
 #include "render/figures/diagrams/shepard.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/run_scores.hpp"
 #include "reports/sections/wording.hpp"

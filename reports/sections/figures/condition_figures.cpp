@@ -1,3 +1,5 @@
+#include "reports/sections/figures/condition_figures.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -8,7 +10,7 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/maps/occlusion.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -1,10 +1,12 @@
+#include "reports/sections/figures/curve_figures.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "render/figures/curves/error_curve.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

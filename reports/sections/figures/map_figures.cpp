@@ -1,3 +1,5 @@
+#include "reports/sections/figures/map_figures.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -5,7 +7,6 @@
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/scatter_map.hpp"
-#include "reports/sections/figures/builders.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

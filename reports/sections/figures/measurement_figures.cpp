@@ -1,6 +1,6 @@
-#include "render/figures/diagrams/measurement.hpp"
+#include "reports/sections/figures/measurement_figures.hpp"
 
-#include "reports/sections/figures/builders.hpp"
+#include "render/figures/diagrams/measurement.hpp"
 
 namespace mapproof {
 namespace {

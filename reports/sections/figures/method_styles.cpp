@@ -1,9 +1,9 @@
+#include "reports/sections/figures/method_styles.hpp"
+
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
-
-#include "reports/sections/figures/builders.hpp"
 
 namespace mapproof {
 

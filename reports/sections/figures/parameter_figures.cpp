@@ -1,3 +1,5 @@
+#include "reports/sections/figures/parameter_figures.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -5,7 +7,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_curve.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -39,10 +41,10 @@ ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate
 }
 
 /// The figure of all methods with that parameter: methods of different ones err on different
-/// scales.
-void add_figure(const WorldOptions& world, const SensorStudy& sensor,
-                const std::vector<SettingSummary>& all, const ParameterInfo& parameter, bool of_mpe,
-                std::vector<Figure>& figures) {
+/// scales. Empty if no method has two values of it.
+std::optional<Figure> parameter_figure(const FigureSource& source, const SensorStudy& sensor,
+                                       const std::vector<SettingSummary>& all,
+                                       const ParameterInfo& parameter, bool of_mpe) {
   ParameterGroup group{.symbol = std::string(parameter.shown),
                        .title = std::string(parameter.meaning),
                        .scale = parameter.integer ? Scale::kLinear : Scale::kLog,
@@ -72,10 +74,10 @@ void add_figure(const WorldOptions& world, const SensorStudy& sensor,
             : parameter_line(values, &SettingSummary::moe_percent, &PublishedValue::moe_percent));
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
-  if (group.methods.empty()) return;
+  if (group.methods.empty()) return std::nullopt;
   spec.groups.push_back(std::move(group));
-  if (of_mpe) spec.ceiling = kOffTheRoom * world.side_m;
-  figures.push_back(error_by_parameter_figure(spec));
+  if (of_mpe) spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;
+  return error_by_parameter_figure(spec);
 }
 
 /// The parameters of the sensor's methods, each once.
@@ -97,7 +99,8 @@ std::vector<Figure> parameter_figures(FigureSource& source) {
     const auto all = summarize(source.study(), sensor, last_step(sensor));
     for (const ParameterInfo* parameter : parameters_of(sensor))
       for (const bool of_mpe : {true, false})
-        add_figure(source.study().experiment.world, sensor, all, *parameter, of_mpe, figures);
+        if (auto figure = parameter_figure(source, sensor, all, *parameter, of_mpe))
+          figures.push_back(std::move(*figure));
   }
   return figures;
 }

@@ -1,10 +1,12 @@
+#include "reports/sections/figures/scene_figures.hpp"
+
 #include <fmt/format.h>
 
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

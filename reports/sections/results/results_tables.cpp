@@ -34,13 +34,21 @@ Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
   return IntervalCell{interval->low, interval->high, decimals};
 }
 
+struct ShownQuantity {
+  const Quantity& quantity;
+  int decimals = 0;
+};
+
 /// The cells of one condition, and the notes on them.
 class CellMaker {
  public:
   CellMaker(const ResultsView& view, Table& table) : view_(view), table_(table) {}
 
-  void add(Row& row, const Condition& at, const ResultsLine& line, const Quantity& quantity,
-           int decimals, const std::string& where) {
+  /// @param shown  A quantity with its decimals.
+  /// @param where  The condition or quantity, for the notes.
+  void add(Row& row, const Condition& at, const ResultsLine& line, const ShownQuantity& shown,
+           const std::string& where) {
+    const auto& [quantity, decimals] = shown;
     const auto mean = view_.mean(at, line, quantity);
     row.cells.push_back(mean_cell(mean, decimals));
     if (view_.study().results.are_repeats)
@@ -120,7 +128,7 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < block.levels.size(); ++i)
-      cells.add(row, block.conditions[i], line, quantity, places,
+      cells.add(row, block.conditions[i], line, {quantity, places},
                 view.level_words(block.levels[i]));
     table.rows.push_back(std::move(row));
   }
@@ -163,7 +171,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < quantities.size(); ++i)
-      cells.add(row, block.conditions.front(), line, *quantities[i], places[i],
+      cells.add(row, block.conditions.front(), line, {*quantities[i], places[i]},
                 quantities[i]->label);
     table.rows.push_back(std::move(row));
   }
@@ -197,7 +205,7 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
       if (!block.factor.empty())
         row.cells.emplace_back(TextCell{column_title(block.levels[level])});
       for (std::size_t i = 0; i < quantities.size(); ++i)
-        cells.add(row, block.conditions[level], line, *quantities[i], places[i],
+        cells.add(row, block.conditions[level], line, {*quantities[i], places[i]},
                   quantities[i]->label);
       table.rows.push_back(std::move(row));
     }
@@ -243,7 +251,7 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
     for (const ResultsLine& line : lines) {
       Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
       for (std::size_t i = 0; i < overview.conditions.size(); ++i)
-        cells.add(row, overview.conditions[i], line, quantity, places, overview.names[i]);
+        cells.add(row, overview.conditions[i], line, {quantity, places}, overview.names[i]);
       table.rows.push_back(std::move(row));
     }
     add_note(view, table);

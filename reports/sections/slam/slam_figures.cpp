@@ -14,7 +14,7 @@
 #include "render/figures/maps/path_map.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
-#include "reports/sections/figures/builders.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 

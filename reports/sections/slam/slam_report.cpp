@@ -1,5 +1,8 @@
 #include "reports/sections/slam/slam_report.hpp"
 
+#include "reports/sections/slam/slam_run_section.hpp"
+#include "reports/sections/slam/slam_summary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>

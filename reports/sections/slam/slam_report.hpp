@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,16 +25,8 @@ Report slam_report(const SlamReportInput& input);
 /// "slam-", but for the paper's "table-plaza".
 std::vector<Section> slam_sections(const SlamReportInput& input);
 
-/// The parts, each a pure function of the values.
-Section slam_summary_section(const SlamStudy& study);
 /// What the reader is to see first.
 Opening slam_opening(const SlamStudy& study, const StudyFigures& figures);
-/// Errors of all methods on all logs of real robots; empty without such a log.
-std::optional<Section> slam_accuracy_section(const SlamStudy& study);
-/// One log of a real robot.
-Section slam_run_section(const SlamRun& run, const FigureGroup* figures);
-/// Empty if nothing was simulated.
-std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures);
 Section slam_statuses_section(const SlamStudy& study);
 Section slam_provenance_section(const SlamReportInput& input);
 

@@ -1,13 +1,14 @@
+#include "reports/sections/slam/slam_run_section.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "render/figures/curves/log_log.hpp"
-#include "reports/sections/slam/slam_report.hpp"
+#include "reports/sections/slam/slam_figures.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
-#include "reports/sections/study_report.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

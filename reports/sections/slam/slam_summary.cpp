@@ -1,3 +1,5 @@
+#include "reports/sections/slam/slam_summary.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -7,7 +9,6 @@
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/words.hpp"
-#include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -1,10 +1,11 @@
+#include "reports/sections/tables/accuracy_tables.hpp"
+
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "reports/sections/tables/cells.hpp"
-#include "reports/sections/tables/study_tables.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

@@ -1,3 +1,5 @@
+#include "reports/sections/tables/comparison_tables.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -6,8 +8,8 @@
 
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/tables/accuracy_tables.hpp"
 #include "reports/sections/tables/cells.hpp"
-#include "reports/sections/tables/study_tables.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

@@ -23,15 +23,21 @@ const std::string kPage =
     "<table aria-labelledby=\"caption-accuracy\"><td>0.128</td></table>"
     "<section id=\"section-provenance\"><p>Made 2026-01-01.</p></section></body></html>\n";
 
-ValueCase edit(const std::string& file, const std::string& id, const std::string& from,
-               const std::string& to, Verdict verdict, std::vector<std::string> cause) {
+struct Replacement {
+  std::string from = {};
+  std::string to = {};
+};
+
+ValueCase edit(const std::string& file, const std::string& id, const Replacement& replacement,
+               Verdict verdict, std::vector<std::string> cause) {
+  const auto& [from, to] = replacement;
   return {.name = file + ": " + from + " -> " + to,
           .id = id,
           .verdict = verdict,
           .cause = std::move(cause),
           .passes = verdict <= Verdict::kWithinTolerance,
           .change =
-              [=](const fs::path& folder) {
+              [=, from = from, to = to](const fs::path& folder) {
                 std::string text = read_file(folder / file);
                 const std::size_t at = text.find(from);
                 if (at == std::string::npos) throw std::out_of_range(from);
@@ -114,27 +120,27 @@ std::vector<ValueCase> document_cases() {
   const std::string tex = "tables/accuracy.tex", id = "tables/accuracy", page = "report.html";
   using enum Verdict;
   std::vector<ValueCase> cases = {
-      edit(csv, id, "0.1284", "0.1294", kChanged,
+      edit(csv, id, {"0.1284", "0.1294"}, kChanged,
            {"row 3 (ISOMAP), MPE [m]: 0.1284 \u2192 0.1294", "its records did not change"}),
-      edit(csv, id, "0.1284", "0.12840000001", kWithinTolerance, {"1 cell differs within"}),
-      edit(csv, id, "ISOMAP", "LLE", kChanged, {"row 3, Method: ISOMAP"}),
-      edit(csv, id, "MPE", "Error", kStyle, {"row 1, MPE [m]"}),
-      edit(csv, id, "LPCA,0.2361,8\r\n", "", kChanged, {"3 rows \u2192 2 rows"}),
-      edit(md, id, "0.128", "0.129", kChanged, {"accuracy.md, row", "MPE"}),
-      edit(md, id, "How it came out", "Outcome", kStyle, {"How it came out"}),
-      edit(tex, id, "0.128", "0.129", kChanged, {"accuracy.tex, row", "cell 2"}),
-      edit(tex, id, "\\caption{How", "\\caption{Why", kStyle, {"accuracy.tex"}),
-      edit("tables/durations.csv", "tables/durations", "0.1284", "9", kWithinTolerance, {"vary"}),
-      edit("tables/durations.md", "tables/durations", "0.128", "9", kWithinTolerance, {"vary"}),
-      edit("tables/durations.csv", "tables/durations", "MPE", "Error", kStyle, {"row 1"}),
-      edit(page, page, "best: 0.128", "best: 0.129", kChanged,
+      edit(csv, id, {"0.1284", "0.12840000001"}, kWithinTolerance, {"1 cell differs within"}),
+      edit(csv, id, {"ISOMAP", "LLE"}, kChanged, {"row 3, Method: ISOMAP"}),
+      edit(csv, id, {"MPE", "Error"}, kStyle, {"row 1, MPE [m]"}),
+      edit(csv, id, {"LPCA,0.2361,8\r\n", ""}, kChanged, {"3 rows \u2192 2 rows"}),
+      edit(md, id, {"0.128", "0.129"}, kChanged, {"accuracy.md, row", "MPE"}),
+      edit(md, id, {"How it came out", "Outcome"}, kStyle, {"How it came out"}),
+      edit(tex, id, {"0.128", "0.129"}, kChanged, {"accuracy.tex, row", "cell 2"}),
+      edit(tex, id, {"\\caption{How", "\\caption{Why"}, kStyle, {"accuracy.tex"}),
+      edit("tables/durations.csv", "tables/durations", {"0.1284", "9"}, kWithinTolerance, {"vary"}),
+      edit("tables/durations.md", "tables/durations", {"0.128", "9"}, kWithinTolerance, {"vary"}),
+      edit("tables/durations.csv", "tables/durations", {"MPE", "Error"}, kStyle, {"row 1"}),
+      edit(page, page, {"best: 0.128", "best: 0.129"}, kChanged,
            {"ISOMAP is best: 0.128 m. \u2192 ISOMAP is best: 0.129 m."}),
-      edit(page, page, "best", "worst", kStyle, {"the text differs", "ISOMAP is worst"}),
-      edit(page, page, "p {}", "p { color: red }", kStyle, {"its text is equal"}),
-      edit(page, page, "M0 0", "M9 9", kStyle, {"its text is equal"}),
-      edit(page, page, "2026-01-01", "2027-02-03", kWithinTolerance, {"provenance"}),
-      edit("plan.pdf", "plan", "1 0 obj", "2 0 obj", kChanged, {"pdf, by its bytes alone"}),
-      edit("plan.pdf", "plan", "1.16.0", "1.18.0", kWithinTolerance,
+      edit(page, page, {"best", "worst"}, kStyle, {"the text differs", "ISOMAP is worst"}),
+      edit(page, page, {"p {}", "p { color: red }"}, kStyle, {"its text is equal"}),
+      edit(page, page, {"M0 0", "M9 9"}, kStyle, {"its text is equal"}),
+      edit(page, page, {"2026-01-01", "2027-02-03"}, kWithinTolerance, {"provenance"}),
+      edit("plan.pdf", "plan", {"1 0 obj", "2 0 obj"}, kChanged, {"pdf, by its bytes alone"}),
+      edit("plan.pdf", "plan", {"1.16.0", "1.18.0"}, kWithinTolerance,
            {"cairo 1.16.0 \u2192 cairo 1.18.0"})};
   add_files(cases);
   add_utf16(cases);

@@ -77,12 +77,12 @@ struct Drawing {
         });
   }
 
-  /// Changes the text of a file of it.
-  void add_text(const std::string& what, const std::string& extension, Verdict verdict, bool passes,
-                std::vector<std::string> cause, const std::string& from,
-                const std::string& to) const {
+  /// Changes the text of its SVG.
+  void add_text(const std::string& what, Verdict verdict, std::vector<std::string> cause,
+                const std::string& from, const std::string& to) const {
+    const bool passes = verdict == Verdict::kIdentical;
     add(what, verdict, passes, std::move(cause), [=, id = id](const fs::path& folder) {
-      const fs::path file = folder / "figures" / (id + extension);
+      const fs::path file = folder / "figures" / (id + ".svg");
       std::string text = read_file(file);
       const std::size_t at = text.find(from);
       if (at == std::string::npos) throw std::runtime_error("nothing to change: " + from);
@@ -130,12 +130,12 @@ void add_pixels(const Drawing& drawing) {
 }
 
 void add_svg(const Drawing& drawing) {
-  drawing.add_text("comment in the SVG", ".svg", Verdict::kIdentical, true, {}, "<svg ",
+  drawing.add_text("comment in the SVG", Verdict::kIdentical, {}, "<svg ",
                    "<!-- made elsewhere --><svg ");
-  drawing.add_text("a colour of the SVG", ".svg", Verdict::kStyle, false, {"its styles differ"},
-                   "stroke=\"#", "stroke=\"#7f00ff\" data-was=\"#");
-  drawing.add_text("a text of the SVG", ".svg", Verdict::kStyle, false, {"its styles differ"},
-                   "aria-label=\"0", "aria-label=\"7");
+  drawing.add_text("a colour of the SVG", Verdict::kStyle, {"its styles differ"}, "stroke=\"#",
+                   "stroke=\"#7f00ff\" data-was=\"#");
+  drawing.add_text("a text of the SVG", Verdict::kStyle, {"its styles differ"}, "aria-label=\"0",
+                   "aria-label=\"7");
 }
 
 /// The same figure in another theme.

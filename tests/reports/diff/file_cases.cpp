@@ -24,15 +24,22 @@ void swap(const fs::path& a, const fs::path& b) {
 struct Files {
   std::vector<ValueCase> cases = {};
 
+  /// A change that nothing else is said of.
   void add(const std::string& name, const std::string& id, Verdict verdict,
-           std::vector<std::string> cause, bool alone, const Change& change) {
+           std::vector<std::string> cause, const Change& change) {
+    add_among_others(name, id, verdict, std::move(cause), change);
+    cases.back().alone = true;
+  }
+
+  void add_among_others(const std::string& name, const std::string& id, Verdict verdict,
+                        std::vector<std::string> cause, const Change& change) {
     cases.push_back({.name = name,
                      .id = id,
                      .verdict = verdict,
                      .cause = std::move(cause),
                      .passes = false,
                      .change = change,
-                     .alone = alone});
+                     .alone = false});
   }
 };
 
@@ -40,13 +47,13 @@ void add_damage(Files& files, const std::string& id) {
   for (const std::string extension : {".figure.json", ".png", ".svg"}) {
     const std::string name = id + extension;
     const auto file = [name](const fs::path& folder) { return folder / "figures" / name; };
-    files.add(name + " truncated", id, Verdict::kUnreadable, {}, true,
+    files.add(name + " truncated", id, Verdict::kUnreadable, {},
               [file](const fs::path& folder) { truncate(file(folder)); });
-    files.add(name + " emptied", id, Verdict::kUnreadable, {}, true,
+    files.add(name + " emptied", id, Verdict::kUnreadable, {},
               [file](const fs::path& folder) { fs::resize_file(file(folder), 0); });
-    files.add(name + " replaced by rubbish", id, Verdict::kUnreadable, {}, true,
+    files.add(name + " replaced by rubbish", id, Verdict::kUnreadable, {},
               [file](const fs::path& folder) { write_file(file(folder), "no image at all\n"); });
-    files.add(name + " deleted", id, Verdict::kMissing, {"is missing"}, true,
+    files.add(name + " deleted", id, Verdict::kMissing, {"is missing"},
               [file](const fs::path& folder) { fs::remove(file(folder)); });
   }
 }
@@ -56,13 +63,13 @@ void add_whole(Files& files, const std::string& id, const std::string& other) {
     for (const char* extension : {".figure.json", ".png", ".svg"})
       use(folder / "figures", extension);
   };
-  files.add(id + " deleted", id, Verdict::kMissing, {"is not in the current"}, true,
+  files.add(id + " deleted", id, Verdict::kMissing, {"is not in the current"},
             [=](const fs::path& folder) {
               each(folder, [&](const fs::path& in, const std::string& extension) {
                 fs::remove(in / (id + extension));
               });
             });
-  files.add(id + " added again", "new-one", Verdict::kNew, {"is not in the baseline"}, true,
+  files.add(id + " added again", "new-one", Verdict::kNew, {"is not in the baseline"},
             [=](const fs::path& folder) {
               each(folder, [&](const fs::path& in, const std::string& extension) {
                 fs::copy_file(in / (id + extension), in / ("new-one" + extension));
@@ -73,37 +80,38 @@ void add_whole(Files& files, const std::string& id, const std::string& other) {
       fs::rename(in / (id + extension), in / ("renamed" + extension));
     });
   };
-  files.add(id + " renamed", id, Verdict::kMissing, {"the current has it as renamed: renamed"},
-            false, rename);
-  files.add(id + " renamed, as the other", "renamed", Verdict::kNew,
-            {"the baseline has it as " + id + ": renamed"}, false, rename);
-  files.add(id + ".png swapped", id, Verdict::kChanged, {"the baseline's " + other, "swapped"},
-            false, [=](const fs::path& folder) {
-              swap(folder / "figures" / (id + ".png"), folder / "figures" / (other + ".png"));
-            });
-  files.add(id + " swapped", id, Verdict::kChanged, {"the baseline's " + other, "swapped"}, false,
-            [=](const fs::path& folder) {
-              each(folder, [&](const fs::path& in, const std::string& extension) {
-                swap(in / (id + extension), in / (other + extension));
-              });
-            });
+  files.add_among_others(id + " renamed", id, Verdict::kMissing,
+                         {"the current has it as renamed: renamed"}, rename);
+  files.add_among_others(id + " renamed, as the other", "renamed", Verdict::kNew,
+                         {"the baseline has it as " + id + ": renamed"}, rename);
+  files.add_among_others(id + ".png swapped", id, Verdict::kChanged,
+                         {"the baseline's " + other, "swapped"}, [=](const fs::path& folder) {
+                           swap(folder / "figures" / (id + ".png"),
+                                folder / "figures" / (other + ".png"));
+                         });
+  files.add_among_others(id + " swapped", id, Verdict::kChanged,
+                         {"the baseline's " + other, "swapped"}, [=](const fs::path& folder) {
+                           each(folder, [&](const fs::path& in, const std::string& extension) {
+                             swap(in / (id + extension), in / (other + extension));
+                           });
+                         });
 }
 
 void add_records(Files& files) {
   for (const std::string name : {"runs/layout-3-pose-1.json", "maps/layout-5-pose-1.json"}) {
-    files.add(name + " truncated", "records", Verdict::kUnreadable, {name}, true,
+    files.add(name + " truncated", "records", Verdict::kUnreadable, {name},
               [=](const fs::path& folder) { truncate(folder / name); });
-    files.add(name + " emptied", "records", Verdict::kUnreadable, {name}, true,
+    files.add(name + " emptied", "records", Verdict::kUnreadable, {name},
               [=](const fs::path& folder) { fs::resize_file(folder / name, 0); });
   }
   files.add("a run deleted", "records", Verdict::kMissing, {"missing run:", "layout-3-pose-1"},
-            true, [](const fs::path& folder) { fs::remove(folder / "runs/layout-3-pose-1.json"); });
-  files.add("study.json truncated", "records", Verdict::kUnreadable, {"study.json"}, true,
+            [](const fs::path& folder) { fs::remove(folder / "runs/layout-3-pose-1.json"); });
+  files.add("study.json truncated", "records", Verdict::kUnreadable, {"study.json"},
             [](const fs::path& folder) { truncate(folder / "study.json"); });
-  files.add("study.json deleted", "records", Verdict::kMissing, {"no records"}, true,
+  files.add("study.json deleted", "records", Verdict::kMissing, {"no records"},
             [](const fs::path& folder) { fs::remove(folder / "study.json"); });
   files.add("two runs swapped", "records", Verdict::kUnreadable, {"states that it is layout-4"},
-            true, [](const fs::path& folder) {
+            [](const fs::path& folder) {
               swap(folder / "runs/layout-3-pose-1.json", folder / "runs/layout-4-pose-1.json");
             });
 }

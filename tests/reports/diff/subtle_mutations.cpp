@@ -118,32 +118,37 @@ class SubtleMutations {
     const Change none = [](Drawing&) {};
     for (const Colour colour : line_colours(drawing_))
       for (const double times : {0.7, 1.25, 1.5})
-        add(fmt::format("curve {} {} times as thick", hex(colour), times), kDifferent, none,
-            thicker(colour, times));
+        add(fmt::format("curve {} {} times as thick", hex(colour), times), kDifferent, {none},
+            {thicker(colour, times)});
     if (std::ranges::find(drawing_.items, Role::kGrid, &Item::role) != drawing_.items.end())
       for (const int levels : {4, 6})
-        add(fmt::format("grid of dots {} levels off lost", levels), kDifferent, pale_grid(levels),
-            lose_grid);
-    add("smooth wave of 99 points for 100", kWithinTolerance, with_wave(1, 100), with_wave(1, 99));
+        add(fmt::format("grid of dots {} levels off lost", levels), kDifferent, {pale_grid(levels)},
+            {lose_grid});
+    add("smooth wave of 99 points for 100", kWithinTolerance, {with_wave(1, 100)},
+        {with_wave(1, 99)});
     for (const auto& [right, down] : {std::pair{0.1, 0.0}, {-0.07, 0.07}}) changes(right, down);
     for (const LayerMove& move : layer_moves())
       if (std::ranges::any_of(drawing_.items, move.is_in))
         add(fmt::format("all {} moved {} {} px", move.layer, move.right_px, move.down_px),
-            kDifferent, none, move);
+            kDifferent, {none}, {move});
     hints();
     return std::move(found_);
   }
 
  private:
-  void add(std::string name, ImageState expected, const Change& before, const Change& after,
-           const Style& style_before = {}, const Style& style = {}) {
-    const auto made = [drawing = drawing_](const Change& change, const Style& as) {
+  struct Version {
+    Change change;
+    Style style = {};
+  };
+
+  void add(std::string name, ImageState expected, const Version& before, const Version& after) {
+    const auto made = [drawing = drawing_](const Version& version) {
       Drawing other = drawing;
-      change(other);
-      return drawn(other, as);
+      version.change(other);
+      return drawn(other, version.style);
     };
-    found_.push_back({std::move(name), image_, expected, [=] { return made(before, style_before); },
-                      [=] { return made(after, style); }});
+    found_.push_back({std::move(name), image_, expected, [=] { return made(before); },
+                      [=] { return made(after); }});
   }
 
   /// The middle one of the items of a role.
@@ -177,8 +182,8 @@ class SubtleMutations {
     const Change none = [](Drawing&) {};
     const auto moved = [&](const std::string& name, const Change& change) {
       if (!is_seen(change)) return;
-      add(fmt::format("{}, all moved {} {} px", name, right, down), ImageState::kDifferent, none,
-          change, {}, {.right_px = right, .down_px = down});
+      add(fmt::format("{}, all moved {} {} px", name, right, down), ImageState::kDifferent, {none},
+          {change, {.right_px = right, .down_px = down}});
     };
     for (const std::size_t i : one(Role::kMarker)) moved("marker lost", without(i));
     for (const std::size_t i : one(Role::kLine)) moved("line lost", without(i));
@@ -192,17 +197,17 @@ class SubtleMutations {
     const Style plain{.outlined = false};
     const Style automatic{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false, .font_hints = false};
     const Style own{.hinting = CAIRO_HINT_STYLE_FULL, .outlined = false};
-    add("hinted by the rasterizer", ImageState::kWithinTolerance, none, none, plain, automatic);
-    add("hinted by the font for the rasterizer", ImageState::kWithinTolerance, none, none,
-        automatic, own);
+    add("hinted by the rasterizer", ImageState::kWithinTolerance, {none, plain}, {none, automatic});
+    add("hinted by the font for the rasterizer", ImageState::kWithinTolerance, {none, automatic},
+        {none, own});
     for (const auto& [right, down] : {std::pair{0.0, 1.0}, {0.0, -1.0}, {1.0, 0.0}})
       add(fmt::format("hinted by the rasterizer and moved {} {} px", right, down),
-          ImageState::kWithinTolerance, none, LayerMove{"text", is_text, right, down}, plain,
-          automatic);
+          ImageState::kWithinTolerance, {none, plain},
+          {LayerMove{"text", is_text, right, down}, automatic});
     for (const std::size_t i : one(Role::kTickLabel))
       for (const int by : {1, 3, 6})
-        add(fmt::format("hinted digit {} further", by), ImageState::kDifferent, none,
-            other_digit(i, by), automatic, automatic);
+        add(fmt::format("hinted digit {} further", by), ImageState::kDifferent, {none, automatic},
+            {other_digit(i, by), automatic});
   }
 
   Drawing drawing_;

@@ -147,7 +147,10 @@ TEST(HistoryPages, LeadToEachOtherInWords) {
   NightlyRun nightly_run{.facts = {.number = 5, .reference = 3}};
   Report report;
   NightlyLinks links({.pages = "../../../", .nightly_runs = "../../../"});
-  add_nightly_run(report, nightly_run, "mine", true, {}, links);
+  add_nightly_run(
+      report,
+      {.nightly_run = nightly_run, .name = "mine", .is_compared = true, .lost = LostNightlyRuns{}},
+      links);
   EXPECT_EQ(links_of(report.opening.findings.front(), links.words()),
             (std::map<std::string, std::string>{
                 {"all nightly runs", "../../../index.html"},
@@ -165,7 +168,9 @@ TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
   const LostNightlyRuns lost{.kept_as = {"history.sqlite.damaged-1"}, .reports = {{4, {"mine"}}}};
   Report report;
   NightlyLinks links({});
-  add_nightly_run(report, nightly_run, "mine", false, lost, links);
+  add_nightly_run(report,
+                  {.nightly_run = nightly_run, .name = "mine", .is_compared = false, .lost = lost},
+                  links);
   EXPECT_TRUE(report.opening.standing->worse);
   EXPECT_NE(report.opening.standing->sentences.back().find("history.sqlite.damaged-1"),
             std::string::npos);

@@ -9,15 +9,9 @@
 
 namespace mapproof {
 
-/// The readers of the several forms, as read_range_log() describes them. Files next to a file
-/// are found by its path.
-RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options);
-RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options);
-RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options);
+/// Reads a log of this form as read_range_log() describes it. Files next to a file are found by its
+/// path.
 RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options);
-
-/// Whether a table's first row names the columns of ranges: time, landmark, range.
-bool names_range_columns(const TableRow& row);
 
 /// The path of NAME_TD.txt or NAME_DR.txt, packed or not, without that end; empty for others.
 std::filesystem::path text_stem(const std::filesystem::path& path);
