@@ -13,40 +13,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/detections/mrclam.hpp"
+#include "reports/sections/association_text.hpp"
 
 namespace mapproof {
 namespace {
-
-/// The name of a scan, by its step or time in the file: "step 1200", "12.5 s".
-std::string scan_words(const DetectionLog& log, int step) {
-  const auto scan = static_cast<std::size_t>(step);
-  if (scan < log.times_s.size()) return fmt::format("{:.1f} s", log.times_s[scan]);
-  if (scan < log.scans.size()) return fmt::format("step {:.15g}", log.scans[scan].key);
-  return fmt::format("step {}", step + 1);
-}
-
-/// Whose scan it was, " of robot 3"; empty for the log of one robot.
-std::string robot_words(const DetectionLog& log, int step) {
-  const auto scan = static_cast<std::size_t>(step);
-  if (log.robots.size() < 2 || scan >= log.scans.size()) return "";
-  return " of robot " + printable(log.robots[static_cast<std::size_t>(log.scans[scan].robot)]);
-}
-
-/// "from step 12 to step 90 of robot 3", "throughout", "in all scans of robot 3".
-std::string when_words(const AssociationFinding& finding, const DetectionLog& log) {
-  if (finding.to_the_end && finding.from_the_start) return "throughout";
-  // The times of all robots' scans come from one clock: the robot adds nothing.
-  const auto robot = [&](int step) { return finding.by_time ? "" : robot_words(log, step); };
-  const std::string of_first = robot(finding.first_step);
-  const std::string of_last = robot(finding.last_step);
-  if (finding.all_of_robot && !of_first.empty()) return "in all scans" + of_first;
-  const std::string first = scan_words(log, finding.first_step);
-  const std::string last = scan_words(log, finding.last_step);
-  if (finding.to_the_end) return "from " + first + of_first + " on";
-  if (finding.from_the_start) return "up to " + last + of_last;
-  return of_first == of_last ? "from " + first + " to " + last + of_last
-                             : "from " + first + of_first + " to " + last + of_last;
-}
 
 /// Known positions may be missed by so many times the loss: on sound logs by less than the loss.
 constexpr double kMissed = 3.0;
@@ -71,38 +41,15 @@ Points known_positions(const DetectionLog& log, const std::optional<Points>& giv
   return known_m;
 }
 
-std::vector<std::string> names_of(const std::vector<int>& landmarks, const DetectionLog& log) {
-  std::vector<std::string> names;
-  for (const int k : landmarks) names.push_back(printable(label(log, k)));
-  return names;
-}
-
 /// Adds the remarks and warnings of a check besides its findings.
 void add_doubts(const AssociationCheck& check, bool repair, AssociationOutcome& outcome) {
   const DetectionLog& log = outcome.log;
   for (const AssociationFinding& finding : check.findings)
     if (finding.undetermined > 0 || finding.left_out > 0)
-      outcome.remarks.push_back(fmt::format(
-          "{} and {}: {} with no other landmark in the scan cannot be assigned and {}stay "
-          "as they are; {} fit neither landmark and {} left out.",
-          printable(label(log, finding.first)), printable(label(log, finding.second)),
-          counted(finding.undetermined, "detection"), repair ? "" : "would ", finding.left_out,
-          repair ? "are" : "would be"));
+      outcome.remarks.push_back(undetermined_text(finding, log, repair));
   const AssociationDoubts& doubts = check.doubts;
-  if (doubts.grave())
-    outcome.warnings.push_back(fmt::format(
-        "The scans do not fit one map{}: residual {:.3f} m, but a spread of {:.3f} m of repeated "
-        "measurements{}.",
-        check.findings.empty() ? "" : ", even with the findings corrected", doubts.residual_m,
-        doubts.spread_m,
-        doubts.landmarks.empty()
-            ? ""
-            : "; most with landmarks " + listed(names_of(doubts.landmarks, log), 4)));
-  if (check.findings.empty())
-    outcome.remarks.push_back(fmt::format(
-        "No ID swap and no wrong data association, over a stretch or in single scans, explains the "
-        "scans clearly better: loss {:.3f} m.",
-        check.loss_before_m));
+  if (doubts.grave()) outcome.warnings.push_back(doubts_text(check, log));
+  if (check.findings.empty()) outcome.remarks.push_back(nothing_found_text(check));
 }
 
 /// Finds landmark IDs that contradict one another. @return The log with these IDs corrected.
@@ -114,7 +61,7 @@ DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
                              finding.loss_before_m, finding.loss_after_m, repair});
   add_doubts(check, repair, outcome);
   outcome.loss_m = check.loss_after_m;
-  outcome.doubtful = names_of(check.doubts.landmarks, outcome.log);
+  outcome.doubtful = shown_names(check.doubts.landmarks, outcome.log);
   return std::move(check.repaired);
 }
 
@@ -132,19 +79,10 @@ DetectionLog check_shared(AssociationOutcome& outcome, DetectionLog log, bool re
   } else {
     log.names.push_back(first + " (second position)");
   }
-  outcome.facts.push_back(
-      {"shared", first, second,
-       fmt::format(
-           "{} stands at two positions {:.2f} m apart ({} and {} detections): another landmark "
-           "has its landmark ID{}: loss {:.3f} -> {:.3f} m",
-           printable(first), shared->apart_m, shared->first_detections, shared->second_detections,
-           second.empty() ? "" : ", likely " + printable(second) + ", which has no detection",
-           shared->loss_before_m, shared->loss_after_m),
-       shared->loss_before_m, shared->loss_after_m, repair});
+  outcome.facts.push_back({"shared", first, second, described(*shared, first, second),
+                           shared->loss_before_m, shared->loss_after_m, repair});
   if (shared->undetermined > 0)
-    outcome.remarks.push_back(
-        fmt::format("{}: {} cannot be assigned and {} left out.", printable(first),
-                    counted(shared->undetermined, "detection"), repair ? "are" : "would be"));
+    outcome.remarks.push_back(undetermined_text(*shared, first, repair));
   outcome.loss_m = shared->loss_after_m;
   return split_id(log, *shared, row);
 }
@@ -159,20 +97,11 @@ DetectionLog check_paths(AssociationOutcome& outcome, const DetectionLog& log,
                              described(exchange, log), exchange.misfit_before_m,
                              exchange.misfit_after_m, repair});
   if (check.positions < kFewestKnownPositions)
-    outcome.remarks.push_back(
-        fmt::format("An ID swap in all detections would not show: that needs the positions of {} "
-                    "landmarks or more.",
-                    kFewestKnownPositions));
+    outcome.remarks.push_back(too_few_known_text());
   else if (check.exchanges.empty())
-    outcome.remarks.push_back(fmt::format(
-        "No ID swap would fit the {} known positions clearly better: missed by {:.3f} m.",
-        check.positions, check.misfit_before_m));
+    outcome.remarks.push_back(no_exchange_text(check));
   if (check.positions >= kFewestKnownPositions && check.misfit_after_m > kMissed * outcome.loss_m)
-    outcome.warnings.push_back(fmt::format(
-        "Known positions are missed by {:.3f} m, far more than the loss of {:.3f} m explains: data "
-        "association may be wrong in a way that was not found{}.",
-        check.misfit_after_m, outcome.loss_m,
-        outcome.doubtful.empty() ? "" : "; most doubtful: " + listed(outcome.doubtful, 4)));
+    outcome.warnings.push_back(known_missed_text(check, outcome.loss_m, outcome.doubtful));
   return std::move(check.repaired);
 }
 
@@ -292,40 +221,6 @@ nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts) {
                       {"after_m", number_or_null(fact.after_m)},
                       {"repaired", fact.repaired}});
   return labels;
-}
-
-std::string described(const AssociationFinding& finding, const DetectionLog& log) {
-  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
-  const std::string what =
-      finding.fault == AssociationFault::kSwapped
-          ? fmt::format("{} and {} look swapped{}", label(finding.first), label(finding.second),
-                        finding.scattered || finding.in_part ? " in single scans" : "")
-      : finding.fault == AssociationFault::kWrong
-          ? fmt::format("{} looks like {}{}", label(finding.first), label(finding.second),
-                        finding.in_part ? " in single scans" : "")
-          : fmt::format("some of {} look like {}", label(finding.first), label(finding.second));
-  return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when_words(finding, log),
-                     counted(finding.detections, "detection"), finding.loss_before_m,
-                     finding.loss_after_m);
-}
-
-std::string described(const MovedLandmark& moved, const DetectionLog& log) {
-  const std::string earliest = scan_words(log, moved.earliest_step);
-  const std::string latest = scan_words(log, moved.latest_step);
-  return fmt::format("{} moved by {:.2f} m {} (p = {:.3g}): loss {:.3f} -> {:.3f} m",
-                     printable(log.names[static_cast<std::size_t>(moved.landmark)]),
-                     moved.distance_m,
-                     earliest == latest ? "at " + latest : "between " + earliest + " and " + latest,
-                     moved.p, moved.loss_before_m, moved.loss_after_m);
-}
-
-std::string described(const AnchorExchange& exchange, const DetectionLog& log) {
-  const auto label = [&](int k) { return printable(log.names[static_cast<std::size_t>(k)]); };
-  return fmt::format(
-      "{} and {} look swapped in all detections: known positions missed by {:.3f} m, then by "
-      "{:.3f} m",
-      label(exchange.first), label(exchange.second), exchange.misfit_before_m,
-      exchange.misfit_after_m);
 }
 
 }  // namespace mapproof

@@ -52,14 +52,4 @@ AssociationOutcome with_association_checked(const DetectionLog& log,
 /// The findings, for the member "data_association" of --json.
 nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts);
 
-/// A sentence: "7 and 12 look swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
-std::string described(const AssociationFinding& finding, const DetectionLog& log);
-
-/// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
-std::string described(const MovedLandmark& moved, const DetectionLog& log);
-
-/// A sentence: "3 and 10 look swapped in all detections: known positions missed by 1.930 m, then by
-/// 0.120 m".
-std::string described(const AnchorExchange& exchange, const DetectionLog& log);
-
 }  // namespace mapproof

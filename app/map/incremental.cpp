@@ -17,6 +17,7 @@
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/records/detections/detection_stream.hpp"
 #include "core/records/observations/observation_stream.hpp"
+#include "reports/sections/association_text.hpp"
 
 namespace mapproof {
 namespace {

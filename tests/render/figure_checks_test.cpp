@@ -57,7 +57,9 @@ class FigureChecks : public ::testing::Test {
   }
 
   void add(const std::string& text, Point at, Colour colour = mapproof::colour(0x000000)) {
-    add_text(drawing_, Role::kMarkLabel, 0, shape_text(text), text, at, 12.0, colour);
+    drawing_.add_text(
+        Role::kMarkLabel, 0,
+        {.shaped = shape_text(text), .whole = text, .at = at, .size = 12.0, .colour = colour});
   }
 
   Item& item_of(Role role) { return *std::ranges::find(drawing_.items, role, &Item::role); }

@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
 #include "reports/diff/svg/svg_diff.hpp"
+#include "reports/diff/verdict/tolerances.hpp"
 
 namespace mapproof {
 
@@ -35,13 +37,19 @@ struct ImageSize {
 
 struct ImageOptions {
   std::vector<PixelBox> ignored =
-      {};              ///< Pixels that are not compared; parts outside the image have no effect.
-  double noise = 2.0;  ///< Of 255, 0 to 64: allowed difference of one pixel in a flat region.
-  double mean_noise = 0.4;  ///< Of 255, 0 to 64: allowed difference of the mean of a flat region.
-  double displacement_px = 0.35;  ///< 0 to 4: allowed movement of a part of an image.
-  double changed_share = 0.0;     ///< 0 to 1: allowed share of changed pixels.
-  double svg_distance = 0.15;     ///< Pixels as drawn, >= 0: allowed movement of SVG geometry.
-  double svg_colour = 0.0;  ///< Of 255, 0 to 255: allowed difference of a channel of an SVG colour.
+      {};  ///< Pixels that are not compared; parts outside the image have no effect.
+  double noise = ImageTolerances::kNoise;  ///< Of 255, 0 to 64: allowed difference of one pixel in
+                                           ///< a flat region.
+  double mean_noise = ImageTolerances::kMeanNoise;  ///< Of 255, 0 to 64: allowed difference of the
+                                                    ///< mean of a flat region.
+  double displacement_px =
+      ImageTolerances::kDisplacement_px;  ///< 0 to 4: allowed movement of a part of an image.
+  double changed_share =
+      ImageTolerances::kChangedShare;  ///< 0 to 1: allowed share of changed pixels.
+  double svg_distance =
+      ImageTolerances::kSvgDistance;  ///< Pixels as drawn, >= 0: allowed movement of SVG geometry.
+  double svg_colour = ImageTolerances::kSvgColour;  ///< Of 255, 0 to 255: allowed difference of a
+                                                    ///< channel of an SVG colour.
 };
 
 /// The comparison of two images, pixel by pixel. If the sizes differ, only the sizes are set.

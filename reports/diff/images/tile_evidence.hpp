@@ -50,10 +50,11 @@ struct TileEvidence {
 
 /// The bounds by which evidence is judged.
 struct EvidenceBounds {
-  double noise = 2.0;       ///< Of 255: the allowed difference of one pixel.
-  double mean_noise = 0.4;  ///< Of 255: the allowed difference of a mean over any number of pixels.
-  double displacement_px = 0.35;  ///< The allowed movement of a part.
-  bool is_noisy = false;          ///< Whether there is noise everywhere; otherwise none is assumed.
+  double noise = ImageTolerances::kNoise;  ///< Of 255: the allowed difference of one pixel.
+  double mean_noise = ImageTolerances::kMeanNoise;  ///< Of 255: the allowed difference of a mean
+                                                    ///< over any number of pixels.
+  double displacement_px = ImageTolerances::kDisplacement_px;  ///< The allowed movement of a part.
+  bool is_noisy = false;  ///< Whether there is noise everywhere; otherwise none is assumed.
 };
 
 /// Compares a tile, and the 6 pixels around it, and marks its pixels as equal, noise or smoothed.

@@ -15,6 +15,17 @@ using Tolerances = std::map<std::string, Tolerance, std::less<>>;
 /// The name in the settings of numbers in the records that do not belong to a quantity.
 inline constexpr std::string_view kOtherNumbers = "other";
 
+/// The tolerances of images that hold unless the settings change them. docs/diff-images.md tells
+/// what each was measured on.
+struct ImageTolerances {
+  static constexpr double kNoise = 2.0;             ///< Of 255, of one pixel in a flat region.
+  static constexpr double kMeanNoise = 0.4;         ///< Of 255, of the mean of a flat region.
+  static constexpr double kDisplacement_px = 0.35;  ///< Of a part of an image.
+  static constexpr double kChangedShare = 0.0;      ///< Of all pixels.
+  static constexpr double kSvgDistance = 0.15;      ///< Pixels as drawn, of SVG geometry.
+  static constexpr double kSvgColour = 0.0;         ///< Of 255, of a channel of an SVG colour.
+};
+
 Tolerance tolerance_of(const Quantity& quantity, const Tolerances& changed);
 
 /// The tolerance of numbers that do not belong to a quantity.

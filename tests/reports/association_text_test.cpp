@@ -1,4 +1,4 @@
-#include "app/map/id_check.hpp"
+#include "reports/sections/association_text.hpp"
 
 #include <gtest/gtest.h>
 
