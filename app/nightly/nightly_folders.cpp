@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -54,6 +55,8 @@ int next_nightly_run(HistoryStore& history, const fs::path& store) {
   for (fs::directory_iterator entry(store / "nightly_runs", error), end; !error && entry != end;
        entry.increment(error))
     last = std::max(last, finished_number(entry->path()));
+  if (last == std::numeric_limits<int>::max())
+    throw IoError(store.string(), fmt::format("no number is left after nightly run {}", last));
   return last + 1;
 }
 

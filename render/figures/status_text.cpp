@@ -33,11 +33,16 @@ std::string with_residual(const std::string& sentence, double residual) {
 
 std::string_view extent(double dimensions) { return dimensions == 2.0 ? "the plane" : "space"; }
 
+/// "condition number 3.2e+04"; no number where there is none.
+std::string condition_text(double condition) {
+  return std::isfinite(condition) ? fmt::format("condition number {:.3g}", condition)
+                                  : "infinite condition number";
+}
+
 std::string nearly_on_a_line(std::string_view what, std::string_view of_what, double condition) {
   return fmt::format(
-      "{} nearly on one line, condition number {:.3g}: the side of it on which {} lies is hardly "
-      "determined.",
-      what, condition, of_what);
+      "{} nearly on one line, {}: the side of it on which {} lies is hardly determined.", what,
+      condition_text(condition), of_what);
 }
 
 std::string reason_words(const Status& status) {
@@ -233,20 +238,21 @@ std::string reason_words(const Status& status) {
       return fmt::format("Too few ranges for a place of {}.",
                          listed(status.names, kMostLandmarksNamed));
     case StatusReason::kNoQuadric:
-      return fmt::format("No quadric of a path in {} fits the states: condition number {:.3g}.",
-                         extent(v(0)), v(1));
+      return fmt::format("No quadric of a path in {} fits the states: {}.", extent(v(0)),
+                         condition_text(v(1)));
     case StatusReason::kOtherQuadric:
       return fmt::format(
           "Another quadric fits the states nearly as well as the one taken: {:.3g} times its "
-          "misfit, condition number {:.3g}.",
-          v(0), v(1));
+          "misfit, {}.",
+          v(0), condition_text(v(1)));
     case StatusReason::kMappedOnALine:
       return "The landmarks came out on one line: no positions.";
     case StatusReason::kRankOfRanges:
       return fmt::format(
-          "Squared ranges have rank {} above the noise, {} is needed: condition number {:.3g}. So "
+          "Squared ranges have rank {} above the noise, {} is needed: {}. So "
           "it is where the robot or the landmarks keep to {}.",
-          v(0), v(1), v(2), v(1) == 4.0 ? "a line or a circle" : "a plane or a sphere");
+          v(0), v(1), condition_text(v(2)),
+          v(1) == 4.0 ? "a line or a circle" : "a plane or a sphere");
     case StatusReason::kNoCovariances:
       return "The ranges leave a landmark or the path free to move: there are no covariances.";
     case StatusReason::kCovariancesOfFirstPose:
@@ -260,13 +266,13 @@ std::string reason_words(const Status& status) {
       return fmt::format("{} states against {} on the other side; {} against {} are needed.", v(0),
                          v(1), v(2), v(3));
     case StatusReason::kStatesFlat:
-      return fmt::format("The states do not span {} dimensions: condition number {:.3g}.",
-                         v(0) == 4.0 ? "four" : "five", v(1));
+      return fmt::format("The states do not span {} dimensions: {}.", v(0) == 4.0 ? "four" : "five",
+                         condition_text(v(1)));
     case StatusReason::kFewKnownLandmarks:
       return fmt::format("{} landmarks are known, {} are needed.", v(0), v(1));
     case StatusReason::kKnownDegenerate:
-      return fmt::format("The known landmarks lie on one {}: condition number {:.3g}.",
-                         v(0) == 2.0 ? "line or circle" : "plane or sphere", v(1));
+      return fmt::format("The known landmarks lie on one {}: {}.",
+                         v(0) == 2.0 ? "line or circle" : "plane or sphere", condition_text(v(1)));
     case StatusReason::kRankOfPath:
       return fmt::format(
           "The ranges do not determine positions from the known landmarks: their rank is lower "

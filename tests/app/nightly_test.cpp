@@ -115,6 +115,17 @@ TEST(Nightly, RefusesANightlyRunToCompareWithThatIsNotThereBeforeAnyWork) {
   EXPECT_FALSE(fs::exists(folder / "h/nightly_runs/0001/small"));
 }
 
+TEST(Nightly, RefusesAStoreWhoseLastNumberIsTaken) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "h/nightly_runs/2147483647");
+  write_file(folder / "h/nightly_runs/2147483647/nightly_run.json", "{}");
+  const Outcome outcome = nightly_run(folder / "h");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
+  EXPECT_EQ(lines_with(outcome.error, "no number is left after nightly run 2147483647"), 1U)
+      << outcome.error;
+  EXPECT_FALSE(fs::exists(folder / "h/nightly_runs/0001"));
+}
+
 /// small.json with another seed, under the same name.
 std::string of_another_seed(const TemporaryFolder& folder) {
   std::string other = read_file(kSmall);

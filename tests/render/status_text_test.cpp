@@ -1,5 +1,6 @@
 #include "render/figures/status_text.hpp"
 
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -67,6 +68,20 @@ TEST(StatusReasons, HaveASentenceThatTellsEveryValue) {
       status.values.pop_back();
       EXPECT_THROW(status_text(status), std::out_of_range) << reason.name;
     }
+}
+
+TEST(StatusReasons, NameAnInfiniteConditionNumberInWords) {
+  EXPECT_EQ(
+      status_text(status_of<StatusReason::kLandmarksNearlyOnALine>(INFINITY)),
+      "The landmarks lie nearly on one line, infinite condition number: the side of it on which "
+      "the robot was lies is hardly determined.");
+  for (const StatusReasonInfo& reason : kStatusReasons) {
+    if (reason.values.find("condition") == std::string_view::npos) continue;
+    Status status = full(reason);
+    status.values.back() = INFINITY;
+    EXPECT_EQ(status_text(status).find("inf,"), std::string::npos) << status_text(status);
+    EXPECT_EQ(status_text(status).find("inf."), std::string::npos) << status_text(status);
+  }
 }
 
 TEST(StatusWords, BeginWithThePartThatTheyAreOf) {
