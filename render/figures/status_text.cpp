@@ -222,9 +222,8 @@ std::string reason_words(const Status& status) {
           v(0), v(1));
     case StatusReason::kFlatInSpace:
       return fmt::format(
-          "Landmarks or path lie on one plane or sphere, as far as the ranges determine: condition "
-          "number {:.3g}.",
-          v(0));
+          "Landmarks or path lie on one plane or sphere, as far as the ranges determine: {}.",
+          condition_text(v(0)));
     case StatusReason::kFewCommonRanges:
       return fmt::format("{} landmarks, ranged to together at {} times; {} at {} are needed.", v(0),
                          v(1), v(2), v(3));
