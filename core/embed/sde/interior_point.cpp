@@ -314,15 +314,14 @@ MatrixXd Reduced::laplacian(const VectorXd& w) const {
 
 MatrixXd Reduced::times_laplacian(const MatrixXd& P, const VectorXd& w) const {
   MatrixXd product = MatrixXd::Zero(P.rows(), n_);
-  VectorXd along(P.rows());
   for (Index k = 0; k < pairs(); ++k) {
     const auto [i, j] = ends(k);
-    along = w(k) * P.col(j);
-    if (i >= 0) {
-      along -= w(k) * P.col(i);
-      product.col(i) -= along;
+    if (i < 0) {
+      product.col(j) += w(k) * P.col(j);
+      continue;
     }
-    product.col(j) += along;
+    product.col(i) -= w(k) * P.col(j) - w(k) * P.col(i);
+    product.col(j) += w(k) * P.col(j) - w(k) * P.col(i);
   }
   return product;
 }
