@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "core/model/fit.hpp"
 #include "core/model/points.hpp"
 #include "core/model/slam.hpp"
 #include "core/model/study.hpp"
@@ -107,6 +108,7 @@ struct SlamRun {
   std::vector<RefinementStart> starts;  ///< Empty: none compared.
   std::optional<PublishedDrive> published;
   std::optional<UpgradeClouds> upgrade;  ///< Of SlamMethod::kSpectral, where it gave a map.
+  std::optional<Fit> fit;                ///< Of its data to the map; empty: not tested.
 };
 
 /// Means over random pairs of path and environment, after so many measurements.

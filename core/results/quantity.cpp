@@ -49,6 +49,12 @@ std::vector<Quantity> dictionary() {
       {"observation_error", "error of the observation matrix", "", kLower, kNumber, kRatio},
       {"positions_m", "mean error of positions", "m", kLower, kLength, kRatio},
       {"sine", "sine of the canonical angle", "", kLower, kNumber, kKept},
+      {"fit_verdict", "verdict on the fit, 1: fits to 4: does not", "", kLower, kNumber, kRatio},
+      {"fit_chi2_ratio", "chi-squared over that of the noise", "", kLower, kNumber, kRatio},
+      {"fit_outliers_percent", "outliers", "%", kNeither, kNumber, kKept},
+      {"fit_range_sigma_m", "noise of a range", "m", kNeither, kLength, kKept},
+      {"fit_forward_sigma_m", "noise of odometry after 1 m", "m", kNeither, kLength, kKept},
+      {"fit_turn_sigma_rad", "noise of the heading after 1 m", "rad", kNeither, kNumber, kKept},
       {"seconds", "seconds", "s", kLower, kNumber, kDuration},
   };
 }

@@ -9,6 +9,7 @@
 
 #include "core/model/map_certainty.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/fit_fields.hpp"
 #include "core/records/value_fields.hpp"
 
 namespace mapproof {
@@ -221,6 +222,7 @@ struct MapFile {
   MapRecord map;
   std::optional<MapCertainty> certainty;
   std::optional<MapSensors> sensors;
+  std::optional<Fit> fit;
 };
 
 template <typename Visitor>
@@ -233,6 +235,7 @@ void fields(Visitor& v, MapFile& file) {
              fmt::format("expected {} covariances, one a name, got {}", file.map.names.size(),
                          file.certainty->covariances.size()));
   v.field("mixed", file.sensors, {.key = Key::kIfAny});
+  v.field("fit", file.fit, {.key = Key::kIfAny});
 }
 
 /// A map of many that have landmarks in common.

@@ -36,8 +36,8 @@ std::string csv_row(const MapRecord& map, Eigen::Index i) {
 }  // namespace
 
 std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty,
-                     const std::optional<MapSensors>& sensors) {
-  return to_json_text(MapFile{map, certainty, sensors});
+                     const std::optional<MapSensors>& sensors, const std::optional<Fit>& fit) {
+  return to_json_text(MapFile{map, certainty, sensors, fit});
 }
 
 MapRecord parse_map(std::string_view text, const std::string& source) {
@@ -46,6 +46,10 @@ MapRecord parse_map(std::string_view text, const std::string& source) {
 
 std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source) {
   return from_json_text<MapFile>(text, source).certainty;
+}
+
+std::optional<Fit> parse_map_fit(std::string_view text, const std::string& source) {
+  return from_json_text<MapFile>(text, source).fit;
 }
 
 std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/model/fit.hpp"
 #include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/sensor.hpp"
@@ -13,8 +14,10 @@ namespace mapproof {
 /// One map as a file of its own (mapproof.map); a NaN row of positions is null.
 /// @param certainty  Of its landmarks, as many as the map has.
 /// @param sensors    Of a joint map.
+/// @param fit        Of its data to the map.
 std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty = {},
-                     const std::optional<MapSensors>& sensors = {});
+                     const std::optional<MapSensors>& sensors = {},
+                     const std::optional<Fit>& fit = {});
 
 /// @param source  What to call the file in errors. @throws IoError with the location, of what is
 /// wrong
@@ -23,6 +26,9 @@ MapRecord parse_map(std::string_view text, const std::string& source);
 
 /// The certainty in a map's file; empty if it has none. @throws IoError as parse_map.
 std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source);
+
+/// The fit in a map's file; empty if it has none. @throws IoError as parse_map.
+std::optional<Fit> parse_map_fit(std::string_view text, const std::string& source);
 
 /// One map as RFC 4180: name,x_m,y_m,true_x_m,true_y_m,error_m,anchor; empty where unknown.
 /// Without the frame of the ground truth the columns are x,y and there is no error. With a

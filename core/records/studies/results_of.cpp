@@ -104,6 +104,13 @@ void add_record(Results& results, const SlamRun& run, const SlamRecord& record) 
   rows.add(record.estimate.statuses);
 }
 
+void add_fit(Results& results, const SlamRun& run) {
+  if (!run.fit) return;
+  RecordRows rows(results, condition(run.id), std::string(info(SlamMethod::kRefined).name), run.id,
+                  run.id);
+  for (const FitNumber& number : fit_numbers(*run.fit)) rows.add(number.quantity, number.value);
+}
+
 void add_convergence(Results& results, const ConvergenceCurve& curve) {
   for (const ConvergencePoint& point : curve.points) {
     RecordRows rows(results, condition("convergence/" + curve.id, {steps_level(point.steps)}),
@@ -145,8 +152,10 @@ Results results_of(const Study& study) {
 
 Results results_of(const SlamStudy& study) {
   Results results;
-  for (const SlamRun& run : study.runs)
+  for (const SlamRun& run : study.runs) {
     for (const SlamRecord& record : run.records) add_record(results, run, record);
+    add_fit(results, run);
+  }
   for (const ConvergenceCurve& curve : study.convergence) add_convergence(results, curve);
   if (study.histories) add_histories(results, *study.histories);
   sort_results(results);
@@ -156,6 +165,7 @@ Results results_of(const SlamStudy& study) {
 Results results_of(const SlamRun& run) {
   Results results;
   for (const SlamRecord& record : run.records) add_record(results, run, record);
+  add_fit(results, run);
   sort_results(results);
   return results;
 }

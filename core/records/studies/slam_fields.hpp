@@ -7,6 +7,7 @@
 
 #include "core/model/slam.hpp"
 #include "core/model/slam_study.hpp"
+#include "core/records/fit_fields.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
 
@@ -258,6 +259,8 @@ void fields(Visitor& v, SlamRun& run) {
   v.field("upgrade", run.upgrade,
           {.description = "Missing in studies of older versions.", .key = Key::kOptional});
   v.field("published", run.published);
+  v.field("fit", run.fit,
+          {.description = "Missing in studies of older versions.", .key = Key::kIfAny});
   const auto landmarks = std::ssize(run.log.landmarks);
   check_rows(v, "known", run.known, landmarks);
   for (std::size_t i = 0; i < run.records.size(); ++i) {

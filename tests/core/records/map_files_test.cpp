@@ -30,6 +30,17 @@ TEST(MapJson, ComesBackTheSame) {
   EXPECT_EQ(map_json(map), read_file(data_file("maps/map.json")));
 }
 
+TEST(MapJson, KeepsTheFitOfItsData) {
+  const Fit fit{.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kRedundancy}};
+  const std::string text = map_json(sample(), {}, {}, fit);
+  EXPECT_EQ(parse_map_fit(text, "m"), fit);
+  EXPECT_EQ(test::schema_problem("map", nlohmann::json::parse(text)), "");
+  std::string sound = text;
+  sound.replace(sound.find("\"not_testable\""), 14, "\"fits\"");
+  EXPECT_EQ(error_of([&] { parse_map_fit(sound, "m"); }),
+            "m: /fit/why: is of the verdict not_testable alone");
+}
+
 TEST(MapJson, OfMeasuredPairsSaysSo) {
   MapRecord map = sample();
   map.origin = FromPairs{};

@@ -58,6 +58,23 @@ SlamRecord made_up_record() {
   return record;
 }
 
+Fit made_up_fit() {
+  return {.verdict = FitVerdict::kDoesNotFit,
+          .causes = {{.code = FitCode::kIdsExchanged,
+                      .landmarks = {"0", "2"},
+                      .values = {{.id = "from_s", .value = 1.0},
+                                 {.id = "offset_m", .value = 0.5, .sigma = 0.25}},
+                      .statistic = 100.0,
+                      .bound = 22.0,
+                      .figure = "fit-drive"}},
+          .parts = {{"0", "2"}, {"post, left"}},
+          .numbers = {{"fit_chi2_ratio", 1.5, 1.25}, {"fit_range_sigma_m", 0.5}},
+          .tests = {{.code = FitCode::kCommonOffset,
+                     .statistic = 0.5,
+                     .bound = 20.0,
+                     .limit = FitValue{.id = "offset_m", .value = 0.75}}}};
+}
+
 MeanEstimate some_mean(double mean) {
   return {.mean = mean, .values = 20, .clusters = 20, .half_width = 0.1 * mean};
 }
@@ -78,6 +95,7 @@ SlamRun made_up_slam_run(const std::string& id) {
   failed.estimate.landmarks_m = Points::Constant(3, 2, kNaN);
   failed.estimate.statuses = {status_with_message(StatusCode::kFailed, "It is lost.")};
   run.records.push_back(failed);
+  run.fit = made_up_fit();
   run.starts = {{.method = SlamMethod::kRefinedFromRandom,
                  .number = 2,
                  .cost = kNaN,

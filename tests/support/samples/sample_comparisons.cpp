@@ -9,6 +9,7 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
+#include "render/figures/diagrams/fit_tests.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -86,6 +87,29 @@ void add_map_comparisons(std::vector<Figure>& figures) {
   figures.push_back(map_pair_figure(pair));
   figures.push_back(idea_figure(with_id(sample_idea(Sensor::kVisibility), "idea-visibility")));
   figures.push_back(idea_figure(with_id(sample_idea(Sensor::kBearing), "idea-bearing")));
+}
+
+void add_fits(std::vector<Figure>& figures) {
+  const auto spec = [](const std::string& id, std::size_t rows) {
+    FitTestsSpec made{.id = id,
+                      .title = "Tests of the fit",
+                      .verdict = "The data do not fit the map: ranges are stamped 5.02 s late.",
+                      .is_alarm = true,
+                      .rows = {},
+                      .record_ids = {"drive"}};
+    for (std::size_t i = 0; i < rows; ++i)
+      made.rows.push_back({fmt::format("offset of landmark {}", i), fmt::format("test-{}", i),
+                           0.05 * static_cast<double>(1 + 7 * i % 11) * (i == 4 ? 400.0 : 1.0),
+                           i == 4});
+    return made;
+  };
+  figures.push_back(fit_tests_figure(spec("fit-usual", 12)));
+  figures.push_back(fit_tests_figure(spec("fit-many", 90)));
+  figures.push_back(fit_tests_figure(spec("fit-none", 0)));
+  FitTestsSpec hostile = spec("fit-hostile", 6);
+  for (std::size_t i = 0; i < 5; ++i) hostile.rows[i].label = hostile_names()[i + 1];
+  hostile.rows[5].ratio = NAN;
+  figures.push_back(fit_tests_figure(hostile));
 }
 
 void add_errors(std::vector<Figure>& figures) {
@@ -316,6 +340,7 @@ std::vector<Figure> sample_comparison_figures() {
   add_distances(figures);
   add_map_comparisons(figures);
   add_errors(figures);
+  add_fits(figures);
   return figures;
 }
 

@@ -1,0 +1,98 @@
+#include "render/figures/diagrams/fit_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/text/words.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostTestRows = 24;
+constexpr std::size_t kLongestTestLabel = 40;  ///< Characters; the rest of a name is cut.
+constexpr double kLeastRatio = 0.03;           ///< Smaller ratios are drawn here.
+
+/// Those that are drawn, in their order.
+std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
+  std::vector<FitTestRow> rows;
+  for (const FitTestRow& row : spec.rows)
+    if (std::isfinite(row.ratio)) rows.push_back(row);
+  if (rows.size() <= kMostTestRows) return rows;
+  std::vector<double> ratios;
+  for (const FitTestRow& row : rows) ratios.push_back(row.ratio);
+  std::ranges::sort(ratios, std::greater<>());
+  const double least = ratios[kMostTestRows - 1];
+  std::vector<FitTestRow> greatest;
+  for (const FitTestRow& row : rows)
+    if (row.ratio >= least && greatest.size() < kMostTestRows) greatest.push_back(row);
+  return greatest;
+}
+
+Scatter test_marks(const std::vector<FitTestRow>& rows, bool above) {
+  Scatter points{.label = above ? "above its bound" : "within its bound",
+                 .ink = above ? Ink::kSeries2 : Ink::kSeries1,
+                 .marker = above ? Marker::kDiamond : Marker::kCircle,
+                 .filled = above};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((rows[i].ratio > 1.0) != above) continue;
+    add_point(points, {std::max(rows[i].ratio, kLeastRatio), static_cast<double>(i)});
+    points.marks.push_back({rows[i].key,
+                            {{"test", rows[i].label},
+                             {"ratio", data_number(rows[i].ratio)},
+                             {"cause", rows[i].is_cause ? "yes" : "no"}}});
+  }
+  return points;
+}
+
+}  // namespace
+
+Figure fit_tests_figure(const FitTestsSpec& spec) {
+  std::vector<FitTestRow> rows = drawn_rows(spec);
+  std::ranges::reverse(rows);  // The first one is uppermost.
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.notes.push_back({spec.verdict, spec.is_alarm ? Ink::kWarning : Ink::kText});
+  Panel& panel = figure.panels.emplace_back();
+  panel.x = {.label = "statistic / bound", .scale = Scale::kLog};
+  panel.y = {.label = ""};
+  const double last = std::max(1.0, static_cast<double>(rows.size())) - 0.4;
+  panel.y.limits = Range{-0.6, last};
+  double most = 3.0;
+  std::vector<std::string> above;
+  Segments from_bound{.ink = Ink::kMuted, .width = 0.6};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    panel.y.names.push_back(printable(rows[i].label, kLongestTestLabel));
+    most = std::max(most, 1.5 * rows[i].ratio);
+    const double y = static_cast<double>(i);
+    add_line(from_bound, {1.0, y}, {std::max(rows[i].ratio, kLeastRatio), y});
+    if (rows[i].ratio > 1.0)
+      above.push_back(fmt::format("{} {}", rows[i].label, significant(rows[i].ratio, 2)));
+  }
+  panel.x.limits = Range{kLeastRatio / 1.3, most};
+  Segments bound{.label = "bound", .ink = Ink::kText, .dash = Dash::kDashed};
+  add_line(bound, {1.0, -0.6}, {1.0, last});
+  panel.layers = {from_bound, bound, test_marks(rows, false), test_marks(rows, true)};
+  std::erase_if(panel.layers, is_empty);
+  std::ranges::reverse(above);
+  if (rows.size() < spec.rows.size())
+    figure.notes.push_back({fmt::format("The {} greatest of {} tests.", rows.size(),
+                                        spec.rows.size())});
+  figure.caption = fmt::format(
+      "Tests of the fit of the map to its data: the statistic of each over its bound, which sound "
+      "data exceed rarely. {}",
+      spec.verdict);
+  figure.alt = fmt::format("{} of the fit. Above the bound: {}.",
+                           counted(std::ssize(spec.rows), "test"),
+                           above.empty() ? "none" : listed(above, 6));
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,81 @@
+#include "reports/sections/fit_section.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/results/quantity.hpp"
+#include "render/figures/diagrams/fit_tests.hpp"
+#include "reports/sections/fit_text.hpp"
+#include "reports/sections/wording.hpp"
+
+namespace mapproof {
+namespace {
+
+bool is_alarm(FitVerdict verdict) { return verdict != FitVerdict::kFits; }
+
+bool is_cause(const Fit& fit, const FitTest& test) {
+  return std::ranges::any_of(fit.causes, [&](const FitCause& cause) {
+    return cause.code == test.code && cause.landmarks == test.landmarks;
+  });
+}
+
+KeyValues number_items(const Fit& fit) {
+  KeyValues items;
+  for (const FitNumber& number : fit.numbers) {
+    const Quantity* quantity = find_quantity(number.quantity);
+    const std::string label = quantity == nullptr ? number.quantity : label_with_unit(*quantity);
+    items.items.push_back(
+        {label,
+         {number.bound ? fmt::format("{:.4g} (bound {:.4g})", number.value, *number.bound)
+                       : fmt::format("{:.4g}", number.value)}});
+  }
+  return items;
+}
+
+}  // namespace
+
+Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string> record_ids) {
+  FitTestsSpec spec{.id = id,
+                    .title = "Tests of the fit",
+                    .verdict = verdict_text(fit),
+                    .is_alarm = is_alarm(fit.verdict),
+                    .rows = {},
+                    .record_ids = std::move(record_ids)};
+  for (const FitTest& test : fit.tests)
+    spec.rows.push_back({.label = test_label(test.code, test.landmarks),
+                         .key = fmt::format("test-{}", spec.rows.size() + 1),
+                         .ratio = test.statistic / test.bound,
+                         .is_cause = is_cause(fit, test)});
+  return fit_tests_figure(spec);
+}
+
+Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures, const std::string& id,
+                    const std::string& title) {
+  Section section{id, title, {}};
+  section.blocks.emplace_back(
+      Callout{is_alarm(fit.verdict) ? Callout::Tone::kWarning : Callout::Tone::kNote,
+              "Verdict: " + verdict_words(fit.verdict), plain(verdict_text(fit))});
+  BulletList items;
+  for (const FitCause& cause : fit.causes) items.items.push_back(plain(cause_text(cause)));
+  if (const std::string parts = parts_text(fit); !parts.empty())
+    items.items.push_back(plain(parts));
+  if (fit.why.size() > 1)
+    for (const FitMissing missing : fit.why)
+      items.items.push_back(plain("Missing: " + why_text(missing)));
+  if (!items.items.empty()) section.blocks.emplace_back(std::move(items));
+  for (const FigureBlock& figure : figures) section.blocks.emplace_back(figure);
+  if (!fit.numbers.empty()) section.blocks.emplace_back(number_items(fit));
+  BulletList limits;
+  for (const FitTest& test : fit.tests)
+    if (const std::string limit = limit_text(test); !limit.empty())
+      limits.items.push_back(plain(limit));
+  if (!limits.items.empty()) {
+    section.blocks.emplace_back(plain("What these data could not have shown:"));
+    section.blocks.emplace_back(std::move(limits));
+  }
+  return section;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/fit.hpp"
+#include "render/plot/figure.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+inline constexpr const char* kFitSection = "fit";
+
+/// The figure of all tests of a fit; its verdict stands under the title.
+Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string> record_ids);
+
+/// The section at the head of a report of a map: the verdict in words, its causes, what is open or
+/// missing, the figures, and the least effects that would have been seen.
+/// @param figures  That show the fit, the one of its tests first.
+/// @param id       Of the section, and a prefix of its table's.
+Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures,
+                    const std::string& id = kFitSection,
+                    const std::string& title = "Do the data fit the map?");
+
+}  // namespace mapproof

@@ -1,0 +1,305 @@
+#include "reports/sections/fit_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "core/base/text/words.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostNames = 4;
+
+std::string names_of(const std::vector<std::string>& landmarks) {
+  std::vector<std::string> shown;
+  for (const std::string& landmark : landmarks) shown.push_back(printable(landmark, 40));
+  return listed(shown, kMostNames);
+}
+
+/// The values of a cause as words.
+class Values {
+ public:
+  explicit Values(const FitCause& cause) : cause_(cause) {}
+
+  std::optional<double> find(std::string_view id) const {
+    const auto found = std::ranges::find(cause_.values, id, &FitValue::id);
+    if (found == cause_.values.end()) return std::nullopt;
+    return found->value;
+  }
+  /// "3.02 m"; "an unknown amount" without the value.
+  std::string amount(std::string_view id, std::string_view unit) const {
+    const auto value = find(id);
+    if (!value) return "an unknown amount";
+    return fmt::format("{}\u00a0{}", significant(std::abs(*value)), unit);
+  }
+  /// " from 12 s on", " from 12 s to 30 s"; empty without a time.
+  std::string when() const {
+    if (const auto at = find("at_s")) return fmt::format(" at {}\u00a0s", significant(*at, 4));
+    const auto from = find("from_s");
+    if (!from) return "";
+    const auto to = find("to_s");
+    return to ? fmt::format(" from {}\u00a0s to {}\u00a0s", significant(*from, 4),
+                            significant(*to, 4))
+              : fmt::format(" from {}\u00a0s on", significant(*from, 4));
+  }
+  bool is_negative(std::string_view id) const { return find(id).value_or(0.0) < 0.0; }
+
+ private:
+  const FitCause& cause_;
+};
+
+std::string range_cause_words(const FitCause& cause) {
+  const Values values(cause);
+  const std::string names = names_of(cause.landmarks);
+  const char* length = values.is_negative("offset_m") ? "short" : "long";
+  switch (cause.code) {
+    case FitCode::kCommonOffset:
+      return fmt::format("all ranges are {} too {}", values.amount("offset_m", "m"), length);
+    case FitCode::kLandmarkOffset:
+      return fmt::format("the ranges of {} are {} too {}", names, values.amount("offset_m", "m"),
+                         length);
+    case FitCode::kTimeOffset:
+      return fmt::format("ranges are stamped {} {}", values.amount("offset_s", "s"),
+                         values.is_negative("offset_s") ? "early" : "late");
+    case FitCode::kClockJump:
+      return fmt::format("the clock of the ranges jumps {} by {}{}",
+                         values.is_negative("offset_s") ? "back" : "forward",
+                         values.amount("offset_s", "s"), values.when());
+    case FitCode::kLandmarkMoved:
+      return fmt::format("{} was moved by {}{}", names, values.amount("distance_m", "m"),
+                         values.when());
+    case FitCode::kIdsExchanged:
+      return fmt::format("the IDs of {} are exchanged{}", names, values.when());
+    case FitCode::kOdometryGap:
+      return fmt::format("odometry is missing{}, and the map depends on what was driven then",
+                         values.when());
+    case FitCode::kOdometryFrozen:
+      return fmt::format("odometry reports a standstill{} that the ranges contradict",
+                         values.when());
+    case FitCode::kKnownLandmarkOff:
+      return fmt::format("the given position of {} is {} off, by the others", names,
+                         values.amount("distance_m", "m"));
+    case FitCode::kKnownLandmarksExchanged:
+      return fmt::format("the given positions of {} are exchanged", names);
+    case FitCode::kKnownLandmarksAtOdds:
+      return fmt::format(
+          "the given positions of {} contradict the measurements by up to {}; which of them is "
+          "wrong cannot be determined",
+          names, values.amount("distance_m", "m"));
+    case FitCode::kResidualsOverTime:
+      return fmt::format("residuals{} are larger than at other times", values.when());
+    case FitCode::kResidualsOverRange:
+      return "residuals depend on the range";
+    default:
+      return "";
+  }
+}
+
+std::string map_cause_words(const FitCause& cause) {
+  const Values values(cause);
+  const std::string names = names_of(cause.landmarks);
+  switch (cause.code) {
+    case FitCode::kResiduals:
+      return "residuals are larger than the noise explains, and no single cause explains them";
+    case FitCode::kLandmarkResiduals:
+      return fmt::format("the residuals of {} are larger than the noise explains", names);
+    case FitCode::kOutliers:
+      return fmt::format("{} of the measurements are far off", values.amount("share_percent", "%"));
+    case FitCode::kStress:
+      return "the distances in the map differ from the measured ones by more than noise explains";
+    case FitCode::kAnchorMissed:
+      return fmt::format("the map misses the given position of {} by {}", names,
+                         values.amount("distance_m", "m"));
+    case FitCode::kWeakBridge:
+      return fmt::format("{} hang together with the other landmarks by few measurements", names);
+    case FitCode::kMirror:
+      return fmt::format("{} fit as well when they are reflected", names);
+    case FitCode::kFold:
+      return fmt::format("{} fit as well when they are folded over", names);
+    case FitCode::kWrongIds:
+      return fmt::format("measurements of {} have a wrong landmark ID", names);
+    case FitCode::kDisconnected:
+      return fmt::format("no measurement connects {} with the other landmarks", names);
+    default:
+      return "";
+  }
+}
+
+std::string cause_words(const FitCause& cause) {
+  std::string words = range_cause_words(cause);
+  return words.empty() ? map_cause_words(cause) : words;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string map_test_words(FitCode code, const std::string& names) {
+  switch (code) {
+    case FitCode::kStress:
+      return "distances in the map";
+    case FitCode::kAnchorMissed:
+      return "given position of " + names;
+    case FitCode::kWeakBridge:
+      return "connection of " + names;
+    case FitCode::kMirror:
+      return "reflection of " + names;
+    case FitCode::kFold:
+      return "fold of " + names;
+    case FitCode::kWrongIds:
+      return names.empty() ? "data association" : "data association of " + names;
+    case FitCode::kDisconnected:
+      return "groups without a connection";
+    default:
+      return std::string(name(code));
+  }
+}
+
+}  // namespace
+
+std::string verdict_words(FitVerdict verdict) {
+  switch (verdict) {
+    case FitVerdict::kFits:
+      return "fits";
+    case FitVerdict::kDoubtful:
+      return "doubtful";
+    case FitVerdict::kUndetermined:
+      return "undetermined";
+    case FitVerdict::kDoesNotFit:
+      return "does not fit";
+    case FitVerdict::kNotTestable:
+      return "not testable";
+  }
+  return "";
+}
+
+std::string verdict_text(const Fit& fit) {
+  const std::string first = fit.causes.empty() ? "" : cause_words(fit.causes.front());
+  switch (fit.verdict) {
+    case FitVerdict::kFits:
+      return "The data fit the map.";
+    case FitVerdict::kDoubtful:
+      return first.empty() ? "It is doubtful whether the data fit the map."
+                           : fmt::format("It is doubtful whether the data fit the map: {}.", first);
+    case FitVerdict::kUndetermined:
+      return first.empty() ? "Several maps fit the data equally well."
+                           : fmt::format("Several maps fit the data equally well: {}.", first);
+    case FitVerdict::kDoesNotFit:
+      return first.empty() ? "The data do not fit the map."
+                           : fmt::format("The data do not fit the map: {}.", first);
+    case FitVerdict::kNotTestable:
+      return fit.why.empty() ? "The fit cannot be tested."
+                             : "The fit cannot be tested: " + why_text(fit.why.front());
+  }
+  return "";
+}
+
+std::string cause_text(const FitCause& cause) {
+  return capital(fmt::format("{} (statistic {}, bound {}{}).", cause_words(cause),
+                             significant(cause.statistic), significant(cause.bound),
+                             cause.is_small ? "; the map hardly changes" : ""));
+}
+
+std::string limit_text(const FitTest& test) {
+  if (!test.limit || !std::isfinite(test.limit->value)) return "";
+  const std::string& id = test.limit->id;
+  const std::string unit = id.ends_with("_m") ? "m" : id.ends_with("_s") ? "s" : "";
+  const std::string amount =
+      significant(test.limit->value, 2) + (unit.empty() ? "" : "\u00a0" + unit);
+  const std::string names = names_of(test.landmarks);
+  switch (test.code) {
+    case FitCode::kCommonOffset:
+      return fmt::format("An offset of all ranges below {} could not be seen in these data.",
+                         amount);
+    case FitCode::kLandmarkOffset:
+      return fmt::format("An offset of the ranges of {} below {} could not be seen in these data.",
+                         names, amount);
+    case FitCode::kTimeOffset:
+      return fmt::format("A time offset of the ranges below {} could not be seen in these data.",
+                         amount);
+    case FitCode::kClockJump:
+      return fmt::format("A jump of the clock below {} could not be seen in these data.", amount);
+    case FitCode::kLandmarkMoved:
+      return fmt::format("A move of {} below {} could not be seen in these data.", names, amount);
+    case FitCode::kKnownLandmarkOff:
+      return fmt::format("An error of the given position of {} below {} could not be seen in these "
+                         "data.",
+                         names, amount);
+    default:
+      return fmt::format("{}: less than {} could not be seen in these data.",
+                         capital(test_label(test.code, test.landmarks)), amount);
+  }
+}
+
+std::string why_text(FitMissing missing) {
+  switch (missing) {
+    case FitMissing::kMap:
+      return "there is no map.";
+    case FitMissing::kRedundancy:
+      return "there are too few measurements for the number of unknowns.";
+    case FitMissing::kNoiseModel:
+      return "nothing determines how large the errors of the measurements are.";
+    case FitMissing::kOdometry:
+      return "there is no odometry that ranges could be compared with.";
+    case FitMissing::kMetric:
+      return "the observations have no unit in which they could be compared with the map.";
+  }
+  return "";
+}
+
+std::string parts_text(const Fit& fit) {
+  if (fit.parts.empty()) return "";
+  std::vector<std::string> groups;
+  for (const std::vector<std::string>& part : fit.parts) groups.push_back(names_of(part));
+  std::string text = "The position of these groups of landmarks relative to each other is open: ";
+  for (std::size_t i = 0; i < groups.size(); ++i) text += (i > 0 ? "; " : "") + groups[i];
+  return text + ".";
+}
+
+std::string test_label(FitCode code, const std::vector<std::string>& landmarks) {
+  const std::string names = names_of(landmarks);
+  switch (code) {
+    case FitCode::kResiduals:
+      return "all residuals";
+    case FitCode::kLandmarkResiduals:
+      return "residuals of " + names;
+    case FitCode::kOutliers:
+      return "outliers";
+    case FitCode::kCommonOffset:
+      return "offset of all ranges";
+    case FitCode::kLandmarkOffset:
+      return "offset of " + names;
+    case FitCode::kTimeOffset:
+      return "time offset of ranges";
+    case FitCode::kClockJump:
+      return "jump of the clock";
+    case FitCode::kLandmarkMoved:
+      return "move of " + names;
+    case FitCode::kIdsExchanged:
+      return "IDs of " + names + " exchanged";
+    case FitCode::kOdometryGap:
+      return "gap in odometry";
+    case FitCode::kOdometryFrozen:
+      return "frozen odometry";
+    case FitCode::kKnownLandmarkOff:
+      return "given position of " + names;
+    case FitCode::kKnownLandmarksExchanged:
+      return "given positions of " + names + " exchanged";
+    case FitCode::kKnownLandmarksAtOdds:
+      return "given positions";
+    case FitCode::kResidualsOverTime:
+      return "residuals over time";
+    case FitCode::kResidualsOverRange:
+      return "residuals over range";
+    default:
+      return map_test_words(code, names);
+  }
+}
+
+}  // namespace mapproof

@@ -1,0 +1,68 @@
+#include "reports/sections/fit_text.hpp"
+
+#include <variant>
+
+#include <gtest/gtest.h>
+
+#include "reports/sections/fit_section.hpp"
+
+namespace mapproof {
+namespace {
+
+Fit late_fit() {
+  return {.verdict = FitVerdict::kDoesNotFit,
+          .causes = {{.code = FitCode::kTimeOffset,
+                      .landmarks = {},
+                      .values = {{.id = "offset_s", .value = 5.02, .sigma = 0.01}},
+                      .statistic = 812.0,
+                      .bound = 20.0,
+                      .figure = "fit"}},
+          .numbers = {{"fit_chi2_ratio", 3.5, 1.1}},
+          .tests = {{.code = FitCode::kTimeOffset, .statistic = 812.0, .bound = 20.0},
+                    {.code = FitCode::kCommonOffset,
+                     .statistic = 2.0,
+                     .bound = 20.0,
+                     .limit = FitValue{.id = "offset_m", .value = 0.31}}}};
+}
+
+TEST(FitSentences, NameVerdictAndCauseWithItsSize) {
+  EXPECT_EQ(verdict_text(late_fit()),
+            "The data do not fit the map: ranges are stamped 5.02\u00a0s late.");
+  EXPECT_EQ(cause_text(late_fit().causes[0]),
+            "Ranges are stamped 5.02\u00a0s late (statistic 812, bound 20).");
+  EXPECT_EQ(verdict_text(Fit{.verdict = FitVerdict::kFits}), "The data fit the map.");
+}
+
+TEST(FitSentences, SayWhatIsMissingForATest) {
+  const Fit fit{.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kOdometry}};
+  EXPECT_EQ(verdict_text(fit),
+            "The fit cannot be tested: there is no odometry that ranges could be compared with.");
+}
+
+TEST(FitSentences, SayWhichEffectCouldNotBeSeen) {
+  EXPECT_EQ(limit_text(late_fit().tests[1]),
+            "An offset of all ranges below 0.31\u00a0m could not be seen in these data.");
+  EXPECT_EQ(limit_text(late_fit().tests[0]), "");
+}
+
+TEST(FitSentences, NameEveryCodeInWords) {
+  for (int i = 0; i <= static_cast<int>(FitCode::kDisconnected); ++i) {
+    const auto code = static_cast<FitCode>(i);
+    EXPECT_EQ(test_label(code, {"A", "B"}).find('_'), std::string::npos) << name(code);
+    const std::string text = cause_text({.code = code, .landmarks = {"A", "B"}, .bound = 1.0});
+    EXPECT_NE(text.substr(0, 2), " (") << name(code);
+  }
+}
+
+TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {
+  const Fit fit = late_fit();
+  const Figure figure = fit_figure(fit, "fit", {"drive"});
+  EXPECT_NE(figure.alt.find("time offset of ranges 41"), std::string::npos) << figure.alt;
+  const Section section = fit_section(fit, {{.id = "fit"}});
+  const auto& callout = std::get<Callout>(section.blocks.at(0));
+  EXPECT_EQ(callout.title, "Verdict: does not fit");
+  EXPECT_EQ(callout.tone, Callout::Tone::kWarning);
+}
+
+}  // namespace
+}  // namespace mapproof
