@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/words.hpp"
 

@@ -58,7 +58,9 @@ TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {
   const Fit fit = late_fit();
   const Figure figure = fit_figure(fit, "fit", {"drive"});
   EXPECT_NE(figure.alt.find("time offset of ranges 41"), std::string::npos) << figure.alt;
-  const Section section = fit_section(fit, {{.id = "fit"}});
+  FigureBlock block;
+  block.id = "fit";
+  const Section section = fit_section(fit, {block});
   const auto& callout = std::get<Callout>(section.blocks.at(0));
   EXPECT_EQ(callout.title, "Verdict: does not fit");
   EXPECT_EQ(callout.tone, Callout::Tone::kWarning);
