@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include "render/image/image.hpp"
@@ -10,6 +12,15 @@ namespace mapproof {
 
 /// The class of a pixel's difference.
 enum class PixelMark : std::uint8_t { kEqual, kNoise, kSmoothed, kChanged };
+
+/// Of 255: the largest difference of a channel of two pixels.
+inline int largest_difference(std::uint32_t a, std::uint32_t b) {
+  int largest = 0;
+  for (const int shift : {16, 8, 0})
+    largest = std::max(largest, std::abs(static_cast<int>((a >> shift) & 0xFF) -
+                                         static_cast<int>((b >> shift) & 0xFF)));
+  return largest;
+}
 
 inline constexpr int kTile = 16;  ///< Pixels per side.
 

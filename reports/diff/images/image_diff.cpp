@@ -1,11 +1,14 @@
 #include "reports/diff/images/image_diff.hpp"
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,7 @@
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
 #include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/flat_ground.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
@@ -64,11 +68,7 @@ std::int64_t ignore(const Image& baseline, Image& current, const std::vector<Pix
 }
 
 bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
-  for (const int shift : {16, 8, 0})
-    if (std::abs(static_cast<int>((a >> shift) & 0xFF) - static_cast<int>((b >> shift) & 0xFF)) >
-        noise)
-      return false;
-  return true;
+  return largest_difference(a, b) <= noise;
 }
 
 TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double noise) {
@@ -342,20 +342,66 @@ void compare_svgs(std::string_view before, std::string_view after, const ImageOp
   diff.reason = words(*diff.svg);
 }
 
-}  // namespace
+// The tolerances at which a judgement is made, from the defaults on.
+constexpr std::array kNoiseSteps{
+    ImageTolerances::kNoise, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0};
+constexpr std::array kDisplacementSteps{ImageTolerances::kDisplacement_px,
+                                        0.5,
+                                        0.6,
+                                        0.7,
+                                        0.8,
+                                        0.9,
+                                        1.0,
+                                        1.25,
+                                        1.5,
+                                        1.75,
+                                        2.0,
+                                        2.5,
+                                        3.0,
+                                        3.5,
+                                        4.0};
 
-PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
-  if (const std::string problem = problem_of(options); !problem.empty())
-    throw InvalidInput(problem);
-  PixelComparison diff;
-  diff.pixels.baseline = {baseline.width, baseline.height};
-  diff.pixels.current = {current.width, current.height};
-  if (diff.pixels.baseline != diff.pixels.current) return diff;
-  diff.pixels.ignored = ignore(baseline, current, options.ignored);
+/// The steps up to a value, the largest first; the first step if the value is below all.
+std::vector<double> steps_up_to(double value, std::span<const double> steps) {
+  std::vector<double> found;
+  for (const double step : steps)
+    if (step <= value) found.insert(found.begin(), step);
+  if (found.empty()) found.push_back(steps.front());
+  return found;
+}
+
+/// Applies to the marks of a tile what the options allow and the judgement did not know.
+/// @param judged  The tolerances of the judgement: at least the options', if these are below the
+///                defaults, else at most theirs.
+void apply_tolerances(const Image& baseline, const Image& current, const PixelBox& tile,
+                      const ImageOptions& options, const ImageOptions& judged,
+                      const TileEvidence& evidence, TileMarks& marks) {
+  const bool is_flat_shift = evidence.flat_shift > 0.0;
+  const bool is_moved_too_far = options.displacement_px < judged.displacement_px &&
+                                evidence.displacement_px() > options.displacement_px;
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width; ++x) {
+      PixelMark& mark = marks[y * kTile + x];
+      if (mark == PixelMark::kEqual) continue;
+      const int difference = largest_difference(baseline.row(tile.y + y)[tile.x + x],
+                                                current.row(tile.y + y)[tile.x + x]);
+      if (mark == PixelMark::kChanged && !is_flat_shift && difference <= options.noise)
+        mark = PixelMark::kNoise;
+      else if ((mark == PixelMark::kNoise && difference > options.noise) ||
+               (mark == PixelMark::kSmoothed && is_moved_too_far))
+        mark = PixelMark::kChanged;
+    }
+}
+
+/// Fills in the marks and the sums of two images of one size.
+/// @param judged  The tolerances of the judgement; what else the options allow is applied to its
+///                marks.
+void judge_pixels(const Image& baseline, const Image& current, const ImageOptions& options,
+                  const ImageOptions& judged, PixelComparison& diff) {
   diff.marks = ChangeMap(baseline.width, baseline.height);
 
   // First pass: which tiles differ, and whether there is noise everywhere.
-  const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, options.noise);
+  const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, judged.noise);
   std::vector<int> tiles;
   Texture texture;
   double within_noise = 0.0;
@@ -368,7 +414,7 @@ PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOpti
                        static_cast<int>(i) / diff.marks.across());
   }
   const double pixels = static_cast<double>(baseline.width) * baseline.height;
-  const EvidenceBounds bounds{options.noise, options.mean_noise, options.displacement_px,
+  const EvidenceBounds bounds{judged.noise, judged.mean_noise, judged.displacement_px,
                               within_noise > kNoisyShare * pixels};
   diff.marks.keep(tiles);
 
@@ -378,10 +424,41 @@ PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOpti
     const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
     evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
   });
-  judge(tiles, evidence, texture, options, diff.marks);
+  judge(tiles, evidence, texture, judged, diff.marks);
+  if (options.noise != judged.noise || options.displacement_px != judged.displacement_px)
+    parallel_for(tiles.size(), [&](std::size_t i) {
+      apply_tolerances(baseline, current, box_of(diff.marks, baseline, tiles[i]), options, judged,
+                       evidence[i], *diff.marks.tile(tiles[i]));
+    });
+  mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);
   find_clusters(tiles, diff.marks, diff.pixels);
-  return diff;
+}
+
+}  // namespace
+
+PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
+  if (const std::string problem = problem_of(options); !problem.empty())
+    throw InvalidInput(problem);
+  PixelComparison diff;
+  diff.pixels.baseline = {baseline.width, baseline.height};
+  diff.pixels.current = {current.width, current.height};
+  if (diff.pixels.baseline != diff.pixels.current) return diff;
+  diff.pixels.ignored = ignore(baseline, current, options.ignored);
+  // The judgement weighs shares of what differs, which a larger tolerance changes in either
+  // direction. The judgement that finds least at any tolerance up to the allowed one cannot find
+  // more if more is allowed.
+  std::optional<PixelComparison> least;
+  for (const double noise : steps_up_to(options.noise, kNoiseSteps))
+    for (const double displacement_px : steps_up_to(options.displacement_px, kDisplacementSteps)) {
+      ImageOptions judged = options;
+      judged.noise = noise, judged.displacement_px = displacement_px;
+      PixelComparison found = diff;
+      judge_pixels(baseline, current, options, judged, found);
+      if (!least || found.pixels.changed < least->pixels.changed) least = std::move(found);
+      if (least->pixels.changed == 0) return *std::move(least);
+    }
+  return *std::move(least);
 }
 
 ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,

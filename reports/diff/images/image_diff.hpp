@@ -17,10 +17,12 @@ struct PixelComparison {
   ChangeMap marks;  ///< Empty if the sizes differ.
 };
 
-/// Compares two images, as docs/diff-images.md describes.
+/// Compares two images, as docs/diff-images.md describes. A larger tolerance never finds a change
+/// where a smaller one finds none.
 /// @param current  Consumed; its ignored pixels are overwritten.
 /// @throws InvalidInput if the options cannot be used.
-/// @note Linear time; equal tiles cost a comparison of their bytes. Parallel over tiles.
+/// @note Linear time; equal tiles cost a comparison of their bytes. Images that differ are judged
+///       once for each step of tolerance up to the options'. Parallel over tiles.
 PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options = {});
 
 /// Compares two PNG or two SVG files. Invalid content is not an error: the state is then

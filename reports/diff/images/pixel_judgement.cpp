@@ -223,7 +223,7 @@ struct OverallEvidence {
     if (tile.displacement_px() > kFarMoved) far_right += x, far_down += y;
   }
   bool any_lost() const { return lost > kLostShare * beyond; }
-  /// The origin of the pixels, as one of kSteps, if most are copies of a neighbour.
+  /// The origin of the pixels, as one of kNeighbourSteps, if most are copies of a neighbour.
   std::optional<std::size_t> copied_from() const {
     const auto most = std::ranges::max_element(copied);
     if (*most <= kCopiedShare * beyond) return std::nullopt;

@@ -188,8 +188,8 @@ bool is_bold(const PatchPair& pair, int i) {
 
 /// Counts the neighbours from which the cell's new colour may come, if everything moved by a pixel.
 void count_copies(const PatchPair& pair, int i, double noise, std::array<int, 8>& copied) {
-  for (std::size_t step = 0; step < kSteps.size(); ++step) {
-    const int j = i + kSteps[step][1] * kPatchSide + kSteps[step][0];
+  for (std::size_t step = 0; step < kNeighbourSteps.size(); ++step) {
+    const int j = i + kNeighbourSteps[step][1] * kPatchSide + kNeighbourSteps[step][0];
     int largest = 0;
     for (int c = 0; c < 3; ++c)
       largest = std::max(largest, std::abs(pair.after.raw[c][i] - pair.before.raw[c][j]));

@@ -158,9 +158,9 @@ class Builder {
 
   /// Whether a value of geometry holds a word for no number, or one too large for any.
   static bool is_no_number(const std::string& name, std::string_view value) {
-    static constexpr std::array<std::string_view, 14> kGeometry = {
+    static constexpr std::array<std::string_view, 14> kGeometryAttributes = {
         "x", "y", "x1", "y1", "x2", "y2", "cx", "cy", "r", "rx", "ry", "d", "points", "transform"};
-    if (std::ranges::find(kGeometry, name) == kGeometry.end()) return false;
+    if (std::ranges::find(kGeometryAttributes, name) == kGeometryAttributes.end()) return false;
     if (!holds_any(value, "eEiInN")) return false;
     const std::string text = lower_case(value);
     if (text.find("nan") != std::string::npos || text.find("inf") != std::string::npos) return true;
