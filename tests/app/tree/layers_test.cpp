@@ -84,6 +84,34 @@ const std::map<std::string, Modules>& kept_in() {
   return table;
 }
 
+/// Packages that only these modules may link, as CMake names them.
+const std::map<std::string, Modules>& linked_in() {
+  static const std::map<std::string, Modules> table = {
+      {"PkgConfig::CAIRO", {"render/cairo"}},
+      {"PkgConfig::FREETYPE", {"render/theme", "render/cairo"}},
+      {"PkgConfig::HARFBUZZ", {"render/theme", "render/cairo"}},
+      {"PkgConfig::DEFLATE", {"render/image", "render/cairo"}},
+      {"PkgConfig::PNG", {"render/image"}},
+      {"PkgConfig::FFMPEG", {"render/animation"}},
+      {"VTK_LIBRARIES", {"render/vtk"}},
+      {"OSMESA_LIBRARY", {"render/vtk"}},
+      {"OpenGL::EGL", {"render/vtk"}},
+      {"PkgConfig::EXPAT", {"reports/diff"}},
+      {"PkgConfig::SQLITE", {"reports/history"}},
+      {"PkgConfig::MATIO", {"core/records"}},
+      {"PkgConfig::MD", {"core/base"}},
+      {"LibLZMA::LibLZMA", {"core/base"}},
+      {"TBB::tbb", {"core/base"}},
+      {"ZLIB::ZLIB", {"core/base"}},
+      {"CSDP::sdp", {"core/embed"}},
+      {"Ceres::ceres", {"core/range_slam"}},
+      {"Boost::headers", {"core/statistics", "reports/history"}},
+      {"CLI11::CLI11", {}},
+      {"spdlog::spdlog", {}},
+  };
+  return table;
+}
+
 /// "core/embed" of "core/embed/isomap.hpp".
 std::string module_of(const std::string& path) {
   const std::size_t first = path.find('/');
@@ -122,6 +150,88 @@ std::vector<std::string> objections_in(const std::string& text, const std::strin
     if (!why.empty()) objections.push_back("line " + std::to_string(number) + ": " + why);
   }
   return objections;
+}
+
+/// Why a folder's CMakeLists.txt may not link that word of it, or nothing. Which modules a module
+/// uses is held by CMake itself (scripts/cmake/Module.cmake); what is linked past that is not.
+std::string objection_to_link(const std::string& module, std::string word) {
+  std::erase_if(word, [](char c) { return c == '$' || c == '{' || c == '}' || c == ')'; });
+  for (const auto& [package, modules] : linked_in())
+    if (word.ends_with(package) && !modules.contains(module))
+      return module + " may not link " + package;
+  static const std::vector<std::string> libraries = {"core", "render", "reports", "app"};
+  const auto layer = [](std::string_view name) {
+    return std::ranges::find(libraries, name.substr(0, name.find_first_of("/_"))) -
+           libraries.begin();
+  };
+  for (const std::string_view prefix : {"mapproof::", "mapproof_"})
+    if (word.starts_with(prefix)) {
+      const std::string_view name = std::string_view(word).substr(prefix.size());
+      const auto other = layer(name);
+      // A library may name those below it; a module links others by USES alone.
+      const bool is_module = name.find('_') != name.npos && module.find('/') != module.npos;
+      if (other < std::ssize(libraries) && (other > layer(module) || is_module))
+        return module + " may not link " + word;
+    }
+  return "";
+}
+
+/// One for each line of a CMakeLists.txt that links what its module may not.
+std::vector<std::string> objections_to_links(const std::string& cmake, const std::string& module) {
+  std::vector<std::string> objections;
+  std::istringstream lines(cmake);
+  int number = 0;
+  bool links = false;  // Within target_link_libraries(), or behind PACKAGES.
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    std::istringstream words(line.substr(0, line.find('#')));
+    for (std::string word; words >> word;) {
+      if (const std::size_t open = word.find('('); open != word.npos) {
+        links = word.starts_with("target_link_libraries");
+        continue;  // Its own name follows the parenthesis.
+      }
+      if (word.ends_with("PACKAGES")) links = true;
+      if (word == "SOURCES" || word == "HEADERS" || word == "USES") links = false;
+      if (const std::string why = links ? objection_to_link(module, word) : ""; !why.empty())
+        objections.push_back("line " + std::to_string(number) + ": " + why);
+    }
+  }
+  return objections;
+}
+
+TEST(Layers, NoModuleLinksWhatItsLayerMayNotSee) {
+  int files = 0;
+  for (const char* library : {"core", "render", "reports"})
+    for (const auto& entry :
+         fs::recursive_directory_iterator(fs::path(MAPPROOF_SOURCE_DIR) / library)) {
+      if (entry.path().filename() != "CMakeLists.txt") continue;
+      ++files;
+      const std::string folder =
+          fs::relative(entry.path().parent_path(), MAPPROOF_SOURCE_DIR).string();
+      for (const std::string& why : objections_to_links(source_text(entry.path()), folder))
+        ADD_FAILURE() << folder << "/CMakeLists.txt: " << why;
+    }
+  EXPECT_GT(files, 30);
+}
+
+TEST(Layers, TheCheckRefusesLinksThatItShould) {
+  const auto objections = [](const std::string& cmake, const std::string& module) {
+    return objections_to_links(cmake, module);
+  };
+  EXPECT_EQ(objections("mapproof_module(core/embed\n  USES core/base\n  PACKAGES "
+                       "PkgConfig::CAIRO\n  SOURCES\n    a.cpp)\n",
+                       "core/embed"),
+            std::vector<std::string>{"line 3: core/embed may not link PkgConfig::CAIRO"});
+  EXPECT_EQ(objections("target_link_libraries(mapproof_core_embed PRIVATE mapproof_render_plot)\n",
+                       "core/embed"),
+            std::vector<std::string>{"line 1: core/embed may not link mapproof_render_plot"});
+  EXPECT_EQ(objections("target_link_libraries(x\n  PRIVATE mapproof_core_model)\n", "core/embed"),
+            std::vector<std::string>{"line 2: core/embed may not link mapproof_core_model"});
+  EXPECT_EQ(objections("mapproof_library(core\n  HEADER_PACKAGES mapproof::render)\n", "core"),
+            std::vector<std::string>{"line 2: core may not link mapproof::render"});
+  EXPECT_TRUE(objections("mapproof_library(reports\n  HEADER_PACKAGES mapproof::core)\n", "reports")
+                  .empty());
+  EXPECT_TRUE(objections("mapproof_module(x\n  PACKAGES TBB::tbb)\n", "core/base").empty());
 }
 
 TEST(Layers, NoSourceIncludesWhatItsLayerMayNotSee) {
