@@ -21,6 +21,7 @@
 #include "app/nightly/history.hpp"
 #include "app/nightly/nightly.hpp"
 #include "app/slam/slam.hpp"
+#include "app/study/example.hpp"
 #include "app/study/methods.hpp"
 #include "app/study/render.hpp"
 #include "app/study/report.hpp"
@@ -114,6 +115,7 @@ int run_command_of(int argc, char** argv) {
       {"diff", diff_command},
       {"approve", approve_command},
       {"check", check_command},
+      {"example", example_command},
       {"methods", methods_command},
       {"validate", validate_command},
       {"nightly", nightly_command},

@@ -148,12 +148,13 @@ std::vector<fs::path> outputs_below(const fs::path& folder) {
   return paths;
 }
 
-Finding check_file(const fs::path& path, const ForeignReader& foreign) {
+Finding check_file(const fs::path& path, const ForeignReader& foreign,
+                   const ValidateOptions& options) {
   try {
     ByteSource source(path);
     if (const StagedOutput* output = output_of(source))
       return check_output(source.name(), *output, [&] { return source.rest(); });
-    return validate(source, foreign);
+    return validate(source, foreign, options);
   } catch (const IoError& error) {
     return {.path = input_name(path), .kind = "", .problem = error.what()};
   }
@@ -161,9 +162,10 @@ Finding check_file(const fs::path& path, const ForeignReader& foreign) {
 
 }  // namespace
 
-std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
-  if (!is_folder(path)) return {check_file(path, foreign)};
-  std::vector<Finding> findings = validate(path, foreign);
+std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign,
+                                  const ValidateOptions& options) {
+  if (!is_folder(path)) return {check_file(path, foreign, options)};
+  std::vector<Finding> findings = validate(path, foreign, options);
   // Nobody unpacks an image of a folder: there it has to be one as it is.
   for (const fs::path& output : outputs_below(path))
     findings.push_back(

@@ -9,6 +9,7 @@ namespace mapproof {
 
 /// Checks whatever mapproof reads or writes: what core knows (see validate), and the images,
 /// tables and pages that it writes and never reads again. Of a study's or a map's folder, both.
-std::vector<Finding> validate_all(const std::filesystem::path& path, const ForeignReader& foreign);
+std::vector<Finding> validate_all(const std::filesystem::path& path, const ForeignReader& foreign,
+                                  const ValidateOptions& options = {});
 
 }  // namespace mapproof

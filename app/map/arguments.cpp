@@ -20,8 +20,9 @@ void add_method_options(CLI::App& app, MapJob& job) {
   add_out_option(app, job.out, "Folder for map, figure and report")->required();
   app.add_option(
       "--method", job.method,
-      "The embedding method, see \"mapproof methods\" (default: isomap; pairs for range-bearing). "
-      "auto: the best one, judged without ground truth");
+      "The embedding method, see \"mapproof methods\". auto: the best one, judged without ground "
+      "truth (default for up to 200 landmarks if it takes seconds, else isomap; pairs for "
+      "range-bearing)");
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
   parameter->require_option(0, 1);
@@ -38,7 +39,7 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option(
          "--sensor", job.kind,
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
-         "needed for CSV files, except detections")
+         "needed for tables, except detections")
       ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
   app.add_option(
          "--with", job.with,
@@ -48,10 +49,7 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option("--with-sensor", job.with_kind, "The sensor of each --with")
       ->check(CLI::IsMember({"visibility", "bearing", "range"}))
       ->take_all();
-  app.add_flag("--degrees", job.degrees, "Bearings in CSV files are in degrees");
-  app.add_option("--layout", job.layout, "Layout of a CSV file")
-      ->check(CLI::IsMember({"auto", "wide", "long"}))
-      ->capture_default_str();
+  add_table_options(app, job.table);
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -132,12 +130,13 @@ void add_incremental_options(CLI::App& app, MapJob& job) {
 
 bool MapJob::chooses_method() const { return lower_case(method) == "auto"; }
 
-AffineFit MapJob::affine_fit() const {
-  return fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+bool MapJob::may_choose_method() const {
+  return method.empty() && !is_range_bearing() && !parameter && !neighbours && !variance &&
+         !degree && with.empty() && submaps == 0 && !follow && uncertain_ids.empty();
 }
 
-Layout MapJob::table_layout() const {
-  return layout == "wide" ? Layout::kWide : layout == "long" ? Layout::kLong : Layout::kAuto;
+AffineFit MapJob::affine_fit() const {
+  return fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
 }
 
 std::vector<std::string> missing_ways() {

@@ -9,11 +9,13 @@
 #include <CLI/CLI.hpp>
 
 #include "app/map/reference.hpp"
+#include "app/table_options.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/records/detections/detections.hpp"
+#include "core/records/observations/input_summary.hpp"
 #include "core/records/observations/observations.hpp"
 
 namespace mapproof {
@@ -24,8 +26,7 @@ struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
   std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as in the file.
-  std::string layout = "auto";
-  bool degrees = false;
+  TableOptions table = {};  ///< How the files are to be read.
   std::vector<std::string> with;       ///< Files of other sensors,
   std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
@@ -34,7 +35,7 @@ struct MapJob {
   bool drop_unseen = false;  ///< Map the others where a landmark was never observed.
   std::string fit = "least-distances";
 
-  std::string method;               ///< Empty: isomap, or pairs of range and bearing.
+  std::string method;  ///< Empty: chosen if that is quick, else isomap; pairs of range and bearing.
   std::optional<double> parameter;  ///< One of these four.
   std::optional<double> neighbours;
   std::optional<double> variance;
@@ -64,13 +65,17 @@ struct MapJob {
   /// lacks what is not known yet: a usual parameter.
   std::function<void(const MapRecord&)> begin = {};
 
+  /// Called with what was understood of each file.
+  std::function<void(const std::string& path, const InputSummary&)> understood = {};
+
   bool is_range_bearing() const { return kind == kRangeBearing; }
   bool chooses_method() const;
+  /// Whether the method may be chosen although none is named: nothing that is asked for prevents it.
+  bool may_choose_method() const;
   bool judges_ids() const { return check_ids || repair_ids || find_moved; }
   bool is_rigid() const { return fit == "rigid"; }
   AffineFit affine_fit() const;
-  Layout table_layout() const;
-  AngleUnit unit() const { return degrees ? AngleUnit::kDegrees : AngleUnit::kRadians; }
+  TableFormat table_format() const { return table.format(); }
 };
 
 /// "pairwise-complete", "ppca", "pca", "covisible", "auto": strategies for missing data.

@@ -46,7 +46,7 @@ class ValueFollower : public Follower {
  public:
   explicit ValueFollower(const FollowedTable& table)
       : table_(table),
-        stream_(table.source, table.sensor, table.unit),
+        stream_(table.source, table.sensor, table.format),
         map_(table.sensor, table.options) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
@@ -114,7 +114,7 @@ class ValueFollower : public Follower {
 class PairFollower : public Follower {
  public:
   explicit PairFollower(const FollowedTable& table)
-      : table_(table), stream_(table.source, {.unit = table.unit, .value = std::nullopt}) {}
+      : table_(table), stream_(table.source, table.format) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }

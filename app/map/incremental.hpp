@@ -19,7 +19,7 @@ namespace mapproof {
 struct FollowedTable {
   std::string source = {};                      ///< What to call it in errors.
   Sensor sensor = Sensor::kRange;               ///< Of values alone.
-  AngleUnit unit = AngleUnit::kRadians;         ///< Of bearings.
+  TableFormat format = {};                      ///< How the table is to be understood.
   FollowOptions options = {};                   ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
   std::optional<NamedPointsFile> ground_truth = {};  ///< For scores, of what is known of it so far.

@@ -12,8 +12,10 @@
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/map/reference.hpp"
+#include "app/understood.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/records/detections/mrclam.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,13 +36,22 @@ MethodSetting chosen_setting(const MapJob& job) {
   return {method, given->value};
 }
 
-/// Opens the observations, and detects range-bearing from the columns if no sensor is given.
+/// Opens the observations, and takes the sensor of detections from their columns if none is given.
 /// @throws IoError if they cannot be read.
 void open_observations(MapJob& job) {
-  if (is_folder(job.path)) return;
+  if (is_folder(job.path)) {
+    if (job.kind.empty() && is_mrclam(job.path)) job.kind = kRangeBearing;
+    return;
+  }
   job.source = std::make_shared<ByteSource>(job.path);
-  if (job.kind.empty() && job.table_layout() == Layout::kAuto && is_detections(*job.source))
-    job.kind = kRangeBearing;
+  const TableFormat format = job.table_format();
+  if (!job.kind.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
+    return;
+  const MeasuredColumns measured = measured_in(*job.source, format);
+  job.kind = measured.range && measured.bearing ? std::string(kRangeBearing)
+             : measured.range                   ? std::string(name(Sensor::kRange))
+             : measured.bearing                 ? std::string(name(Sensor::kBearing))
+                                                : std::string(name(Sensor::kVisibility));
 }
 
 /// Completes a parsed job: unless the map is incremental, opens the file and detects its sensor if
@@ -65,7 +76,7 @@ FollowOrder follow_order(const MapJob& job) {
   return {.path = job.path,
           .table = {.source = {},
                     .sensor = sensor.value_or(Sensor::kRange),
-                    .unit = job.unit(),
+                    .format = job.table_format(),
                     .options = {.setting = job.setting, .embedder = job.embedder},
                     .anchors = job.known_anchors,
                     .ground_truth = job.known_ground_truth,
@@ -79,9 +90,15 @@ FollowOrder follow_order(const MapJob& job) {
 
 int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
   job.begin = [&](const MapRecord& begun) {
-    check_may_become(location.out, begun, job.chooses_method());
+    check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
   };
-  const MapResult map = make_map(job);
+  nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
+  job.understood = [&](const std::string& path, const InputSummary& summary) {
+    invocation.console.info(understood_line(path, summary));
+    inputs.push_back(understood_json(summary));
+  };
+  MapResult map = make_map(job);
+  map.members.push_back({"inputs", std::move(inputs)});
   for (const auto& [what, value] : map.read)
     invocation.console.detail(fmt::format("{}: {}: {}", input_name(job.path), what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
@@ -113,19 +130,23 @@ Action map_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof map bearings.csv --sensor bearing --anchors anchors.csv --out out/map\n"
       "  mapproof map seen.csv --sensor visibility --method lpca --out out/shape\n"
-      "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n"
-      "  mapproof map MRCLAM_Dataset2 --sensor range-bearing --out out/pairs\n"
+      "  mapproof map MRCLAM_Dataset2 --out out/pairs\n"
+      "  mapproof map MRCLAM_Dataset2 --sensor bearing --method isomap -K 5 --out out/mrclam\n"
       "  mapproof map seen.csv --sensor visibility --with bearings.csv --with-sensor bearing --out "
       "out/joint\n\n"
       "OBSERVATIONS is one of\n"
-      "  wide CSV: one row per landmark, one column per step; an empty cell or nan is missing\n"
+      "  wide CSV: one row per landmark, one column per step; an empty cell or NA is missing\n"
+      "  transposed CSV: one row per step, one column per landmark\n"
       "  long CSV: the columns step, landmark, value\n"
       "  detections: the columns step or time, landmark, range, bearing\n"
-      "  JSON: mapproof.observations or mapproof.detections\n"
+      "  the columns time, landmark alone: what was seen when\n"
+      "  JSON: mapproof.observations, mapproof.detections, lines or a list of objects\n"
+      "  NumPy's .npy and .npz; bearing-range edges of g2o\n"
       "  a folder of MRCLAM files\n"
       "It may be compressed by gzip or xz. A pipe or standard input (-) serves wherever a file "
       "does.\n"
-      "Bearings are relative to the robot's heading, counter-clockwise, in radians.\n"
+      "Bearings are relative to the robot's heading, counter-clockwise (to the left), in radians;\n"
+      "see --degrees and --bearing-convention for others.\n"
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
   add_map_options(app, *job);

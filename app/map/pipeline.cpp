@@ -20,12 +20,13 @@ namespace {
 // Read.
 
 ObservationSource read_values(const MapJob& job, std::optional<Sensor> sensor) {
-  return job.source ? read_observations(*job.source, sensor, job.table_layout(), job.unit())
-                    : read_observations(job.path, sensor, job.table_layout(), job.unit());
+  return job.source ? read_observations(*job.source, sensor, job.table_format())
+                    : read_observations(job.path, sensor, job.table_format());
 }
 
 DetectionSource read_scans(const MapJob& job, std::optional<Sensor> value) {
-  const DetectionFormat format{.unit = job.unit(), .value = value};
+  TableFormat format = job.table_format();
+  format.value = value;
   return job.source ? read_detections(*job.source, format) : read_detections(job.path, format);
 }
 
@@ -33,7 +34,7 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
   std::vector<ObservationSource> sources = {read_values(job, sensor)};
   for (std::size_t k = 0; k < job.with.size(); ++k)
     sources.push_back(read_observations(job.with[k], sensor_named(job.with_kind[k]),
-                                        job.table_layout(), job.unit()));
+                                        job.table_format()));
   for (const ObservationSource& source : sources)
     if (!source.unassociated.empty())
       throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),
@@ -45,8 +46,8 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
 bool may_be_long(const MapJob& job) {
   return job.missing == MapJob().missing && job.submaps == 0 && !job.judges_ids() &&
          job.uncertain_ids.empty() && !job.chooses_method() && job.ellipse_replicates == 0 &&
-         job.table_layout() != Layout::kWide && job.source != nullptr &&
-         is_large_long_table(*job.source);
+         !job.table.is_grid() && job.source != nullptr &&
+         is_large_long_table(*job.source, job.table_format());
 }
 
 Observed read(const MapJob& job) {
@@ -104,6 +105,19 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
   draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
                        {"Steps used", fmt::format("{} of {}", steps, history.steps())},
                        {"Missing entries", fmt::format("{:.1f} %", 100.0 * missing / entries)}};
+}
+
+/// Reports what was understood of the files.
+Observed reported(Observed observed, const MapJob& job) {
+  if (!job.understood) return observed;
+  if (const auto* source = std::get_if<ObservationSource>(&observed))
+    job.understood(source->path, summary_of(*source));
+  else if (const auto* scans = std::get_if<DetectionSource>(&observed))
+    job.understood(scans->path, summary_of(*scans, job.kind));
+  else
+    for (const ObservationSource& one : std::get<std::vector<ObservationSource>>(observed))
+      job.understood(one.path, summary_of(one));
+  return observed;
 }
 
 /// Leaves the first scans, as many as the job asks for.
@@ -256,7 +270,7 @@ constexpr std::array kSteps = {
 std::span<const MapStep* const> map_steps() { return kSteps; }
 
 MapResult make_map(const MapJob& job) {
-  MapDraft draft{.observed = read(job)};
+  MapDraft draft{.observed = reported(read(job), job)};
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
     draft.result.remarks = source->remarks;
   else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))

@@ -91,10 +91,11 @@ std::string number_problem(std::string_view cell) {
 }
 
 bool is_missing(std::string_view cell) {
+  constexpr std::string_view kWords[] = {"na",   "n/a", "#n/a", "<na>", "#na", "null",
+                                         "none", "nan", "-nan", "nat",  "-",   "--"};
   if (cell.empty()) return true;
-  if (cell.size() > 4) return false;
-  if (cell[0] == '-') cell.remove_prefix(1);
-  return lower_case(cell) == "nan";
+  if (cell.size() > 4 || (cell[0] >= '0' && cell[0] <= '9')) return false;
+  return std::ranges::find(kWords, lower_case(cell)) != std::end(kWords);
 }
 
 std::string in_quotes(std::string_view cell) {

@@ -27,7 +27,8 @@ std::optional<double> number_in(std::string_view cell);
 /// Why number_in() refuses the cell, or why an infinite one is no good.
 std::string number_problem(std::string_view cell);
 
-/// Whether the cell stands for a missing value: nothing, or NaN in any case.
+/// Whether the cell stands for a missing value: nothing, -, or in any case nan, NA, N/A, null,
+/// None, NaT and their usual variants.
 bool is_missing(std::string_view cell);
 
 /// `cell` in quotes, short enough for an error's line.

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <iterator>
 #include <new>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 
@@ -17,7 +20,6 @@
 #include "core/json/json_cursor.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detections.hpp"
-#include "core/records/detections/detections_long.hpp"
 #include "core/records/detections/mrclam.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/maps/map_csv.hpp"
@@ -31,7 +33,7 @@
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/records/tables/cells.hpp"
+#include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_stream.hpp"
 #include "core/topics/study_kind.hpp"
 
@@ -40,20 +42,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Reader = ObservationSource (*)(std::string_view, const std::string&, Sensor, AngleUnit);
-
-/// Of the three sensors the bearings' error is the most helpful: values that fit none are often
-/// degrees.
-void check_observations(std::string_view text, const std::string& source, Reader reader) {
-  for (const Sensor sensor : {Sensor::kVisibility, Sensor::kRange}) {
-    try {
-      reader(text, source, sensor, AngleUnit::kRadians);
-      return;
-    } catch (const IoError&) {
-    }
-  }
-  reader(text, source, Sensor::kBearing, AngleUnit::kRadians);
-}
+/// A problem that is known in words.
+class CheckedProblem : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 bool is_map(const TableRow& header) {
   return header.cells.size() >= 6 && header.cells[0] == "name" && header.cells[3] == "true_x_m" &&
@@ -70,42 +63,172 @@ bool is_part_of_mrclam(const std::filesystem::path& path) {
   return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
 }
 
-/// Reads a table of any kind that mapproof knows: long or wide observations, landmarks with
-/// positions, a map. The header decides which, or the rows if there is none. What the values of
-/// observations are is not determined by a table: visibility, bearing and range are tried.
-/// @param kind  Set to what it was taken for, before anything is thrown.
+/// A table in memory as a source.
+ByteSource memory_source(const std::string& name, const std::string& bytes) {
+  return {name, [&bytes, at = std::size_t{0}](std::span<char> to) mutable {
+            const std::size_t count = std::min(to.size(), bytes.size() - at);
+            std::copy_n(bytes.data() + at, count, to.begin());
+            at += count;
+            return count;
+          }};
+}
+
+/// What a table may hold where nobody states it, in this order.
+struct Guess {
+  Sensor sensor;
+  AngleUnit unit;
+};
+constexpr std::array kGuesses = {Guess{Sensor::kVisibility, AngleUnit::kRadians},
+                                 Guess{Sensor::kRange, AngleUnit::kRadians},
+                                 Guess{Sensor::kBearing, AngleUnit::kRadians},
+                                 Guess{Sensor::kBearing, AngleUnit::kDegrees}};
+
+constexpr const char* kDegreesRemark = "The bearings are in degrees: `map` needs --degrees";
+
+void take_observations(const ObservationSource& source, Finding& finding) {
+  finding.input = summary_of(source);
+  finding.remarks.insert(finding.remarks.end(), source.remarks.begin(), source.remarks.end());
+}
+
+/// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is
+/// the most helpful: values that fit none are often degrees.
+void check_observations(const std::string& bytes, const std::string& name,
+                        const ValidateOptions& options, Finding& finding) {
+  const auto read = [&](Sensor sensor, const TableFormat& format) {
+    ByteSource source = memory_source(name, bytes);
+    return read_observations(source, sensor, format);
+  };
+  finding.kind = "observations";
+  std::string problem;
+  if (const auto sensor = sensor_named(options.sensor)) {
+    take_observations(read(*sensor, options.format), finding);
+  } else {
+    for (const Guess& guess : kGuesses) {
+      TableFormat format = options.format;
+      if (guess.unit == AngleUnit::kDegrees) format.unit = guess.unit;
+      try {
+        take_observations(read(guess.sensor, format), finding);
+        if (guess.unit != options.format.unit && guess.unit == AngleUnit::kDegrees)
+          finding.remarks.emplace_back(kDegreesRemark);
+        finding.input->sensor = fmt::format("{}?", finding.input->sensor);
+        problem.clear();
+        break;
+      } catch (const IoError& error) {
+        if (problem.empty() || guess.sensor == Sensor::kBearing) problem = error.what();
+        if (guess.unit == AngleUnit::kRadians && guess.sensor == Sensor::kBearing) continue;
+      }
+    }
+    if (!problem.empty()) throw CheckedProblem(problem);
+  }
+  finding.kind = finding.input->reading.form == "long table" ? "long CSV observations"
+                                                             : "wide CSV observations";
+}
+
+void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  finding.kind = "detections";
+  DetectionSource read = read_detections(source, options.format);
+  const MeasuredColumns measured{.range = std::ranges::any_of(
+                                     read.log.detections,
+                                     [](const Detection& seen) { return !std::isnan(seen.range_m); }),
+                                 .bearing = std::ranges::any_of(
+                                     read.log.detections, [](const Detection& seen) {
+                                       return !std::isnan(seen.bearing_rad);
+                                     })};
+  finding.input = summary_of(read, !options.sensor.empty()                ? options.sensor
+                                   : measured.range && measured.bearing ? "range-bearing"
+                                   : measured.range                     ? "range"
+                                   : measured.bearing                   ? "bearing"
+                                                                        : "visibility");
+  finding.remarks = read.remarks;
+}
+
+/// Reads a table of any kind that mapproof knows, as `map` reads it: detections, long, wide or
+/// transposed observations, landmarks with positions, a map.
 /// @throws IoError if it is none, or is broken.
-void check_table(ByteSource& input, std::string& kind) {
-  const std::string& source = input.name();
-  if (is_part_of_mrclam(input.path()))
-    throw IoError(source, "is one file of an MRCLAM data set: check the folder");
-  if (first_row_is(input, is_results_table))
-    throw IoError(source, "is a table of results without its study.json: check the study's folder");
-  if (first_row_is(input, names_detection_columns)) {
-    kind = "detections";
-    read_long_detections(input, {});
-    return;
+void check_table_once(const std::string& bytes, const std::string& name,
+                      const ValidateOptions& options, Finding& finding) {
+  const std::string_view text = checked_text(bytes, name);
+  ByteSource source = memory_source(name, bytes);
+  if (options.format.layout == Layout::kAuto && is_detections(source, options.format)) {
+    try {
+      return check_detections(source, options, finding);
+    } catch (const IoError&) {
+      ValidateOptions degrees = options;
+      degrees.format.unit = AngleUnit::kDegrees;
+      ByteSource again = memory_source(name, bytes);
+      if (options.format.unit == AngleUnit::kDegrees) throw;
+      try {
+        check_detections(again, degrees, finding);
+        finding.remarks.emplace_back(kDegreesRemark);
+        return;
+      } catch (const IoError&) {
+      }
+      throw;
+    }
   }
-  const std::string bytes = input.rest();
-  const std::string_view text = checked_text(bytes, source);
-  TableReader reader(text, source);
+  TableReader reader(text, name);
   TableRow first;
-  if (reader.next(first) && is_map(first)) {
-    kind = "map CSV";
-    parse_map_csv(text, source);
-    return;
+  const bool is_stated = !options.sensor.empty() || options.format.layout != Layout::kAuto;
+  if (!is_stated && reader.next(first) && is_map(first)) {
+    finding.kind = "map CSV";
+    parse_map_csv(text, name);
+  } else if (!is_stated && is_landmarks_table(text, name) && !has_long_header(text, name) &&
+             !starts_as_long(text, name)) {
+    finding.kind = "landmarks with positions";
+    parse_landmarks(text, name);
+  } else {
+    check_observations(bytes, name, options, finding);
   }
-  if (has_long_header(text, source) || starts_as_long(text, source)) {
-    kind = "long CSV observations";
-    return check_observations(text, source, read_long);
+}
+
+/// Makes a comment of the line that an error names, so that what follows it is checked, too.
+/// @return False if it names none, or the first row.
+bool leave_out_line(std::string& bytes, std::string_view error) {
+  const std::size_t at = error.find(": line ");
+  std::size_t line = 0;
+  if (at == std::string_view::npos) return false;
+  const std::string_view digits = error.substr(at + 7);
+  std::from_chars(digits.data(), digits.data() + digits.size(), line);
+  std::size_t begin = 0;
+  bool is_first = true;
+  for (std::size_t i = 1; i < line; ++i) {
+    is_first = is_first && (bytes[begin] == '#' || bytes[begin] == '\n');
+    begin = bytes.find('\n', begin);
+    if (begin == std::string::npos || ++begin == bytes.size()) return false;
   }
-  if (is_landmarks_table(text, source)) {
-    kind = "landmarks with positions";
-    parse_landmarks(text, source);
-    return;
+  if (is_first || bytes[begin] == '#') return false;
+  bytes.insert(begin, "#");
+  return true;
+}
+
+/// Reads a table until it is fine, or ten problems are known: a line with a problem is left out.
+void check_table(ByteSource& input, const ValidateOptions& options, Finding& finding) {
+  constexpr std::size_t kLarge = 64'000'000, kMostProblems = 10;
+  const std::string name = input.name();
+  if (is_part_of_mrclam(input.path()))
+    throw IoError(name, "is one file of an MRCLAM data set: check the folder");
+  if (first_row_is(input, is_results_table))
+    throw IoError(name, "is a table of results without its study.json: check the study's folder");
+  if (input.holds_more_than(kLarge) && is_detections(input, options.format))
+    return check_detections(input, options, finding);
+  std::string bytes = input.rest();
+  std::vector<std::string> problems;
+  while (problems.size() < kMostProblems) {
+    try {
+      check_table_once(bytes, name, options, finding);
+      break;
+    } catch (const std::runtime_error& error) {
+      const std::string problem = error.what();
+      if (!problems.empty() && problem.find(": line ") == std::string::npos) break;
+      problems.push_back(problem);
+      if (!leave_out_line(bytes, problem)) break;
+    }
   }
-  kind = "wide CSV observations";
-  check_observations(text, source, read_wide);
+  if (problems.empty()) return;
+  finding.input.reset();
+  finding.remarks.clear();
+  finding.problem = problems.front();
+  finding.further.assign(problems.begin() + 1, problems.end());
 }
 
 /// Files that are of no study's kind.
@@ -140,20 +263,17 @@ void check_json(std::string_view text, const ForeignReader& foreign, Finding& fi
     document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
 }
 
-/// Whether a name is one that tables have: of their endings, or none at all.
-bool may_be_table(const fs::path& path) {
-  constexpr std::array<std::string_view, 5> kExtensions = {"", ".csv", ".tsv", ".txt", ".dat"};
-  return std::ranges::find(kExtensions, unpacked_name(path).extension()) != kExtensions.end();
-}
-
 /// Lines of JSON: a file of many values.
 bool is_timings(ByteSource& source) {
   return source.path().filename() == "timings.jsonl" ||
          (is_json(source) && json_schema(source) == "mapproof.timings");
 }
 
-void check_source(ByteSource& source, const ForeignReader& foreign, Finding& finding) {
-  if (is_range_log(source)) {
+void check_source(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options,
+                  Finding& finding) {
+  const bool is_stated = !options.sensor.empty() || !options.format.columns.empty() ||
+                         options.format.layout != Layout::kAuto;
+  if (!is_stated && is_range_log(source)) {
     finding.kind = "range log";
     read_range_log(source);
   } else if (is_timings(source)) {
@@ -170,19 +290,20 @@ void check_source(ByteSource& source, const ForeignReader& foreign, Finding& fin
     if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
         text != results_csv(study.results.rows))
       throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
-  } else if (is_json(source)) {
-    check_json(source.rest(), foreign, finding);
-  } else if (may_be_table(source.path())) {
-    check_table(source, finding.kind);
   } else {
-    throw IoError(finding.path, "is not a file that mapproof reads or writes");
+    respell(source);
+    if (is_json(source))
+      check_json(source.rest(), foreign, finding);
+    else
+      check_table(source, options, finding);
   }
 }
 
-Finding check(const fs::path& path, const ForeignReader& foreign) {
+Finding check(const fs::path& path, const ForeignReader& foreign,
+              const ValidateOptions& options = {}) {
   try {
     ByteSource source(path);
-    return validate(source, foreign);
+    return validate(source, foreign, options);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -276,10 +397,11 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
 
 }  // namespace
 
-Finding validate(ByteSource& source, const ForeignReader& foreign) {
+Finding validate(ByteSource& source, const ForeignReader& foreign,
+                 const ValidateOptions& options) {
   Finding finding{.path = source.name(), .kind = {}, .problem = {}};
   try {
-    check_source(source, foreign, finding);
+    check_source(source, foreign, options, finding);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -288,8 +410,9 @@ Finding validate(ByteSource& source, const ForeignReader& foreign) {
   return finding;
 }
 
-std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign) {
-  if (!is_folder(path)) return {check(path, foreign)};
+std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign,
+                              const ValidateOptions& options) {
+  if (!is_folder(path)) return {check(path, foreign, options)};
   try {
     return check_folder(path, foreign);
   } catch (const std::bad_alloc&) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/files/byte_source.hpp"
+#include "core/records/observations/input_summary.hpp"
 
 namespace mapproof {
 
@@ -17,6 +18,16 @@ struct Finding {
   std::string kind;     ///< "mapproof.run 1", "wide CSV observations"; empty if not recognised.
   std::string problem;  ///< One line; empty if the file is fine.
   std::vector<std::string> remarks = {};  ///< What looks unusual in a fine one, a line each.
+  std::vector<std::string> further = {};  ///< Of a table: problems after the first one, at most 9.
+  std::optional<InputSummary> input = {};  ///< Of observations: what was understood.
+};
+
+/// How tables of observations are to be read, as `map` takes it.
+struct ValidateOptions {
+  TableFormat format = {};
+  /// A sensor's name, or "range-bearing"; empty: of detections what they hold, of other tables any
+  /// that fits.
+  std::string sensor = {};
 };
 
 /// Reads a JSON file of a schema that core does not know, e.g. "mapproof.figure"; throws IoError.
@@ -28,9 +39,11 @@ using ForeignReader =
 /// paths. Measured trouble is a finding, never an exception. A JSON schema that neither core nor
 /// `foreign` knows is accepted by its heading alone when it starts with "mapproof.".
 std::vector<Finding> validate(const std::filesystem::path& path,
-                              const ForeignReader& foreign = nullptr);
+                              const ForeignReader& foreign = nullptr,
+                              const ValidateOptions& options = {});
 
 /// Checks one file or stream.
-Finding validate(ByteSource& source, const ForeignReader& foreign = nullptr);
+Finding validate(ByteSource& source, const ForeignReader& foreign = nullptr,
+                 const ValidateOptions& options = {});
 
 }  // namespace mapproof

@@ -31,20 +31,20 @@ TEST(Examples, EveryCommandOfTheirReadmeRuns) {
   fs::copy(kExampleFiles, folder / "examples", fs::copy_options::recursive);
   const std::string path = "PATH=" + fs::path(program()).parent_path().string() + ":/usr/bin:/bin";
   const std::vector<std::string> commands = example_commands();
-  EXPECT_EQ(commands.size(), 4U);
+  EXPECT_EQ(commands.size(), 11U);
   for (const std::string& command : commands) {
     const Outcome outcome =
         run_program({"env", "-C", folder / "examples", path, "sh", "-c", command});
     if (outcome.exit_code == 127) GTEST_SKIP() << "python3 is not installed";
     EXPECT_EQ(outcome.exit_code, 0) << command << '\n' << outcome.error;
   }
-  for (const char* report : {"map", "slam", "localisers"})
+  for (const char* report : {"map", "pairs", "ranges", "detections", "slam", "study", "localisers"})
     EXPECT_TRUE(fs::exists(folder / "examples/out" / report / "report.html")) << report;
 }
 
 TEST(Examples, TheMapOfTheBearingsIsWithinATenthOfTheRoom) {
   const TemporaryFolder folder;
-  const fs::path files = kExampleFiles / "map";
+  const fs::path files = kExampleFiles / "hall";
   const Outcome outcome =
       mapproof({"map", files / "bearings.csv", "--sensor", "bearing", "--method", "smacof-knn",
                 "-K", "7", "--anchors", files / "anchors.csv", "--ground-truth",

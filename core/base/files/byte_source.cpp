@@ -51,7 +51,9 @@ std::size_t ByteSource::fill(std::string& bytes, std::size_t count) {
     if (unpacker_.drain(bytes, count - filled) == count - filled) break;
     if (is_over_) {
       if (!unpacker_.is_cut()) break;
-      throw IoError(name_, fmt::format("the {}'ed file is cut off", unpacker_.packing()));
+      throw IoError(name_, unpacker_.packing() == "UTF-16"
+                               ? std::string("is UTF-16, and cut off within a character")
+                               : fmt::format("the {}'ed file is cut off", unpacker_.packing()));
     }
     block.resize(kPackedBlock);
     const std::size_t got = read_(block);

@@ -57,6 +57,9 @@ class ByteSource {
   /// @note Holds some `count` bytes in memory, except for a file that is not packed.
   bool holds_more_than(std::size_t count);
 
+  /// "gzip", "xz" or "UTF-16"; empty if the input is none, or not begun.
+  std::string_view packing() const { return unpacker_.packing(); }
+
   /// Bytes of the whole input, estimated from the bytes so far if it is packed; empty for a
   /// stream.
   std::optional<double> expected_size() const;

@@ -1,9 +1,12 @@
 #include "core/base/files/unpacker.hpp"
 
+#include <iconv.h>
 #include <lzma.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstdint>
 #include <limits>
 #include <new>
@@ -127,6 +130,70 @@ class XzDecoder : public Decoder {
   bool is_over_ = false;
 };
 
+/// Text of UTF-16 with a byte order mark, as UTF-8.
+class Utf16Decoder : public Decoder {
+ public:
+  static constexpr std::string_view kName = "UTF-16";
+
+  explicit Utf16Decoder(const std::string& source)
+      : source_(source), converter_(::iconv_open("UTF-8", "UTF-16")) {
+    if (converter_ == reinterpret_cast<iconv_t>(-1)) throw std::bad_alloc();
+  }
+  ~Utf16Decoder() override { ::iconv_close(converter_); }
+  Utf16Decoder(const Utf16Decoder&) = delete;
+  Utf16Decoder& operator=(const Utf16Decoder&) = delete;
+
+  std::size_t decode(std::string_view& packed, bool, std::span<char> to) override {
+    std::size_t written = 0;
+    while (written < to.size() && (!ready_.empty() || convert(packed))) {
+      const std::size_t part = std::min(ready_.size(), to.size() - written);
+      std::copy_n(ready_.begin(), part, to.begin() + static_cast<std::ptrdiff_t>(written));
+      ready_.erase(0, part);
+      written += part;
+    }
+    return written;
+  }
+
+  bool is_whole() const override { return rest_.empty() && ready_.empty(); }
+
+ private:
+  /// Fills ready_ from the front of `packed`. @return False if nothing was converted.
+  bool convert(std::string_view& packed) {
+    constexpr std::size_t kBlock = 4096;
+    const std::size_t taken = std::min(packed.size(), kBlock);
+    rest_ += packed.substr(0, taken);
+    packed.remove_prefix(taken);
+    std::array<char, 4 * kBlock> room{};
+    char* from = rest_.data();
+    char* to = room.data();
+    std::size_t left = rest_.size(), free = room.size();
+    const bool is_broken =
+        ::iconv(converter_, &from, &left, &to, &free) == static_cast<std::size_t>(-1) &&
+        errno == EILSEQ;
+    if (is_broken) throw IoError(source_, "is UTF-16 with characters that are none");
+    rest_.erase(0, rest_.size() - left);
+    ready_.assign(room.data(), room.size() - free);
+    return !ready_.empty() || taken > 0;
+  }
+
+  const std::string& source_;
+  iconv_t converter_;
+  std::string rest_;   ///< Bytes of a character that is not complete.
+  std::string ready_;  ///< Converted.
+};
+
+class Utf16LittleEndian : public Utf16Decoder {
+ public:
+  static constexpr std::string_view kMagic = "\xFF\xFE";
+  using Utf16Decoder::Utf16Decoder;
+};
+
+class Utf16BigEndian : public Utf16Decoder {
+ public:
+  static constexpr std::string_view kMagic = "\xFE\xFF";
+  using Utf16Decoder::Utf16Decoder;
+};
+
 }  // namespace unpacking
 
 namespace {
@@ -158,7 +225,9 @@ struct Unpacker::State {
 
   void choose() {
     if (is_known) return;
-    const bool is_open = may_be<unpacking::GzipDecoder>() || may_be<unpacking::XzDecoder>();
+    const bool is_open = may_be<unpacking::GzipDecoder>() || may_be<unpacking::XzDecoder>() ||
+                         may_be<unpacking::Utf16LittleEndian>() ||
+                         may_be<unpacking::Utf16BigEndian>();
     is_known = decoder != nullptr || !is_open;
   }
 

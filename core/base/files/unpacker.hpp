@@ -7,8 +7,8 @@
 
 namespace mapproof {
 
-/// Unpacks the bytes of gzip and xz as they come, also members and streams that follow one another.
-/// Other bytes pass unchanged.
+/// Unpacks the bytes of gzip and xz as they come, also members and streams that follow one another,
+/// and makes UTF-8 of UTF-16 with a byte order mark. Other bytes pass unchanged.
 class Unpacker {
  public:
   /// @param source  The name of the input in errors.
@@ -33,7 +33,7 @@ class Unpacker {
   /// feed(), then all that drain() gives.
   std::string take(std::string_view packed);
 
-  /// "gzip" or "xz"; empty if the input is not packed, or as long as that is not known.
+  /// "gzip", "xz" or "UTF-16"; empty if the input is not packed, or as long as that is not known.
   std::string_view packing() const;
 
   /// Whether the input is not packed and drain() has given all that was fed.

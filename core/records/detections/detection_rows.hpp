@@ -16,8 +16,8 @@ inline constexpr std::size_t kMostDetections = 50'000'000;  ///< More are taken 
 class DetectionRows {
  public:
   /// @param source  What to call the table in errors; must outlive the object.
-  DetectionRows(const std::string& source, const DetectionFormat& format)
-      : source_(source), scans_(source), format_(format), names_(source) {}
+  DetectionRows(const std::string& source, const TableFormat& format)
+      : source_(source), scans_(source, format), format_(format), names_(source) {}
 
   /// Learns the columns from the first row.
   /// @return Whether it is a header, and no detection. @throws IoError as detection_columns().
@@ -33,12 +33,12 @@ class DetectionRows {
   const NameList& names() const { return names_; }
 
  private:
-  double value(const TableRow& row, DetectionColumn column, Sensor sensor) const;
+  void take_position(const TableRow& row, Detection& seen) const;
   void take_value(const TableRow& row, Detection& seen) const;
 
   const std::string& source_;
   ScanRows scans_;
-  DetectionFormat format_;
+  TableFormat format_;
   NameList names_;
 };
 

@@ -24,7 +24,7 @@ struct StreamedScan {
 class ScanGatherer {
  public:
   /// @param source  What to call the table in errors; must outlive the object.
-  ScanGatherer(const std::string& source, const DetectionFormat& format)
+  ScanGatherer(const std::string& source, const TableFormat& format)
       : source_(source), rows_(source, format) {}
 
   /// @param row  The first one may be a header. @throws IoError with the line, as read_detections;
@@ -56,7 +56,7 @@ class ScanGatherer {
 class DetectionStream {
  public:
   /// @param source  What to call the file in errors.
-  DetectionStream(std::string source, const DetectionFormat& format)
+  DetectionStream(std::string source, const TableFormat& format)
       : table_(std::move(source)), gatherer_(table_.source(), format) {}
   DetectionStream(const DetectionStream&) = delete;
   DetectionStream& operator=(const DetectionStream&) = delete;

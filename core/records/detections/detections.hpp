@@ -10,6 +10,7 @@
 #include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/detections/scan_rows.hpp"
 #include "core/records/observations/sources.hpp"
 
 namespace mapproof {
@@ -25,18 +26,22 @@ namespace mapproof {
 ///         360; 0 <= m <= 1e6), a landmark is twice in one scan, or for more than 5000 landmarks,
 ///         1e6 scans or 5e7 rows.
 /// @note A row takes 24 bytes while it is read and after; the text is never held as a whole.
-DetectionSource read_detections(ByteSource& source, const DetectionFormat& format = {});
+DetectionSource read_detections(ByteSource& source, const TableFormat& format = {});
 
 /// The same of a file or stream, or of a folder of MRCLAM [leung2011].
 DetectionSource read_detections(const std::filesystem::path& path,
-                                const DetectionFormat& format = {});
+                                const TableFormat& format = {});
 
 /// Whether a source, which stays unread, holds detections: JSON of that schema, or a table whose
-/// header names a landmark and a range or bearing. @throws IoError if it cannot be read.
-bool is_detections(ByteSource& source);
+/// header names a landmark and a range or bearing, or when each was seen and nothing else. @throws IoError if it cannot be read.
+bool is_detections(ByteSource& source, const TableFormat& format = {});
+
+/// What a source of detections, which stays unread, measures: range, bearing, both; neither: it
+/// lists what was seen.
+MeasuredColumns measured_in(ByteSource& source, const TableFormat& format = {});
 
 /// Whether a source, which stays unread, is a long table, of detections or of values, and its text
 /// larger than some 64 MB. @throws IoError if it cannot be read.
-bool is_large_long_table(ByteSource& source);
+bool is_large_long_table(ByteSource& source, const TableFormat& format = {});
 
 }  // namespace mapproof

@@ -13,6 +13,7 @@
 #include "core/records/limits.hpp"
 #include "core/records/tables/cells.hpp"
 #include "core/records/tables/table_stream.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -29,7 +30,7 @@ struct RowRun {
 /// Gathers rows into scans. A detection's step is at first the number of its run.
 class LongDetections {
  public:
-  LongDetections(TableStream& stream, const DetectionFormat& format)
+  LongDetections(TableStream& stream, const TableFormat& format)
       : stream_(stream), rows_(stream.source(), format) {}
 
   DetectionSource read() && {
@@ -38,13 +39,15 @@ class LongDetections {
     if (!rows_.begin(row)) add(row);
     while (stream_.next(row)) add(row);
     if (log_.detections.empty()) throw IoError(stream_.source(), "holds a header and no rows");
+    scale_times();
     order();
     log_.names = rows_.names().names();
     return {.log = std::move(log_),
             .ground_truth_m = std::nullopt,
             .remarks = remarks(),
             .locations = rows_.names().locations(),
-            .path = stream_.source()};
+            .path = stream_.source(),
+            .reading = reading()};
   }
 
  private:
@@ -76,6 +79,25 @@ class LongDetections {
         stream_.expected_size().value_or(0.0) / static_cast<double>(bytes_) * kSample;
     log_.detections.reserve(static_cast<std::size_t>(
         std::clamp(1.05 * rows, double{kSample}, static_cast<double>(kMostDetections))));
+  }
+
+  /// Brings times to seconds whose size shows another unit.
+  void scale_times() {
+    if (!rows_.scans().is_timed()) return;
+    std::vector<double> times;
+    std::ranges::transform(runs_, std::back_inserter(times), &RowRun::key);
+    scale_ = time_scale(times);
+    for (RowRun& run : runs_) run.key *= scale_.seconds;
+  }
+
+  TableReading reading() const {
+    TableReading reading = rows_.scans().reading();
+    reading.form = "detections";
+    reading.packing = stream_.packing();
+    reading.separator = stream_.separator();
+    reading.has_decimal_commas = stream_.has_decimal_commas();
+    if (scale_.words != nullptr) reading.times = scale_.words;
+    return reading;
   }
 
   /// Numbers the scans by robot and step, and sorts the detections by scan and landmark.
@@ -137,6 +159,7 @@ class LongDetections {
   TableStream& stream_;
   DetectionRows rows_;
   DetectionLog log_;
+  TimeScale scale_;
   std::vector<RowRun> runs_;
   /// Where a landmark was seen last.
   struct LastRow {
@@ -149,7 +172,7 @@ class LongDetections {
 
 }  // namespace
 
-DetectionSource read_long_detections(ByteSource& source, const DetectionFormat& format) {
+DetectionSource read_long_detections(ByteSource& source, const TableFormat& format) {
   TableStream stream(source);
   return LongDetections(stream, format).read();
 }

@@ -6,6 +6,6 @@
 namespace mapproof {
 
 /// Long CSV, as read_detections() has it.
-DetectionSource read_long_detections(ByteSource& source, const DetectionFormat& format);
+DetectionSource read_long_detections(ByteSource& source, const TableFormat& format);
 
 }  // namespace mapproof

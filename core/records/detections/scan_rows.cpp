@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,166 +11,163 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/records/limits.hpp"
 #include "core/records/tables/cells.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
 
-struct Word {
-  std::string_view word;
-  DetectionColumn column;
-};
-
-constexpr Word kWords[] = {
-    {"step", DetectionColumn::kStep},
-    {"scan", DetectionColumn::kStep},
-    {"frame", DetectionColumn::kStep},
-    {"time", DetectionColumn::kTime},
-    {"timestamp", DetectionColumn::kTime},
-    {"stamp", DetectionColumn::kTime},
-    {"t", DetectionColumn::kTime},
-    {"robot", DetectionColumn::kRobot},
-    {"landmark", DetectionColumn::kLandmark},
-    {"name", DetectionColumn::kLandmark},
-    {"object", DetectionColumn::kLandmark},
-    {"id", DetectionColumn::kLandmark},
-    {"tag", DetectionColumn::kLandmark},
-    {"marker", DetectionColumn::kLandmark},
-    {"subject", DetectionColumn::kLandmark},
-    {"beacon", DetectionColumn::kLandmark},
-    {"range", DetectionColumn::kRange},
-    {"distance", DetectionColumn::kRange},
-    {"r", DetectionColumn::kRange},
-    {"bearing", DetectionColumn::kBearing},
-    {"angle", DetectionColumn::kBearing},
-    {"theta", DetectionColumn::kBearing},
-    {"value", DetectionColumn::kValue},
-};
-
-struct Unit {
-  std::string_view word;
-  DetectionColumn column;
-  std::optional<AngleUnit> angle;
-};
-
-const Unit kUnits[] = {
-    {"s", DetectionColumn::kTime, {}},
-    {"sec", DetectionColumn::kTime, {}},
-    {"seconds", DetectionColumn::kTime, {}},
-    {"m", DetectionColumn::kRange, {}},
-    {"metres", DetectionColumn::kRange, {}},
-    {"meters", DetectionColumn::kRange, {}},
-    {"rad", DetectionColumn::kBearing, AngleUnit::kRadians},
-    {"radians", DetectionColumn::kBearing, AngleUnit::kRadians},
-    {"deg", DetectionColumn::kBearing, AngleUnit::kDegrees},
-    {"degrees", DetectionColumn::kBearing, AngleUnit::kDegrees},
-    {"°", DetectionColumn::kBearing, AngleUnit::kDegrees},
-};
-
-/// "Range [m]" and "range_m" as "range" and "m".
-struct Heading {
-  std::string word;
-  std::string unit;
-};
-
-Heading heading_of(std::string_view cell) {
-  std::string text = lower_case(trimmed(cell));
-  const std::size_t open = text.find_first_of("[(_ ");
-  if (open == std::string::npos) return {text, {}};
-  std::string unit = text.substr(open);
-  std::erase_if(
-      unit, [](char c) { return std::string_view("[](){}_ ").find(c) != std::string_view::npos; });
-  return {text.substr(0, open), unit};
+/// A heading that says what its column is of no use if it is an index without a name.
+bool is_index(std::string_view cell) {
+  const std::string word = lower_case(trimmed(cell));
+  return word.empty() || word == "index" || word.starts_with("unnamed");
 }
 
-const Word* word_of(const Heading& heading) {
-  const Word* word = std::ranges::find(kWords, heading.word, &Word::word);
-  return word == std::end(kWords) ? nullptr : word;
-}
-
-bool names(const TableRow& row, DetectionColumn column) {
-  return std::ranges::any_of(row.cells, [&](std::string_view cell) {
-    const Word* word = word_of(heading_of(cell));
-    return word != nullptr && word->column == column;
-  });
-}
-
-const char* label(DetectionColumn column) {
-  constexpr std::array kLabels = {"step", "time", "robot", "landmark", "range", "bearing", "value"};
-  return kLabels[static_cast<std::size_t>(column)];
-}
-
-/// Takes a column in, with its unit. False: its unit is none of such a column's.
-bool take(DetectionColumns& columns, DetectionColumn column, const Heading& heading,
-          std::size_t cell) {
-  if (!heading.unit.empty()) {
-    const auto unit = std::ranges::find_if(kUnits, [&](const Unit& known) {
-      return known.column == column && known.word == heading.unit;
-    });
-    if (unit == std::end(kUnits)) return false;
-    if (unit->angle) columns.unit = unit->angle;
+/// Which roles a row of headings names.
+class NamedRoles {
+ public:
+  NamedRoles(const TableRow& row, const ColumnNames& columns) {
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      const std::optional<ColumnRole> role = column_heading(row.cells[i], i, columns).role;
+      if (role)
+        has_[static_cast<std::size_t>(*role)] = true;
+      else if (!is_index(row.cells[i]))
+        ++others_;
+    }
   }
-  columns.cell[static_cast<std::size_t>(column)] = cell;
-  return true;
+
+  bool operator()(ColumnRole role) const { return has_[static_cast<std::size_t>(role)]; }
+  bool has_scan() const { return (*this)(ColumnRole::kStep) || (*this)(ColumnRole::kTime); }
+  bool has_position() const {
+    return (*this)(ColumnRole::kX) && ((*this)(ColumnRole::kY) || (*this)(ColumnRole::kRight)) &&
+           has_scan();
+  }
+  bool has_measurement() const {
+    return (*this)(ColumnRole::kRange) || (*this)(ColumnRole::kBearing) || has_position();
+  }
+  /// Nothing but when a landmark was seen, and by whom.
+  bool is_list() const {
+    return has_scan() && (*this)(ColumnRole::kLandmark) && others_ == 0 && !has_measurement() &&
+           !(*this)(ColumnRole::kValue) && !(*this)(ColumnRole::kX) && !(*this)(ColumnRole::kY);
+  }
+
+ private:
+  std::array<bool, kColumnRoles> has_{};
+  std::size_t others_ = 0;
+};
+
+bool is_time_cell(std::string_view cell) {
+  return number_in(cell).has_value() || date_in(cell).has_value();
+}
+
+/// The columns that a table without a header may have.
+constexpr ColumnRole kUsual[] = {ColumnRole::kStep, ColumnRole::kLandmark, ColumnRole::kRange,
+                                 ColumnRole::kBearing};
+
+void set_column(DetectionColumns& columns, ColumnRole role, std::size_t cell,
+                const std::string& header) {
+  columns.cell[static_cast<std::size_t>(role)] = cell;
+  columns.read.emplace_back(name(role), header);
+}
+
+/// @throws IoError if a column that the user names is not there, or too little is there.
+void require_columns(const DetectionColumns& columns, const std::string& source,
+                     const std::string& location, const ColumnNames& names) {
+  for (const NamedColumn& column : names)
+    if (!columns[column.role])
+      throw IoError(source, location,
+                    fmt::format("no column {}, which --columns names for {}",
+                                in_quotes(column.header), name(column.role)));
+  const std::string others =
+      columns.unread.empty() ? ""
+                             : fmt::format("; there is {}: --columns ROLE=HEADER names them",
+                                           fmt::join(columns.unread, ", "));
+  if (!columns[ColumnRole::kLandmark])
+    throw IoError(source, location, "no column is named landmark" + others);
+  if (!columns[ColumnRole::kStep] && !columns[ColumnRole::kTime])
+    throw IoError(source, location,
+                  "no column is named step or time: which rows are one scan?" + others);
+  const bool has_position =
+      columns[ColumnRole::kX] && (columns[ColumnRole::kY] || columns[ColumnRole::kRight]);
+  if (!columns[ColumnRole::kRange] && !columns[ColumnRole::kBearing] && !has_position &&
+      !columns[ColumnRole::kValue] && !columns.unread.empty())
+    throw IoError(source, location, "no column is named range or bearing" + others);
 }
 
 }  // namespace
 
-bool names_detection_columns(const TableRow& row) {
-  return names(row, DetectionColumn::kLandmark) &&
-         (names(row, DetectionColumn::kRange) || names(row, DetectionColumn::kBearing));
+bool names_detection_columns(const TableRow& row, const ColumnNames& names) {
+  const NamedRoles roles(row, names);
+  return (roles(ColumnRole::kLandmark) && roles.has_measurement()) || roles.is_list();
 }
 
-bool names_value_columns(const TableRow& row) {
-  return names(row, DetectionColumn::kLandmark) && names(row, DetectionColumn::kValue);
+bool names_value_columns(const TableRow& row, const ColumnNames& names) {
+  const NamedRoles roles(row, names);
+  return roles(ColumnRole::kLandmark) && roles(ColumnRole::kValue);
 }
 
-bool is_long_header(const TableRow& row) {
-  return std::ranges::any_of(row.cells,
-                             [](auto cell) { return word_of(heading_of(cell)) != nullptr; }) &&
-         std::ranges::none_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
+bool is_long_header(const TableRow& row, const ColumnNames& names) {
+  bool is_known = false;
+  for (std::size_t i = 0; i < row.cells.size(); ++i) {
+    if (is_time_cell(row.cells[i])) return false;
+    is_known = is_known || column_heading(row.cells[i], i, names).role;
+  }
+  return is_known;
 }
 
-DetectionColumns detection_columns(const TableRow& header, const std::string& source) {
+bool starts_detection_list(const TableRow& row) {
+  return row.cells.size() == 2 && is_time_cell(row.cells[0]) && !row.cells[1].empty() &&
+         !is_missing(row.cells[1]) && !number_in(row.cells[1]);
+}
+
+MeasuredColumns measured_columns(const TableRow& row, const ColumnNames& names) {
+  const NamedRoles roles(row, names);
+  return {.range = roles(ColumnRole::kRange) || roles.has_position(),
+          .bearing = roles(ColumnRole::kBearing) || roles.has_position()};
+}
+
+DetectionColumns detection_columns(const TableRow& header, const std::string& source,
+                                   const ColumnNames& names) {
   const std::string location = fmt::format("line {}", header.line);
   DetectionColumns columns;
   columns.width = header.cells.size();
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    const Heading heading = heading_of(header.cells[i]);
-    const Word* word = word_of(heading);
-    if (word == nullptr) {
-      columns.unread.push_back(in_quotes(header.cells[i]));
+    const ColumnHeading heading = column_heading(header.cells[i], i, names);
+    if (!heading.role) {
+      if (!is_index(header.cells[i])) columns.unread.push_back(in_quotes(header.cells[i]));
       continue;
     }
-    if (columns[word->column])
-      throw IoError(source, location, fmt::format("two columns hold a {}", label(word->column)));
-    if (!take(columns, word->column, heading, i))
+    if (columns[*heading.role])
       throw IoError(source, location,
-                    fmt::format("{}: a {} in that unit is not known; metres, seconds, rad or deg",
-                                in_quotes(header.cells[i]), label(word->column)));
+                    fmt::format("two columns hold a {}: --columns {}=HEADER names the one to read",
+                                name(*heading.role), name(*heading.role)));
+    if (!heading.unknown_unit.empty())
+      throw IoError(source, location,
+                    fmt::format("{}: a {} in that unit is not known; m, cm, mm, km, s, ms, us, ns, "
+                                "min, h, d, rad or deg",
+                                in_quotes(header.cells[i]), name(*heading.role)));
+    set_column(columns, *heading.role, i, std::string(header.cells[i]));
+    columns.factor[static_cast<std::size_t>(*heading.role)] = heading.factor;
+    if (heading.unit) columns.unit = heading.unit;
   }
-  if (!columns[DetectionColumn::kLandmark])
-    throw IoError(source, location, "no column is named landmark");
-  if (!columns[DetectionColumn::kStep] && !columns[DetectionColumn::kTime])
-    throw IoError(source, location, "no column is named step or time: which rows are one scan?");
-  if (!columns[DetectionColumn::kRange] && !columns[DetectionColumn::kBearing] &&
-      !columns[DetectionColumn::kValue])
-    throw IoError(source, location, "no column is named range or bearing");
+  require_columns(columns, source, location, names);
   return columns;
 }
 
-DetectionColumns usual_detection_columns(const TableRow& first, const std::string& source) {
-  if (first.cells.size() != 4)
+DetectionColumns usual_detection_columns(const TableRow& first, const std::string& source,
+                                         const ColumnNames& names) {
+  if (!names.empty()) return detection_columns(first, source, names);
+  const std::size_t width = first.cells.size();
+  if (width != 4 && width != 2)
     throw IoError(source, fmt::format("line {}", first.line),
                   fmt::format("has {} cells; a table of detections has a header, or the columns "
-                              "step, landmark, range, bearing",
-                              first.cells.size()));
+                              "step, landmark, range, bearing; --columns names others",
+                              width));
   DetectionColumns columns;
-  columns.width = 4;
-  std::size_t cell = 0;
-  for (const DetectionColumn column : {DetectionColumn::kStep, DetectionColumn::kLandmark,
-                                       DetectionColumn::kRange, DetectionColumn::kBearing})
-    columns.cell[static_cast<std::size_t>(column)] = cell++;
+  columns.width = width;
+  for (std::size_t i = 0; i < width; ++i) set_column(columns, kUsual[i], i, "");
   return columns;
 }
 
@@ -177,27 +175,74 @@ void ScanRows::fail(std::size_t line, const std::string& what) const {
   throw IoError(source_, fmt::format("line {}", line), what);
 }
 
+/// Tables of R have a row's name in front of each row, which the header does not name.
+void ScanRows::skip_row_names() {
+  for (std::optional<std::size_t>& cell : columns_.cell)
+    if (cell) ++*cell;
+  ++columns_.width;
+}
+
+double ScanRows::key_of(const TableRow& row) {
+  const ColumnRole role = is_timed() ? ColumnRole::kTime : ColumnRole::kStep;
+  const std::string_view cell = row.cells[*columns_[role]];
+  std::optional<double> key = number_in(cell);
+  if (key) {
+    *key *= columns_.factor[static_cast<std::size_t>(role)];
+  } else {
+    key = date_in(cell);
+    has_dates_ = has_dates_ || key;
+  }
+  if (!key || !std::isfinite(*key))
+    fail(row.line, fmt::format("{}: {}", name(role), time_problem(cell)));
+  if (const auto nanoseconds = columns_[ColumnRole::kNanoseconds]; nanoseconds && is_timed()) {
+    const std::optional<double> part = number_in(row.cells[*nanoseconds]);
+    if (!part || !std::isfinite(*part))
+      fail(row.line, "nanoseconds: " + number_problem(row.cells[*nanoseconds]));
+    *key += *part * 1e-9;
+  }
+  return *key;
+}
+
 ScanKey ScanRows::scan_of(const TableRow& row) {
+  if (!std::exchange(is_begun_, true) && row.cells.size() == columns_.width + 1 && row.line > 1)
+    skip_row_names();
   if (row.cells.size() != columns_.width)
     fail(row.line, fmt::format("has {} cells, expected {}", row.cells.size(), columns_.width));
   ScanKey scan;
-  if (const auto cell = columns_[DetectionColumn::kRobot])
+  if (const auto cell = columns_[ColumnRole::kRobot])
     scan.robot = static_cast<int>(robots_.find_or_add(row.cells[*cell], row.line));
-  const std::string_view cell =
-      row.cells[*columns_[is_timed() ? DetectionColumn::kTime : DetectionColumn::kStep]];
-  const std::optional<double> key = number_in(cell);
-  if (!key || !std::isfinite(*key))
-    fail(row.line, fmt::format("{}: {}", is_timed() ? "time" : "step", number_problem(cell)));
-  scan.key = *key;
+  scan.key = key_of(row);
   return scan;
 }
 
-double ScanRows::value(const TableRow& row, DetectionColumn column, Sensor sensor,
-                       AngleUnit unit) const {
+double ScanRows::value(const TableRow& row, ColumnRole column, Sensor sensor) const {
   const std::string_view cell = row.cells[*columns_[column]];
-  const std::optional<double> value = detection_value(cell, sensor, unit);
-  if (!value) fail(row.line, detection_problem(cell, sensor, unit));
+  const ValueForm form{.unit = columns_.unit.value_or(format_.unit),
+                       .factor = columns_.factor[static_cast<std::size_t>(column)],
+                       .is_clockwise = is_clockwise(format_.convention)};
+  const std::optional<double> value = detection_value(cell, sensor, form);
+  if (!value) fail(row.line, detection_problem(cell, sensor, form));
   return *value;
+}
+
+double ScanRows::coordinate(const TableRow& row, ColumnRole column) const {
+  const std::string_view cell = row.cells[*columns_[column]];
+  if (is_missing(cell)) return kNaN;
+  const std::optional<double> value = number_in(cell);
+  if (!value || !(std::abs(*value) <= kLongestRange_m))
+    fail(row.line, fmt::format("{}: {}", name(column),
+                               value && std::isfinite(*value)
+                                   ? fmt::format("{} m is beyond any sensor", *value)
+                                   : number_problem(cell)));
+  return *value * columns_.factor[static_cast<std::size_t>(column)];
+}
+
+TableReading ScanRows::reading() const {
+  return {.form = {},
+          .columns = columns_.read,
+          .times = has_dates_ ? "dates" : "",
+          .unit = columns_.unit.value_or(format_.unit),
+          .convention = format_.convention};
 }
 
 std::string ScanRows::words(double key) const {

@@ -4,16 +4,20 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/name_list.hpp"
+#include "core/records/tables/column_names.hpp"
 #include "core/records/tables/number_rows.hpp"
+#include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
@@ -22,31 +26,40 @@ namespace {
 /// Which cell of a row holds the name, x and y.
 using Columns = std::array<std::size_t, 3>;
 
-/// 0, 1 or 2 for a word that names the column of names, x or y; 3 for any other.
+constexpr std::array kRoles = {ColumnRole::kLandmark, ColumnRole::kX, ColumnRole::kY};
+
+/// 0, 1 or 2 for a heading of the column of names, x or y; 3 for any other.
 std::size_t column_named(std::string_view cell) {
-  if (is_word_for_names(cell)) return 0;
-  const std::string word = lower_case(cell);
-  if (word == "x" || word == "x_m") return 1;
-  if (word == "y" || word == "y_m") return 2;
-  return 3;
+  const std::optional<ColumnRole> role = column_heading(cell, 0, {}).role;
+  return role ? static_cast<std::size_t>(std::ranges::find(kRoles, *role) - kRoles.begin()) : 3;
 }
 
+/// A row of three cells or more without a number.
 bool is_landmarks_header(const TableRow& row) {
-  return row.cells.size() == 3 && !number_in(row.cells[1]) && !number_in(row.cells[2]) &&
-         !is_missing(row.cells[1]) && !is_missing(row.cells[2]);
+  return row.cells.size() >= 3 && std::ranges::none_of(row.cells, [](std::string_view cell) {
+           return number_in(cell).has_value();
+         }) && !(row.cells.size() == 3 && (is_missing(row.cells[1]) || is_missing(row.cells[2])));
 }
 
+/// @throws IoError unless each of name, x and y is there once; others are not read.
 Columns columns_of(const TableRow& header, const std::string& source) {
   Columns columns{};
   std::array<bool, 3> is_found{};
+  const std::string location = fmt::format("line {}", header.line);
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     const std::size_t column = column_named(header.cells[i]);
-    if (column == 3 || is_found[column])
-      throw IoError(source, fmt::format("line {}", header.line),
-                    "expected the columns name, x, y; got " + in_quotes(header.cells[i]));
+    if (column == 3) continue;
+    if (is_found[column])
+      throw IoError(source, location,
+                    "expected the columns name, x, y once; got " + in_quotes(header.cells[i]));
     columns[column] = i;
     is_found[column] = true;
   }
+  for (std::size_t column = 0; column < 3; ++column)
+    if (!is_found[column])
+      throw IoError(source, location,
+                    fmt::format("expected the columns name, x, y; got {}",
+                                in_quotes(fmt::format("{}", fmt::join(header.cells, ",")))));
   return columns;
 }
 
@@ -66,16 +79,19 @@ NamedPoints parse_table(std::string_view text, const std::string& source) {
   TableReader reader(text, source);
   TableRow row;
   Columns columns = {0, 1, 2};
+  std::size_t width = columns.size();
   NameList names(source);
   std::vector<double> coordinates;
   for (bool is_first = true; reader.next(row); is_first = false) {
-    if (row.cells.size() != columns.size())
-      throw IoError(source, fmt::format("line {}", row.line),
-                    fmt::format("has {} cells, expected name, x, y", row.cells.size()));
     if (is_first && is_landmarks_header(row)) {
       columns = columns_of(row, source);
+      width = row.cells.size();
       continue;
     }
+    if (row.cells.size() != width)
+      throw IoError(source, fmt::format("line {}", row.line),
+                    fmt::format("has {} cells, expected {}", row.cells.size(),
+                                width == 3 ? "name, x, y" : fmt::format("{}", width)));
     names.add(row.cells[columns[0]], row.line);
     coordinates.push_back(read_coordinate(row.cells[columns[1]], source, row.line));
     coordinates.push_back(read_coordinate(row.cells[columns[2]], source, row.line));
@@ -95,6 +111,7 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
 }  // namespace
 
 NamedPoints read_landmarks(ByteSource& source) {
+  respell(source);
   const std::string bytes = source.rest();
   return parse_landmarks(checked_text(bytes, source.name()), source.name());
 }
@@ -113,7 +130,7 @@ bool is_landmarks_table(std::string_view text, const std::string& source) {
   TableReader reader(text, source);
   TableRow row;
   if (!reader.next(row)) return false;
-  if (row.cells.size() == 3 && is_landmarks_header(row)) {
+  if (is_landmarks_header(row)) {
     const auto names = [&](std::size_t column) {
       return std::ranges::find(row.cells, column, column_named) != row.cells.end();
     };

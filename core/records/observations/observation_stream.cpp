@@ -10,11 +10,12 @@
 
 namespace mapproof {
 
-ObservationStream::ObservationStream(std::string source, Sensor sensor, AngleUnit unit)
+ObservationStream::ObservationStream(std::string source, Sensor sensor,
+                                     const TableFormat& format)
     : table_(std::move(source)),
       sensor_(sensor),
-      unit_(unit),
-      values_(table_.source(), sensor, unit) {}
+      format_(format),
+      values_(table_.source(), sensor, format) {}
 
 void ObservationStream::end() {
   table_.end([this](const TableRow& row) { read_row(row); });
@@ -46,11 +47,11 @@ std::vector<std::string> ObservationStream::remarks() const {
 
 void ObservationStream::read_row(const TableRow& row) {
   const bool first = !std::exchange(begun_, true);
-  if (first && names_detection_columns(row))
-    detections_.emplace(table_.source(), DetectionFormat{.unit = unit_, .value = std::nullopt});
+  if (first && (names_detection_columns(row, format_.columns) || starts_detection_list(row)))
+    detections_.emplace(table_.source(), format_);
   if (detections_) return detections_->take(row);
   if (first && values_.begin(row)) {
-    if (values_.scans().columns()[DetectionColumn::kRobot])
+    if (values_.scans().columns()[ColumnRole::kRobot])
       values_.scans().fail(row.line, "a streamed file is of one robot");
     return;
   }

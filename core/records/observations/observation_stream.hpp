@@ -31,8 +31,7 @@ struct StreamedStep {
 class ObservationStream {
  public:
   /// @param source  What to call the file in errors.
-  /// @param unit    Of bearings.
-  ObservationStream(std::string source, Sensor sensor, AngleUnit unit = AngleUnit::kRadians);
+  ObservationStream(std::string source, Sensor sensor, const TableFormat& format = {});
   ObservationStream(const ObservationStream&) = delete;
   ObservationStream& operator=(const ObservationStream&) = delete;
 
@@ -67,7 +66,7 @@ class ObservationStream {
 
   StreamedTable table_;
   Sensor sensor_;
-  AngleUnit unit_;
+  TableFormat format_;
   ValueRows values_;
   std::optional<ScanGatherer> detections_;  ///< If that is what the header names.
   bool begun_ = false;                      ///< A row was read: no header comes any more.

@@ -19,6 +19,9 @@
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/sources.hpp"
 #include "core/records/tables/cells.hpp"
+#include "core/records/tables/respelling.hpp"
+#include "core/records/tables/table_shape.hpp"
+#include "core/records/tables/time_text.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/value_rows.hpp"
 
@@ -27,105 +30,107 @@ namespace {
 
 using Cells = std::span<const std::string_view>;
 
-bool is_text(std::string_view cell) { return !is_missing(cell) && !number_in(cell); }
-
-/// 0, 1, 2, ... or 1, 2, 3, ...: step numbers, at least to 2 so that they are not visibilities.
-bool counts_steps(Cells cells) {
-  const std::optional<double> first = cells.empty() ? std::nullopt : number_in(cells.front());
-  if (!first || (*first != 0.0 && *first != 1.0)) return false;
-  if (*first + static_cast<double>(cells.size()) < 3.0) return false;
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    if (number_in(cells[i]) != *first + static_cast<double>(i)) return false;
-  return true;
-}
-
-bool is_header(const TableRow& row) {
-  const Cells steps = Cells(row.cells).subspan(1);
-  if (is_word_for_names(row.cells.front())) return true;
-  if (steps.empty()) return false;
-  const auto numbers = std::ranges::count_if(
-      steps, [](std::string_view cell) { return !is_missing(cell) && !is_text(cell); });
-  if (numbers == 0) return std::ranges::any_of(steps, is_text);
-  return is_missing(row.cells.front()) && counts_steps(steps);
-}
-
-/// Reads the rows one by one into a row-major array.
-class WideTable {
+/// Reads the rows one by one into a row-major array: of landmarks, or of steps if it is transposed.
+class GridTable {
  public:
-  WideTable(const std::string& source, Sensor sensor, AngleUnit unit)
-      : source_(source), sensor_(sensor), unit_(unit), names_(source) {}
+  GridTable(const std::string& source, Sensor sensor, const TableFormat& format, TableShape shape)
+      : source_(source),
+        sensor_(sensor),
+        form_{.unit = format.unit, .is_clockwise = is_clockwise(format.convention)},
+        shape_(std::move(shape)),
+        names_(source) {}
 
   void add_header(const TableRow& row) {
-    set_width(row);
-    has_header_ = true;
-    has_names_ = is_word_for_names(row.cells.front()) || row.cells.front().empty();
+    width_ = row.cells.size() + (shape_.is_header_short ? 1 : 0);
+    first_line_ = row.line;
+    if (!shape_.is_transposed) return;
+    std::vector<std::string_view> cells = row.cells;
+    if (shape_.is_header_short) cells.insert(cells.begin(), "");
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (i != shape_.label_column) names_.add(cells[i], row.line);
   }
 
   void add(const TableRow& row) {
-    if (names_.names().empty()) {
-      if (width_ == 0) set_width(row);
-      has_names_ = has_names_ || is_text(row.cells.front());
-    }
     const std::string location = fmt::format("line {}", row.line);
+    if (width_ == 0) begin(row);
     if (row.cells.size() != width_)
       throw IoError(
           source_, location,
           fmt::format("has {} cells where line {} has {}", row.cells.size(), first_line_, width_));
-    Cells cells = row.cells;
-    if (has_names_) {
-      names_.add(cells.front(), row.line);
-      cells = cells.subspan(1);
-    } else {
-      names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
-    }
-    if (cells.empty())
+    if (row.cells.size() == (shape_.label_column ? 1U : 0U))
       throw IoError(source_, location,
-                    "a single cell: cells stand between commas, semicolons or tabs");
-    check_size(source_, location, names_.names().size(), cells.size());
-    add_values(cells, location);
+                    "a single cell: cells stand between commas, semicolons, tabs or blanks");
+    ++rows_;
+    if (!shape_.is_transposed)
+      names_.add(shape_.label_column ? row.cells[*shape_.label_column]
+                                     : std::string_view(fmt::format("L{}", rows_)),
+                 row.line);
+    const std::size_t values = width_ - (shape_.label_column ? 1 : 0);
+    shape_.is_transposed ? check_size(source_, location, values, rows_)
+                         : check_size(source_, location, rows_, values);
+    add_values(row.cells, location);
   }
 
   ObservationSource result() && {
-    if (names_.names().empty())
-      throw IoError(source_, has_header_ ? "holds a header and no rows" : "holds no rows");
-    const auto landmarks = static_cast<Eigen::Index>(names_.names().size());
-    const auto steps = static_cast<Eigen::Index>(values_.size()) / landmarks;
+    if (rows_ == 0)
+      throw IoError(source_, shape_.has_header ? "holds a header and no rows" : "holds no rows");
+    const auto rows = static_cast<Eigen::Index>(rows_);
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    return {.history = {.sensor = sensor_,
-                        .names = names_.names(),
-                        .values = Eigen::Map<const RowMajor>(values_.data(), landmarks, steps)},
-            .ground_truth_m = std::nullopt,
-            .remarks = {},
-            .locations = names_.locations(),
-            .path = source_};
+    const Eigen::Map<const RowMajor> values(values_.data(), rows,
+                                            static_cast<Eigen::Index>(values_.size()) / rows);
+    ObservationSource source{.history = {.sensor = sensor_, .names = names_.names(), .values = {}},
+                             .ground_truth_m = std::nullopt,
+                             .remarks = {},
+                             .locations = names_.locations(),
+                             .path = source_};
+    if (shape_.is_transposed)
+      source.history.values = values.transpose();
+    else
+      source.history.values = values;
+    return source;
   }
 
  private:
-  void set_width(const TableRow& row) {
+  void begin(const TableRow& row) {
     width_ = row.cells.size();
     first_line_ = row.line;
+    if (!shape_.is_transposed) return;
+    for (std::size_t i = shape_.label_column ? 1 : 0; i < width_; ++i)
+      names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
   }
 
   void add_values(Cells cells, const std::string& location) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::optional<double> value = detection_value(cells[i], sensor_, unit_);
+      if (i == shape_.label_column) continue;
+      const std::optional<double> value = detection_value(cells[i], sensor_, form_);
       if (!value)
-        throw IoError(source_, fmt::format("{}, column {}", location, i + (has_names_ ? 2 : 1)),
-                      detection_problem(cells[i], sensor_, unit_));
+        throw IoError(source_, fmt::format("{}, column {}", location, i + 1),
+                      detection_problem(cells[i], sensor_, form_));
       values_.push_back(*value);
     }
   }
 
   const std::string& source_;
   Sensor sensor_;
-  AngleUnit unit_;
+  ValueForm form_;
+  TableShape shape_;
   NameList names_;
   std::vector<double> values_;
   std::size_t width_ = 0;
   std::size_t first_line_ = 0;
-  bool has_header_ = false;
-  bool has_names_ = false;
+  std::size_t rows_ = 0;  ///< Without the header.
 };
+
+TableReading reading_of(const TableReader& reader, const TableFormat& format,
+                        const TableShape& shape) {
+  return {.form = shape.is_transposed ? "transposed table" : "wide table",
+          .columns = {},
+          .separator = reader.separator(),
+          .has_decimal_commas = reader.has_decimal_commas(),
+          .times = shape.has_dates ? "dates" : "",
+          .unit = format.unit,
+          .convention = format.convention};
+}
 
 using Measured = ValueRows::Measured;
 
@@ -194,26 +199,30 @@ std::vector<UnassociatedMeasurement> unassociated_in(const std::vector<Measured>
 }  // namespace
 
 ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
-                            AngleUnit unit) {
+                            const TableFormat& format) {
+  const TableShape shape = table_shape(text, source, format);
+  if (!shape.doubt.empty()) throw IoError(source, shape.doubt);
   TableReader reader(text, source);
-  WideTable table(source, sensor, unit);
+  GridTable table(source, sensor, format, shape);
   TableRow row;
   bool is_first = true;
   while (reader.next(row)) {
-    if (is_first && is_header(row))
+    if (is_first && shape.has_header)
       table.add_header(row);
     else
       table.add(row);
     is_first = false;
   }
-  return std::move(table).result();
+  ObservationSource result = std::move(table).result();
+  result.reading = reading_of(reader, format, shape);
+  return result;
 }
 
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
-                            AngleUnit unit) {
+                            const TableFormat& format) {
   TableReader reader(text, source);
   TableRow row;
-  ValueRows rows(source, sensor, unit);
+  ValueRows rows(source, sensor, format);
   std::vector<Measured> measurements;
   for (bool is_first = true; reader.next(row); is_first = false) {
     if (is_first && rows.begin(row)) continue;
@@ -234,18 +243,22 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                            .remarks = rows.scans().remarks(),
                            .locations = rows.names().locations(),
                            .path = source,
-                           .unassociated = unassociated_in(measurements)};
+                           .unassociated = unassociated_in(measurements),
+                           .reading = rows.scans().reading()};
+  result.reading.form = "long table";
+  result.reading.separator = reader.separator();
+  result.reading.has_decimal_commas = reader.has_decimal_commas();
   if (lists_detections)
     result.remarks.push_back(
         "Only detections are listed: all other landmarks are taken as not seen");
   return result;
 }
 
-bool has_long_header(std::string_view text, const std::string& source) {
+bool has_long_header(std::string_view text, const std::string& source, const ColumnNames& names) {
   TableReader reader(text, source);
   TableRow row;
   if (!reader.next(row)) return false;
-  return names_value_columns(row);
+  return names_value_columns(row, names);
 }
 
 bool starts_as_long(std::string_view text, const std::string& source) {
@@ -253,17 +266,18 @@ bool starts_as_long(std::string_view text, const std::string& source) {
   TableRow row;
   if (!reader.next(row) || row.cells.size() != 3) return false;
   const auto is_value = [](std::string_view cell) { return is_missing(cell) || number_in(cell); };
-  return number_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
+  return time_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
 }
 
-ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind, Layout layout,
-                                    AngleUnit unit) {
+ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind,
+                                    const TableFormat& format) {
+  respell(source);
   const std::string& name = source.name();
-  if (layout == Layout::kAuto && is_detections(source)) {
+  if (format.layout == Layout::kAuto && is_detections(source, format)) {
     if (!kind)
       throw IoError(
           name, "holds detections: range-bearing, range, bearing or visibility has to be given");
-    return observations_of(read_detections(source, {.unit = unit, .value = std::nullopt}), *kind);
+    return observations_of(read_detections(source, format), *kind);
   }
   const bool holds_json = is_json(source);
   const std::string bytes = source.rest();
@@ -272,18 +286,21 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   if (!kind)
     throw IoError(name,
                   "does not state what it holds: visibility, bearing or range has to be given");
-  if (layout == Layout::kAuto) layout = has_long_header(text, name) ? Layout::kLong : Layout::kWide;
-  ObservationSource result = layout == Layout::kLong ? read_long(text, name, *kind, unit)
-                                                     : read_wide(text, name, *kind, unit);
+  const bool is_long = format.layout == Layout::kLong ||
+                       (format.layout == Layout::kAuto &&
+                        (has_long_header(text, name, format.columns) || starts_as_long(text, name)));
+  ObservationSource result =
+      is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
+  result.reading.packing = source.packing();
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
 }
 
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
-                                    Layout layout, AngleUnit unit) {
+                                    const TableFormat& format) {
   if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility));
   ByteSource source(path);
-  return read_observations(source, kind, layout, unit);
+  return read_observations(source, kind, format);
 }
 
 }  // namespace mapproof

@@ -17,7 +17,8 @@ ObservationSource observations_of(DetectionSource source, Sensor sensor) {
           .ground_truth_m = std::move(source.ground_truth_m),
           .remarks = std::move(source.remarks),
           .locations = std::move(source.locations),
-          .path = std::move(source.path)};
+          .path = std::move(source.path),
+          .reading = std::move(source.reading)};
 }
 
 }  // namespace mapproof

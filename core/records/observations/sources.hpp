@@ -3,14 +3,51 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/model/detection_log.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/tables/column_names.hpp"
 
 namespace mapproof {
+
+/// How a CSV file holds observations.
+enum class Layout {
+  kAuto,        ///< As the table shows, see table_shape.hpp; a doubtful one is refused.
+  kWide,        ///< One row per landmark, one column per step.
+  kTransposed,  ///< One row per step, one column per landmark; the steps' times may come first.
+  kLong,        ///< One row per observation: step or time, landmark, value; a robot too, whose
+                ///< steps are then its own.
+};
+
+/// Where the bearings of a table are zero, and their sense. A map depends on neither: it compares
+/// the landmarks of one scan.
+enum class BearingConvention {
+  kCounterclockwise,  ///< From the heading, counter-clockwise (to the left): what mapproof holds.
+  kClockwise,         ///< From the heading, clockwise (to the right).
+  kCompass,           ///< From north, clockwise.
+  kEast,              ///< From the x axis, counter-clockwise.
+};
+
+inline bool is_clockwise(BearingConvention convention) {
+  return convention == BearingConvention::kClockwise || convention == BearingConvention::kCompass;
+}
+
+/// What a reader understood of a file.
+struct TableReading {
+  std::string form;  ///< "wide table", "transposed table", "detections"; empty: not a table.
+  /// Role and header of each column that was read: {"landmark", "Objekt"}.
+  std::vector<std::pair<std::string, std::string>> columns = {};
+  char separator = '\0';  ///< kBlanks of TableReader: blanks.
+  bool has_decimal_commas = false;
+  std::string packing = {};  ///< "gzip", "xz", "UTF-16".
+  std::string times = {};  ///< How times are written, where that is not in seconds: "dates".
+  AngleUnit unit = AngleUnit::kRadians;  ///< Of bearings.
+  BearingConvention convention = BearingConvention::kCounterclockwise;
+};
 
 /// What scans showed, with what is needed to talk about the file that it came from.
 struct DetectionSource {
@@ -19,22 +56,17 @@ struct DetectionSource {
   std::vector<std::string> remarks;      ///< What was dropped or assumed, a sentence each.
   std::vector<std::string> locations;    ///< M; where the file holds the landmark: "line 7".
   std::string path;                      ///< For errors: the file or folder that was read.
+  TableReading reading = {};
 };
 
-/// How a file of detections is to be understood.
-struct DetectionFormat {
-  AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not state it.
+/// How the user says that a table is to be understood; what is not said is recognised.
+struct TableFormat {
+  AngleUnit unit = AngleUnit::kRadians;  ///< Of bearings, where the file does not state it.
   /// What a column `value` holds; visibility: 1, seen.
-  std::optional<Sensor> value;
-};
-
-/// How a CSV file holds observations.
-enum class Layout {
-  kAuto,  ///< kLong if the header names a landmark and a value, or what detections hold; else
-          ///< kWide.
-  kWide,  ///< One row per landmark, one column per step.
-  kLong,  ///< One row per observation: step or time, landmark, value; a robot too, whose steps are
-          ///< then its own.
+  std::optional<Sensor> value = std::nullopt;
+  Layout layout = Layout::kAuto;
+  BearingConvention convention = BearingConvention::kCounterclockwise;
+  ColumnNames columns = {};  ///< Columns that a long or transposed table names otherwise.
 };
 
 /// A measurement without a landmark ID.
@@ -58,6 +90,7 @@ struct ObservationSource {
   std::string path;  ///< For errors: the file or folder that was read.
   /// Of a long table, in the order of its lines; they are not in the history.
   std::vector<UnassociatedMeasurement> unassociated = {};
+  TableReading reading = {};
 };
 
 /// Landmarks with known positions: anchors, or the ground truth.

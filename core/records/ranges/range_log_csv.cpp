@@ -17,13 +17,17 @@
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
+#include "core/records/ranges/path_text.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view kTimes = "times";
 
 /// A column that a table names in its header.
 struct CsvColumn {
@@ -54,10 +58,13 @@ std::optional<std::size_t> cell_of(const CsvColumn& column, const TableRow& head
   return found;
 }
 
-double number_at(const TableRow& row, std::size_t cell, const std::string& source) {
-  const std::optional<double> value = number_in(row.cells[cell]);
+/// @param is_time  A date does as well.
+double number_at(const TableRow& row, std::size_t cell, bool is_time, const std::string& source) {
+  const std::optional<double> value =
+      is_time ? time_in(row.cells[cell]) : number_in(row.cells[cell]);
   if (!value || !std::isfinite(*value))
-    throw IoError(source, fmt::format("line {}", row.line), number_problem(row.cells[cell]));
+    throw IoError(source, fmt::format("line {}", row.line),
+                  is_time ? time_problem(row.cells[cell]) : number_problem(row.cells[cell]));
   return *value;
 }
 
@@ -83,6 +90,7 @@ NumberTable read_columns(ByteSource& input, const std::vector<CsvColumn>& number
   TableRow row;
   if (!reader.next(row)) throw IoError(source, "is empty");
   const std::size_t width = row.cells.size();
+  // Times come first, and are always there.
   std::vector<std::size_t> cells;
   for (const CsvColumn& column : numbers)
     if (const auto cell = cell_of(column, row, source)) cells.push_back(*cell);
@@ -97,10 +105,16 @@ NumberTable read_columns(ByteSource& input, const std::vector<CsvColumn>& number
     if (table.rows.size() == kMostSteps)
       throw IoError(source, fmt::format("more than {} rows", kMostSteps));
     table.rows.push_back(row.line);
-    for (const std::size_t cell : cells) values.push_back(number_at(row, cell, source));
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      values.push_back(number_at(row, cells[i], numbers[i].label == kTimes, source));
     if (name_cell) table.names.push_back(name_at(row, *name_cell, source));
   }
   table.set_values(values, std::ssize(cells));
+  if (numbers[0].label == kTimes && table.values.rows() > 0) {
+    const Eigen::VectorXd times = table.values.col(0);
+    table.values.col(0) *=
+        time_scale({times.data(), static_cast<std::size_t>(times.size())}).seconds;
+  }
   return table;
 }
 
@@ -112,7 +126,8 @@ bool names_columns(const TableRow& row, const std::vector<CsvColumn>& columns) {
   });
 }
 
-const CsvColumn kTime{.label = "times", .words = {"t", "time", "time_s"}};
+const CsvColumn kTime{.label = kTimes,
+                      .words = {"t", "time", "time_s", "timestamp", "stamp", "datetime"}};
 const CsvColumn kX{.label = "x", .words = {"x", "x_m"}};
 const CsvColumn kY{.label = "y", .words = {"y", "y_m"}};
 const CsvColumn kHeading{.label = "headings", .words = {"heading", "heading_rad", "theta"}};
@@ -152,14 +167,29 @@ std::vector<Motion> read_motions(const fs::path& path) {
   return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
 }
 
-Trajectory read_ground_truth(const fs::path& path) {
+/// @param times_s  Of the poses of the odometry, for a path without times.
+Trajectory read_ground_truth(const fs::path& path, const Eigen::VectorXd& times_s) {
+  ByteSource source(path);
+  if (is_path_text(source)) return read_path_text(source, times_s);
   CsvColumn heading = kHeading;
   heading.is_needed = false;
-  return trajectory_in(read_table(path, {kTime, kX, kY, heading}));
+  return trajectory_in(read_columns(source, {kTime, kX, kY, heading}));
 }
 
 NamedPoints read_true_landmarks(const fs::path& path) {
   return landmarks_in(read_table(path, {kX, kY}, &kLandmark));
+}
+
+/// Of the poses of the odometry: its start, then the end of each motion.
+Eigen::VectorXd pose_times(const RangeLogParts& parts) {
+  if (parts.odometry.empty()) return {};
+  Eigen::VectorXd times_s(std::ssize(parts.odometry) + 1);
+  for (Eigen::Index i = 0; i + 1 < times_s.size(); ++i)
+    times_s(i + 1) = parts.odometry[static_cast<std::size_t>(i)].time_s;
+  times_s(0) = parts.start ? parts.start->time_s
+               : times_s.size() > 2 ? 2.0 * times_s(1) - times_s(2)
+                                    : times_s(1) - 1.0;
+  return times_s;
 }
 
 /// The files next to ranges.csv.
@@ -178,7 +208,7 @@ void take_folder(const fs::path& folder, OdometrySource wanted, RangeLogParts& p
       !start.empty() && (takes_recovered || !given.empty()))
     parts.start = read_start(start);
   if (const fs::path ground_truth = file_in(folder, "groundtruth.csv"); !ground_truth.empty())
-    parts.ground_truth = read_ground_truth(ground_truth);
+    parts.ground_truth = read_ground_truth(ground_truth, pose_times(parts));
   if (const fs::path landmarks = file_in(folder, "landmarks.csv"); !landmarks.empty())
     parts.true_landmarks = read_true_landmarks(landmarks);
 }
@@ -205,7 +235,7 @@ void take_named_files(const RangeLogOptions& options, RangeLogParts& parts) {
     parts.start.reset();
   }
   if (!options.ground_truth_file.empty())
-    parts.ground_truth = read_ground_truth(options.ground_truth_file);
+    parts.ground_truth = read_ground_truth(options.ground_truth_file, pose_times(parts));
   if (!options.landmarks_file.empty())
     parts.true_landmarks = read_true_landmarks(options.landmarks_file);
 }

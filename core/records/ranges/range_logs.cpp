@@ -14,6 +14,7 @@
 #include "core/records/ranges/range_log_mat.hpp"
 #include "core/records/ranges/range_log_pyfg.hpp"
 #include "core/records/ranges/range_log_text.hpp"
+#include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {
@@ -46,6 +47,7 @@ bool is_ranges_text(const TableRow& row) {
 /// The form that the first bytes show.
 Form form_seen(ByteSource& source) {
   if (source.peek().starts_with("MATLAB")) return Form::kMat;
+  refuse_other_kind(source.peek(), source.name());
   try {
     if (first_row_is(source, names_range_columns)) return Form::kCsv;
     if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
@@ -118,7 +120,7 @@ bool is_range_log_folder(const fs::path& folder) {
 bool is_range_log(ByteSource& source) {
   const Form seen = form_seen(source), named = form_named(source.path());
   if (seen == Form::kCsv)
-    return named == Form::kCsv || !first_row_is(source, names_detection_columns) ||
+    return named == Form::kCsv || !first_row_is(source, [](const TableRow& row) { return names_detection_columns(row); }) ||
            first_row_is(source, names_beacons);
   if (seen == Form::kText || seen == Form::kNone)
     return named != Form::kNone && named != Form::kCsv;

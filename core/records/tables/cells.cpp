@@ -37,8 +37,8 @@ std::string observation_problem(Sensor sensor, double value) {
     case Sensor::kVisibility:
       return fmt::format("visibility is 0 or 1, got {}", value);
     case Sensor::kBearing:
-      return fmt::format("bearings are in radians, within a full turn; {} looks like degrees",
-                         value);
+      return fmt::format(
+          "bearings are in radians, within a full turn; {} looks like degrees: --degrees", value);
     case Sensor::kRange:
       return value < 0.0
                  ? fmt::format("a range cannot be negative, got {}", value)
@@ -78,19 +78,29 @@ void check_size(const std::string& source, const std::string& location, std::siz
                               steps, kMostEntries));
 }
 
-std::optional<double> detection_value(std::string_view cell, Sensor sensor, AngleUnit unit) {
-  if (sensor != Sensor::kBearing || unit == AngleUnit::kRadians || is_missing(cell))
-    return observation_in(cell, sensor);
-  const std::optional<double> degrees = number_in(cell);
-  if (!degrees || !(std::abs(*degrees) <= 360.0 + 1e-3)) return std::nullopt;
-  return in_radians(*degrees);
+std::optional<double> detection_value(std::string_view cell, Sensor sensor, const ValueForm& form) {
+  const bool is_bearing = sensor == Sensor::kBearing;
+  const bool is_plain = is_bearing ? form.unit == AngleUnit::kRadians && !form.is_clockwise
+                                   : sensor != Sensor::kRange || form.factor == 1.0;
+  if (is_plain || is_missing(cell)) return observation_in(cell, sensor);
+  const std::optional<double> number = number_in(cell);
+  if (!number) return std::nullopt;
+  if (!is_bearing)
+    return is_good(sensor, *number * form.factor) ? std::optional(*number * form.factor)
+                                                  : std::nullopt;
+  const bool is_degrees = form.unit == AngleUnit::kDegrees;
+  if (!(std::abs(*number) <= (is_degrees ? 360.0 + 1e-3 : kLargestBearing_rad)))
+    return std::nullopt;
+  const double radians = is_degrees ? in_radians(*number) : *number;
+  return form.is_clockwise ? 0.0 - radians : radians;
 }
 
-std::string detection_problem(std::string_view cell, Sensor sensor, AngleUnit unit) {
-  const std::optional<double> degrees = number_in(cell);
-  if (sensor == Sensor::kBearing && unit == AngleUnit::kDegrees && degrees &&
-      std::isfinite(*degrees))
-    return fmt::format("bearings are within a full turn of 360 degrees, got {}", *degrees);
+std::string detection_problem(std::string_view cell, Sensor sensor, const ValueForm& form) {
+  const std::optional<double> number = number_in(cell);
+  if (!number || !std::isfinite(*number)) return cell_problem(cell, sensor);
+  if (sensor == Sensor::kBearing && form.unit == AngleUnit::kDegrees)
+    return fmt::format("bearings are within a full turn of 360 degrees, got {}", *number);
+  if (sensor == Sensor::kRange) return observation_problem(sensor, *number * form.factor);
   return cell_problem(cell, sensor);
 }
 

@@ -24,9 +24,16 @@ std::string cell_problem(std::string_view cell, Sensor sensor);
 void check_size(const std::string& source, const std::string& location, std::size_t landmarks,
                 std::size_t steps);
 
-/// A cell as a range in metres or a bearing in radians, NaN if it is missing. Empty if it is wrong:
-/// detection_problem() gives the reason.
-std::optional<double> detection_value(std::string_view cell, Sensor sensor, AngleUnit unit);
-std::string detection_problem(std::string_view cell, Sensor sensor, AngleUnit unit);
+/// How the values of a column are written.
+struct ValueForm {
+  AngleUnit unit = AngleUnit::kRadians;  ///< Of bearings.
+  double factor = 1.0;                   ///< Metres of one unit of a range.
+  bool is_clockwise = false;             ///< The bearings: they get the other sign.
+};
+
+/// A cell as a range in metres or a bearing in radians, counter-clockwise; NaN if it is missing.
+/// Empty if it is wrong: detection_problem() gives the reason.
+std::optional<double> detection_value(std::string_view cell, Sensor sensor, const ValueForm& form);
+std::string detection_problem(std::string_view cell, Sensor sensor, const ValueForm& form);
 
 }  // namespace mapproof

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,16 +25,45 @@ std::string_view first_row(std::string_view text) {
   return text;
 }
 
+/// The separator that a line such as "sep=;" states, as spreadsheets write and read it.
+std::optional<char> stated_separator(std::string_view row) {
+  if (row.size() != 5 || lower_case(row.substr(0, 4)) != "sep=") return std::nullopt;
+  return row[4];
+}
+
 char separator_of(std::string_view row) {
+  if (const std::optional<char> stated = stated_separator(row)) return *stated;
   bool is_quoted = false;
-  bool has_semicolon = false;
+  bool has_semicolon = false, has_comma = false, has_blank = false;
   for (const char c : row) {
     if (c == '"') is_quoted = !is_quoted;
     if (is_quoted) continue;
     if (c == '\t') return '\t';
     has_semicolon = has_semicolon || c == ';';
+    has_comma = has_comma || c == ',';
+    has_blank = has_blank || c == ' ';
   }
-  return has_semicolon ? ';' : ',';
+  if (has_semicolon) return ';';
+  return has_blank && !has_comma ? TableReader::kBlanks : ',';
+}
+
+/// "-1.234,5" as "-1234.5": a number with a decimal comma. Empty if the cell is none.
+std::string with_decimal_point(std::string_view cell) {
+  const std::size_t comma = cell.find(',');
+  if (comma == std::string_view::npos || comma + 1 == cell.size() || comma == 0) return {};
+  std::string number;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const char c = cell[i];
+    const bool is_group = c == '.' && i + 3 < cell.size() && i < comma && (comma - i) % 4 == 0;
+    if (c == ',' && i == comma)
+      number += '.';
+    else if ((c >= '0' && c <= '9') || ((c == '-' || c == '+') && (i == 0 || cell[i - 1] == 'e' || cell[i - 1] == 'E')) ||
+             ((c == 'e' || c == 'E') && i > comma))
+      number += c;
+    else if (!is_group)
+      return {};
+  }
+  return number;
 }
 
 /// As trimmed(), but a tab that separates is not a blank.
@@ -74,7 +105,8 @@ bool TableReader::skip_to_row() {
   while (at_ < text_.size()) {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
-    const bool is_row = !content.empty() && content.front() != '#';
+    const bool is_row = !content.empty() && content.front() != '#' &&
+                        !(at_ == 0 && stated_separator(content));
     // A line of tabs alone is a row of empty cells, if tabs separate.
     if (is_row ||
         (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))
@@ -100,25 +132,42 @@ bool TableReader::next(TableRow& row) {
   unescaped_.clear();
   if (!skip_to_row()) return false;
   row.line = line_;
+  split(row);
+  if (separator_ != ',') take_decimal_commas(row);
+  return true;
+}
+
+void TableReader::split(TableRow& row) {
   const std::string_view line = rest_of_line();
-  if (separator_ != kBlanks && line.find('"') != std::string_view::npos) {
-    split_quoted(row);
-    return true;
-  }
+  if (separator_ != kBlanks && line.find('"') != std::string_view::npos) return split_quoted(row);
   if (separator_ == kBlanks)
     split_blanks(line, row);
   else
     split_bare(line, row);
   at_ = std::min(at_ + line.size() + 1, text_.size());
   ++line_;
-  return true;
 }
 
-void TableReader::split_blanks(std::string_view line, TableRow& row) const {
+void TableReader::take_decimal_commas(TableRow& row) {
+  for (std::string_view& cell : row.cells) {
+    if (cell.size() > 40 || cell.find(',') == std::string_view::npos) continue;
+    std::string number = with_decimal_point(cell);
+    if (number.empty()) continue;
+    has_decimal_commas_ = true;
+    cell = unescaped_.emplace_back(std::move(number));
+  }
+}
+
+/// Cells in quotes hold no quotes, as programs that write blanks between cells have it.
+void TableReader::split_blanks(std::string_view line, TableRow& row) {
   for (line = trimmed(line); !line.empty(); line = trimmed(line)) {
-    const std::size_t end = std::min(line.find_first_of(" \t\r"), line.size());
-    row.cells.push_back(line.substr(0, end));
-    line.remove_prefix(end);
+    const bool is_quoted = line.front() == '"';
+    std::size_t end = is_quoted ? line.find('"', 1) : line.find_first_of(" \t\r");
+    if (is_quoted && end == std::string_view::npos)
+      throw IoError(source_, fmt::format("line {}", line_), "a cell in quotes does not end");
+    end = std::min(end, line.size());
+    row.cells.push_back(line.substr(is_quoted ? 1 : 0, is_quoted ? end - 1 : end));
+    line.remove_prefix(std::min(end + (is_quoted ? 1 : 0), line.size()));
   }
 }
 

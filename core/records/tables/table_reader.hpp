@@ -24,12 +24,13 @@ inline constexpr const char* kCutOffRemark =
 bool is_cut_table(std::string_view text);
 
 /// Reads a table row by row: RFC 4180 with commas, semicolons or tabs, LF or CR LF, cells in quotes
-/// or not, or with runs of blanks between bare cells. Blanks around bare cells, empty lines and
-/// lines that start with '#' are passed over. Linear in the size of the text.
+/// or not, or with runs of blanks between cells. Blanks around bare cells, empty lines and lines
+/// that start with '#' are passed over. Decimal commas become points where commas do not separate.
+/// Linear in the size of the text.
 class TableReader {
  public:
   /// The separator is what the first row holds outside quotes: a tab, else a semicolon, else a
-  /// comma.
+  /// comma, else blanks. A first line such as "sep=;" states it.
   /// @param text  From checked_text(); must outlive the reader, as must `source`.
   TableReader(std::string_view text, const std::string& source);
 
@@ -45,12 +46,18 @@ class TableReader {
   /// @throws IoError with the line for broken quotes, and for lines that end with CR alone.
   bool next(TableRow& row);
 
+  char separator() const { return separator_; }
+  /// Whether a row so far had decimal commas.
+  bool has_decimal_commas() const { return has_decimal_commas_; }
+
  private:
   void check_line_ends() const;
   bool skip_to_row();
-  void split_blanks(std::string_view line, TableRow& row) const;
+  void split_blanks(std::string_view line, TableRow& row);
   void split_bare(std::string_view line, TableRow& row) const;
   void split_quoted(TableRow& row);
+  void split(TableRow& row);
+  void take_decimal_commas(TableRow& row);
   std::string_view quoted_cell(std::size_t row_line);
   std::string_view rest_of_line() const;
   /// Of a bare cell that starts at the cursor.
@@ -61,6 +68,7 @@ class TableReader {
   char separator_;
   std::size_t at_ = 0;
   std::size_t line_ = 1;
+  bool has_decimal_commas_ = false;
   std::deque<std::string> unescaped_;  ///< Of the current row.
 };
 

@@ -73,6 +73,7 @@ bool TableStream::read_rows() {
   const std::string_view text =
       checked_text(std::string_view(bytes_).substr(0, whole_), source(), lines_ + 1);
   if (separator_ == '\0') separator_ = TableReader::separator_in(text);
+  had_decimal_commas_ = has_decimal_commas();
   reader_.emplace(text, source(), separator_, lines_ + 1);
   return true;
 }

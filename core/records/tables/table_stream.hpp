@@ -32,6 +32,13 @@ class TableStream {
   /// After the last row: it has no line end, see kCutRemark.
   bool is_cut() const { return is_cut_; }
 
+  /// After the first row, see ByteSource and TableReader.
+  std::string packing() const { return std::string(source_.packing()); }
+  char separator() const { return separator_; }
+  bool has_decimal_commas() const {
+    return had_decimal_commas_ || (reader_ && reader_->has_decimal_commas());
+  }
+
   const std::string& source() const { return source_.name(); }
   /// See ByteSource.
   std::optional<double> expected_size() const { return source_.expected_size(); }
@@ -46,6 +53,7 @@ class TableStream {
   bool is_over_ = false;
   bool is_cut_ = false;
   char separator_ = '\0';  ///< Not known before the first row.
+  bool had_decimal_commas_ = false;  ///< Of readers before this one.
   std::optional<TableReader> reader_;
 };
 

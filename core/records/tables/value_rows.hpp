@@ -21,7 +21,7 @@ class ValueRows {
   };
 
   /// @param source  What to call the table in errors; must outlive the object.
-  ValueRows(const std::string& source, Sensor sensor, AngleUnit unit);
+  ValueRows(const std::string& source, Sensor sensor, const TableFormat& format);
 
   /// Learns the columns from the first row; without a header they are step, landmark, value.
   /// @return Whether it is a header, and not a measurement. @throws IoError as detection_columns().
@@ -35,7 +35,7 @@ class ValueRows {
 
  private:
   Sensor sensor_;
-  AngleUnit unit_;
+  ColumnNames columns_;
   ScanRows scans_;
   NameList names_;
 };

@@ -69,6 +69,7 @@ const std::map<std::string, Modules>& kept_in() {
       {"expat", {"reports/diff"}},
       {"png.h", {"render/image"}},
       {"matio", {"core/records"}},
+      {"zip.h", {"core/records"}},
       {"sqlite3", {"reports/history"}},
       {"sha256.h", {"core/base"}},
       {"tbb/", {"core/base"}},

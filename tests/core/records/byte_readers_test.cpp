@@ -56,7 +56,7 @@ std::string text_of(const RangeLog& log) {
 Reader observations(const std::string& name, std::string bytes, std::optional<Sensor> sensor,
                     Layout layout = Layout::kAuto) {
   return {name, std::move(bytes), [=](ByteSource& source) {
-            const ObservationSource read = read_observations(source, sensor, layout);
+            const ObservationSource read = read_observations(source, sensor, {.layout = layout});
             return fmt::format("{} {}", observations_json(read.history), read.remarks);
           }};
 }

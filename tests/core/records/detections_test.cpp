@@ -17,7 +17,7 @@ namespace {
 
 using test::error_of;
 
-DetectionSource read_text(const std::string& text, const DetectionFormat& format = {}) {
+DetectionSource read_text(const std::string& text, const TableFormat& format = {}) {
   const test::TemporaryFolder folder;
   return read_detections(folder.file("a.csv", text), format);
 }
@@ -28,7 +28,7 @@ bool shows_detections(const std::filesystem::path& path) {
 }
 
 /// The error of a text, behind the file's path.
-std::string error_with(const std::string& text, const DetectionFormat& format = {}) {
+std::string error_with(const std::string& text, const TableFormat& format = {}) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.csv", text);
   const std::string error = error_of([&] { read_detections(path, format); });
@@ -190,7 +190,7 @@ TEST(Observations, InDegreesAreTurnedIntoRadians) {
   const auto wide = folder.file("wide.csv.gz", test::gzipped("oak,90,-90\nelm,0,180\n"));
   const auto longs = folder.file("long.csv", "step,landmark,value\n0,oak,90\n0,elm,0\n");
   for (const auto& path : {wide, longs})
-    EXPECT_DOUBLE_EQ(read_observations(path, Sensor::kBearing, Layout::kAuto, AngleUnit::kDegrees)
+    EXPECT_DOUBLE_EQ(read_observations(path, Sensor::kBearing, {.unit = AngleUnit::kDegrees})
                          .history.values(0, 0),
                      right);
 }

@@ -19,14 +19,14 @@ using test::TemporaryFolder;
 
 ObservationSource read_text(const std::string& text, Sensor sensor, Layout layout = Layout::kAuto) {
   const TemporaryFolder folder;
-  return read_observations(folder.file("o.csv", text), sensor, layout);
+  return read_observations(folder.file("o.csv", text), sensor, {.layout = layout});
 }
 
 /// The error behind the path.
 std::string error_with(const std::string& text, Sensor sensor, Layout layout = Layout::kAuto) {
   const TemporaryFolder folder;
   const std::string path = folder.file("o.csv", text).string();
-  const std::string error = error_of([&] { read_observations(path, sensor, layout); });
+  const std::string error = error_of([&] { read_observations(path, sensor, {.layout = layout}); });
   return error.starts_with(path + ": ") ? error.substr(path.size() + 2) : error;
 }
 
@@ -104,12 +104,13 @@ TEST(WideObservations, NameTheCellThatIsWrong) {
             "line 2, column 3: visibility is 0 or 1, got 2");
   EXPECT_EQ(
       error_with("0.5,180\n", Sensor::kBearing),
-      "line 1, column 2: bearings are in radians, within a full turn; 180 looks like degrees");
+      "line 1, column 2: bearings are in radians, within a full turn; 180 looks like degrees: "
+      "--degrees");
   EXPECT_EQ(error_with("a,-1\n", Sensor::kRange),
             "line 1, column 2: a range cannot be negative, got -1");
   EXPECT_EQ(error_with("a,1,inf\n", Sensor::kRange), "line 1, column 3: an infinite value");
   EXPECT_EQ(error_with("a,1,x1\n", Sensor::kRange), "line 1, column 3: \"x1\" is not a number");
-  EXPECT_EQ(error_with("a;1;1,5\n", Sensor::kRange),
+  EXPECT_EQ(error_with("a,1,\"1,5\"\n", Sensor::kRange),
             "line 1, column 3: \"1,5\" is not a number: decimals stand behind a point");
 }
 
@@ -166,7 +167,7 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
 
 TEST(LongObservations, OfDetectionsAloneTakeTheRestAsNotSeen) {
   const ObservationSource source = read_observations(data_file("observations/long_detections.csv"),
-                                                     Sensor::kVisibility, Layout::kLong);
+                                                     Sensor::kVisibility, {.layout = Layout::kLong});
   Eigen::MatrixXd expected(3, 3);
   expected << 1, 1, 0, 1, 0, 1, 0, 1, 0;
   expect_values(source.history, expected);
@@ -198,7 +199,7 @@ TEST(LongObservations, AreReadAlikeByStepOrByTime) {
 TEST(LongObservations, WithoutAHeaderMayNameALandmarkAsAColumnIs) {
   const TemporaryFolder folder;
   const auto path = folder.file("o.csv", "0,r,1\n0,value,2\n");
-  const ObservationSource source = read_observations(path, Sensor::kRange, Layout::kLong);
+  const ObservationSource source = read_observations(path, Sensor::kRange, {.layout = Layout::kLong});
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"r", "value"}));
 }
 

@@ -1,0 +1,102 @@
+#include "app/study/example.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/resource.hpp"
+
+namespace mapproof {
+
+/// The files of examples/: "hall/bearings.csv".
+std::span<const Resource> embedded_examples();
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExampleArguments {
+  std::string target;
+  std::string out = ".";
+};
+
+/// An example's name, and a command that uses it in the folder that holds it.
+const std::map<std::string, std::string>& uses() {
+  static const std::map<std::string, std::string> commands = {
+      {"hall",
+       "mapproof map hall/bearings.csv --sensor bearing --anchors hall/anchors.csv --ground-truth "
+       "hall/ground_truth.csv --out out/hall"},
+      {"drive", "mapproof slam drive --out out/drive"},
+      {"study", "mapproof run study/experiment.json --out out/study"},
+      {"plots", "mapproof diff plots/old plots/new --out out/plots.html"}};
+  return commands;
+}
+
+std::string folder_of(const Resource& resource) {
+  return fs::path(resource.name).begin()->string();
+}
+
+/// Refuses to replace a file that is not the example's.
+void write_new(const fs::path& path, std::string_view bytes) {
+  std::error_code error;
+  if (fs::exists(path, error) && read_file(path) != bytes)
+    throw IoError(path.string(), "is there and differs from the example; choose another folder");
+  write_file(path, bytes);
+}
+
+/// An example by its name into a folder, or all of them.
+int write_examples(const ExampleArguments& arguments, const Invocation& invocation) {
+  const bool is_name = uses().contains(arguments.target);
+  const fs::path out = is_name ? fs::path(arguments.out) : fs::path(arguments.target);
+  nlohmann::ordered_json object{{"folder", out.string()},
+                                {"files", nlohmann::ordered_json::array()},
+                                {"commands", nlohmann::ordered_json::array()}};
+  for (const Resource& resource : embedded_examples()) {
+    if (is_name && folder_of(resource) != arguments.target) continue;
+    write_new(out / resource.name, resource.bytes);
+    object["files"].push_back((out / resource.name).string());
+  }
+  std::string text;
+  if (out != ".") text += fmt::format("cd {}\n", printable(out.string(), 300));
+  for (const auto& [name, command] : uses()) {
+    if (is_name && name != arguments.target) continue;
+    object["commands"].push_back(command);
+    text += command + "\n";
+  }
+  invocation.console.info(fmt::format("{} files written; to use them:", object["files"].size()));
+  invocation.console.result(text, object);
+  return kDone;
+}
+
+}  // namespace
+
+Action example_command(CLI::App& app) {
+  auto arguments = std::make_shared<ExampleArguments>();
+  app.description("Write example data, and the commands that use them");
+  app.footer(
+      "Examples:\n"
+      "  mapproof example hall && mapproof map hall/detections.csv --out out/hall\n"
+      "  mapproof example examples\n\n"
+      "hall: bearings, ranges, range and bearing, and detections of landmarks in a hall, with\n"
+      "anchors and ground truth. drive: ranges and odometry. study: an experiment. plots: two\n"
+      "folders of plots to compare.\n");
+  app.add_option("NAME", arguments->target,
+                 "hall, drive, study or plots; any other word: the folder for all of them")
+      ->required();
+  app.add_option("--out", arguments->out, "Folder for the example of that name")
+      ->capture_default_str();
+  return [arguments](const Invocation& invocation) {
+    return write_examples(*arguments, invocation);
+  };
+}
+
+}  // namespace mapproof

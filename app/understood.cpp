@@ -1,0 +1,108 @@
+#include "app/understood.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "app/table_options.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+#include "core/records/tables/table_reader.hpp"
+
+namespace mapproof {
+namespace {
+
+const char* separator_words(char separator) {
+  switch (separator) {
+    case '\0':
+      return "";
+    case ',':
+      return "separated by commas";
+    case ';':
+      return "separated by semicolons";
+    case '\t':
+      return "separated by tabs";
+    case TableReader::kBlanks:
+      return "separated by blanks";
+    default:
+      return "separated as the first line states";
+  }
+}
+
+std::string unit_words(const InputSummary& summary) {
+  const char* zero = "counter-clockwise from the heading";
+  switch (summary.reading.convention) {
+    case BearingConvention::kCounterclockwise:
+      break;
+    case BearingConvention::kClockwise:
+      zero = "clockwise from the heading";
+      break;
+    case BearingConvention::kCompass:
+      zero = "clockwise from north";
+      break;
+    case BearingConvention::kEast:
+      zero = "counter-clockwise from the x axis";
+      break;
+  }
+  const char* unit = summary.reading.unit == AngleUnit::kDegrees ? "deg" : "rad";
+  if (summary.sensor == "bearing") return fmt::format("bearing [{}, {}]", unit, zero);
+  if (summary.sensor == "range") return "range [m]";
+  if (summary.sensor == "visibility") return "visibility [0 or 1]";
+  return fmt::format("range [m] and bearing [{}, {}]", unit, zero);
+}
+
+/// "time = Zeit, landmark = Objekt"; a column without a header by its role alone.
+std::string column_words(const TableReading& reading) {
+  std::vector<std::string> words;
+  for (const auto& [role, header] : reading.columns)
+    words.push_back(header.empty() || lower_case(header) == role
+                        ? role
+                        : fmt::format("{} = {}", role, printable(header, 40)));
+  return words.empty() ? "" : fmt::format("columns {}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::string understood_line(const std::string& name, const InputSummary& summary) {
+  const TableReading& reading = summary.reading;
+  std::vector<std::string> facts = {
+      fmt::format("{} landmarks x {} time steps", summary.landmarks, summary.steps),
+      unit_words(summary)};
+  if (summary.detections > 0)
+    facts.push_back(fmt::format("{} detections", summary.detections));
+  // In a list of what was seen the rest was not seen: nothing is missing.
+  if (summary.detections == 0 || summary.sensor != "visibility")
+    facts.push_back(fmt::format("{:.1f} % missing", 100.0 * summary.missing_share));
+  std::vector<std::string> form;
+  if (!reading.form.empty()) form.push_back(reading.form);
+  if (const std::string words = column_words(reading); !words.empty()) form.push_back(words);
+  if (const std::string words = separator_words(reading.separator); !words.empty())
+    form.push_back(words);
+  if (!reading.packing.empty()) form.push_back(reading.packing);
+  if (reading.has_decimal_commas) form.emplace_back("decimal commas");
+  if (!reading.times.empty()) form.push_back("times as " + reading.times);
+  return fmt::format("{}: {}{}{}", printable(name, 300), fmt::join(facts, ", "),
+                     form.empty() ? "" : "; ", fmt::join(form, ", "));
+}
+
+nlohmann::ordered_json understood_json(const InputSummary& summary) {
+  const TableReading& reading = summary.reading;
+  nlohmann::ordered_json columns = nlohmann::ordered_json::object();
+  for (const auto& [role, header] : reading.columns) columns[role] = header;
+  nlohmann::ordered_json object{
+      {"landmarks", summary.landmarks},
+      {"steps", summary.steps},
+      {"sensor", summary.sensor},
+      {"bearing_unit", reading.unit == AngleUnit::kDegrees ? "deg" : "rad"},
+      {"bearing_convention", name(reading.convention)},
+      {"missing_share", summary.missing_share},
+      {"form", reading.form},
+      {"columns", std::move(columns)},
+      {"separator", reading.separator == '\0' ? "" : std::string(1, reading.separator)},
+      {"decimal_commas", reading.has_decimal_commas},
+      {"times", reading.times}};
+  return object;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,245 @@
+#include "core/records/tables/column_names.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+
+namespace mapproof {
+namespace {
+
+struct Word {
+  std::string_view word;
+  ColumnRole role;
+};
+
+/// Words of headers without blanks, dots and underscores.
+constexpr Word kWords[] = {
+    {"step", ColumnRole::kStep},
+    {"scan", ColumnRole::kStep},
+    {"frame", ColumnRole::kStep},
+    {"seq", ColumnRole::kStep},
+    {"headerseq", ColumnRole::kStep},
+    {"timestep", ColumnRole::kStep},
+    {"time", ColumnRole::kTime},
+    {"timestamp", ColumnRole::kTime},
+    {"stamp", ColumnRole::kTime},
+    {"t", ColumnRole::kTime},
+    {"datetime", ColumnRole::kTime},
+    {"date", ColumnRole::kTime},
+    {"%time", ColumnRole::kTime},
+    {"zeit", ColumnRole::kTime},
+    {"zeitstempel", ColumnRole::kTime},
+    {"sec", ColumnRole::kTime},
+    {"stampsec", ColumnRole::kTime},
+    {"stampsecs", ColumnRole::kTime},
+    {"headerstamp", ColumnRole::kTime},
+    {"headerstampsec", ColumnRole::kTime},
+    {"headerstampsecs", ColumnRole::kTime},
+    {"nanosec", ColumnRole::kNanoseconds},
+    {"nsec", ColumnRole::kNanoseconds},
+    {"stampnanosec", ColumnRole::kNanoseconds},
+    {"stampnsecs", ColumnRole::kNanoseconds},
+    {"headerstampnanosec", ColumnRole::kNanoseconds},
+    {"headerstampnsecs", ColumnRole::kNanoseconds},
+    {"robot", ColumnRole::kRobot},
+    {"landmark", ColumnRole::kLandmark},
+    {"name", ColumnRole::kLandmark},
+    {"object", ColumnRole::kLandmark},
+    {"id", ColumnRole::kLandmark},
+    {"tag", ColumnRole::kLandmark},
+    {"marker", ColumnRole::kLandmark},
+    {"subject", ColumnRole::kLandmark},
+    {"beacon", ColumnRole::kLandmark},
+    {"objekt", ColumnRole::kLandmark},
+    {"landmarke", ColumnRole::kLandmark},
+    {"range", ColumnRole::kRange},
+    {"distance", ColumnRole::kRange},
+    {"dist", ColumnRole::kRange},
+    {"r", ColumnRole::kRange},
+    {"entfernung", ColumnRole::kRange},
+    {"abstand", ColumnRole::kRange},
+    {"distanz", ColumnRole::kRange},
+    {"bearing", ColumnRole::kBearing},
+    {"angle", ColumnRole::kBearing},
+    {"theta", ColumnRole::kBearing},
+    {"azimuth", ColumnRole::kBearing},
+    {"peilung", ColumnRole::kBearing},
+    {"winkel", ColumnRole::kBearing},
+    {"value", ColumnRole::kValue},
+    {"x", ColumnRole::kX},
+    {"y", ColumnRole::kY},
+    {"tvecz", ColumnRole::kX},  // OpenCV's camera looks along z, and x is to the right.
+    {"tvec2", ColumnRole::kX},
+    {"tvecx", ColumnRole::kRight},
+    {"tvec0", ColumnRole::kRight},
+};
+
+/// What may follow a landmark's or a step's word: "tag_id", "Frame No".
+constexpr std::string_view kSuffixes[] = {"id", "name", "nr", "no", "number", "index", "label"};
+
+/// The kind of a unit.
+enum class Kind { kTime, kLength, kAngle };
+
+struct Unit {
+  std::string_view word;
+  Kind kind;
+  double factor = 1.0;
+  AngleUnit angle = AngleUnit::kRadians;
+};
+
+constexpr Unit kUnits[] = {
+    {"s", Kind::kTime},
+    {"sec", Kind::kTime},
+    {"seconds", Kind::kTime},
+    {"ms", Kind::kTime, 1e-3},
+    {"us", Kind::kTime, 1e-6},
+    {"µs", Kind::kTime, 1e-6},
+    {"ns", Kind::kTime, 1e-9},
+    {"min", Kind::kTime, 60.0},
+    {"h", Kind::kTime, 3600.0},
+    {"d", Kind::kTime, 86400.0},
+    {"days", Kind::kTime, 86400.0},
+    {"m", Kind::kLength},
+    {"metres", Kind::kLength},
+    {"meters", Kind::kLength},
+    {"cm", Kind::kLength, 1e-2},
+    {"mm", Kind::kLength, 1e-3},
+    {"km", Kind::kLength, 1e3},
+    {"rad", Kind::kAngle},
+    {"radians", Kind::kAngle},
+    {"deg", Kind::kAngle, 1.0, AngleUnit::kDegrees},
+    {"degrees", Kind::kAngle, 1.0, AngleUnit::kDegrees},
+    {"grad", Kind::kAngle, 1.0, AngleUnit::kDegrees},
+    {"°", Kind::kAngle, 1.0, AngleUnit::kDegrees},
+};
+
+std::optional<Kind> unit_kind(ColumnRole role) {
+  switch (role) {
+    case ColumnRole::kTime:
+      return Kind::kTime;
+    case ColumnRole::kRange:
+    case ColumnRole::kX:
+    case ColumnRole::kY:
+    case ColumnRole::kRight:
+      return Kind::kLength;
+    case ColumnRole::kBearing:
+      return Kind::kAngle;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// Without the characters that words of a header are joined by.
+std::string joined(std::string_view text) {
+  std::string word;
+  for (const char c : text)
+    if (std::string_view(" ._-/[](){}").find(c) == std::string_view::npos) word += c;
+  return word;
+}
+
+std::optional<ColumnRole> role_of(std::string_view word) {
+  const Word* found = std::ranges::find(kWords, word, &Word::word);
+  if (found != std::end(kWords)) return found->role;
+  for (const std::string_view suffix : kSuffixes) {
+    if (!word.ends_with(suffix) || word.size() == suffix.size()) continue;
+    const std::optional<ColumnRole> role = role_of(word.substr(0, word.size() - suffix.size()));
+    if (role == ColumnRole::kLandmark || (role == ColumnRole::kStep && suffix != "id" &&
+                                          suffix != "name") || role == ColumnRole::kRobot)
+      return role;
+  }
+  return std::nullopt;
+}
+
+/// Takes a unit in. False: it is none of such a column.
+bool take_unit(std::string_view unit, ColumnHeading& heading) {
+  const std::optional<Kind> kind = unit_kind(*heading.role);
+  const auto known = std::ranges::find_if(
+      kUnits, [&](const Unit& one) { return one.word == unit && one.kind == kind; });
+  if (known == std::end(kUnits)) return false;
+  heading.factor = known->factor;
+  if (known->kind == Kind::kAngle) heading.unit = known->angle;
+  return true;
+}
+
+/// "Range [cm]" as "range" and "cm"; "range_cm" and "Range cm" too.
+ColumnHeading understood(std::string_view cell) {
+  const std::string text = lower_case(trimmed(cell));
+  ColumnHeading heading{.role = role_of(joined(text))};
+  if (heading.role) return heading;
+  const std::size_t open = text.find_first_of("[({");
+  const std::size_t end = open != std::string::npos ? open : text.find_last_of("_ .");
+  if (end == std::string::npos) return heading;
+  heading.role = role_of(joined(text.substr(0, end)));
+  const std::string unit = joined(text.substr(end));
+  if (!heading.role || unit.empty() || take_unit(unit, heading)) return heading;
+  // A unit in brackets is one; a further word makes it a column of another kind.
+  if (open != std::string::npos && unit_kind(*heading.role))
+    heading.unknown_unit = unit;
+  else
+    heading.role = std::nullopt;
+  return heading;
+}
+
+bool is_number(std::string_view text, std::size_t number) {
+  std::size_t value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && stop == text.data() + text.size() && value == number;
+}
+
+constexpr std::array<std::string_view, kColumnRoles> kRoleNames = {
+    "step", "time", "nanoseconds", "robot", "landmark", "range", "bearing", "value", "x", "y",
+    "right"};
+
+}  // namespace
+
+std::string_view name(ColumnRole role) { return kRoleNames[static_cast<std::size_t>(role)]; }
+
+ColumnNames column_names(const std::vector<std::string>& parts) {
+  ColumnNames columns;
+  for (const std::string& part : parts) {
+    const std::size_t sign = part.find('=');
+    const std::string_view role = std::string_view(part).substr(0, sign);
+    const auto found = std::ranges::find(kRoleNames, role);
+    if (sign == std::string::npos || sign + 1 == part.size() || found == kRoleNames.end())
+      throw InvalidInput(fmt::format(
+          "--columns: {:?} is not ROLE=HEADER; the roles are {}", printable(part),
+          fmt::join(kRoleNames, ", ")));
+    const auto known = static_cast<ColumnRole>(found - kRoleNames.begin());
+    if (std::ranges::find(columns, known, &NamedColumn::role) != columns.end())
+      throw InvalidInput(fmt::format("--columns: {} is given twice", role));
+    columns.push_back({known, part.substr(sign + 1)});
+  }
+  return columns;
+}
+
+ColumnHeading column_heading(std::string_view cell, std::size_t number,
+                             const ColumnNames& columns) {
+  const std::string text = lower_case(trimmed(cell));
+  const auto asked = std::ranges::find_if(columns, [&](const NamedColumn& column) {
+    const std::string header = lower_case(trimmed(column.header));
+    return header == text || is_number(header, number + 1);
+  });
+  ColumnHeading heading = understood(cell);
+  if (asked != columns.end()) {
+    heading = {.role = asked->role};
+    const std::size_t open = text.find_first_of("[({_ ");
+    if (open != std::string::npos) take_unit(joined(text.substr(open)), heading);
+    return heading;
+  }
+  // A column that the user names otherwise is not sought by its usual words.
+  if (heading.role && std::ranges::find(columns, *heading.role, &NamedColumn::role) != columns.end())
+    return {.role = std::nullopt};
+  return heading;
+}
+
+bool names_steps(std::string_view cell, const ColumnNames& columns) {
+  const std::optional<ColumnRole> role = column_heading(cell, 0, columns).role;
+  return role == ColumnRole::kStep || role == ColumnRole::kTime;
+}
+
+}  // namespace mapproof

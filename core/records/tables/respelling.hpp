@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/base/files/byte_source.hpp"
+
+namespace mapproof {
+
+/// Replaces an unread source that holds a table in another form than text by the same table as CSV,
+/// called "NAME, read as a table": NumPy's .npy and .npz, lines or a list of JSON objects without a
+/// schema, and the bearing-range edges of g2o and GTSAM. Other sources stay as they are.
+/// @throws IoError if the source cannot be read as what it is; for a file of another known kind,
+///         see refuse_other_kind().
+void respell(ByteSource& source);
+
+/// Refuses what is known by its first bytes and not read: spreadsheets, HDF5, Parquet, pickles,
+/// archives, images, databases, bags.
+/// @throws IoError with what it is, and what converts it.
+void refuse_other_kind(std::string_view start, const std::string& source);
+
+// The forms; all throw IoError.
+
+std::string npy_csv(std::string_view bytes, const std::string& source);
+std::string npz_csv(std::string_view bytes, const std::string& source);
+/// Objects, or lists of cells, without a schema of mapproof.
+bool holds_json_rows(ByteSource& source);
+/// @param text  From checked_text().
+std::string json_rows_csv(std::string_view text, const std::string& source);
+/// Edges EDGE_SE2_XY, EDGE_BEARING_SE2_XY, BR and LANDMARK: step, landmark, range, bearing.
+std::string graph_csv(std::string_view text, const std::string& source);
+
+}  // namespace mapproof
