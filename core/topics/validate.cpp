@@ -110,12 +110,13 @@ void check_observations(const std::string& bytes, const std::string& name,
         take_observations(read(guess.sensor, format), finding);
         if (guess.unit != options.format.unit && guess.unit == AngleUnit::kDegrees)
           finding.remarks.emplace_back(kDegreesRemark);
-        finding.input->sensor = fmt::format("{}?", finding.input->sensor);
+        finding.remarks.push_back(
+            fmt::format("The sensor is not stated: the values fit {}", finding.input->sensor));
         problem.clear();
         break;
       } catch (const IoError& error) {
-        if (problem.empty() || guess.sensor == Sensor::kBearing) problem = error.what();
-        if (guess.unit == AngleUnit::kRadians && guess.sensor == Sensor::kBearing) continue;
+        if (problem.empty() || (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
+          problem = error.what();
       }
     }
     if (!problem.empty()) throw CheckedProblem(problem);
@@ -269,13 +270,36 @@ bool is_timings(ByteSource& source) {
          (is_json(source) && json_schema(source) == "mapproof.timings");
 }
 
+/// A graph may hold a range log, or detections, as `slam` and `map` read them.
+void check_range_log(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  finding.kind = "range log";
+  const std::string_view start = source.peek();
+  if (!start.starts_with("VERTEX") && !start.starts_with("EDGE_")) {
+    read_range_log(source);
+    return;
+  }
+  const std::string bytes = source.rest(), name = source.name();
+  try {
+    ByteSource log = memory_source(name, bytes);
+    read_range_log(log);
+  } catch (const IoError& error) {
+    const std::string problem = error.what();
+    try {
+      ByteSource graph = memory_source(name, bytes);
+      check_detections(graph, options, finding);
+    } catch (const IoError&) {
+      finding.kind = "range log";
+      throw CheckedProblem(problem);
+    }
+  }
+}
+
 void check_source(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options,
                   Finding& finding) {
   const bool is_stated = !options.sensor.empty() || !options.format.columns.empty() ||
                          options.format.layout != Layout::kAuto;
   if (!is_stated && is_range_log(source)) {
-    finding.kind = "range log";
-    read_range_log(source);
+    check_range_log(source, options, finding);
   } else if (is_timings(source)) {
     finding.kind = "timings";
     parse_timings(source.rest(), finding.path);

@@ -193,7 +193,8 @@ double ScanRows::key_of(const TableRow& row) {
     has_dates_ = has_dates_ || key;
   }
   if (!key || !std::isfinite(*key))
-    fail(row.line, fmt::format("{}: {}", name(role), time_problem(cell)));
+    fail(row.line,
+         fmt::format("{}: {}", name(role), is_timed() ? time_problem(cell) : number_problem(cell)));
   if (const auto nanoseconds = columns_[ColumnRole::kNanoseconds]; nanoseconds && is_timed()) {
     const std::optional<double> part = number_in(row.cells[*nanoseconds]);
     if (!part || !std::isfinite(*part))

@@ -69,11 +69,18 @@ constexpr OtherKind kOtherKinds[] = {
 
 }  // namespace
 
+bool is_npz(std::string_view start) {
+  constexpr std::size_t kFirstEntry = 300;
+  return start.starts_with("PK\x03\x04") &&
+         start.substr(0, kFirstEntry).find(".npy") != std::string_view::npos;
+}
+
 void refuse_other_kind(std::string_view start, const std::string& source) {
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF");
   const std::string_view text = first == std::string_view::npos ? start : start.substr(first);
   const bool has_control = std::ranges::any_of(
       text.substr(0, 1024), [](char c) { return c >= '\0' && c < '\t'; });
+  if (is_npz(text)) return;
   for (const OtherKind& kind : kOtherKinds)
     if ((has_control || kind.is_text) && text.starts_with(kind.magic) && text.find(kind.within) != std::string_view::npos)
       throw IoError(source, fmt::format("is {}, which is not read: {}", kind.what, kind.remedy));

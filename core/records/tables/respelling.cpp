@@ -23,7 +23,6 @@ namespace mapproof {
 namespace {
 
 constexpr std::string_view kNpy = "\x93NUMPY";
-constexpr std::string_view kZip = "PK\x03\x04";
 constexpr std::size_t kLargestArray = std::size_t{1} << 31;
 
 /// A table's text as a source.
@@ -208,7 +207,7 @@ void respell(ByteSource& source) {
   if (start.starts_with(kNpy)) {
     const std::string bytes = source.rest();
     source = source_of(called, npy_csv(bytes, name));
-  } else if (start.starts_with(kZip) && start.substr(0, 300).find(".npy") != start.npos) {
+  } else if (is_npz(start)) {
     const std::string bytes = source.rest();
     source = source_of(called, npz_csv(bytes, name));
   } else if (holds_json_rows(source)) {

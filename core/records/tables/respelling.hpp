@@ -19,6 +19,9 @@ void respell(ByteSource& source);
 /// @throws IoError with what it is, and what converts it.
 void refuse_other_kind(std::string_view start, const std::string& source);
 
+/// Whether a ZIP archive begins with an array of NumPy.
+bool is_npz(std::string_view start);
+
 // The forms; all throw IoError.
 
 std::string npy_csv(std::string_view bytes, const std::string& source);

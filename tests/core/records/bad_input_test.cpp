@@ -12,6 +12,7 @@
 #include "core/records/maps/map_json.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observations.hpp"
+#include "core/records/ranges/path_text.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"
@@ -70,6 +71,23 @@ std::vector<Input> make_inputs() {
       table("observations/wide_tabs.tsv", Sensor::kRange, Layout::kWide),
       table("observations/long.csv", Sensor::kBearing, Layout::kAuto),
       table("observations/long_detections.csv", Sensor::kVisibility, Layout::kLong),
+      table("foreign/pandas_datetime.csv", Sensor::kBearing, Layout::kAuto),
+      table("foreign/pandas_german.csv", Sensor::kBearing, Layout::kAuto),
+      table("foreign/r_table.txt", Sensor::kBearing, Layout::kAuto),
+      table("foreign/numpy.npy", Sensor::kBearing, Layout::kAuto),
+      table("foreign/numpy_columns.npz", Sensor::kRange, Layout::kAuto),
+      table("foreign/pandas_records.jsonl", Sensor::kBearing, Layout::kAuto),
+      table("foreign/pandas_split.json", Sensor::kBearing, Layout::kAuto),
+      table("foreign/aruco.jsonl", Sensor::kRange, Layout::kAuto),
+      table("foreign/slam.g2o", Sensor::kRange, Layout::kAuto),
+      {"path", "0 0 0 0 0 0 0 1\n1 2 0 0 0 0 .6 .8\n2 2 3 0 0 0 .6 .8\n",
+       as_file("p.tum",
+               [](const fs::path& path) {
+                 ByteSource source(path);
+                 if (!is_path_text(source)) throw IoError("p", "is not a path");
+                 read_path_text(source, {});
+               }),
+       false},
       {"landmarks", read_file(test::data_file("landmarks/groundtruth.csv")),
        as_file("l.csv", [](const fs::path& path) { read_landmarks(path); }), false},
       {"measurements", read_file(test::data_file("mrclam/Robot1_Measurement.dat")),

@@ -88,7 +88,7 @@ TEST(DetectionStream, NamesTheLineOfWhatIsWrong) {
             "ascending order");
   EXPECT_EQ(error("0,a,1\n"),
             "f: line 1: has 3 cells; a table of detections has a header, or the columns step, "
-            "landmark, range, bearing");
+            "landmark, range, bearing; --columns names others");
   EXPECT_EQ(error("0,a,1,0\n1,a,1\n"), "f: line 2: has 3 cells, expected 4");
   EXPECT_TRUE(error("0,a,-1,0\n").starts_with("f: line 1: "));
 }

@@ -120,7 +120,8 @@ TEST(Detections, NameTheLineThatIsWrong) {
   EXPECT_EQ(error_with("step,landmark,range,bearing\nx,oak,3,0\n"),
             "line 2: step: \"x\" is not a number");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,90\n"),
-            "line 2: bearings are in radians, within a full turn; 90 looks like degrees");
+            "line 2: bearings are in radians, within a full turn; 90 looks like degrees: "
+            "--degrees");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,elm,3,0\n0,oak,4,1\n"),
             "line 4: landmark \"oak\" is in that scan already, on line 2");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n# of 0\n0,elm,3,0\n0,oak,3,0\n0,oak,4,1\n"),
@@ -134,15 +135,15 @@ TEST(Detections, NameTheLineThatIsWrong) {
   EXPECT_EQ(error_with("landmark,range,bearing\noak,3,0\n"),
             "line 1: no column is named step or time: which rows are one scan?");
   EXPECT_EQ(error_with("step,landmark,range [ft],bearing\n0,oak,3,0\n"),
-            "line 1: \"range [ft]\": a range in that unit is not known; metres, seconds, rad or "
-            "deg");
+            "line 1: \"range [ft]\": a range in that unit is not known; m, cm, mm, km, s, ms, us, "
+            "ns, min, h, d, rad or deg");
   EXPECT_EQ(error_with("step,landmark,range,distance\n0,oak,3,0\n"),
-            "line 1: two columns hold a range");
+            "line 1: two columns hold a range: --columns range=HEADER names the one to read");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n"), "holds a header and no rows");
   EXPECT_EQ(
       error_with("1,2,3\n"),
       "line 1: has 3 cells; a table of detections has a header, or the columns step, landmark, "
-      "range, bearing");
+      "range, bearing; --columns names others");
 }
 
 TEST(Detections, AreTheSameFromJson) {

@@ -34,7 +34,7 @@ DetectionSource detections_of(const std::string& bytes, const TableFormat& forma
 }
 
 /// The error behind the name of the file.
-std::string error_with(const std::string& bytes, const TableFormat& format = {}) {
+std::string table_error(const std::string& bytes, const TableFormat& format = {}) {
   const std::string error = error_of([&] { values_of(bytes, Sensor::kRange, format); });
   const std::size_t name = error.find("table: ");
   return name == std::string::npos ? error : error.substr(name + 7);
@@ -97,7 +97,7 @@ TEST(ForeignTables, WithLandmarksAsRowsStayAsTheyAre) {
 TEST(ForeignTables, OfNumbersAloneAreRefusedIfTheyLookTransposed) {
   std::string tall;
   for (int i = 0; i < 20; ++i) tall += fmt::format("{},{}\n", i % 7 + 0.5, i % 5 + 0.5);
-  const std::string error = error_with(tall);
+  const std::string error = table_error(tall);
   EXPECT_NE(error.find("20 rows x 2 columns"), std::string::npos) << error;
   EXPECT_NE(error.find("--layout transposed"), std::string::npos) << error;
   EXPECT_EQ(values_of(tall, Sensor::kRange, {.layout = Layout::kTransposed}).history.landmarks(), 2);
@@ -105,7 +105,7 @@ TEST(ForeignTables, OfNumbersAloneAreRefusedIfTheyLookTransposed) {
   // The same where both the header and the rows count.
   std::string counted = ",0,1,2\n";
   for (int i = 0; i < 20; ++i) counted += fmt::format("{},1,2,3\n", i);
-  EXPECT_NE(error_with(counted).find("--layout transposed"), std::string::npos);
+  EXPECT_NE(table_error(counted).find("--layout transposed"), std::string::npos);
   // A first column that ascends over many rows is one of times.
   std::string timed;
   for (int i = 0; i < 20; ++i) timed += fmt::format("{},1,2,3\n", 0.1 * i);
@@ -142,7 +142,7 @@ TEST(ForeignTables, MayBeUtf16) {
     }
     expect_ranges(bytes);
     EXPECT_EQ(values_of(bytes).reading.packing, "UTF-16");
-    EXPECT_NE(error_with(bytes.substr(0, bytes.size() - 1)).find("cut off"), std::string::npos);
+    EXPECT_NE(table_error(bytes.substr(0, bytes.size() - 1)).find("cut off"), std::string::npos);
   }
 }
 
@@ -340,17 +340,17 @@ TEST(NumpyArrays, OfEveryElementAndOrderHoldTheSame) {
 TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
   const std::string bytes = npy_of<double>("<f8", expected_ranges(), false);
   for (std::size_t length = 6; length < bytes.size(); ++length)
-    EXPECT_NE(error_with(bytes.substr(0, length)), "no error") << length;
-  EXPECT_NE(error_with(npy_of<double>("<c8", expected_ranges(), false)).find("\"<c8\""),
+    EXPECT_NE(table_error(bytes.substr(0, length)), "no error") << length;
+  EXPECT_NE(table_error(npy_of<double>("<c8", expected_ranges(), false)).find("\"<c8\""),
             std::string::npos);
-  EXPECT_NE(error_with(npy_of<double>("|O8", expected_ranges(), false)).find("astype"),
+  EXPECT_NE(table_error(npy_of<double>("|O8", expected_ranges(), false)).find("astype"),
             std::string::npos);
 }
 
 TEST(OtherFiles, AreNamedWithWhatConvertsThem) {
   const auto expect = [](const std::string& bytes, const std::string& name,
                          const std::string& remedy) {
-    const std::string error = error_with(bytes);
+    const std::string error = table_error(bytes);
     EXPECT_NE(error.find(name), std::string::npos) << error;
     EXPECT_NE(error.find(remedy), std::string::npos) << error;
   };
