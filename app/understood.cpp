@@ -66,11 +66,10 @@ std::string column_words(const TableReading& reading) {
 
 std::string understood_line(const std::string& name, const InputSummary& summary) {
   const TableReading& reading = summary.reading;
-  std::vector<std::string> facts = {
-      fmt::format("{} landmarks x {} time steps", summary.landmarks, summary.steps),
-      unit_words(summary)};
-  if (summary.detections > 0)
-    facts.push_back(fmt::format("{} detections", summary.detections));
+  std::vector<std::string> facts = {fmt::format("{} x {}", counted(summary.landmarks, "landmark"),
+                                                counted(summary.steps, "time step")),
+                                    unit_words(summary)};
+  if (summary.detections > 0) facts.push_back(counted(summary.detections, "detection"));
   // In a list of what was seen the rest was not seen: nothing is missing.
   if (summary.detections == 0 || summary.sensor != "visibility")
     facts.push_back(fmt::format("{:.1f} % missing", 100.0 * summary.missing_share));

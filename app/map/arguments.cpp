@@ -20,8 +20,8 @@ void add_method_options(CLI::App& app, MapJob& job) {
   add_out_option(app, job.out, "Folder for map, figure and report")->required();
   app.add_option(
       "--method", job.method,
-      "The embedding method, see \"mapproof methods\". auto: the best one, judged without ground "
-      "truth (default for up to 200 landmarks if it takes seconds, else isomap; pairs for "
+      "The embedding method, see \"mapproof methods\". auto: the best one, judged without "
+      "ground truth (default for up to 200 landmarks if it takes seconds, else isomap; pairs for "
       "range-bearing)");
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");

@@ -25,9 +25,9 @@ namespace mapproof {
 struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
-  std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as in the file.
-  TableOptions table = {};  ///< How the files are to be read.
-  std::vector<std::string> with;       ///< Files of other sensors,
+  std::string kind;               ///< A sensor's name, kRangeBearing, or empty: as in the file.
+  TableOptions table = {};        ///< How the files are to be read.
+  std::vector<std::string> with;  ///< Files of other sensors,
   std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;
@@ -70,7 +70,8 @@ struct MapJob {
 
   bool is_range_bearing() const { return kind == kRangeBearing; }
   bool chooses_method() const;
-  /// Whether the method may be chosen although none is named: nothing that is asked for prevents it.
+  /// Whether the method may be chosen although none is named: nothing that is asked for prevents
+  /// it.
   bool may_choose_method() const;
   bool judges_ids() const { return check_ids || repair_ids || find_moved; }
   bool is_rigid() const { return fit == "rigid"; }

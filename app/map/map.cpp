@@ -40,7 +40,9 @@ MethodSetting chosen_setting(const MapJob& job) {
 /// @throws IoError if they cannot be read.
 void open_observations(MapJob& job) {
   if (is_folder(job.path)) {
-    if (job.kind.empty() && is_mrclam(job.path)) job.kind = kRangeBearing;
+    // A method of one sensor takes its visibility, see read_observations().
+    if (job.kind.empty() && job.may_choose_method() && is_mrclam(job.path))
+      job.kind = kRangeBearing;
     return;
   }
   job.source = std::make_shared<ByteSource>(job.path);
@@ -131,7 +133,7 @@ Action map_command(CLI::App& app) {
       "  mapproof map bearings.csv --sensor bearing --anchors anchors.csv --out out/map\n"
       "  mapproof map seen.csv --sensor visibility --method lpca --out out/shape\n"
       "  mapproof map MRCLAM_Dataset2 --out out/pairs\n"
-      "  mapproof map MRCLAM_Dataset2 --sensor bearing --method isomap -K 5 --out out/mrclam\n"
+      "  mapproof map MRCLAM_Dataset2 --method isomap -K 5 --out out/mrclam\n"
       "  mapproof map seen.csv --sensor visibility --with bearings.csv --with-sensor bearing --out "
       "out/joint\n\n"
       "OBSERVATIONS is one of\n"

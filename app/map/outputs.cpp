@@ -119,12 +119,11 @@ nlohmann::ordered_json result_json(const MapResult& map, const fs::path& out) {
 /// The same in two lines: method, step and errors, and the report.
 std::string map_text(const MapResult& map, const fs::path& out) {
   const MapRecord& record = map.record;
-  const bool is_chosen = std::ranges::any_of(map.members, [](const auto& member) {
-    return member.name == "choice";
-  });
-  std::string text = fmt::format("{}{}, {}, {} steps", method_label(record),
-                                 is_chosen ? " (chosen, see the report)" : "",
-                                 sensor_label(record), record.step);
+  const bool is_chosen =
+      std::ranges::any_of(map.members, [](const auto& member) { return member.name == "choice"; });
+  std::string text =
+      fmt::format("{}{}, {}, {} steps", method_label(record),
+                  is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
   if (record.score)
     if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;
   return text + "\n" + (out / "report.html").string() + "\n";

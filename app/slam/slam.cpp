@@ -147,9 +147,11 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   RangeLog log = read_range_log(arguments.data, arguments.log);
   std::optional<KnownLandmarks> known;
   if (!arguments.known.empty()) known = known_landmarks_of(log, arguments.known);
-  invocation.console.detail(fmt::format("{}: {} landmarks, {} ranges, {} motions", log.name,
-                                        log.landmarks.size(), log.ranges.size(),
-                                        log.odometry.size()));
+  invocation.console.info(fmt::format(
+      "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
+      "{}",
+      log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
+      log.ground_truth ? "yes" : "no"));
   const SlamRunResult result = range_map(std::move(log), known);
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)

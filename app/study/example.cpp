@@ -94,9 +94,8 @@ Action example_command(CLI::App& app) {
       ->required();
   app.add_option("--out", arguments->out, "Folder for the example of that name")
       ->capture_default_str();
-  return [arguments](const Invocation& invocation) {
-    return write_examples(*arguments, invocation);
-  };
+  return
+      [arguments](const Invocation& invocation) { return write_examples(*arguments, invocation); };
 }
 
 }  // namespace mapproof

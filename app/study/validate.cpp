@@ -44,8 +44,7 @@ std::string finding_text(const Finding& finding) {
   } else {
     text = fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind);
   }
-  for (const std::string& remark : finding.remarks)
-    text += "  (" + printable(remark, 4000) + ")\n";
+  for (const std::string& remark : finding.remarks) text += "  (" + printable(remark, 4000) + ")\n";
   return text;
 }
 
@@ -94,9 +93,8 @@ Action validate_command(CLI::App& app) {
                  "What the values of tables are; without it, any that fits")
       ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
   add_table_options(app, arguments->table);
-  return [arguments](const Invocation& invocation) {
-    return validate_files(*arguments, invocation);
-  };
+  return
+      [arguments](const Invocation& invocation) { return validate_files(*arguments, invocation); };
 }
 
 }  // namespace mapproof

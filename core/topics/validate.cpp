@@ -78,10 +78,9 @@ struct Guess {
   Sensor sensor;
   AngleUnit unit;
 };
-constexpr std::array kGuesses = {Guess{Sensor::kVisibility, AngleUnit::kRadians},
-                                 Guess{Sensor::kRange, AngleUnit::kRadians},
-                                 Guess{Sensor::kBearing, AngleUnit::kRadians},
-                                 Guess{Sensor::kBearing, AngleUnit::kDegrees}};
+constexpr std::array kGuesses = {
+    Guess{Sensor::kVisibility, AngleUnit::kRadians}, Guess{Sensor::kRange, AngleUnit::kRadians},
+    Guess{Sensor::kBearing, AngleUnit::kRadians}, Guess{Sensor::kBearing, AngleUnit::kDegrees}};
 
 constexpr const char* kDegreesRemark = "The bearings are in degrees: `map` needs --degrees";
 
@@ -115,7 +114,8 @@ void check_observations(const std::string& bytes, const std::string& name,
         problem.clear();
         break;
       } catch (const IoError& error) {
-        if (problem.empty() || (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
+        if (problem.empty() ||
+            (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
           problem = error.what();
       }
     }
@@ -128,14 +128,13 @@ void check_observations(const std::string& bytes, const std::string& name,
 void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
   finding.kind = "detections";
   DetectionSource read = read_detections(source, options.format);
-  const MeasuredColumns measured{.range = std::ranges::any_of(
-                                     read.log.detections,
-                                     [](const Detection& seen) { return !std::isnan(seen.range_m); }),
-                                 .bearing = std::ranges::any_of(
-                                     read.log.detections, [](const Detection& seen) {
-                                       return !std::isnan(seen.bearing_rad);
-                                     })};
-  finding.input = summary_of(read, !options.sensor.empty()                ? options.sensor
+  const MeasuredColumns measured{
+      .range = std::ranges::any_of(read.log.detections,
+                                   [](const Detection& seen) { return !std::isnan(seen.range_m); }),
+      .bearing = std::ranges::any_of(read.log.detections, [](const Detection& seen) {
+        return !std::isnan(seen.bearing_rad);
+      })};
+  finding.input = summary_of(read, !options.sensor.empty()              ? options.sensor
                                    : measured.range && measured.bearing ? "range-bearing"
                                    : measured.range                     ? "range"
                                    : measured.bearing                   ? "bearing"
@@ -421,8 +420,7 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
 
 }  // namespace
 
-Finding validate(ByteSource& source, const ForeignReader& foreign,
-                 const ValidateOptions& options) {
+Finding validate(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options) {
   Finding finding{.path = source.name(), .kind = {}, .problem = {}};
   try {
     check_source(source, foreign, options, finding);

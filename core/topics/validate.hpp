@@ -17,8 +17,8 @@ struct Finding {
   std::string path;
   std::string kind;     ///< "mapproof.run 1", "wide CSV observations"; empty if not recognised.
   std::string problem;  ///< One line; empty if the file is fine.
-  std::vector<std::string> remarks = {};  ///< What looks unusual in a fine one, a line each.
-  std::vector<std::string> further = {};  ///< Of a table: problems after the first one, at most 9.
+  std::vector<std::string> remarks = {};   ///< What looks unusual in a fine one, a line each.
+  std::vector<std::string> further = {};   ///< Of a table: problems after the first one, at most 9.
   std::optional<InputSummary> input = {};  ///< Of observations: what was understood.
 };
 

@@ -29,11 +29,11 @@ namespace mapproof {
 DetectionSource read_detections(ByteSource& source, const TableFormat& format = {});
 
 /// The same of a file or stream, or of a folder of MRCLAM [leung2011].
-DetectionSource read_detections(const std::filesystem::path& path,
-                                const TableFormat& format = {});
+DetectionSource read_detections(const std::filesystem::path& path, const TableFormat& format = {});
 
 /// Whether a source, which stays unread, holds detections: JSON of that schema, or a table whose
-/// header names a landmark and a range or bearing, or when each was seen and nothing else. @throws IoError if it cannot be read.
+/// header names a landmark and a range or bearing, or when each was seen and nothing else.
+/// @throws IoError if it cannot be read.
 bool is_detections(ByteSource& source, const TableFormat& format = {});
 
 /// What a source of detections, which stays unread, measures: range, bearing, both; neither: it

@@ -9,9 +9,9 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
-#include "core/base/not_finite.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/tables/cells.hpp"
 #include "core/records/tables/time_text.hpp"
@@ -80,10 +80,10 @@ void require_columns(const DetectionColumns& columns, const std::string& source,
       throw IoError(source, location,
                     fmt::format("no column {}, which --columns names for {}",
                                 in_quotes(column.header), name(column.role)));
-  const std::string others =
-      columns.unread.empty() ? ""
-                             : fmt::format("; there is {}: --columns ROLE=HEADER names them",
-                                           fmt::join(columns.unread, ", "));
+  const std::string others = columns.unread.empty()
+                                 ? ""
+                                 : fmt::format("; there is {}: --columns ROLE=HEADER names them",
+                                               fmt::join(columns.unread, ", "));
   if (!columns[ColumnRole::kLandmark])
     throw IoError(source, location, "no column is named landmark" + others);
   if (!columns[ColumnRole::kStep] && !columns[ColumnRole::kTime])

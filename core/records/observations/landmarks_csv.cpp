@@ -36,9 +36,10 @@ std::size_t column_named(std::string_view cell) {
 
 /// A row of three cells or more without a number.
 bool is_landmarks_header(const TableRow& row) {
-  return row.cells.size() >= 3 && std::ranges::none_of(row.cells, [](std::string_view cell) {
-           return number_in(cell).has_value();
-         }) && !(row.cells.size() == 3 && (is_missing(row.cells[1]) || is_missing(row.cells[2])));
+  return row.cells.size() >= 3 &&
+         std::ranges::none_of(row.cells,
+                              [](std::string_view cell) { return number_in(cell).has_value(); }) &&
+         !(row.cells.size() == 3 && (is_missing(row.cells[1]) || is_missing(row.cells[2])));
 }
 
 /// @throws IoError unless each of name, x and y is there once; others are not read.

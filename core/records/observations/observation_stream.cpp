@@ -10,8 +10,7 @@
 
 namespace mapproof {
 
-ObservationStream::ObservationStream(std::string source, Sensor sensor,
-                                     const TableFormat& format)
+ObservationStream::ObservationStream(std::string source, Sensor sensor, const TableFormat& format)
     : table_(std::move(source)),
       sensor_(sensor),
       format_(format),

@@ -20,9 +20,9 @@
 #include "core/records/observations/sources.hpp"
 #include "core/records/tables/cells.hpp"
 #include "core/records/tables/respelling.hpp"
+#include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/table_shape.hpp"
 #include "core/records/tables/time_text.hpp"
-#include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/value_rows.hpp"
 
 namespace mapproof {
@@ -44,6 +44,9 @@ class GridTable {
     width_ = row.cells.size() + (shape_.is_header_short ? 1 : 0);
     first_line_ = row.line;
     if (!shape_.is_transposed) return;
+    names_landmarks_ = std::ranges::any_of(row.cells, [](std::string_view cell) {
+      return column_heading(cell, 0, {}).role == ColumnRole::kLandmark;
+    });
     std::vector<std::string_view> cells = row.cells;
     if (shape_.is_header_short) cells.insert(cells.begin(), "");
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -99,13 +102,20 @@ class GridTable {
       names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
   }
 
+  /// Of a list of detections whose measurements have other names.
+  const char* remedy() const {
+    return names_landmarks_ ? "; if each row is a detection, --columns ROLE=HEADER names range, "
+                              "bearing, value, or x and y"
+                            : "";
+  }
+
   void add_values(Cells cells, const std::string& location) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (i == shape_.label_column) continue;
       const std::optional<double> value = detection_value(cells[i], sensor_, form_);
       if (!value)
         throw IoError(source_, fmt::format("{}, column {}", location, i + 1),
-                      detection_problem(cells[i], sensor_, form_));
+                      detection_problem(cells[i], sensor_, form_) + remedy());
       values_.push_back(*value);
     }
   }
@@ -118,7 +128,8 @@ class GridTable {
   std::vector<double> values_;
   std::size_t width_ = 0;
   std::size_t first_line_ = 0;
-  std::size_t rows_ = 0;  ///< Without the header.
+  std::size_t rows_ = 0;          ///< Without the header.
+  bool names_landmarks_ = false;  ///< The header has a word for landmarks.
 };
 
 TableReading reading_of(const TableReader& reader, const TableFormat& format,
@@ -286,9 +297,10 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   if (!kind)
     throw IoError(name,
                   "does not state what it holds: visibility, bearing or range has to be given");
-  const bool is_long = format.layout == Layout::kLong ||
-                       (format.layout == Layout::kAuto &&
-                        (has_long_header(text, name, format.columns) || starts_as_long(text, name)));
+  const bool is_long =
+      format.layout == Layout::kLong ||
+      (format.layout == Layout::kAuto &&
+       (has_long_header(text, name, format.columns) || starts_as_long(text, name)));
   ObservationSource result =
       is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
   result.reading.packing = source.packing();

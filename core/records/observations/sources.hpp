@@ -44,7 +44,7 @@ struct TableReading {
   char separator = '\0';  ///< kBlanks of TableReader: blanks.
   bool has_decimal_commas = false;
   std::string packing = {};  ///< "gzip", "xz", "UTF-16".
-  std::string times = {};  ///< How times are written, where that is not in seconds: "dates".
+  std::string times = {};    ///< How times are written, where that is not in seconds: "dates".
   AngleUnit unit = AngleUnit::kRadians;  ///< Of bearings.
   BearingConvention convention = BearingConvention::kCounterclockwise;
 };

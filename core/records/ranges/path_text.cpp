@@ -56,7 +56,9 @@ Eigen::MatrixXd tum_path(const Eigen::MatrixXd& poses) {
   return path;
 }
 
-double spread(const Eigen::VectorXd& values) { return (values.array() - values.mean()).square().sum(); }
+double spread(const Eigen::VectorXd& values) {
+  return (values.array() - values.mean()).square().sum();
+}
 
 /// @param poses  r11 r12 r13 tx r21 r22 r23 ty r31 r32 r33 tz.
 Eigen::MatrixXd kitti_path(const Eigen::MatrixXd& poses, const Eigen::VectorXd& times_s) {
@@ -66,8 +68,8 @@ Eigen::MatrixXd kitti_path(const Eigen::MatrixXd& poses, const Eigen::VectorXd& 
   path.col(1) = is_camera ? Eigen::VectorXd(poses.col(11)) : Eigen::VectorXd(poses.col(3));
   path.col(2) = is_camera ? Eigen::VectorXd(-poses.col(3)) : Eigen::VectorXd(poses.col(7));
   for (Eigen::Index i = 0; i < poses.rows(); ++i)
-    path(i, 3) = is_camera ? std::atan2(-poses(i, 2), poses(i, 10))
-                           : std::atan2(poses(i, 4), poses(i, 0));
+    path(i, 3) =
+        is_camera ? std::atan2(-poses(i, 2), poses(i, 10)) : std::atan2(poses(i, 4), poses(i, 0));
   return path;
 }
 

@@ -7,8 +7,8 @@
 
 namespace mapproof {
 
-/// Whether a source, which stays unread, is a path as TUM or KITTI write it: 8 or 12 numbers between
-/// blanks in its first row.
+/// Whether a source, which stays unread, is a path as TUM or KITTI write it: 8 or 12 numbers
+/// between blanks in its first row.
 bool is_path_text(ByteSource& source);
 
 /// Such a path in the plane.

@@ -16,8 +16,8 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/path_text.hpp"
+#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/time_text.hpp"
@@ -186,7 +186,7 @@ Eigen::VectorXd pose_times(const RangeLogParts& parts) {
   Eigen::VectorXd times_s(std::ssize(parts.odometry) + 1);
   for (Eigen::Index i = 0; i + 1 < times_s.size(); ++i)
     times_s(i + 1) = parts.odometry[static_cast<std::size_t>(i)].time_s;
-  times_s(0) = parts.start ? parts.start->time_s
+  times_s(0) = parts.start          ? parts.start->time_s
                : times_s.size() > 2 ? 2.0 * times_s(1) - times_s(2)
                                     : times_s(1) - 1.0;
   return times_s;

@@ -120,7 +120,9 @@ bool is_range_log_folder(const fs::path& folder) {
 bool is_range_log(ByteSource& source) {
   const Form seen = form_seen(source), named = form_named(source.path());
   if (seen == Form::kCsv)
-    return named == Form::kCsv || !first_row_is(source, [](const TableRow& row) { return names_detection_columns(row); }) ||
+    return named == Form::kCsv ||
+           !first_row_is(source,
+                         [](const TableRow& row) { return names_detection_columns(row); }) ||
            first_row_is(source, names_beacons);
   if (seen == Form::kText || seen == Form::kNone)
     return named != Form::kNone && named != Form::kCsv;

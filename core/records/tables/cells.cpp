@@ -38,7 +38,9 @@ std::string observation_problem(Sensor sensor, double value) {
       return fmt::format("visibility is 0 or 1, got {}", value);
     case Sensor::kBearing:
       return fmt::format(
-          "bearings are in radians, within a full turn; {} looks like degrees: --degrees", value);
+          "bearings are in radians from the heading, counter-clockwise, within a full turn; "
+          "{} looks like degrees: --degrees",
+          value);
     case Sensor::kRange:
       return value < 0.0
                  ? fmt::format("a range cannot be negative, got {}", value)
@@ -99,7 +101,8 @@ std::string detection_problem(std::string_view cell, Sensor sensor, const ValueF
   const std::optional<double> number = number_in(cell);
   if (!number || !std::isfinite(*number)) return cell_problem(cell, sensor);
   if (sensor == Sensor::kBearing && form.unit == AngleUnit::kDegrees)
-    return fmt::format("bearings are within a full turn of 360 degrees, got {}", *number);
+    return fmt::format(
+        "bearings are in degrees from the heading, within a full turn of 360; got {}", *number);
   if (sensor == Sensor::kRange) return observation_problem(sensor, *number * form.factor);
   return cell_problem(cell, sensor);
 }

@@ -23,7 +23,6 @@ constexpr Word kWords[] = {
     {"scan", ColumnRole::kStep},
     {"frame", ColumnRole::kStep},
     {"seq", ColumnRole::kStep},
-    {"headerseq", ColumnRole::kStep},
     {"timestep", ColumnRole::kStep},
     {"time", ColumnRole::kTime},
     {"timestamp", ColumnRole::kTime},
@@ -148,8 +147,9 @@ std::optional<ColumnRole> role_of(std::string_view word) {
   for (const std::string_view suffix : kSuffixes) {
     if (!word.ends_with(suffix) || word.size() == suffix.size()) continue;
     const std::optional<ColumnRole> role = role_of(word.substr(0, word.size() - suffix.size()));
-    if (role == ColumnRole::kLandmark || (role == ColumnRole::kStep && suffix != "id" &&
-                                          suffix != "name") || role == ColumnRole::kRobot)
+    if (role == ColumnRole::kLandmark ||
+        (role == ColumnRole::kStep && suffix != "id" && suffix != "name") ||
+        role == ColumnRole::kRobot)
       return role;
   }
   return std::nullopt;
@@ -168,7 +168,10 @@ bool take_unit(std::string_view unit, ColumnHeading& heading) {
 
 /// "Range [cm]" as "range" and "cm"; "range_cm" and "Range cm" too.
 ColumnHeading understood(std::string_view cell) {
-  const std::string text = lower_case(trimmed(cell));
+  std::string text = lower_case(trimmed(cell));
+  // rostopic calls the members of a message "field.range".
+  if (constexpr std::string_view kField = "field."; text.starts_with(kField))
+    text.erase(0, kField.size());
   ColumnHeading heading{.role = role_of(joined(text))};
   if (heading.role) return heading;
   const std::size_t open = text.find_first_of("[({");
@@ -192,8 +195,8 @@ bool is_number(std::string_view text, std::size_t number) {
 }
 
 constexpr std::array<std::string_view, kColumnRoles> kRoleNames = {
-    "step", "time", "nanoseconds", "robot", "landmark", "range", "bearing", "value", "x", "y",
-    "right"};
+    "step",    "time",  "nanoseconds", "robot", "landmark", "range",
+    "bearing", "value", "x",           "y",     "right"};
 
 }  // namespace
 
@@ -206,9 +209,8 @@ ColumnNames column_names(const std::vector<std::string>& parts) {
     const std::string_view role = std::string_view(part).substr(0, sign);
     const auto found = std::ranges::find(kRoleNames, role);
     if (sign == std::string::npos || sign + 1 == part.size() || found == kRoleNames.end())
-      throw InvalidInput(fmt::format(
-          "--columns: {:?} is not ROLE=HEADER; the roles are {}", printable(part),
-          fmt::join(kRoleNames, ", ")));
+      throw InvalidInput(fmt::format("--columns: {:?} is not ROLE=HEADER; the roles are {}",
+                                     printable(part), fmt::join(kRoleNames, ", ")));
     const auto known = static_cast<ColumnRole>(found - kRoleNames.begin());
     if (std::ranges::find(columns, known, &NamedColumn::role) != columns.end())
       throw InvalidInput(fmt::format("--columns: {} is given twice", role));
@@ -232,7 +234,8 @@ ColumnHeading column_heading(std::string_view cell, std::size_t number,
     return heading;
   }
   // A column that the user names otherwise is not sought by its usual words.
-  if (heading.role && std::ranges::find(columns, *heading.role, &NamedColumn::role) != columns.end())
+  if (heading.role &&
+      std::ranges::find(columns, *heading.role, &NamedColumn::role) != columns.end())
     return {.role = std::nullopt};
   return heading;
 }

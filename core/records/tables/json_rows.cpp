@@ -146,7 +146,7 @@ std::string split_csv(const Json& object, const std::string& source) {
   for (const Json& row : object.at("data")) rows.push_back(row);
   if (const auto index = object.find("index"); index != object.end() && index->is_array())
     for (std::size_t i = 0; i < rows.size() && rows[i].is_array(); ++i)
-      rows[i].insert(rows[i].begin(), i == 0                   ? Json("")
+      rows[i].insert(rows[i].begin(), i == 0                  ? Json("")
                                       : i - 1 < index->size() ? (*index)[i - 1]
                                                               : Json());
   return matrix_csv(rows, source);

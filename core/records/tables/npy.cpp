@@ -47,13 +47,17 @@ void append_byte(std::string& text, std::string_view data, std::size_t offset, b
                  static_cast<int>(static_cast<signed char>(data[offset])));
 }
 
-constexpr Element kElements[] = {
-    {'f', 8, append_value<double>},        {'f', 4, append_value<float>},
-    {'i', 8, append_value<std::int64_t>},  {'i', 4, append_value<std::int32_t>},
-    {'i', 2, append_value<std::int16_t>},  {'i', 1, append_byte},
-    {'u', 8, append_value<std::uint64_t>}, {'u', 4, append_value<std::uint32_t>},
-    {'u', 2, append_value<std::uint16_t>}, {'u', 1, append_value<std::uint8_t>},
-    {'b', 1, append_byte}};
+constexpr Element kElements[] = {{'f', 8, append_value<double>},
+                                 {'f', 4, append_value<float>},
+                                 {'i', 8, append_value<std::int64_t>},
+                                 {'i', 4, append_value<std::int32_t>},
+                                 {'i', 2, append_value<std::int16_t>},
+                                 {'i', 1, append_byte},
+                                 {'u', 8, append_value<std::uint64_t>},
+                                 {'u', 4, append_value<std::uint32_t>},
+                                 {'u', 2, append_value<std::uint16_t>},
+                                 {'u', 1, append_value<std::uint8_t>},
+                                 {'b', 1, append_byte}};
 
 const Element* element_of(char kind, std::size_t size) {
   const Element* found = std::ranges::find_if(

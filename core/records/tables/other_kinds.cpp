@@ -35,8 +35,7 @@ constexpr OtherKind kOtherKinds[] = {
     {"\x89HDF\r\n", "", "HDF5", "in Python, pandas.read_hdf or h5py reads it; write CSV or .npy"},
     {"MATLAB 7.3", "", "MATLAB 7.3 (HDF5)", "in MATLAB, writematrix(X, \"table.csv\")"},
     {"MATLAB 5.0", "", "a MATLAB file", "in MATLAB, writematrix(X, \"table.csv\")"},
-    {"PAR1", "", "Parquet",
-     "in Python, pandas.read_parquet(\"FILE\").to_csv(\"table.csv\")"},
+    {"PAR1", "", "Parquet", "in Python, pandas.read_parquet(\"FILE\").to_csv(\"table.csv\")"},
     {"ARROW1", "", "Arrow (Feather)",
      "in Python, pandas.read_feather(\"FILE\").to_csv(\"table.csv\")"},
     {"FEA1", "", "Feather", "in Python, pandas.read_feather(\"FILE\").to_csv(\"table.csv\")"},
@@ -63,7 +62,9 @@ constexpr OtherKind kOtherKinds[] = {
     {"BZh", "", "packed by bzip2", "bunzip2 FILE"},
     {"7z\xBC\xAF", "", "a 7-Zip archive", "unpack it and give the file in it"},
     {"Rar!", "", "a RAR archive", "unpack it and give the file in it"},
-    {"\x7F" "ELF", "", "a program", "give a table"},
+    {"\x7F"
+     "ELF",
+     "", "a program", "give a table"},
     {"version https://git-lfs", "", "a pointer of Git LFS", "git lfs pull", true},
 };
 
@@ -78,11 +79,12 @@ bool is_npz(std::string_view start) {
 void refuse_other_kind(std::string_view start, const std::string& source) {
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF");
   const std::string_view text = first == std::string_view::npos ? start : start.substr(first);
-  const bool has_control = std::ranges::any_of(
-      text.substr(0, 1024), [](char c) { return c >= '\0' && c < '\t'; });
+  const bool has_control =
+      std::ranges::any_of(text.substr(0, 1024), [](char c) { return c >= '\0' && c < '\t'; });
   if (is_npz(text)) return;
   for (const OtherKind& kind : kOtherKinds)
-    if ((has_control || kind.is_text) && text.starts_with(kind.magic) && text.find(kind.within) != std::string_view::npos)
+    if ((has_control || kind.is_text) && text.starts_with(kind.magic) &&
+        text.find(kind.within) != std::string_view::npos)
       throw IoError(source, fmt::format("is {}, which is not read: {}", kind.what, kind.remedy));
 }
 

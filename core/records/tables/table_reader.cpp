@@ -57,7 +57,8 @@ std::string with_decimal_point(std::string_view cell) {
     const bool is_group = c == '.' && i + 3 < cell.size() && i < comma && (comma - i) % 4 == 0;
     if (c == ',' && i == comma)
       number += '.';
-    else if ((c >= '0' && c <= '9') || ((c == '-' || c == '+') && (i == 0 || cell[i - 1] == 'e' || cell[i - 1] == 'E')) ||
+    else if ((c >= '0' && c <= '9') ||
+             ((c == '-' || c == '+') && (i == 0 || cell[i - 1] == 'e' || cell[i - 1] == 'E')) ||
              ((c == 'e' || c == 'E') && i > comma))
       number += c;
     else if (!is_group)
@@ -105,8 +106,8 @@ bool TableReader::skip_to_row() {
   while (at_ < text_.size()) {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
-    const bool is_row = !content.empty() && content.front() != '#' &&
-                        !(at_ == 0 && stated_separator(content));
+    const bool is_row =
+        !content.empty() && content.front() != '#' && !(at_ == 0 && stated_separator(content));
     // A line of tabs alone is a row of empty cells, if tabs separate.
     if (is_row ||
         (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))

@@ -17,7 +17,7 @@ namespace {
 
 using Texts = std::span<const std::string>;
 
-/// A first column that ascends over so many rows is no sensor's.
+/// A first column that ascends over so many rows holds times, not values.
 constexpr std::size_t kAscendingRows = 8;
 
 bool is_text_cell(std::string_view cell) {
@@ -83,7 +83,8 @@ bool is_first_row_header(Texts row, const TableFormat& format) {
   if (is_word_for_names(row.front()) || others.empty()) return is_word_for_names(row.front());
   if (is_text_cell(row.front()) && names_steps(row.front(), format.columns)) return true;
   if (names_index(row.front()) && are_steps(others)) return true;
-  return std::ranges::none_of(others, [](const auto& cell) { return number_in(cell).has_value(); }) &&
+  return std::ranges::none_of(others,
+                              [](const auto& cell) { return number_in(cell).has_value(); }) &&
          std::ranges::any_of(others, [](const auto& cell) { return !is_missing(cell); });
 }
 
@@ -96,9 +97,11 @@ struct TableFacts {
 
 std::string doubt_of(const TableFacts& facts, std::string_view why) {
   return fmt::format(
-      "{} rows x {} columns, {}: it looks transposed, with more landmarks than time steps; state "
-      "--layout transposed if each row is a time step, or --layout wide if each row is a landmark",
-      facts.labels.rows, facts.columns, why);
+      "{} rows x {} columns, {}: it seems transposed, with more landmarks than time steps; state "
+      "--layout transposed if each row is a time step, or --layout wide if each row is a "
+      "landmark{}",
+      facts.labels.rows, facts.columns, why,
+      facts.columns == 2 ? "; or --columns time=1,landmark=2 if each row is a detection" : "");
 }
 
 void recognise_with_header(const TableFacts& facts, const TableFormat& format, TableShape& shape) {
@@ -152,8 +155,8 @@ std::optional<std::size_t> label_column(const TableFacts& facts, const TableForm
                             !column_heading(facts.first[i], i, {}).role;
       if (is_asked) return i;
     }
-  const bool is_named = shape.has_header && is_text_cell(corner) &&
-                        names_steps(corner, format.columns);
+  const bool is_named =
+      shape.has_header && is_text_cell(corner) && names_steps(corner, format.columns);
   const bool is_index = shape.has_header && names_index(corner);
   return is_named || is_index || labels.are_times() ? std::optional<std::size_t>(0) : std::nullopt;
 }

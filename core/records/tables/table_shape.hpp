@@ -18,7 +18,7 @@ struct TableShape {
   /// Of names (wide) or of times (transposed).
   std::optional<std::size_t> label_column;
   bool has_dates = false;  ///< The times are dates.
-  /// Why the layout cannot be told, and the options that state it; empty: it is certain.
+  /// Why the layout cannot be determined, and the options that state it; empty: it is certain.
   std::string doubt;
 };
 

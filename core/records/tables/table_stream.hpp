@@ -52,7 +52,7 @@ class TableStream {
   std::size_t lines_ = 0;  ///< Before them.
   bool is_over_ = false;
   bool is_cut_ = false;
-  char separator_ = '\0';  ///< Not known before the first row.
+  char separator_ = '\0';            ///< Not known before the first row.
   bool had_decimal_commas_ = false;  ///< Of readers before this one.
   std::optional<TableReader> reader_;
 };

@@ -23,8 +23,8 @@ std::string time_problem(std::string_view cell);
 
 /// A unit of times that their sizes show.
 struct TimeScale {
-  double seconds = 1.0;          ///< Of one unit.
-  const char* words = nullptr;   ///< "nanoseconds"; null: seconds.
+  double seconds = 1.0;         ///< Of one unit.
+  const char* words = nullptr;  ///< "nanoseconds"; null: seconds.
 };
 
 /// Nanoseconds, microseconds or milliseconds since 1970; days as spreadsheets count them, where at

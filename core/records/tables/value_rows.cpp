@@ -9,8 +9,7 @@ DetectionColumns usual_columns() {
   columns.width = 3;
   columns.read = {{"step", ""}, {"landmark", ""}, {"value", ""}};
   std::size_t cell = 0;
-  for (const ColumnRole column :
-       {ColumnRole::kStep, ColumnRole::kLandmark, ColumnRole::kValue})
+  for (const ColumnRole column : {ColumnRole::kStep, ColumnRole::kLandmark, ColumnRole::kValue})
     columns.cell[static_cast<std::size_t>(column)] = cell++;
   return columns;
 }
@@ -26,8 +25,7 @@ bool ValueRows::begin(const TableRow& first) {
   const bool is_header = is_long_header(first, columns_);
   if (!is_header && columns_.empty()) return false;
   scans_.set_columns(detection_columns(first, scans_.source(), columns_));
-  if (!scans_.columns()[ColumnRole::kValue])
-    scans_.fail(first.line, "no column is named value");
+  if (!scans_.columns()[ColumnRole::kValue]) scans_.fail(first.line, "no column is named value");
   return is_header;
 }
 

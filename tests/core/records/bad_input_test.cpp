@@ -40,9 +40,11 @@ std::function<void(const std::string&)> as_file(const std::string& name,
 }
 
 Input table(const std::string& file, Sensor sensor, Layout layout) {
-  return {file, read_file(test::data_file(file)),
-          as_file("t.csv", [=](const fs::path& path) { read_observations(path, sensor, {.layout = layout}); }),
-          false};
+  return {
+      file, read_file(test::data_file(file)),
+      as_file("t.csv",
+              [=](const fs::path& path) { read_observations(path, sensor, {.layout = layout}); }),
+      false};
 }
 
 std::vector<Input> make_inputs() {

@@ -104,7 +104,7 @@ TEST(Detections, DegreesAreTurnedIntoRadians) {
                   {.unit = AngleUnit::kDegrees, .value = std::nullopt})})
     EXPECT_DOUBLE_EQ(source.log.detections[0].bearing_rad, right);
   EXPECT_EQ(error_with("step,landmark,range,bearing_deg\n0,oak,3,400\n"),
-            "line 2: bearings are within a full turn of 360 degrees, got 400");
+            "line 2: bearings are in degrees from the heading, within a full turn of 360; got 400");
 }
 
 TEST(Detections, ColumnsThatAreNotReadAreRemarked) {
@@ -120,7 +120,8 @@ TEST(Detections, NameTheLineThatIsWrong) {
   EXPECT_EQ(error_with("step,landmark,range,bearing\nx,oak,3,0\n"),
             "line 2: step: \"x\" is not a number");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,90\n"),
-            "line 2: bearings are in radians, within a full turn; 90 looks like degrees: "
+            "line 2: bearings are in radians from the heading, counter-clockwise, within a full "
+            "turn; 90 looks like degrees: "
             "--degrees");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,0\n1,elm,3,0\n0,oak,4,1\n"),
             "line 4: landmark \"oak\" is in that scan already, on line 2");

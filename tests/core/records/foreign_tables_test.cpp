@@ -72,7 +72,8 @@ TEST(ForeignTables, WithTimesAsRowsAreRecognisedByHeaderOrFirstColumn) {
   expect_ranges("Zeit;door;desk;plant\n0;1,5;0,25;7\n1;2;1;8\n2;;2;9\n3;4;3;10\n");
   // pandas' index without a name.
   expect_ranges(",door,desk,plant\n0,1.5,0.25,7.0\n1,2.0,1.0,8.0\n2,,2.0,9.0\n3,4.0,3.0,10.0\n");
-  expect_ranges("Unnamed: 0\tdoor\tdesk\tplant\n0\t1.5\t.25\t7\n1\t2\t1\t8\n2\tNA\t2\t9\n3\t4\t3\t10\n");
+  expect_ranges(
+      "Unnamed: 0\tdoor\tdesk\tplant\n0\t1.5\t.25\t7\n1\t2\t1\t8\n2\tNA\t2\t9\n3\t4\t3\t10\n");
   // Dates.
   expect_ranges(
       "stamp (UTC),door,desk,plant\n2026-11-03 09:15:00,1.5,0.25,7\n2026-11-03 09:15:01,2,1,8\n"
@@ -94,13 +95,14 @@ TEST(ForeignTables, WithLandmarksAsRowsStayAsTheyAre) {
   expect_ranges("t0,t1,t2,t3\n1.5,2,,4\n0.25,1,2,3\n7,8,9,10\n", {}, {"L1", "L2", "L3"});
 }
 
-TEST(ForeignTables, OfNumbersAloneAreRefusedIfTheyLookTransposed) {
+TEST(ForeignTables, OfNumbersAloneAreRefusedIfTheySeemTransposed) {
   std::string tall;
   for (int i = 0; i < 20; ++i) tall += fmt::format("{},{}\n", i % 7 + 0.5, i % 5 + 0.5);
   const std::string error = table_error(tall);
   EXPECT_NE(error.find("20 rows x 2 columns"), std::string::npos) << error;
   EXPECT_NE(error.find("--layout transposed"), std::string::npos) << error;
-  EXPECT_EQ(values_of(tall, Sensor::kRange, {.layout = Layout::kTransposed}).history.landmarks(), 2);
+  EXPECT_EQ(values_of(tall, Sensor::kRange, {.layout = Layout::kTransposed}).history.landmarks(),
+            2);
   EXPECT_EQ(values_of(tall, Sensor::kRange, {.layout = Layout::kWide}).history.landmarks(), 20);
   // The same where both the header and the rows count.
   std::string counted = ",0,1,2\n";
@@ -109,12 +111,13 @@ TEST(ForeignTables, OfNumbersAloneAreRefusedIfTheyLookTransposed) {
   // A first column that ascends over many rows is one of times.
   std::string timed;
   for (int i = 0; i < 20; ++i) timed += fmt::format("{},1,2,3\n", 0.1 * i);
-  EXPECT_EQ(values_of(timed, Sensor::kRange, {.layout = Layout::kTransposed}).history.landmarks(), 3);
+  EXPECT_EQ(values_of(timed, Sensor::kRange, {.layout = Layout::kTransposed}).history.landmarks(),
+            3);
 }
 
 TEST(ForeignTables, MayWriteMissingValuesInManyWays) {
-  for (const char* word : {"", "NA", "N/A", "n/a", "#N/A", "<NA>", "null", "None", "nan", "NaN", "-",
-                           "NaT"})
+  for (const char* word :
+       {"", "NA", "N/A", "n/a", "#N/A", "<NA>", "null", "None", "nan", "NaN", "-", "NaT"})
     expect_ranges(fmt::format("door,1.5,2,{},4\ndesk,0.25,1,2,3\nplant,7,8,9,10\n", word));
 }
 
@@ -206,10 +209,11 @@ TEST(ForeignDetections, AreReadByTheNamesThatDetectorsGive) {
                              {ColumnRole::kBearing, "4"}};
   expect_detections("Uhr,Kennung,Weite,Richtung\n" + rows, {.columns = names}, 1e-8);
   // By number, without a header.
-  expect_detections(rows, {.columns = {{ColumnRole::kTime, "1"},
-                                       {ColumnRole::kLandmark, "2"},
-                                       {ColumnRole::kRange, "3"},
-                                       {ColumnRole::kBearing, "4"}}},
+  expect_detections(rows,
+                    {.columns = {{ColumnRole::kTime, "1"},
+                                 {ColumnRole::kLandmark, "2"},
+                                 {ColumnRole::kRange, "3"},
+                                 {ColumnRole::kBearing, "4"}}},
                     1e-8);
 }
 
@@ -234,9 +238,10 @@ TEST(ForeignDetections, MayHaveOtherUnitsAndConventions) {
 }
 
 TEST(ForeignDetections, MayListNothingButWhenALandmarkWasSeen) {
-  for (const char* text : {"time,tag\n0.5,a\n0.5,b\n1,a\n", "0.5;a\n0.5;b\n1;a\n",
-                           "2026-11-03T09:15:00Z,a\n2026-11-03T09:15:00Z,b\n2026-11-03T09:15:01Z,a\n",
-                           ",Frame No,marker id\n0,1,a\n1,1,b\n2,5,a\n"}) {
+  for (const char* text :
+       {"time,tag\n0.5,a\n0.5,b\n1,a\n", "0.5;a\n0.5;b\n1;a\n",
+        "2026-11-03T09:15:00Z,a\n2026-11-03T09:15:00Z,b\n2026-11-03T09:15:01Z,a\n",
+        ",Frame No,marker id\n0,1,a\n1,1,b\n2,5,a\n"}) {
     SCOPED_TRACE(text);
     const ObservationSource source = values_of(text, Sensor::kVisibility);
     EXPECT_EQ(source.history.names, (std::vector<std::string>{"a", "b"}));
@@ -257,36 +262,40 @@ TEST(ForeignDetections, TakeTheStampsOfRosInTwoColumns) {
 
 TEST(ForeignDetections, MayBeEdgesOfAGraph) {
   expect_detections(
-      "VERTEX_SE2 0 0 0 0\nVERTEX_XY 7 3 4\nEDGE_SE2_XY 0 7 3 4 1 0 1\nEDGE_SE2_XY 0 12 0 -2 1 0 1\n"
+      "VERTEX_SE2 0 0 0 0\nVERTEX_XY 7 3 4\nEDGE_SE2_XY 0 7 3 4 1 0 1\nEDGE_SE2_XY 0 12 0 -2 1 0 "
+      "1\n"
       "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2_XY 1 7 1 0 1 0 1\n");
-  expect_detections("BR 0 7 0.9272952180016122 5 .1 .1\nBR 0 12 -1.5707963267948966 2 .1 .1\n"
-                    "BR 1 7 0 1 .1 .1\n");
-  EXPECT_NE(error_of([] { detections_of("VERTEX_SE2 A0 0 0 0\nEDGE_RANGE A0 L1 1 1\n"); })
-                .find("mapproof slam"),
+  expect_detections(
+      "BR 0 7 0.9272952180016122 5 .1 .1\nBR 0 12 -1.5707963267948966 2 .1 .1\n"
+      "BR 1 7 0 1 .1 .1\n");
+  EXPECT_NE(error_of([] {
+              detections_of("VERTEX_SE2 A0 0 0 0\nEDGE_RANGE A0 L1 1 1\n");
+            }).find("mapproof slam"),
             std::string::npos);
 }
 
 TEST(ForeignDetections, MayBeJsonInTheUsualForms) {
-  for (const char* text :
-       {// Lines.
-        R"({"t":0,"id":7,"range":5,"bearing":0.9272952180016122}
+  for (
+      const char* text :
+      {// Lines.
+       R"({"t":0,"id":7,"range":5,"bearing":0.9272952180016122}
 {"t":0,"id":12,"range":2,"bearing":-1.5707963267948966}
 {"t":1,"id":7,"range":1,"bearing":0}
 )",
-        // A list of objects.
-        R"([{"id":7,"range":5,"bearing":0.9272952180016122,"t":0},
+       // A list of objects.
+       R"([{"id":7,"range":5,"bearing":0.9272952180016122,"t":0},
             {"id":12,"t":0,"range":2,"bearing":-1.5707963267948966},
             {"t":1,"id":7,"range":1,"bearing":0}])",
-        // A scan per line, with its detections.
-        R"({"t":0,"detections":[{"id":7,"x":3,"y":4},{"id":12,"x":0,"y":-2}]}
+       // A scan per line, with its detections.
+       R"({"t":0,"detections":[{"id":7,"x":3,"y":4},{"id":12,"x":0,"y":-2}]}
 {"t":1,"detections":[{"id":7,"x":1,"y":0}]}
 {"t":2,"detections":[]}
 )",
-        // Columns, and pandas' orient="columns" and "split".
-        R"({"t":[0,0,1],"id":[7,12,7],"x":[3,0,1],"y":[4,-2,0]})",
-        R"({"t":{"0":0,"1":0,"2":1},"id":{"0":7,"1":12,"2":7},"x":{"0":3,"1":0,"2":1},
+       // Columns, and pandas' orient="columns" and "split".
+       R"({"t":[0,0,1],"id":[7,12,7],"x":[3,0,1],"y":[4,-2,0]})",
+       R"({"t":{"0":0,"1":0,"2":1},"id":{"0":7,"1":12,"2":7},"x":{"0":3,"1":0,"2":1},
             "y":{"0":4,"1":-2,"2":0}})",
-        R"({"columns":["t","id","x","y"],"index":[0,1,2],"data":[[0,7,3,4],[0,12,0,-2],[1,7,1,0]]})"})
+       R"({"columns":["t","id","x","y"],"index":[0,1,2],"data":[[0,7,3,4],[0,12,0,-2],[1,7,1,0]]})"})
     expect_detections(text);
 }
 
@@ -294,8 +303,9 @@ TEST(ForeignDetections, MayBeJsonInTheUsualForms) {
 template <typename Value>
 std::string npy_of(const char* descr, const Eigen::MatrixXd& values, bool is_fortran,
                    bool is_swapped = false) {
-  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': ({}, {}), }}",
-                                   descr, is_fortran ? "True" : "False", values.rows(), values.cols());
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': {}, 'shape': ({}, {}), }}", descr,
+                  is_fortran ? "True" : "False", values.rows(), values.cols());
   while ((header.size() + 11) % 64 != 0) header += ' ';
   header += '\n';
   std::string bytes = "\x93NUMPY";
@@ -316,7 +326,8 @@ std::string npy_of(const char* descr, const Eigen::MatrixXd& values, bool is_for
 }
 
 TEST(NumpyArrays, OfEveryElementAndOrderHoldTheSame) {
-  const Eigen::MatrixXd values = (Eigen::MatrixXd(3, 4) << 1, 0, 1, 1, 0, 0, 1, 1, 1, 1, 0, 0).finished();
+  const Eigen::MatrixXd values =
+      (Eigen::MatrixXd(3, 4) << 1, 0, 1, 1, 0, 0, 1, 1, 1, 1, 0, 0).finished();
   const auto expect = [&](const std::string& bytes) {
     expect_equal(values_of(bytes, Sensor::kVisibility).history.values, values);
   };
@@ -376,9 +387,9 @@ TEST(OtherFiles, AreNamedWithWhatConvertsThem) {
 }
 
 TEST(ForeignLandmarks, MayHaveOtherHeadersAndSpellings) {
-  for (const char* text : {"tag_id;x [cm];y [cm]\na;150;25\nb;200;100\n",
-                           "a 1.5 0.25\nb 2 1\n", "name;x;y\na;1,5;0,25\nb;2;1\n",
-                           "X,Y,Landmark ID,note\n1.5,0.25,a,x\n2,1,b,y\n"}) {
+  for (const char* text :
+       {"tag_id;x [cm];y [cm]\na;150;25\nb;200;100\n", "a 1.5 0.25\nb 2 1\n",
+        "name;x;y\na;1,5;0,25\nb;2;1\n", "X,Y,Landmark ID,note\n1.5,0.25,a,x\n2,1,b,y\n"}) {
     SCOPED_TRACE(text);
     const TemporaryFolder folder;
     const NamedPoints points = read_landmarks(folder.file("l", text));
@@ -396,15 +407,16 @@ TEST(ForeignPaths, OfTumAndKittiAreTheSamePath) {
   // A quarter turn to the left, after two metres ahead.
   const double half = std::sqrt(0.5);
   const Trajectory tum =
-      read(fmt::format("# t x y z qx qy qz qw\n0 0 0 0 0 0 0 1\n1 2 0 0 0 0 {0} {0}\n2 2 3 0 0 0 {0} {0}\n",
-                       half),
+      read(fmt::format(
+               "# t x y z qx qy qz qw\n0 0 0 0 0 0 0 1\n1 2 0 0 0 0 {0} {0}\n2 2 3 0 0 0 {0} {0}\n",
+               half),
            {});
   const Eigen::Vector3d times(0.0, 1.0, 2.0);
-  const Trajectory kitti = read(
-      "1 0 0 0 0 1 0 0 0 0 1 0\n0 -1 0 2 1 0 0 0 0 0 1 0\n0 -1 0 2 1 0 0 3 0 0 1 0\n", times);
+  const Trajectory kitti =
+      read("1 0 0 0 0 1 0 0 0 0 1 0\n0 -1 0 2 1 0 0 0 0 0 1 0\n0 -1 0 2 1 0 0 3 0 0 1 0\n", times);
   // The same in a camera's frame: x to the right, y down, z ahead.
-  const Trajectory camera = read(
-      "1 0 0 0 0 1 0 0 0 0 1 0\n0 0 -1 0 0 1 0 0 1 0 0 2\n0 0 -1 -3 0 1 0 0 1 0 0 2\n", times);
+  const Trajectory camera =
+      read("1 0 0 0 0 1 0 0 0 0 1 0\n0 0 -1 0 0 1 0 0 1 0 0 2\n0 0 -1 -3 0 1 0 0 1 0 0 2\n", times);
   for (const Trajectory& path : {kitti, camera}) {
     EXPECT_TRUE(path.positions_m.isApprox(tum.positions_m, 1e-12));
     EXPECT_TRUE(path.heading_rad.isApprox(tum.heading_rad, 1e-12));

@@ -41,7 +41,8 @@ std::vector<StreamedStep> streamed(const std::string& text, std::size_t piece,
 TEST(ObservationStream, GivesTheStepsOfTheFileHoweverItsBytesCome) {
   test::TemporaryFolder folder;
   const std::string path = folder.file("long.csv", kText);
-  const ObservationHistory whole = read_observations(path, Sensor::kBearing, {.layout = Layout::kLong}).history;
+  const ObservationHistory whole =
+      read_observations(path, Sensor::kBearing, {.layout = Layout::kLong}).history;
   for (std::size_t piece = 1; piece < 80; ++piece) {
     ObservationStream stream("long.csv", Sensor::kBearing);
     const auto steps = streamed(kText, piece, stream);

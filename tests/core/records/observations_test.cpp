@@ -102,10 +102,10 @@ TEST(WideObservations, NameTheLineAndCountsOfARaggedRow) {
 TEST(WideObservations, NameTheCellThatIsWrong) {
   EXPECT_EQ(error_with("a,0,1\nb,0,2\n", Sensor::kVisibility),
             "line 2, column 3: visibility is 0 or 1, got 2");
-  EXPECT_EQ(
-      error_with("0.5,180\n", Sensor::kBearing),
-      "line 1, column 2: bearings are in radians, within a full turn; 180 looks like degrees: "
-      "--degrees");
+  EXPECT_EQ(error_with("0.5,180\n", Sensor::kBearing),
+            "line 1, column 2: bearings are in radians from the heading, counter-clockwise, "
+            "within a full turn; 180 looks like degrees: "
+            "--degrees");
   EXPECT_EQ(error_with("a,-1\n", Sensor::kRange),
             "line 1, column 2: a range cannot be negative, got -1");
   EXPECT_EQ(error_with("a,1,inf\n", Sensor::kRange), "line 1, column 3: an infinite value");
@@ -166,8 +166,9 @@ TEST(LongObservations, AreReadByTheNamesOfTheirColumns) {
 }
 
 TEST(LongObservations, OfDetectionsAloneTakeTheRestAsNotSeen) {
-  const ObservationSource source = read_observations(data_file("observations/long_detections.csv"),
-                                                     Sensor::kVisibility, {.layout = Layout::kLong});
+  const ObservationSource source =
+      read_observations(data_file("observations/long_detections.csv"), Sensor::kVisibility,
+                        {.layout = Layout::kLong});
   Eigen::MatrixXd expected(3, 3);
   expected << 1, 1, 0, 1, 0, 1, 0, 1, 0;
   expect_values(source.history, expected);
@@ -199,7 +200,8 @@ TEST(LongObservations, AreReadAlikeByStepOrByTime) {
 TEST(LongObservations, WithoutAHeaderMayNameALandmarkAsAColumnIs) {
   const TemporaryFolder folder;
   const auto path = folder.file("o.csv", "0,r,1\n0,value,2\n");
-  const ObservationSource source = read_observations(path, Sensor::kRange, {.layout = Layout::kLong});
+  const ObservationSource source =
+      read_observations(path, Sensor::kRange, {.layout = Layout::kLong});
   EXPECT_EQ(source.history.names, (std::vector<std::string>{"r", "value"}));
 }
 

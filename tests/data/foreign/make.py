@@ -30,8 +30,8 @@ SEEN = [3, 7, 12]
 files = []
 
 
-def made(name, tool, truth, options, attempts=1, source=""):
-    files.append({"file": name, "tool": tool, "truth": truth, "options": options,
+def made(name, tool, ground_truth, options, attempts=1, source=""):
+    files.append({"file": name, "tool": tool, "ground_truth": ground_truth, "options": options,
                   "attempts": attempts, **({"source": source} if source else {})})
 
 
@@ -51,9 +51,9 @@ detections = pd.DataFrame([{"time": time, "tag_id": tag, "range": round(draw.uni
                             "bearing": round(draw.uniform(-1.5, 1.5), 3)}
                            for time in TIMES for tag in SEEN if draw.random() < 0.8])
 seconds = (detections.time - TIMES[0]).dt.total_seconds() + TIMES[0].timestamp()
-bearings.T.to_csv("truth_bearings.csv", header=False)
-truth = detections.assign(time=seconds.map("{:.3f}".format)).rename(columns={"tag_id": "landmark"})
-truth.to_csv("truth_detections.csv", index=False)
+bearings.T.to_csv("ground_truth_bearings.csv", header=False)
+ground_truth = detections.assign(time=seconds.map("{:.3f}".format)).rename(columns={"tag_id": "landmark"})
+ground_truth.to_csv("ground_truth_detections.csv", index=False)
 timed = bearings.set_index(TIMES).rename_axis("time")
 TABLE, LIST = ["--sensor", "bearing"], []
 
@@ -123,7 +123,7 @@ run("ssconvert", "-T", "Gnumeric_stf:stf_assistant", "-O", "separator='\t'", "op
 made("gnumeric_tabs.txt", "Gnumeric, tabs", "bearings", TABLE)
 
 # Octave, R
-octave = "x = dlmread('truth_bearings.csv', ',', 0, 1); x(x == 0) = NaN; "
+octave = "x = dlmread('ground_truth_bearings.csv', ',', 0, 1); x(x == 0) = NaN; "
 run("octave", "-q", "--eval", octave + "save('-ascii', 'octave_ascii.txt', 'x')")
 made("octave_ascii.txt", "Octave, save -ascii", "unnamed", TABLE)
 run("octave", "-q", "--eval", octave + "save('-text', 'octave_text.txt', 'x')")
@@ -156,7 +156,7 @@ def image_of(markers, dictionary):
 
 scenes = [[(tag, -0.8 + 0.8 * i + draw.uniform(-0.1, 0.1), draw.uniform(1.8, 2.6))
            for i, tag in enumerate(SEEN)] for _ in range(5)]
-with open("truth_markers.csv", "w") as file:
+with open("ground_truth_markers.csv", "w") as file:
     file.write("step,landmark,range,bearing\n")
     for k, scene in enumerate(scenes):
         for tag, x, z in scene:
@@ -195,10 +195,10 @@ made("jq.csv", "jq @csv, rows of steps", "unnamed", TABLE + ["--layout", "transp
 
 
 # Written here to formats that are documented.
-def write(name, text, tool, source, truth="detections", options=LIST):
+def write(name, text, tool, source, ground_truth="detections", options=LIST):
     with open(name, "w", encoding="utf-8", newline="") as file:
         file.write(text)
-    made(name, tool, truth, options, 1, source)
+    made(name, tool, ground_truth, options, 1, source)
 
 
 def degrees(row):
@@ -213,8 +213,7 @@ write("excel_german.csv", "\ufeff" + "Zeit;Landmark ID;Entfernung [m];Peilung [G
       "Excel, CSV UTF-8 in German", "support.microsoft.com: import or export text (.csv) files")
 write("rostopic.csv", "%time,field.header.seq,field.id,field.range,field.bearing\n" + "".join(
     "%d,%d,%d,%s,%s\n" % (round(time * 1e9), i, row.tag_id, row.range, row.bearing)
-    for i, (row, time) in enumerate(each)), "rostopic echo -p", "wiki.ros.org/rostopic",
-      options=["--columns", "landmark=field.id,range=field.range,bearing=field.bearing"])
+    for i, (row, time) in enumerate(each)), "rostopic echo -p", "wiki.ros.org/rostopic")
 write("matlab.csv", "time,tag_id,range,bearing\n" + "".join(
     "{:%d-%b-%Y %H:%M:%S}.{:03d},{},{},{}\n".format(
         row.time, row.time.microsecond // 1000, row.tag_id, row.range, row.bearing)
