@@ -71,9 +71,9 @@ std::string channel(std::uint16_t id, const std::string& topic) {
                 BagBytes().number(id).number(id).text(topic).text("cdr").number(std::uint32_t{0}));
 }
 
-std::string message(std::uint16_t channel, const BagBytes& data) {
+std::string message(std::uint16_t id, const BagBytes& data) {
   BagBytes head;
-  head.number(channel).number(std::uint32_t{0}).number(std::uint64_t{0}).number(std::uint64_t{0});
+  head.number(id).number(std::uint32_t{0}).number(std::uint64_t{0}).number(std::uint64_t{0});
   BagBytes size;
   size.number(static_cast<std::uint64_t>(head.bytes().size() + data.bytes().size()));
   return '\x05' + size.bytes() + head.bytes() + data.bytes();
