@@ -79,11 +79,12 @@ TEST(Examples, AreMadeAgainByTheirScripts) {
     const Outcome made = run_program({"python3", kExampleFiles / name / "make.py", folder / name});
     if (made.exit_code == 127) GTEST_SKIP() << "python3 is not installed";
     ASSERT_EQ(made.exit_code, 0) << made.error;
-    for (const auto& entry : fs::recursive_directory_iterator(folder / name))
-      if (entry.is_regular_file())
-        EXPECT_EQ(read_file(entry.path()),
-                  read_file(kExampleFiles / fs::relative(entry.path(), folder.path())))
-            << entry.path();
+    for (const auto& entry : fs::recursive_directory_iterator(folder / name)) {
+      if (!entry.is_regular_file()) continue;
+      EXPECT_EQ(read_file(entry.path()),
+                read_file(kExampleFiles / fs::relative(entry.path(), folder.path())))
+          << entry.path();
+    }
   }
 }
 

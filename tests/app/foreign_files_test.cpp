@@ -100,7 +100,8 @@ void expect_ground_truth(const ForeignFile& file) {
     expect_near(values_of(read.history, has_names), values_of(ground_truth.history, has_names),
                 1e-6);
   } else {
-    // Positions of markers are measured in images.
+    // Positions of markers are measured in images: a side of some 50 pixels, to 2 pixels, gives
+    // ranges of up to 2.8 m to 4 %.
     const bool is_measured = file.ground_truth.starts_with("marker");
     const DetectionSource ground_truth = read_detections(
         kForeign / (is_measured ? "ground_truth_markers.csv" : "ground_truth_detections.csv"));
@@ -110,7 +111,7 @@ void expect_ground_truth(const ForeignFile& file) {
                 values_of(ground_truth.log, &Detection::bearing_rad), tolerance);
     if (file.ground_truth != "marker_bearings")
       expect_near(values_of(read.log, &Detection::range_m),
-                  values_of(ground_truth.log, &Detection::range_m), tolerance);
+                  values_of(ground_truth.log, &Detection::range_m), is_measured ? 0.11 : tolerance);
   }
 }
 
@@ -127,8 +128,8 @@ TEST(ForeignFiles, AreFortyAndMostlyReadAtTheFirstAttempt) {
     tools += file.is_made_by_tool ? 1 : 0;
     first += file.attempts == 1 ? 1 : 0;
     // A first attempt states the sensor, and no more than which columns are meant.
-    if (file.attempts == 1)
-      for (const std::string& option : file.options) EXPECT_NE(option, "--layout") << file.path;
+    if (file.attempts > 1) continue;
+    for (const std::string& option : file.options) EXPECT_NE(option, "--layout") << file.path;
   }
   EXPECT_GE(foreign_files().size(), 40U);
   EXPECT_GE(tools, 24);

@@ -49,7 +49,7 @@ TEST(LandmarksCsv, NamesTheLineThatIsWrong) {
             "line 3: landmark \"a\" is already on line 1");
   EXPECT_EQ(landmarks_error(",0,0\n"), "line 1: a landmark without a name");
   EXPECT_EQ(landmarks_error("name,north,east\na,0,0\n"),
-            "line 1: expected the columns name, x, y; got \"north\"");
+            "line 1: expected the columns name, x, y; got \"name,north,east\"");
   EXPECT_EQ(landmarks_error("name,x,y\n"), "holds no landmarks");
   EXPECT_EQ(landmarks_error(""), "is empty");
 }

@@ -143,12 +143,14 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(error("0,a,1\n0,?,1\n"),
             "f: line 2: a measurement without a landmark ID (?): the data association is estimated "
             "for whole files");
-  EXPECT_EQ(error("0,a"), "f: line 1: has 2 cells, expected 3");
-  EXPECT_EQ(error("0,a\n"), "f: line 1: has 2 cells, expected 3");
+  EXPECT_EQ(error("0,1"), "f: line 1: has 2 cells, expected 3");
+  EXPECT_EQ(error("0,1\n"), "f: line 1: has 2 cells, expected 3");
   EXPECT_EQ(error("time,landmark,value\n0.5,a,1\n0.25,a,1\n"),
             "f: line 3: time 0.25 after time 0.5: a streamed file lists its scans in "
             "ascending order");
-  EXPECT_EQ(error("step,landmark\n"), "f: line 1: no column is named range or bearing");
+  EXPECT_EQ(error("step,landmark,strength\n"),
+            "f: line 1: no column is named range or bearing; there is \"strength\": --columns "
+            "ROLE=HEADER names them");
   EXPECT_EQ(error("step,landmark,value,robot\n"), "f: line 1: a streamed file is of one robot");
   EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),
             "f: line 2: its quotes are broken, or a cell goes over its end");

@@ -120,9 +120,9 @@ TEST(Validate, AsksForForeignFilesWhetherTheyAreKnown) {
 
 TEST(Validate, SaysWhatItDoesNotKnow) {
   const TemporaryFolder folder;
-  EXPECT_NE(only(folder.file("a.png", "x")).problem.find("is not a file that mapproof"),
+  EXPECT_NE(only(folder.file("a.png", "\x89PNG\r\n\x1a\n\x01")).problem.find("is a PNG image"),
             std::string::npos);
-  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("does not state its format"),
+  EXPECT_NE(only(folder.file("b.json", "{}")).problem.find("does not state what it is"),
             std::string::npos);
   EXPECT_NE(only(folder.file("c.json", R"({"schema": {"name": "x", "version": 1}})"))
                 .problem.find("unknown schema \"x\""),
