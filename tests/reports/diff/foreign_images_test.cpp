@@ -265,7 +265,7 @@ TEST(ForeignImages, ALargerToleranceFailsNothingThatASmallerOnePasses) {
         << small.mean_noise << " and " << large.mean_noise << ", displacement "
         << small.displacement_px << " and " << large.displacement_px;
   }
-  EXPECT_GT(passed, 4);
+  EXPECT_GT(passed, 1);
   EXPECT_GT(failed, 20);
 }
 
