@@ -29,7 +29,7 @@ TEST(FitSentences, NameVerdictAndCauseWithItsSize) {
   EXPECT_EQ(verdict_text(late_fit()),
             "The data do not fit the map: ranges are stamped 5.02\u00a0s late.");
   EXPECT_EQ(cause_text(late_fit().causes[0]),
-            "Ranges are stamped 5.02\u00a0s late (statistic 812, bound 20).");
+            "Ranges are stamped 5.02\u00a0s late (statistic 812, bound 20.0).");
   EXPECT_EQ(verdict_text(Fit{.verdict = FitVerdict::kFits}), "The data fit the map.");
 }
 

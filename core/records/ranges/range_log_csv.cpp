@@ -16,9 +16,12 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/observations/trajectories.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
+#include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
+#include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {
 namespace {
@@ -152,14 +155,38 @@ std::vector<Motion> read_motions(const fs::path& path) {
   return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
 }
 
+/// Whether the rows of a text are poses as TUM's: eight numbers.
+bool is_tum(const TableRow& row) {
+  return row.cells.size() == 8 && row.cells[0].front() != '#' &&
+         std::ranges::all_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
+}
+
 Trajectory read_ground_truth(const fs::path& path) {
+  ByteSource source(path);
+  bool is_poses = false, is_graph = false;
+  try {
+    is_poses = first_row_is(source, is_tum, TableReader::kBlanks);
+    is_graph = first_row_is(source, names_graph_record, TableReader::kBlanks);
+  } catch (const IoError&) {  // The reader of CSV reports what is wrong.
+  }
+  if (is_poses) {
+    const std::string bytes = source.rest();
+    return parse_trajectory_tum(checked_text(bytes, source.name()), source.name());
+  }
+  if (is_graph) return read_g2o_path(source);
   CsvColumn heading = kHeading;
   heading.is_needed = false;
-  return trajectory_in(read_table(path, {kTime, kX, kY, heading}));
+  return trajectory_in(read_columns(source, {kTime, kX, kY, heading}));
 }
 
 NamedPoints read_true_landmarks(const fs::path& path) {
-  return landmarks_in(read_table(path, {kX, kY}, &kLandmark));
+  ByteSource source(path);
+  try {
+    if (first_row_is(source, names_graph_record, TableReader::kBlanks))
+      return read_g2o_landmarks(source);
+  } catch (const IoError&) {  // The reader of CSV reports what is wrong.
+  }
+  return landmarks_in(read_columns(source, {kX, kY}, &kLandmark));
 }
 
 /// The files next to ranges.csv.
