@@ -37,12 +37,12 @@ struct LogHypothesis {
 
 /// What a fit moves.
 struct LogState {
-  std::vector<Eigen::Vector3d> poses;      ///< Of the key poses: x, y, heading.
-  std::vector<Eigen::Vector2d> landmarks;  ///< N, and of a moved landmark its second position.
-  double scale = 1.0;                      ///< Measured range over distance.
-  double offset_m = 0.0;                   ///< Of a hypothesis that has one.
-  double shift_s = 0.0;                    ///< Stamp of a range less its time, likewise.
-  Eigen::VectorXd offsets_m;               ///< N, where the noise has offsets.
+  std::vector<Eigen::Vector3d> poses;           ///< Of the key poses: x, y, heading.
+  std::vector<Eigen::Vector2d> landmarks = {};  ///< N, and of a moved landmark its second position.
+  double scale = 1.0;                           ///< Measured range over distance.
+  double offset_m = 0.0;                        ///< Of a hypothesis that has one.
+  double shift_s = 0.0;                         ///< Stamp of a range less its time, likewise.
+  Eigen::VectorXd offsets_m = {};               ///< N, where the noise has offsets.
 };
 
 struct LogProblemOptions {
@@ -99,8 +99,8 @@ class LogProblem {
     double cost = kInfinity;  ///< -2 ln of the likelihood, marginal over the path.
     bool is_usable = false;
     bool has_converged = false;
-    Eigen::VectorXd normalised;  ///< Residual of each range of ranges() over its sigma.
-    Eigen::VectorXd inlier;      ///< Probability that it is not an outlier.
+    Eigen::VectorXd normalised = {};  ///< Residual of each range of ranges() over its sigma.
+    Eigen::VectorXd inlier = {};      ///< Probability that it is not an outlier.
     int iterations = 0;
   };
   struct Effort {
