@@ -1,6 +1,7 @@
 #include "app/slam/range_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "core/experiment/log_unit.hpp"
 #include "core/records/studies/slam_store.hpp"
 
 namespace mapproof {
@@ -99,27 +101,34 @@ KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path) 
   return known;
 }
 
-SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known) {
+SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known, LogFitOptions fit,
+                        bool repairs) {
   remark_on_limits(known, log);
+  const double unit = unit_of(log);
+  std::optional<KnownLandmarks> scaled = known;
+  if (scaled) scaled->positions_m /= unit;
+  fit.known = scaled;
+  fit.noise.range_m /= unit;
+  fit.noise.way_m /= std::sqrt(unit);
+  fit.noise.turn_per_metre *= std::sqrt(unit);
   const bool knows = known && known->rows.size() >= kEnoughKnown;
   const std::vector<SlamMethod> methods = methods_for(log, knows);
-  return make_slam_run(
-      "own", std::move(log),
-      {.methods = methods, .known = known, .ties_refinement = known && known->rows.size() >= 2});
+  SlamRunResult result = make_slam_run("own", in_unit(log, 1.0 / unit),
+                                       {.methods = methods,
+                                        .known = scaled,
+                                        .ties_refinement = known && known->rows.size() >= 2,
+                                        .fit = std::move(fit),
+                                        .repairs = repairs});
+  log.remarks = result.run.log.remarks;
+  take_unit(result.run, std::move(log), unit);
+  return result;
 }
 
 const SlamRecord* best_record(const SlamRun& run) {
-  const SlamRecord* best = nullptr;
-  double least = kInfinity;
-  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry}) {
-    const SlamRecord* record = of_method(run, method);
-    if (record == nullptr || !record->estimate.cost || !(*record->estimate.cost < least)) continue;
-    best = record;
-    least = *record->estimate.cost;
-  }
-  if (best != nullptr) return best;
-  for (const SlamMethod method : {SlamMethod::kSpectralKnown, SlamMethod::kSpectral,
-                                  SlamMethod::kEkf, SlamMethod::kDeadReckoning})
+  for (const SlamMethod method :
+       {SlamMethod::kRepaired, SlamMethod::kRefined, SlamMethod::kRefinedFromOdometry,
+        SlamMethod::kSpectralKnown, SlamMethod::kSpectral, SlamMethod::kEkf,
+        SlamMethod::kDeadReckoning})
     if (const SlamRecord* record = of_method(run, method)) return record;
   return nullptr;
 }

@@ -20,9 +20,14 @@ KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path);
 /// Runs every method that the log allows; its remarks name what the log does not allow:
 /// without odometry no windows, no reflection, no refinement; with fewer than four known landmarks
 /// no map by them.
-SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known);
+/// The noise is estimated from the log but for what `fit` gives, and the fit of log and map is
+/// tested. The results do not depend on the unit of lengths.
+/// @param repairs  The map under the cause of a misfit is made, too, and is the result.
+SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known,
+                        LogFitOptions fit = {}, bool repairs = false);
 
-/// The record whose path and landmarks are the result: of the refinements the one that fits best,
+/// The record whose path and landmarks are the result: the repaired one if it was asked for, the
+/// refinement that took part in the test of the fit, that from odometry,
 /// else the first of the spectral ones that came out, known landmarks first, else what there is.
 /// Null if no method gave a path with a landmark.
 const SlamRecord* best_record(const SlamRun& run);

@@ -1,6 +1,8 @@
 #include "app/slam/slam.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -16,9 +18,11 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/records/observations/trajectories.hpp"
+#include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "render/figures/status_text.hpp"
+#include "reports/sections/fit_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -34,6 +38,8 @@ struct SlamArguments {
   std::string ground_truth;
   std::string true_landmarks;
   std::string odometry;
+  LogFitOptions fit;
+  bool repair = false;
   bool follow = false;
   std::string every = "1s";
   int jobs = 1;
@@ -50,6 +56,27 @@ SlamStudy study_of(const SlamRun& run) {
   return study;
 }
 
+/// The log with its map as g2o, for other programs; empty where there is no model of the noise.
+std::optional<std::string> graph_of(const SlamRun& run, const SlamRecord& best) {
+  if (!run.fit || run.log.odometry.empty()) return std::nullopt;
+  const auto number = [&](std::string_view quantity) {
+    const FitNumber* found = run.fit->number(quantity);
+    return found == nullptr ? 0.0 : found->value;
+  };
+  double way_m = 0.0;
+  for (const Motion& motion : run.log.odometry)
+    way_m += std::hypot(motion.distance_m, motion.sideways_m);
+  const double root = std::sqrt(way_m / static_cast<double>(run.log.odometry.size()));
+  const double forward_m = std::max(number("fit_forward_sigma_m") * root, 1e-9);
+  const double turn_rad = std::max(number("fit_turn_sigma_rad") * root, 1e-9);
+  if (!(number("fit_range_sigma_m") > 0.0) ||
+      best.estimate.path.size() != std::ssize(run.log.odometry) + 1 ||
+      best.estimate.path.heading_rad.size() == 0)
+    return std::nullopt;
+  return range_log_g2o(run.log, best.estimate, {forward_m, forward_m, turn_rad},
+                       number("fit_range_sigma_m"));
+}
+
 void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
                    const Templates& page, const std::string& command) {
   const SlamRun& run = result.run;
@@ -62,6 +89,8 @@ void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
     write_file(out / "landmarks.csv", landmarks_csv(run.log.landmarks, best->estimate.landmarks_m));
     write_file(out / "path.csv", trajectory_csv(best->estimate.path));
     write_file(out / "path.tum", trajectory_tum(best->estimate.path));
+    if (const std::optional<std::string> graph = graph_of(run, *best))
+      write_file(out / "log.g2o", *graph);
   }
   write_report(slam_folder_report(out, study_of(run),
                                   {.methods = result.timings, .factorization = {}}, {}, command),
@@ -76,6 +105,7 @@ nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
                                  : nlohmann::ordered_json(info(best->method).name)},
       {"window_s",
        run.windows ? number_or_null(run.windows->chosen_s) : nlohmann::ordered_json(nullptr)},
+      {"fit", run.fit ? fit_json(*run.fit) : nlohmann::ordered_json(nullptr)},
       {"landmarks", nlohmann::ordered_json::array()},
       {"methods", nlohmann::ordered_json::array()},
       {"remarks", run.log.remarks},
@@ -96,6 +126,11 @@ nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
 
 std::string slam_text(const SlamRun& run, const fs::path& out) {
   std::string text;
+  if (run.fit) {
+    text += verdict_text(*run.fit) + "\n";
+    for (const FitCause& cause : run.fit->causes) text += "  " + cause_text(cause) + "\n";
+    if (const std::string parts = parts_text(*run.fit); !parts.empty()) text += "  " + parts + "\n";
+  }
   for (const SlamRecord& record : run.records) text += slam_record_text(record) + "\n";
   const SlamRecord* best = best_record(run);
   text += best == nullptr
@@ -152,7 +187,8 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
-  const SlamRunResult result = range_map(std::move(log), known);
+  const SlamRunResult result =
+      range_map(std::move(log), known, arguments.fit, arguments.repair);
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
@@ -178,7 +214,7 @@ Action slam_command(CLI::App& app) {
       "out/run7\n\n"
       "DATA is one of\n"
       "  a folder with ranges.csv, and perhaps odometry.csv, groundtruth.csv, landmarks.csv\n"
-      "  NAME.mat of the Plaza sets; NAME_DR.txt with NAME_TD.txt; NAME.pyfg\n"
+      "  NAME.mat of the Plaza sets; NAME_DR.txt with NAME_TD.txt; NAME.pyfg; NAME.g2o\n"
       "  a CSV file of ranges, a pipe or standard input (-); odometry comes by --odometry\n"
       "It may be compressed by gzip or xz. Ranges are single distances to named landmarks, at any\n"
       "times. The window that brings them to common times is chosen by prediction error. Errors "
@@ -191,12 +227,30 @@ Action slam_command(CLI::App& app) {
       "--known-landmarks", arguments->known,
       "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", arguments->ground_truth,
-                 "True path, to compute errors: CSV with t, x, y, heading");
+                 "True path, to compute errors: CSV with t, x, y, heading; TUM; or g2o");
   app.add_option(
       "--ground-truth-landmarks", arguments->true_landmarks,
       "True positions of landmarks, to compute errors only: CSV with name, x [m], y [m]");
   app.add_option("--odometry", arguments->odometry,
                  "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
+  app.add_option("--range-sigma", arguments->fit.noise.range_m,
+                 "Standard deviation of a range [m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-sigma", arguments->fit.noise.way_m,
+                 "Standard deviation of odometry after 1 m, which grows with the root of the way "
+                 "[m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--heading-sigma", arguments->fit.noise.turn_per_metre,
+                 "Standard deviation of its heading after 1 m [rad]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-scale-sigma", arguments->fit.odometry_scale_sigma,
+                 "Standard deviation of the scale of odometry, a share, in the ellipses where "
+                 "ranges and odometry disagree on the scale")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_flag("--repair", arguments->repair,
+               "If the data do not fit the map and the cause can be modelled: also make the map "
+               "that allows for it, and take it as the result");
   app.add_flag(
       "--follow", arguments->follow,
       "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "

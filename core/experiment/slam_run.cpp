@@ -96,7 +96,7 @@ using Clock = std::chrono::steady_clock;
 
 bool is_refinement(SlamMethod method) {
   return method == SlamMethod::kRefined || method == SlamMethod::kRefinedFromOdometry ||
-         method == SlamMethod::kRefinedFromRandom;
+         method == SlamMethod::kRefinedFromRandom || method == SlamMethod::kRepaired;
 }
 
 bool has_start_pose(const StartPose& start) {
@@ -185,6 +185,19 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
       run.starts.push_back(start_of(record, 1));
     run.records.push_back(std::move(record));
   }
+  if (const LogFit* fit = options.fit ? estimates.log_fit() : nullptr; fit != nullptr) {
+    run.fit = fit->fit;
+    run.fitted_ranges = fit->ranges;
+    if (options.repairs && fit->repaired) {
+      SlamRecord record{
+          .method = SlamMethod::kRepaired, .estimate = *fit->repaired, .errors = {}, .error_m = {}};
+      score_against_ground_truth(record, run.log,
+                                 first_alignment(SlamMethod::kRefined, run.log, options));
+      run.records.push_back(std::move(record));
+    }
+  } else if (options.fit) {
+    run.fit = Fit{.why = {FitMissing::kOdometry}};
+  }
   add_random_starts(estimates, options, run);
   run.windows = estimates.windows();
   if (std::ranges::find(options.methods, SlamMethod::kSpectral) != options.methods.end())
@@ -250,6 +263,7 @@ void SlamEstimates::prepare(SlamMethod method) {
   if (log_.odometry.empty()) return;
   try {
     if (is_spectral(method)) window();
+    if (options_.fit) log_fit();
     if (method == SlamMethod::kRefined || method == SlamMethod::kBatchFixedScale) spectral_start();
     if (method == SlamMethod::kRefinedFromOdometry) odometry_start();
   } catch (const InvalidInput&) {
@@ -283,7 +297,15 @@ SlamEstimate SlamEstimates::solve(SlamMethod method) {
       start.range_scale = 1.0;
       return refined(start, false);
     }
+    case SlamMethod::kRepaired:
+      if (log_fit() == nullptr || !log_fit()->repaired)
+        return failed(log_, status_of<StatusReason::kNoStart>());
+      return *log_fit()->repaired;
     case SlamMethod::kRefined:
+      if (log_fit() != nullptr && log_fit()->estimate.path.size() > 0) {
+        if (!options_.ties_refinement) return log_fit()->estimate;
+        return refined(log_fit()->estimate, true);
+      }
       if (spectral_start().path.size() == 0)
         return failed(log_, status_of<StatusReason::kNoStart>());
       return refined(spectral_start(), true);
@@ -312,14 +334,48 @@ SlamEstimate SlamEstimates::spectral(bool with_known, bool with_heading) {
   return std::move(found.estimate);
 }
 
-SlamEstimate SlamEstimates::filtered() const {
+SlamEstimate SlamEstimates::filtered() {
   EkfOptions options;
   options.covariances = kPosesWithCovariance;
+  if (const LogFit* fit = log_fit(); fit != nullptr && fit->noise.range_m > 0.0) {
+    options.odometry = noise_of_motion(fit->noise);
+    options.range_sigma_m = fit->noise.range_m;
+  }
   return ekf_slam(log_, options);
 }
 
-SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) const {
+const LogFit* SlamEstimates::log_fit() {
+  if (!options_.fit || log_.odometry.empty()) return nullptr;
+  if (fit_) return &*fit_;
+  std::vector<SlamEstimate> starts;
+  if (const SlamEstimate& spectral = spectral_start(); spectral.path.size() > 0)
+    starts.push_back(spectral);
+  starts.push_back(odometry_start());
+  fit_ = fit_log(log_, starts, *options_.fit);
+  return &*fit_;
+}
+
+/// Of the mean motion: the noise of odometry grows with the way.
+OdometryNoise SlamEstimates::noise_of_motion(const LogNoise& noise) const {
+  double way_m = 0.0, turn = 0.0;
+  for (const Motion& motion : log_.odometry) {
+    way_m += std::hypot(motion.distance_m, motion.sideways_m);
+    turn += std::abs(motion.turn_rad);
+  }
+  const double count = static_cast<double>(log_.odometry.size());
+  const double forward_m = std::max(noise.way_m * std::sqrt(way_m / count), 1e-9);
+  const double turn_rad = std::max(std::hypot(noise.turn_per_metre * std::sqrt(way_m / count),
+                                              noise.turn_per_radian * std::sqrt(turn / count)),
+                                   1e-9);
+  return {.forward_m = forward_m, .sideways_m = forward_m, .turn_rad = turn_rad};
+}
+
+SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) {
   RefineOptions options;
+  if (const LogFit* fit = log_fit(); fit != nullptr && fit->noise.range_m > 0.0) {
+    options.odometry = noise_of_motion(fit->noise);
+    options.range_sigma_m = fit->noise.range_m;
+  }
   options.estimate_scale = estimate_scale;
   options.covariances = kPosesWithCovariance;
   if (options_.ties_refinement) options.known = options_.known;

@@ -7,6 +7,7 @@
 #include "core/model/slam_study.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/factors/windowed_ranges.hpp"
+#include "core/range_slam/fit/log_fit.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 
 namespace mapproof {
@@ -19,6 +20,10 @@ struct SlamRunOptions {
   RangeNoise noise{};      ///< The bias that is subtracted from squared ranges that come together.
   int random_starts = 0;   ///< Of the refinement, in addition to the one that is kept.
   std::uint64_t seed = 0;  ///< Of the random starts.
+  /// The noise is estimated from the log, and the fit of log and map tested; empty: the noise is
+  /// that of RefineOptions and EkfOptions.
+  std::optional<LogFitOptions> fit{};
+  bool repairs = false;  ///< With `fit`: a record of the map under the cause of a misfit, too.
 };
 
 struct SlamRunResult {
@@ -63,6 +68,10 @@ class SlamEstimates {
   /// Computes a method's start, so that it is not timed with it.
   void prepare(SlamMethod method);
 
+  /// The log fitted with its own noise; null unless it was asked for.
+  /// @throws InvalidInput as fit_log().
+  const LogFit* log_fit();
+
   /// The window lengths tried; empty without odometry.
   std::optional<WindowCurve> windows() const;
 
@@ -73,8 +82,9 @@ class SlamEstimates {
  private:
   SlamEstimate solve(SlamMethod method);
   SlamEstimate spectral(bool with_known, bool with_heading);
-  SlamEstimate filtered() const;
-  SlamEstimate refined(const SlamEstimate& start, bool estimate_scale) const;
+  SlamEstimate filtered();
+  SlamEstimate refined(const SlamEstimate& start, bool estimate_scale);
+  OdometryNoise noise_of_motion(const LogNoise& noise) const;
   const Trajectory& reckoned();
   const WindowOptions& window();
   const SlamEstimate& spectral_start();
@@ -89,6 +99,7 @@ class SlamEstimates {
   std::optional<UpgradeClouds> upgrade_;
   std::optional<SlamEstimate> spectral_start_;
   std::optional<SlamEstimate> odometry_start_;
+  std::optional<LogFit> fit_;
 };
 
 }  // namespace mapproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,13 +41,13 @@ enum class FitCode {
   kResidualsOverTime,        ///< Residuals of some time differ from those of the others.
   kResidualsOverRange,       ///< Residuals depend on the range.
   // Of maps of observations.
-  kStress,          ///< Distances in the map beside the measured ones.
-  kAnchorMissed,    ///< An anchor is missed by more than noise allows.
-  kWeakBridge,      ///< Groups of landmarks hang together by few pairs.
-  kMirror,          ///< A group of landmarks fits as well when it is reflected.
-  kFold,            ///< A group of landmarks fits as well when it is folded onto others.
-  kWrongIds,        ///< Data association that residuals deny.
-  kDisconnected,    ///< Groups of landmarks that no measurement connects.
+  kStress,        ///< Distances in the map beside the measured ones.
+  kAnchorMissed,  ///< An anchor is missed by more than noise allows.
+  kWeakBridge,    ///< Groups of landmarks hang together by few pairs.
+  kMirror,        ///< A group of landmarks fits as well when it is reflected.
+  kFold,          ///< A group of landmarks fits as well when it is folded onto others.
+  kWrongIds,      ///< Data association that residuals deny.
+  kDisconnected,  ///< Groups of landmarks that no measurement connects.
 };
 
 /// In files: "common_offset".
@@ -67,9 +68,9 @@ std::string_view name(FitMissing missing);
 /// A number of a cause. The ids in use: offset_m, offset_s, distance_m, sigmas, from_s, to_s, at_s,
 /// share_percent, ratio, count, pairs, angle_rad.
 struct FitValue {
-  std::string id;                        ///< With its unit: "offset_m", "from_s", "share_percent".
+  std::string id;  ///< With its unit: "offset_m", "from_s", "share_percent".
   double value = 0.0;
-  std::optional<double> sigma = {};      ///< Its standard deviation.
+  std::optional<double> sigma = {};  ///< Its standard deviation.
 
   bool operator==(const FitValue&) const = default;
 };
@@ -79,7 +80,7 @@ struct FitTest {
   FitCode code = FitCode::kResiduals;
   std::vector<std::string> landmarks = {};  ///< That it is about; empty: all.
   double statistic = 0.0;
-  double bound = 0.0;                       ///< > 0. At or below: no alarm.
+  double bound = 0.0;  ///< > 0. At or below: no alarm.
   /// The least effect that would have been seen in these data, in the unit that its id has.
   std::optional<FitValue> limit = {};
 
@@ -94,7 +95,7 @@ struct FitCause {
   std::vector<FitValue> values = {};
   double statistic = 0.0;
   double bound = 0.0;
-  bool is_small = false;  ///< Significant, but the map hardly depends on it: doubtful alone.
+  bool is_small = false;    ///< Significant, but the map hardly depends on it: doubtful alone.
   std::string figure = {};  ///< Id of the figure that shows why; empty: none.
 
   bool operator==(const FitCause&) const = default;
@@ -107,6 +108,15 @@ struct FitNumber {
   std::optional<double> bound = {};  ///< Above which it is an alarm.
 
   bool operator==(const FitNumber&) const = default;
+};
+
+/// What is left of one range in a fit.
+struct FittedRange {
+  double time_s = 0.0;
+  std::ptrdiff_t landmark = 0;  ///< Row.
+  double range_m = 0.0;
+  double normalised = 0.0;  ///< Prediction less range, in standard deviations.
+  double inlier = 1.0;      ///< Probability that it is not an outlier.
 };
 
 /// Whether the data fit a map, and why not.

@@ -15,6 +15,7 @@ struct RangeMeasurement {
   double time_s = 0.0;
   Eigen::Index landmark = 0;  ///< Row in RangeLog::landmarks.
   double range_m = 0.0;
+  double sigma_m = 0.0;  ///< Standard deviation, as the log gives it; 0: not given.
 };
 
 /// Motion of the robot from the pose before to the pose at `time_s`: first forward along the
@@ -24,6 +25,8 @@ struct Motion {
   double distance_m = 0.0;
   double turn_rad = 0.0;
   double sideways_m = 0.0;  ///< To the left; 0 for what has wheels.
+  /// Standard deviations forward [m], sideways [m], of the heading [rad], as the log gives them.
+  std::optional<Eigen::Vector3d> sigmas = std::nullopt;
 };
 
 /// Poses over time, T of them.

@@ -54,6 +54,10 @@ constexpr std::array kSlamMethods = {
                    .name = "refined-from-random",
                    .label = "refined, from random",
                    .summary = "nonlinear least squares from landmarks at random positions"},
+    SlamMethodInfo{.method = SlamMethod::kRepaired,
+                   .name = "repaired",
+                   .label = "refined, repaired",
+                   .summary = "nonlinear least squares that allows for the cause of the misfit"},
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ enum class SlamMethod {
   kRefined,              ///< Nonlinear least squares, scale free, started from kSpectral.
   kRefinedFromOdometry,  ///< The same, started from dead reckoning.
   kRefinedFromRandom,    ///< The same, landmarks started at random positions.
+  kRepaired,             ///< Under the cause for which the data do not fit the map.
 };
 
 /// Everything about a method that needs no solver.
@@ -84,7 +85,8 @@ struct RefinementStart {
   SlamMethod method = SlamMethod::kRefined;  ///< kRefined, …FromOdometry or …FromRandom.
   int number = 1;                            ///< Of the starts of that kind, from 1.
   double cost = 0.0;                         ///< Final; NaN: nothing came out.
-  std::optional<double> mean_m;  ///< Error of the path under the method's alignment, with ground truth.
+  std::optional<double>
+      mean_m;  ///< Error of the path under the method's alignment, with ground truth.
   int iterations = 0;
   bool converged = true;
 };
@@ -107,8 +109,9 @@ struct SlamRun {
   std::vector<SlamRecord> records;
   std::vector<RefinementStart> starts;  ///< Empty: none compared.
   std::optional<PublishedDrive> published;
-  std::optional<UpgradeClouds> upgrade;  ///< Of SlamMethod::kSpectral, where it gave a map.
-  std::optional<Fit> fit;                ///< Of its data to the map; empty: not tested.
+  std::optional<UpgradeClouds> upgrade;    ///< Of SlamMethod::kSpectral, where it gave a map.
+  std::optional<Fit> fit;                  ///< Of its data to the map; empty: not tested.
+  std::vector<FittedRange> fitted_ranges;  ///< What the fit leaves of the ranges.
 };
 
 /// Means over random pairs of path and environment, after so many measurements.

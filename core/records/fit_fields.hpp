@@ -67,6 +67,16 @@ void fields(Visitor& v, FitNumber& number) {
 }
 
 template <typename Visitor>
+void fields(Visitor& v, FittedRange& range) {
+  v.type("fitted_range");
+  v.field("time_s", range.time_s, {.whole_as_integers = true});
+  v.field("landmark", range.landmark, {.minimum = 0, .maximum = kMostLandmarks - 1});
+  v.field("range_m", range.range_m, {.whole_as_integers = true});
+  v.field("normalised", range.normalised, {.nullable = true, .whole_as_integers = true});
+  v.field("inlier", range.inlier, {.minimum = 0.0, .maximum = 1.0, .whole_as_integers = true});
+}
+
+template <typename Visitor>
 void fields(Visitor& v, Fit& fit) {
   v.type("fit");
   v.about("Whether the data fit the map, from the data alone, and why not.");
@@ -81,8 +91,7 @@ void fields(Visitor& v, Fit& fit) {
           {.description = "What is missing for a test; only if the verdict is not_testable.",
            .max_items = 10});
   v.field("numbers", fit.numbers, {.max_items = 100});
-  v.field("tests", fit.tests,
-          {.description = "All tests that were made.", .max_items = 10'000});
+  v.field("tests", fit.tests, {.description = "All tests that were made.", .max_items = 10'000});
   if (fit.verdict != FitVerdict::kNotTestable && !fit.why.empty())
     v.refuse("why", "is of the verdict not_testable alone");
 }

@@ -7,8 +7,9 @@ namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
-      &kCertaintyTopic, &kChoiceTopic, &kAssociationTopic, &kMissingTopic, &kMixedTopic,
-      &kMovedTopic,     &kMrclamTopic, &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,
+      &kCertaintyTopic,   &kChoiceTopic,  &kAssociationTopic, &kDoubtTopic,
+      &kMissingTopic,     &kMixedTopic,   &kMovedTopic,       &kMrclamTopic,
+      &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,
   };
   return kTopics;
 }

@@ -46,6 +46,9 @@ extern const Topic kSubmapsTopic;
 /// reach, its noise, the steps and the number of anchors, by one factor or two at a time.
 extern const Topic kSweepTopic;
 
+/// Whether faults of range-only logs are reported: simulated drives with one fault each.
+extern const Topic kDoubtTopic;
+
 /// All topics, in the order of their studies. A new one is added to core/trials/topics.cpp.
 std::span<const Topic* const> all_topics();
 

@@ -76,7 +76,7 @@ std::string range_cause_words(const FitCause& cause) {
     case FitCode::kIdsExchanged:
       return fmt::format("the IDs of {} are exchanged{}", names, values.when());
     case FitCode::kOdometryGap:
-      return fmt::format("odometry is missing{}, and the map depends on what was driven then",
+      return fmt::format("odometry is missing{}, so that the path there is not known",
                          values.when());
     case FitCode::kOdometryFrozen:
       return fmt::format("odometry reports a standstill{} that the ranges contradict",
@@ -229,9 +229,10 @@ std::string limit_text(const FitTest& test) {
     case FitCode::kLandmarkMoved:
       return fmt::format("A move of {} below {} could not be seen in these data.", names, amount);
     case FitCode::kKnownLandmarkOff:
-      return fmt::format("An error of the given position of {} below {} could not be seen in these "
-                         "data.",
-                         names, amount);
+      return fmt::format(
+          "An error of the given position of {} below {} could not be seen in these "
+          "data.",
+          names, amount);
     default:
       return fmt::format("{}: less than {} could not be seen in these data.",
                          capital(test_label(test.code, test.landmarks)), amount);

@@ -43,7 +43,8 @@ Eigen::Vector3d BetweenPoses::pose(const Eigen::Vector3d& first,
   return (1.0 - share) * reached_from(first, ahead) + share * reached_from(second, behind);
 }
 
-KeyPoses::KeyPoses(const Trajectory& path, const OdometryNoise& noise, double spacing_m)
+KeyPoses::KeyPoses(const Trajectory& path, const OdometryNoise& noise, double spacing_m,
+                   const std::vector<double>& breaks_s)
     : path_(path) {
   if (path.size() < 2 || path.heading_rad.size() != path.size())
     throw InvalidInput("key poses need a path of 2 poses or more, with headings");
@@ -51,9 +52,15 @@ KeyPoses::KeyPoses(const Trajectory& path, const OdometryNoise& noise, double sp
   if (!(spacing_m >= 0.0)) throw InvalidInput("the spacing of poses cannot be negative");
   rows_.push_back(0);
   double way_m = 0.0;
+  const auto holds_break = [&](Eigen::Index row) {
+    const auto next = std::ranges::upper_bound(breaks_s, path.time_s(row - 1));
+    return next != breaks_s.end() && *next <= path.time_s(row);
+  };
   for (Eigen::Index row = 1; row < path.size(); ++row) {
     way_m += (path.positions_m.row(row) - path.positions_m.row(row - 1)).norm();
-    if (way_m < spacing_m && row + 1 < path.size()) continue;
+    const bool is_key = way_m >= spacing_m || row + 1 == path.size() || holds_break(row) ||
+                        holds_break(row + 1 < path.size() ? row + 1 : row);
+    if (!is_key) continue;
     motions_.push_back(motion_between(rows_.back(), row, noise));
     rows_.push_back(row);
     way_m = 0.0;

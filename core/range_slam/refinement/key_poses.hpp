@@ -43,8 +43,10 @@ struct BetweenPoses {
 class KeyPoses {
  public:
   /// @param path  From dead_reckoned(), T >= 2.
+  /// @param breaks_s  Ascending; the poses before and after each of them are key poses, too.
   /// @throws InvalidInput unless the noise is positive and the spacing is not negative.
-  KeyPoses(const Trajectory& path, const OdometryNoise& noise, double spacing_m);
+  KeyPoses(const Trajectory& path, const OdometryNoise& noise, double spacing_m,
+           const std::vector<double>& breaks_s = {});
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(rows_.size()); }
   /// Rows in the path, the first and the last one among them.

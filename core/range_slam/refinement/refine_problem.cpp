@@ -11,6 +11,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/linalg/decompositions.hpp"
+#include "core/range_slam/refinement/free_of_frame.hpp"
 
 namespace mapproof {
 namespace {
@@ -354,7 +355,11 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
                                 Eigen::MatrixXd::Zero(positions.count, 3));
   }
   Covariances covariances;
-  covariances.are_of_first_pose = held == 1 && !free_of_frame(state, positions, *inverse);
+  covariances.are_of_first_pose =
+      held == 1 &&
+      !free_of_frame(
+          {.poses = state.poses, .landmarks = state.landmarks, .columns = positions.landmarks},
+          inverse->shared, inverse->poses, inverse->shared_pose);
   for (std::size_t n = 0; n < is_placed_.size(); ++n) {
     const Eigen::Index column = positions.landmarks[n];
     covariances.landmarks.emplace_back(Eigen::Matrix2d::Constant(is_placed_[n] ? 0.0 : kNaN));
@@ -363,44 +368,6 @@ std::optional<RefineProblem::Covariances> RefineProblem::covariances(
   for (const Eigen::Matrix3d& pose : inverse->poses)
     covariances.positions.emplace_back(pose.topLeftCorner<2, 2>());
   return covariances;
-}
-
-bool RefineProblem::free_of_frame(const RefineState& state, const Shared& shared,
-                                  ChainInformation::Covariance& covariance) const {
-  // How a landmark moves with the three rigid motions, about the middle of all of them.
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  double count = 0.0;
-  for (std::size_t n = 0; n < state.landmarks.size(); ++n) {
-    if (shared.landmarks[n] < 0) continue;
-    middle += state.landmarks[n];
-    count += 1.0;
-  }
-  if (count < 2.0) return false;
-  middle /= count;
-  const auto motions_at = [&](const Eigen::Vector2d& position) {
-    Eigen::Matrix<double, 2, 3> moves;
-    moves << 1.0, 0.0, -(position(1) - middle(1)), 0.0, 1.0, position(0) - middle(0);
-    return moves;
-  };
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(shared.count, 3);
-  for (std::size_t n = 0; n < state.landmarks.size(); ++n)
-    if (const Eigen::Index column = shared.landmarks[n]; column >= 0)
-      G.middleRows<2>(column) = motions_at(state.landmarks[n]);
-  const Eigen::Matrix3d M = G.transpose() * G;
-  const Eigen::LDLT<Eigen::Matrix3d> factor(M);
-  if (!(M(2, 2) > 0.0)) return false;
-  // The motion that a rigid fit of the landmarks takes back: F times their errors.
-  const Eigen::MatrixXd F = factor.solve(G.transpose());
-  const Eigen::Matrix3d motion = F * covariance.shared * F.transpose();
-  for (std::size_t i = 0; i < covariance.poses.size(); ++i) {
-    const Eigen::Matrix<double, 2, 3> moves = motions_at(state.poses[i].head<2>());
-    const Eigen::Matrix2d cross = moves * (F * covariance.shared_pose[i].leftCols<2>());
-    covariance.poses[i].topLeftCorner<2, 2>() +=
-        moves * motion * moves.transpose() - cross - cross.transpose();
-  }
-  const Eigen::MatrixXd P = Eigen::MatrixXd::Identity(shared.count, shared.count) - G * F;
-  covariance.shared = (P * covariance.shared * P.transpose()).eval();
-  return true;
 }
 
 }  // namespace mapproof

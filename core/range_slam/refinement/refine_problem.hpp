@@ -138,12 +138,6 @@ class RefineProblem {
   void add_ranges(const RefineState& state, const Shared& shared,
                   ChainInformation& information) const;
 
-  /// Where landmarks and poses are free to move together: the share of the first pose's error in
-  /// the covariance is removed.
-  /// @return False if fewer than two landmark positions are free: nothing is removed.
-  bool free_of_frame(const RefineState& state, const Shared& shared,
-                     ChainInformation::Covariance& covariance) const;
-
   bool is_held(std::size_t landmark) const { return is_known_[landmark] || !is_placed_[landmark]; }
   bool holds_first_pose() const { return !options_.known; }
 

@@ -68,10 +68,31 @@ void take_measurements(RangeLogParts& parts, RangeLog& log) {
   std::ranges::stable_sort(parts.measurements, {}, &NamedMeasurement::time_s);
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.ranges.reserve(parts.measurements.size());
-  for (const NamedMeasurement& measured : parts.measurements)
-    log.ranges.push_back({.time_s = measured.time_s,
-                          .landmark = rows.at(measured.landmark),
-                          .range_m = measured.range_m});
+  std::size_t zeros = 0, repeated = 0;
+  std::vector<double> last_s(log.landmarks.size(), -kInfinity);
+  for (const NamedMeasurement& measured : parts.measurements) {
+    const Eigen::Index row = rows.at(measured.landmark);
+    double& last = last_s[static_cast<std::size_t>(row)];
+    if (!(measured.range_m > 0.0)) {
+      ++zeros;
+    } else if (measured.time_s == last) {
+      ++repeated;
+    } else {
+      last = measured.time_s;
+      log.ranges.push_back({.time_s = measured.time_s,
+                            .landmark = row,
+                            .range_m = measured.range_m,
+                            .sigma_m = measured.sigma_m});
+    }
+  }
+  if (zeros > 0)
+    log.remarks.push_back(fmt::format("Left out, since a range of 0 is no echo: {}.",
+                                      counted(static_cast<long long>(zeros), "range")));
+  if (repeated > 0)
+    log.remarks.push_back(
+        fmt::format("Left out, since they repeat landmark and stamp of another one: {}.",
+                    counted(static_cast<long long>(repeated), "range")));
+  if (log.ranges.empty()) throw IoError(parts.source, "holds no ranges but zeros");
 }
 
 void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {

@@ -18,9 +18,11 @@
 #include "core/records/limits.hpp"
 #include "core/records/ranges/path_text.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
+#include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/time_text.hpp"
+#include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {
 namespace {
@@ -167,17 +169,29 @@ std::vector<Motion> read_motions(const fs::path& path) {
   return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
 }
 
+/// Whether the rows are records of a pose graph, as of g2o.
+bool is_graph(ByteSource& source) {
+  try {
+    return first_row_is(source, names_graph_record, TableReader::kBlanks);
+  } catch (const IoError&) {  // The reader of CSV reports what is wrong.
+    return false;
+  }
+}
+
 /// @param times_s  Of the poses of the odometry, for a path without times.
 Trajectory read_ground_truth(const fs::path& path, const Eigen::VectorXd& times_s) {
   ByteSource source(path);
   if (is_path_text(source)) return read_path_text(source, times_s);
+  if (is_graph(source)) return read_g2o_path(source);
   CsvColumn heading = kHeading;
   heading.is_needed = false;
   return trajectory_in(read_columns(source, {kTime, kX, kY, heading}));
 }
 
 NamedPoints read_true_landmarks(const fs::path& path) {
-  return landmarks_in(read_table(path, {kX, kY}, &kLandmark));
+  ByteSource source(path);
+  if (is_graph(source)) return read_g2o_landmarks(source);
+  return landmarks_in(read_columns(source, {kX, kY}, &kLandmark));
 }
 
 /// Of the poses of the odometry: its start, then the end of each motion.

@@ -37,15 +37,30 @@ class PyfgLines {
 
   void read() {
     while (reader_.next(row_)) take_row();
+    number_stamps();
     if (pose_rows_.size() != motions_by_pose_.size() + 1)
       throw IoError(source_, fmt::format("{} odometry edges for {} poses: one less is expected",
                                          motions_by_pose_.size(), pose_rows_.size()));
   }
 
+  /// Stamps that do not ascend from pose to pose order nothing: the poses are then numbered.
+  void number_stamps() {
+    const auto stamp = [&](std::size_t pose) -> double& { return pose_values_[4 * pose]; };
+    bool ascends = true;
+    for (std::size_t i = 1; i < pose_rows_.size(); ++i) ascends &= stamp(i) > stamp(i - 1);
+    if (ascends) return;
+    is_numbered_ = true;
+    for (std::size_t i = 0; i < pose_rows_.size(); ++i) stamp(i) = static_cast<double>(i);
+    for (std::size_t i = 0; i < range_poses_.size(); ++i)
+      range_values_[2 * i] = static_cast<double>(range_poses_[i]);
+  }
+
   Trajectory ground_truth() const { return trajectory_in(filled(poses_, pose_values_, 4)); }
   NamedPoints landmarks() const { return landmarks_in(filled(landmarks_, landmark_values_, 2)); }
   std::vector<NamedMeasurement> measurements() const {
-    return measurements_in(filled(ranges_, range_values_, 2));
+    std::vector<NamedMeasurement> all = measurements_in(filled(ranges_, range_values_, 2));
+    for (std::size_t i = 0; i < all.size(); ++i) all[i].sigma_m = std::sqrt(variances_[i]);
+    return all;
   }
 
   /// In the order of the poses, stamped with them.
@@ -57,13 +72,23 @@ class PyfgLines {
       values.push_back(time_s(pose));
       values.insert(values.end(), motion.step.begin(), motion.step.end());
     }
-    return motions_in(filled(table, values, 4));
+    std::vector<Motion> motions = motions_in(filled(table, values, 4));
+    std::size_t i = 0;
+    for (const auto& [pose, motion] : motions_by_pose_) {
+      const Eigen::Vector3d variances(motion.variances[0], motion.variances[1],
+                                      motion.variances[2]);
+      if ((variances.array() > 0.0).all()) motions[i].sigmas = variances.cwiseSqrt();
+      ++i;
+    }
+    return motions;
   }
 
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks = {"The start is the first vertex."};
-    if (!ranges_.rows.empty()) remarks.push_back("The variances of the file's edges are not used.");
-    if (other_stamps_ > 0)
+    if (is_numbered_)
+      remarks.push_back(
+          "The stamps of the poses do not ascend: a second is taken from each pose to the next.");
+    if (other_stamps_ > 0 && !is_numbered_)
       remarks.push_back(
           fmt::format("{} stamped otherwise than the poses, by up to {:.3g} s: the times are those "
                       "of the poses.",
@@ -78,7 +103,8 @@ class PyfgLines {
  private:
   struct Step {
     std::size_t line;
-    std::array<double, 3> step;  ///< Forward, heading change, sideways.
+    std::array<double, 3> step;       ///< Forward, heading change, sideways.
+    std::array<double, 3> variances;  ///< Forward, sideways, of the heading change.
   };
 
   static NumberTable filled(NumberTable table, const std::vector<double>& values,
@@ -174,7 +200,9 @@ class PyfgLines {
     const Eigen::Index to = pose_named(row_.cells[3]);
     if (to != from + 1) fail("an edge between poses that do not follow each other");
     compare_stamp(from, to);
-    const Step step{.line = row_.line, .step = {number(4), number(6), number(5)}};
+    const Step step{.line = row_.line,
+                    .step = {number(4), number(6), number(5)},
+                    .variances = {number(7), number(10), number(12)}};
     for (std::size_t cell = 7; cell < 13; ++cell) number(cell);
     if (!motions_by_pose_.emplace(to, step).second) fail("a second edge between the same poses");
   }
@@ -187,7 +215,8 @@ class PyfgLines {
       fail("no vertex before it is the landmark " + in_quotes(row_.cells[3]));
     check_count(ranges_, "ranges");
     compare_stamp(pose, pose);
-    number(5);
+    variances_.push_back(std::max(0.0, number(5)));
+    range_poses_.push_back(pose);
     ranges_.rows.push_back(row_.line);
     ranges_.names.emplace_back(row_.cells[3]);
     range_values_.push_back(time_s(pose));
@@ -203,6 +232,9 @@ class PyfgLines {
   std::map<Eigen::Index, Step> motions_by_pose_;  ///< By the pose that they lead to.
   NumberTable poses_, motions_, ranges_, landmarks_;
   std::vector<double> pose_values_, range_values_, landmark_values_;
+  std::vector<double> variances_;          ///< Of the ranges.
+  std::vector<Eigen::Index> range_poses_;  ///< Where each range was measured.
+  bool is_numbered_ = false;
   long long passed_over_ = 0;
   long long other_stamps_ = 0;
   double farthest_s_ = 0.0;

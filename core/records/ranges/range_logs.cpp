@@ -11,6 +11,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/ranges/range_log_csv.hpp"
+#include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_log_mat.hpp"
 #include "core/records/ranges/range_log_pyfg.hpp"
 #include "core/records/ranges/range_log_text.hpp"
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Form { kNone, kCsv, kMat, kPyfg, kText };
+enum class Form { kNone, kCsv, kMat, kPyfg, kG2o, kText };
 
 bool is_ranges_csv(const fs::path& path) { return unpacked_name(path).filename() == "ranges.csv"; }
 
@@ -32,11 +33,21 @@ Form form_named(const fs::path& path) {
   if (is_ranges_csv(path)) return Form::kCsv;
   if (extension == ".mat") return Form::kMat;
   if (extension == ".pyfg") return Form::kPyfg;
+  if (extension == ".g2o") return Form::kG2o;
   return text_stem(path).empty() ? Form::kNone : Form::kText;
 }
 
 bool is_pyfg(const TableRow& row) {
   return row.cells[0].starts_with("VERTEX_") || row.cells[0].starts_with("EDGE_");
+}
+
+/// Of both forms of graphs: PyFG stamps its poses, g2o does not.
+bool is_g2o(const TableRow& row) {
+  return names_graph_record(row) && ((row.cells[0] == "VERTEX_SE2" && row.cells.size() == 5) ||
+                                     (row.cells[0] == "VERTEX_XY" && row.cells.size() == 4 &&
+                                      number_in(row.cells[1]).has_value()) ||
+                                     row.cells[0] == "FIX" || row.cells[0].starts_with("PARAMS_") ||
+                                     row.cells[0] == "EDGE_RANGE_SE2_XY");
 }
 
 bool is_ranges_text(const TableRow& row) {
@@ -50,6 +61,7 @@ Form form_seen(ByteSource& source) {
   refuse_other_kind(source.peek(), source.name());
   try {
     if (first_row_is(source, names_range_columns)) return Form::kCsv;
+    if (first_row_is(source, is_g2o, TableReader::kBlanks)) return Form::kG2o;
     if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
     if (first_row_is(source, is_ranges_text, TableReader::kBlanks)) return Form::kText;
   } catch (const IoError&) {  // No text: its reader reports what is wrong.
@@ -75,9 +87,10 @@ std::string log_name(const fs::path& path) {
 }
 
 [[noreturn]] void refuse_log(const std::string& source) {
-  throw IoError(source,
-                "holds no ranges: expected a folder with ranges.csv, or NAME.mat, NAME.pyfg, "
-                "NAME_DR.txt with NAME_TD.txt");
+  throw IoError(
+      source,
+      "holds no ranges: expected a folder with ranges.csv, or NAME.mat, NAME.pyfg, NAME.g2o, "
+      "NAME_DR.txt with NAME_TD.txt");
 }
 
 /// The word of range logs for what others call a landmark.
@@ -98,6 +111,8 @@ RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
       return read_range_log_mat(source, named);
     case Form::kPyfg:
       return read_range_log_pyfg(source, named);
+    case Form::kG2o:
+      return read_range_log_g2o(source, named);
     case Form::kText:
       return read_range_log_text(source, named);
     case Form::kNone:

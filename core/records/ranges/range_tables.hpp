@@ -31,6 +31,7 @@ struct NamedMeasurement {
   double time_s;
   std::string landmark;
   double range_m;
+  double sigma_m = 0.0;  ///< Standard deviation; 0: not given.
 };
 
 /// The columns of a table as values. All throw IoError at the row that breaks a bound: times within

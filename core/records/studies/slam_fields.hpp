@@ -261,6 +261,11 @@ void fields(Visitor& v, SlamRun& run) {
   v.field("published", run.published);
   v.field("fit", run.fit,
           {.description = "Missing in studies of older versions.", .key = Key::kIfAny});
+  v.field("fitted_ranges", run.fitted_ranges,
+          {.description = "What the fit leaves of the ranges: prediction less range in standard "
+                          "deviations, and the probability that a range is not an outlier.",
+           .as_columns = true,
+           .key = Key::kIfAny});
   const auto landmarks = std::ssize(run.log.landmarks);
   check_rows(v, "known", run.known, landmarks);
   for (std::size_t i = 0; i < run.records.size(); ++i) {

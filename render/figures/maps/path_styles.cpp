@@ -26,6 +26,8 @@ PathStyle path_style(SlamMethod method) {
       return {Ink::kSeries4, Dash::kLongDash, 0.7, Marker::kSquare};
     case SlamMethod::kRefinedFromRandom:
       return {Ink::kSeries6, Dash::kDotted, 0.7, Marker::kDiamond};
+    case SlamMethod::kRepaired:
+      return {Ink::kSeries5, Dash::kSolid, 0.7, Marker::kSquare};
   }
   return {};
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "render/figures/curves/convergence.hpp"
+#include "render/figures/curves/fit_residuals.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/maps/map_grid.hpp"
@@ -15,6 +16,8 @@
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
 #include "reports/sections/figures/method_styles.hpp"
+#include "reports/sections/fit_section.hpp"
+#include "reports/sections/fit_text.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -93,6 +96,7 @@ std::vector<Figure> convergence_figures(const SlamStudy& study) {
   const std::string id = is_of_paper(study) ? "fig-1b" : "convergence-simulation";
   figures.push_back(convergence_figure(id, first));
   figures.back().title = numbered(id) + figures.back().title;
+  figures.back().caption += variant_words(study);
   if (any(&ConvergencePoint::sine))
     figures.push_back(subspace_angle_figure("angle-simulation", first));
   if (any(&ConvergencePoint::positions_m))
@@ -151,9 +155,26 @@ std::vector<Scene> run_scenes(const SlamRun& run) {
                          .record_ids = {run.id}})};
 }
 
+/// What shows whether the data of a run fit its map.
+std::vector<Figure> fit_figures(const SlamRun& run) {
+  if (!run.fit) return {};
+  std::vector<Figure> figures = {fit_figure(*run.fit, "fit-" + run.id, {run.id})};
+  if (!run.fitted_ranges.empty())
+    figures.push_back(fit_residuals_figure({.id = "fit-residuals-" + run.id,
+                                            .title = "Residuals, " + title_of(run),
+                                            .ranges = run.fitted_ranges,
+                                            .landmarks = run.log.landmarks,
+                                            .verdict = verdict_text(*run.fit),
+                                            .is_alarm = run.fit->verdict != FitVerdict::kFits,
+                                            .record_id = run.id}));
+  return figures;
+}
+
 }  // namespace
 
 std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
+
+std::string slam_fit_group(const SlamRun& run) { return "slam-fit-" + run.id; }
 
 StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
   StudyFigures figures;
@@ -163,6 +184,9 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
       figures.groups.push_back(
           {std::move(id), std::move(title), std::move(words), std::move(group), std::move(scenes)});
   };
+  for (const SlamRun& run : study.runs)
+    add(slam_fit_group(run), "Range-only SLAM: do the data fit the map? " + title_of(run), "",
+        fit_figures(run));
   std::vector<Figure> simulation;
   std::vector<Scene> upgrades;
   for (const SlamRun& run : study.runs)

@@ -15,5 +15,6 @@ inline constexpr const char* kSlamHistories = "slam-histories";
 inline constexpr const char* kSlamSpace = "slam-space";
 inline constexpr const char* kSlamCost = "slam-cost";
 std::string slam_run_group(const SlamRun& run);  ///< "slam-run-plaza-1".
+std::string slam_fit_group(const SlamRun& run);  ///< "slam-fit-plaza-1".
 
 }  // namespace mapproof

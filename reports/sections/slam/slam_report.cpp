@@ -15,7 +15,10 @@
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
+#include "reports/sections/fit_section.hpp"
+#include "reports/sections/fit_text.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/slam/slam_figures.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
@@ -141,7 +144,16 @@ std::vector<Phrase> errors_of(const SlamRun& run) {
 
 std::vector<Section> slam_sections(const SlamReportInput& input) {
   const SlamStudy& study = input.study;
-  std::vector<Section> sections{slam_summary_section(study)};
+  std::vector<Section> sections;
+  for (const SlamRun& run : study.runs) {
+    if (!run.fit) continue;
+    std::vector<FigureBlock> figures;
+    if (const FigureGroup* group = group_of(input.figures, slam_fit_group(run)))
+      for (const Figure& figure : group->figures) figures.push_back(figure_block(figure));
+    sections.push_back(fit_section(*run.fit, figures, slam_fit_group(run),
+                                   "Range-only SLAM: do the data fit the map? " + title_of(run)));
+  }
+  sections.push_back(slam_summary_section(study));
   if (auto accuracy = slam_accuracy_section(study)) sections.push_back(*std::move(accuracy));
   for (const SlamRun& run : study.runs)
     if (!run.simulated)
@@ -213,6 +225,9 @@ Section slam_statuses_section(const SlamStudy& study) {
 
 Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   Opening opening;
+  for (const SlamRun& run : study.runs)
+    if (run.fit)
+      opening.findings.push_back({{strong(title_of(run)), phrase(": " + verdict_text(*run.fit))}});
   Paragraph text;
   std::size_t reported = 0;
   for (const SlamRun& run : study.runs) {
@@ -230,7 +245,7 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
         {"In simulation the error of the observation model changes as the number of measurements "
          "to the power "});
     text.phrases.push_back(strong(slope_words(slope)));
-    text.phrases.push_back({"; theory: \u22121/2."});
+    text.phrases.push_back({fmt::format("; theory: \u22121/2.{}", variant_words(study))});
   }
   if (!text.phrases.empty()) opening.findings.push_back(std::move(text));
   std::vector<std::string> ids = {"fig-2b", "fig-2c", "fig-1b", "fig-1a"};

@@ -99,8 +99,8 @@ void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& h
   findings.items.push_back(
       {{strong("Convergence"),
         phrase(fmt::format(": the error of the observation model changes as the number of "
-                           "measurements to the power {} ({}); theory predicts \u22121/2.{}",
-                           text, curve.title, end_words(curve)))}});
+                           "measurements to the power {} ({}); theory predicts \u22121/2.{}{}",
+                           text, curve.title, variant_words(study), end_words(curve)))}});
 }
 
 void add_remarks_on_paper(BulletList& findings) {

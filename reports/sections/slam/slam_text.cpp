@@ -67,4 +67,24 @@ double convergence_slope(const ConvergenceCurve& curve) {
   return log_log_slope(steps, errors);
 }
 
+std::string variant_words(const SlamStudy& study) {
+  if (study.convergence.empty() || !is_of_paper(study)) return "";
+  const auto plain_svd = std::ranges::find(study.convergence, "plain", &ConvergenceCurve::id);
+  if (plain_svd == study.convergence.end()) return "";
+  std::string text =
+      " The exactly known variance of the noise is taken off the factorised matrix, which the "
+      "paper does not do";
+  const double slope = convergence_slope(*plain_svd);
+  if (std::isfinite(slope))
+    text +=
+        fmt::format("; its plain singular value decomposition gives {} here", slope_words(slope));
+  text += ".";
+  const auto fact =
+      std::ranges::find(study.facts, "Convergence", &std::pair<std::string, std::string>::first);
+  if (fact != study.facts.end())
+    if (const std::size_t at = fact->second.find("worlds whose"); at != std::string::npos)
+      text += " Not all worlds count: " + fact->second.substr(at) + ".";
+  return text;
+}
+
 }  // namespace mapproof

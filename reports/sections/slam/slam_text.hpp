@@ -37,4 +37,9 @@ std::optional<double> length_m(const RangeLog& log);
 /// NaN if it has less than two errors.
 double convergence_slope(const ConvergenceCurve& curve);
 
+/// Sentences, each with a blank before it, on what the slope of a paper's convergence rests on: the
+/// exactly known variance of the noise is taken off, the slope of the plain SVD if it was made, and
+/// worlds that were drawn again. Empty for other studies.
+std::string variant_words(const SlamStudy& study);
+
 }  // namespace mapproof

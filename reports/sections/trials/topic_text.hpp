@@ -18,8 +18,9 @@ struct TopicWords {
   std::vector<std::string> (*conclusions)(const TrialStudy& study) = nullptr;
 };
 
-extern const TopicWords kCertaintyWords, kChoiceWords, kAssociationWords, kMissingWords,
-    kMixedWords, kMovedWords, kMrclamWords, kIncrementalWords, kSubmapsWords, kSweepWords;
+extern const TopicWords kCertaintyWords, kChoiceWords, kAssociationWords, kDoubtWords,
+    kMissingWords, kMixedWords, kMovedWords, kMrclamWords, kIncrementalWords, kSubmapsWords,
+    kSweepWords;
 
 /// Of every topic, in their order.
 std::span<const TopicWords* const> all_topic_words();

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/fit.hpp"
+#include "core/model/range_log.hpp"
+#include "core/range_slam/fit/log_problem.hpp"
+#include "core/range_slam/known_landmarks.hpp"
+
+namespace mapproof {
+
+// What a log and a fit show beside the hypotheses of fit_log().
+
+/// Times without odometry, longer than ten times its median step.
+std::vector<OdometryGap> gaps_by_stamps(const RangeLog& log);
+
+/// The longest runs of motions that are exactly zero, of ten or more; as gaps. At most `most`.
+std::vector<OdometryGap> frozen_stretches(const RangeLog& log, std::size_t most);
+
+/// How much the variance of a mean of residuals grows through their dependence in time, >= 1:
+/// 1 + 2 sum of the correlations of each landmark's residuals, with Bartlett's weights.
+double inflation_of(const LogProblem& problem, const LogProblem::Fit& fit);
+
+/// Tests of the residuals by themselves: all, of each landmark, over time, over range.
+std::vector<FitTest> residual_tests(const RangeLog& log, const LogProblem& problem,
+                                    const LogProblem::Fit& fit, double inflation);
+
+/// Positions of the robot at the ranges of a problem: R x 2.
+Points range_positions(const LogProblem& problem, const LogState& state);
+
+/// The position from which a landmark's ranges fit best, the path held: by linear least squares of
+/// the squared ranges and robust steps. NaN: fewer than three ranges.
+/// @param rows  Of problem.ranges().
+Eigen::Vector2d located(const LogProblem& problem, const Points& positions_m,
+                        const std::vector<std::size_t>& rows, const LogProblem::Fit& fit,
+                        const Eigen::Vector2d& start);
+
+/// Landmarks whose mirror image about the robot's way fits as well.
+std::vector<Eigen::Index> mirrored_landmarks(const LogProblem& problem, const LogProblem::Fit& fit,
+                                             double inflation);
+
+/// Given positions of landmarks compared with a free map, after a rigid fit.
+struct KnownLandmarksTest {
+  double statistic = 0.0;
+  double bound = 1.0;
+  std::vector<FitCause> causes;  ///< By rows of landmarks as names: filled in by the caller.
+  std::vector<std::vector<Eigen::Index>> rows;  ///< As many: the landmarks of each cause.
+};
+/// @param covariance  2N x 2N, of the map free of the frame.
+KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
+                                        const std::vector<Eigen::Vector2d>& landmarks_m,
+                                        const Eigen::MatrixXd& covariance, double survey_sigma_m);
+
+}  // namespace mapproof

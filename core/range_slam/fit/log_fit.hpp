@@ -1,0 +1,59 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/model/fit.hpp"
+#include "core/model/range_log.hpp"
+#include "core/model/slam.hpp"
+#include "core/range_slam/fit/log_problem.hpp"
+#include "core/range_slam/known_landmarks.hpp"
+
+namespace mapproof {
+
+/// Noise that is given rather than estimated; 0: estimated.
+struct GivenNoise {
+  double range_m = 0.0;
+  double way_m = 0.0;            ///< Of odometry after 1 m.
+  double turn_per_metre = 0.0;   ///< Of the heading after 1 m, rad.
+  double turn_per_radian = 0.0;  ///< After turning by 1 rad, rad.
+};
+
+struct LogFitOptions {
+  GivenNoise noise = {};
+  /// Standard deviation of the scale of odometry, a share: in the covariances, unless ranges and
+  /// odometry agree on the scale.
+  double odometry_scale_sigma = 0.003;
+  std::optional<KnownLandmarks> known = std::nullopt;  ///< Compared with the map, which is free.
+  Eigen::Index test_keys = 400;                        ///< Poses that are estimated in the tests.
+  Eigen::Index final_keys = 1200;                      ///< In the map.
+  Eigen::Index covariances = 60;                       ///< Poses with a covariance.
+  bool only_tests = false;                             ///< No map of the final keys: for studies.
+};
+
+struct LogFit {
+  SlamEstimate estimate;  ///< Path, landmarks, covariances; cost: half of -2 ln L. Empty: no map.
+  LogNoise noise;
+  Fit fit;
+  std::vector<FittedRange> ranges;  ///< In time; of the plain model.
+  double inflation = 1.0;           ///< Of variances, as errors hang together in time.
+  LogHypothesis cause;  ///< The most significant that can be modelled; kResiduals: none.
+  std::optional<SlamEstimate> repaired;  ///< Under that cause.
+  double cost = 0.0;                     ///< -2 ln L of the plain model,
+  double repaired_cost = 0.0;            ///< and under the cause.
+};
+
+/// Fits path, landmarks, range scale and noise to a log, and tests whether the log fits them.
+///
+/// The plain model is compared with one hypothesis at a time by the drop of -2 ln L, marginal over
+/// the path, the noise estimated anew under each, divided by the inflation of the residuals'
+/// variance through their dependence in time (docs/methods/goodness-of-fit.md).
+/// @param starts  Paths, which are carried along the odometry, with landmarks (NaN rows: not
+///                known); the one of least cost counts. None: dead reckoning.
+/// @return kNotTestable without odometry, without a map or redundancy.
+/// @throws InvalidInput if the log breaks what dead_reckoned() or check_ranges() ask.
+/// @note One thread; the same bits every time.
+LogFit fit_log(const RangeLog& log, const std::vector<SlamEstimate>& starts,
+               const LogFitOptions& options = {});
+
+}  // namespace mapproof
