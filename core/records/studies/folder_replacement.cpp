@@ -250,7 +250,13 @@ void FolderReplacement::commit() {
     finish_folders(folder_, copy_);
     if (!exchange(folder_, copy_)) fail_at(folder_, "cannot be replaced in one step");
   }
-  sync_folder(folder_.parent_path());
+  try {
+    sync_folder(folder_.parent_path());
+  } catch (const IoError&) {  // It may be lost: the old one comes back.
+    is_new_ ? static_cast<void>(::rename(folder_.c_str(), copy_.c_str()))
+            : static_cast<void>(exchange(folder_, copy_));
+    throw;
+  }
 }
 
 void recover_folder(const fs::path& folder) {

@@ -44,7 +44,7 @@ class FolderReplacement {
   void remove(const std::filesystem::path& file);
 
   /// Exchanges the folder and the copy, and returns when a loss of power cannot undo it.
-  /// @throws IoError, and leaves the old folder, unless only the last sync failed.
+  /// @throws IoError, and leaves the old folder.
   void commit();
 
  private:
