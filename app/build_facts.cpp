@@ -37,6 +37,30 @@ Provenance build_provenance() {
   return provenance;
 }
 
+nlohmann::ordered_json version_json() {
+  struct Dependency {
+    const char *name, *version, *licence, *package, *use;
+  };
+  static constexpr Dependency kDependencies[] = {
+#include "dependencies.inc"
+  };
+  const Provenance provenance = build_provenance();
+  nlohmann::ordered_json object{{"version", provenance.version},
+                                {"commit", provenance.commit},
+                                {"solver_digest", provenance.solver_digest},
+                                {"compiler", __VERSION__},
+                                {"scenes", bool{MAPPROOF_HAS_SCENES}},
+                                {"animation", bool{MAPPROOF_HAS_ANIMATION}},
+                                {"dependencies", nlohmann::ordered_json::array()}};
+  for (const Dependency& one : kDependencies)
+    object["dependencies"].push_back({{"name", one.name},
+                                      {"version", one.version},
+                                      {"licence", one.licence},
+                                      {"package", one.package},
+                                      {"use", one.use}});
+  return object;
+}
+
 std::string version_text() {
   const Provenance provenance = build_provenance();
   std::string text = fmt::format("mapproof {}\ncommit {}\n", provenance.version, provenance.commit);

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <nlohmann/json.hpp>
+
 #include "core/model/study.hpp"
 
 namespace mapproof {
@@ -11,5 +13,8 @@ Provenance build_provenance();
 
 /// What --version prints.
 std::string version_text();
+
+/// The same for --version --json, with what the program is made of: versions and SPDX licences.
+nlohmann::ordered_json version_json();
 
 }  // namespace mapproof

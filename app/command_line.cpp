@@ -15,6 +15,7 @@ namespace mapproof {
 namespace {
 
 std::string quoted(const std::string& word) {
+  if (word.starts_with("~/")) return "~/" + (word.size() > 2 ? quoted(word.substr(2)) : "");
   constexpr std::string_view kPlain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./=,:+@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;

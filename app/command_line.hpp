@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/console.hpp"
+#include "app/disclosure.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/slam_experiment.hpp"
 #include "core/topics/study_plan.hpp"
@@ -18,7 +19,8 @@ namespace mapproof {
 /// What a command is given besides its own arguments.
 struct Invocation {
   const Console& console;
-  std::string command;  ///< As typed, quoted so that a shell takes it again.
+  std::string command;  ///< As typed, quoted so that a shell takes it again, and disclosed.
+  const Disclosure& disclosure;
 };
 
 /// A command's work once its arguments are parsed; returns an ExitCode.
@@ -27,7 +29,8 @@ using Action = std::function<int(const Invocation&)>;
 /// Adds a command to the program: its options to `app`, its work to be returned.
 using AddCommand = Action (*)(CLI::App& app);
 
-/// The words of a command line, quoted for a POSIX shell where needed.
+/// The words of a command line, quoted for a POSIX shell where needed. A "~/" that a word begins
+/// with stays what it is to a shell.
 std::string quoted_command(const std::vector<std::string>& words);
 
 /// Adds --jobs to a command: threads, by default one per core.

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <new>
 
-#include "app/console.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/out_of_memory.hpp"
 #include "render/animation/animation.hpp"
@@ -14,14 +13,6 @@
 
 namespace mapproof {
 namespace {
-
-ExitCode report_failure(const std::string& what, ExitCode code) {
-  // Any layer may pass on the system's message.
-  const bool is_memory = what.ends_with(std::strerror(ENOMEM));
-  std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)
-            << "\n";
-  return is_memory ? kInternal : code;
-}
 
 int try_work(const std::function<int()>& work, const std::string& of) {
   try {
@@ -42,6 +33,14 @@ int try_work(const std::function<int()>& work, const std::string& of) {
 }
 
 }  // namespace
+
+ExitCode report_failure(const std::string& what, ExitCode code) {
+  // Any layer may pass on the system's message.
+  const bool is_memory = what.ends_with(std::strerror(ENOMEM));
+  std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)
+            << "\n";
+  return is_memory ? kInternal : code;
+}
 
 int exit_code_of(const std::function<int()>& work, const std::string& of) {
   // The message must not allocate memory.

@@ -3,11 +3,17 @@
 #include <functional>
 #include <string>
 
+#include "app/console.hpp"
+
 namespace mapproof {
 
 /// Calls `work` and returns its exit code. An exception becomes one line on standard error,
 /// "mapproof: ", `of` and the message, and the exit code of its type.
 /// @param of  A prefix that names the work.
 int exit_code_of(const std::function<int()>& work, const std::string& of = "");
+
+/// Reports why the program fails, in the line "mapproof: WHAT" on standard error.
+/// @return The code; kInternal if memory ran out.
+ExitCode report_failure(const std::string& what, ExitCode code);
 
 }  // namespace mapproof

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <functional>
 #include <iostream>
@@ -66,12 +67,22 @@ struct Common {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
+  std::string provenance = "reduced";
 };
+
+/// The commands that write where and by whom something was made.
+constexpr std::array<std::string_view, 10> kWithProvenance = {
+    "reproduce", "run", "render", "report", "map", "slam", "diff", "check", "nightly", "history"};
 
 void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--json", common.json, "Print the result as one JSON object");
   auto* quiet = app.add_flag("--quiet", common.quiet, "Only warnings and errors");
   app.add_flag("--verbose", common.verbose, "Details")->excludes(quiet);
+  if (std::ranges::find(kWithProvenance, app.get_name()) != kWithProvenance.end())
+    app.add_option("--provenance", common.provenance,
+                   "reduced: records and pages name no user, host or home folder; full: they do")
+        ->check(CLI::IsMember({"reduced", "full"}))
+        ->capture_default_str();
 }
 
 /// What is wrong with the first word if it is meant as a command and is none; empty otherwise.
@@ -97,12 +108,21 @@ std::vector<char*> with_help(int argc, char** argv) {
   return words;
 }
 
+/// Whether the words are --version and --json, in whatever order.
+bool asks_for_version_json(std::span<char* const> words) {
+  const auto has = [&](std::string_view word) {
+    return std::ranges::any_of(words, [&](const char* one) { return one == word; });
+  };
+  return words.size() == 2 && has("--version") && has("--json");
+}
+
 int run_command_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, and proof of them",
       "mapproof");
   app.footer(std::string(kExitCodes) + "\n" + kFooter);
-  app.set_version_flag("--version", std::function<std::string()>(version_text));
+  app.set_version_flag("--version", std::function<std::string()>(version_text),
+                       "Version and libraries; with --json, licences too");
   app.require_subcommand(1);
   Common common;
   const std::vector<std::pair<const char*, AddCommand>> commands = {
@@ -131,7 +151,12 @@ int run_command_of(int argc, char** argv) {
 
   if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
     throw InvalidInput(complaint);
-  refuse_retired_options({argv, static_cast<std::size_t>(argc)});
+  const std::span<char* const> words_given(argv, static_cast<std::size_t>(argc));
+  refuse_retired_options(words_given);
+  if (!words_given.empty() && asks_for_version_json(words_given.subspan(1))) {
+    Console(Verbosity::kNormal, true, "version").result("", version_json());
+    return kDone;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version
@@ -148,7 +173,10 @@ int run_command_of(int argc, char** argv) {
                         common.json, app.get_subcommands().front()->get_name());
   std::vector<std::string> words{"mapproof"};
   words.insert(words.end(), argv + 1, argv + argc);
-  const Invocation invocation{.console = console, .command = quoted_command(words)};
+  const Disclosure disclosure(common.provenance == "full");
+  const Invocation invocation{.console = console,
+                              .command = quoted_command(disclosure.words(words)),
+                              .disclosure = disclosure};
   for (const auto& [sub, action] : actions)
     if (sub->parsed()) return action(invocation);
   return kInternal;

@@ -12,6 +12,7 @@ function decoded(text) {
 // Quotes one word for a POSIX shell. Control characters, on which a terminal might act, are written
 // as $'…'.
 function quoted(word) {
+  if (word.startsWith("~/")) return `~/${word.length > 2 ? quoted(word.slice(2)) : ""}`;
   if (/^[A-Za-z0-9_.\/=,:+@%-]+$/.test(word)) return word;
   if (!/[\u0000-\u001f\u007f-\u009f]/.test(word)) return `'${word.replaceAll("'", "'\\''")}'`;
   const bytes = Array.from(new TextEncoder().encode(word), (byte) =>

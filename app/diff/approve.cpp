@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/files/paths.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/folder_replacement.hpp"
@@ -65,6 +66,7 @@ ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
   if (std::error_code error; fs::exists(real, error)) {
     lock.emplace(real);
     remove_leftovers(real);
+    refuse_links_out(real);
   }
   ApprovalPlan plan = approval_plan(baseline, current, order);
   apply(plan, baseline);

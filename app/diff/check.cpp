@@ -33,9 +33,12 @@ struct CheckArguments {
 void make_candidate(const CheckArguments& arguments, const Invocation& invocation) {
   const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.order);
   check_data_used({&order, 1}, arguments.order);
-  make_study(order, arguments.out, arguments.jobs, invocation.command, invocation.console);
+  make_study(order, arguments.out, arguments.jobs,
+             {invocation.command, invocation.disclosure.host()}, invocation.console);
+  const FolderLock lock(arguments.out);
   write_report(read_folder_report(arguments.out, invocation.command, ""),
-               load_templates(arguments.options.templates), arguments.jobs);
+               {load_templates(arguments.options.templates), arguments.jobs, invocation.disclosure},
+               lock);
 }
 
 /// The candidate never writes over the baseline, nor an output over either.
@@ -63,10 +66,10 @@ int check(const CheckArguments& arguments, const Invocation& invocation) {
         arguments.baseline, arguments.out,
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
     return hand_out(no_baseline(arguments.baseline, arguments.out, settings), settings,
-                    arguments.options, invocation.console);
+                    arguments.options, invocation);
   }
   return hand_out(folder_diff(arguments.baseline, arguments.out, settings), settings,
-                  arguments.options, invocation.console);
+                  arguments.options, invocation);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
   check_output_paths(arguments.options, inputs);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
-  return hand_out(result, settings, arguments.options, invocation.console);
+  return hand_out(result, settings, arguments.options, invocation);
 }
 
 }  // namespace

@@ -96,14 +96,17 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
 }
 
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
-             const Console& console) {
+             const Invocation& invocation) {
+  const Console& console = invocation.console;
   const nlohmann::ordered_json object = diff_json(result);
   std::string text;
   const auto hand = [&](const std::string& location, const auto& make) {
+    if (location.empty()) return;
+    std::string disclosed = invocation.disclosure.text(make());
     if (location == kStandardOutput)
-      text = make();
-    else if (!location.empty())
-      write_file(location, make());
+      text = std::move(disclosed);
+    else
+      write_file(location, disclosed);
   };
   hand(options.page,
        [&] { return diff_html(result, settings, load_templates(options.templates)); });

@@ -26,10 +26,10 @@ void add_diff_options(CLI::App& app, DiffOptions& options);
 /// @throws IoError for a settings file that cannot be used; InvalidInput for --allow.
 DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline);
 
-/// Writes the files asked for, and the verdicts to standard output, with the lines that CTest takes
-/// where it runs the program.
+/// Writes the files asked for, disclosed, and the verdicts to standard output, with the lines that
+/// CTest takes where it runs the program.
 /// @return kDone or kNo. @throws IoError.
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
-             const Console& console);
+             const Invocation& invocation);
 
 }  // namespace mapproof

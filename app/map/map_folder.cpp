@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/study_store.hpp"
 
@@ -104,11 +105,13 @@ void check_may_become(const fs::path& folder, const MapRecord& map, bool any_met
 }
 
 MapFolder::MapFolder(const fs::path& folder) : path_(folder), lock_(made_map_folder(folder)) {
+  refuse_links_out(folder);
   remove_leftovers(folder);
 }
 
 MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)
     : path_(folder), lock_(made_map_folder(folder)) {
+  refuse_links_out(folder);
   check_same_map(folder, map);
   remove_leftovers(folder);
 }

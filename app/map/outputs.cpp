@@ -12,6 +12,7 @@
 #include "app/result_json.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
@@ -60,15 +61,15 @@ Report report_of(const MapPlace& location, const MapResult& map,
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.
-void remove_stale(const fs::path& out, const MapResult& map) {
+void remove_stale(const OutputFolder& out, const MapResult& map) {
   for (const MapStep* step : map_steps()) {
     if (!step->figure.empty() &&
         std::ranges::find(map.figures, step->figure, &Figure::id) == map.figures.end())
       for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
-        fs::remove(out / "figures" / (std::string(step->figure) + ending));
+        (out / "figures").remove(std::string(step->figure) + ending);
     if (!step->file.empty() &&
         std::ranges::find(map.files, step->file, &NamedPart<std::string>::name) == map.files.end())
-      fs::remove(out / step->file);
+      out.remove(step->file);
   }
 }
 
@@ -132,23 +133,24 @@ std::string map_text(const MapResult& map, const fs::path& out) {
 }  // namespace
 
 void write_map(const MapFolder& folder, const MapPlace& location, const MapResult& map, bool last) {
-  const fs::path& out = folder.path();
+  const OutputFolder out(folder.path());
   const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  write_file(out / kMapFile, map_json(map.record, map.certainty, map.sensors));
-  write_file(out / "map.csv", map_csv(map.record, map.certainty));
+  out.write(kMapFile, map_json(map.record, map.certainty, map.sensors));
+  out.write("map.csv", map_csv(map.record, map.certainty));
   remove_stale(out, map);
-  for (const auto& [name, text] : map.files) write_file(out / name, text);
+  for (const auto& [name, text] : map.files) out.write(name, text);
   std::map<std::string, std::string> drawn;
   for (const Figure& figure : figures)
     drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
   if (!last) return;
   const Report report = report_of(location, map, figures);
   write_tables(report, out / "tables");
-  write_file(out / "report.html", report_html(report, location.page, [&](const std::string& id) {
-               const auto found = drawn.find(id);
-               return found == drawn.end() ? std::string() : found->second;
-             }));
+  const auto drawing = [&](const std::string& id) {
+    const auto found = drawn.find(id);
+    return found == drawn.end() ? std::string() : found->second;
+  };
+  out.write("report.html", location.disclosure.text(report_html(report, location.page, drawing)));
 }
 
 int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation) {

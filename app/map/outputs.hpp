@@ -15,6 +15,7 @@ struct MapPlace {
   std::string observations;
   std::string command;  ///< The one that makes the map again.
   Templates page;
+  const Disclosure& disclosure;
 };
 
 /// The step write: map.json, map.csv, figures, and what else the steps contributed.

@@ -7,6 +7,7 @@
 
 #include "app/nightly/history_report.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/folder_lock.hpp"
@@ -60,14 +61,18 @@ int verify(HistoryStore& history, const fs::path& store, const Console& console)
   return problems.empty() ? kDone : kNo;
 }
 
-int prune_by(HistoryStore& history, const HistoryArguments& arguments, const Console& console) {
+int prune_by(HistoryStore& history, const HistoryArguments& arguments,
+             const Invocation& invocation) {
+  const Console& console = invocation.console;
   const FolderLock lock(arguments.store, [&] {
     console.warning(arguments.store + ": a nightly run is being made in it; waiting for its end");
   });
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
   std::error_code error;
   if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
-    write_history_pages(history, {arguments.store, arguments.store, load_templates()}, {});
+    write_history_pages(
+        history, {arguments.store, arguments.store, load_templates(), 1, invocation.disclosure},
+        {});
   console.result(
       fmt::format("{} and {} removed\n",
                   counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly run"),
@@ -82,8 +87,9 @@ int history_of(const HistoryArguments& arguments, const Invocation& invocation) 
   std::error_code error;
   if (!fs::exists(history_file(arguments.store), error))
     throw IoError(arguments.store, "holds no history.sqlite; mapproof nightly makes one");
+  refuse_links_out(arguments.store);
   HistoryStore history = HistoryStore::open_existing(arguments.store);
-  if (arguments.prune) return prune_by(history, arguments, console);
+  if (arguments.prune) return prune_by(history, arguments, invocation);
   if (arguments.verify) return verify(history, arguments.store, console);
   if (arguments.pin) {
     history.pin(*arguments.pin);

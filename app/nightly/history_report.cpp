@@ -5,6 +5,7 @@
 #include "app/nightly/nightly_folders.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/html/report_html.hpp"
@@ -14,6 +15,8 @@ namespace mapproof {
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr const char* kIndex = "index.html";
 
 /// Writes trends/STUDY/report.html of a study of the last nightly run. @return The trend.
 StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
@@ -33,7 +36,8 @@ StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
                             .runs = 0,
                             .missing = {},
                             .link_words = std::move(shown.link_words)};
-  write_report(report, outputs.page, outputs.jobs);
+  make_folder(folder);
+  write_report(report, {outputs.page, outputs.jobs, outputs.disclosure}, FolderLock(folder));
   return trend;
 }
 
@@ -76,9 +80,9 @@ fs::path write_history_pages(HistoryStore& history, const HistoryOutputs& output
     const auto figure = std::ranges::find(shown.figures, id, &Figure::id);
     return figure == shown.figures.end() ? std::string() : figure_svg(*figure, report_theme());
   };
-  const fs::path index = out / "index.html";
-  write_file(index, report_html(shown.report, outputs.page, drawing, options));
-  return index;
+  OutputFolder(out).write(
+      kIndex, outputs.disclosure.text(report_html(shown.report, outputs.page, drawing, options)));
+  return out / kIndex;
 }
 
 }  // namespace mapproof

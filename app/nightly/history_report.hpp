@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "app/disclosure.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/html/templates.hpp"
@@ -20,6 +21,7 @@ struct HistoryOutputs {
   std::filesystem::path out;    ///< For the pages: the store or another folder.
   const Templates& page;
   int jobs = 1;
+  const Disclosure& disclosure;
 };
 
 /// Writes index.html and, of every study of the last nightly run, trends/STUDY/report.html with its

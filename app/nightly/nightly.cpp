@@ -21,6 +21,7 @@
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"
@@ -62,15 +63,14 @@ std::optional<int> asked_reference(const std::string& text) {
   return number;
 }
 
-NightlyFacts begun(int number, int jobs, const std::string& command) {
-  char host[256] = "";
+NightlyFacts begun(int number, int jobs, const SessionNames& names) {
   utsname system{};
   return {.number = number,
           .started_utc = now_utc(),
           .ended_utc = "",
-          .command = command,
+          .command = names.command,
           .provenance = json_line(to_json_value(build_provenance())),
-          .host = ::gethostname(host, sizeof host - 1) == 0 ? host : "",
+          .host = names.host,
           .processor = ::uname(&system) == 0 ? system.machine : "",
           .cores = static_cast<int>(std::thread::hardware_concurrency()),
           .jobs = jobs};
@@ -78,10 +78,10 @@ NightlyFacts begun(int number, int jobs, const std::string& command) {
 
 /// Makes the records of every study. @return The worst exit code.
 int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int jobs,
-             const std::string& command, const Console& console) {
+             const SessionNames& names, const Console& console) {
   int worst = kDone;
   for (const StudyOrder& order : orders)
-    worst = std::max(worst, make_apart(order, folder / order.name, jobs, command, console));
+    worst = std::max(worst, make_apart(order, folder / order.name, jobs, names, console));
   return worst;
 }
 
@@ -94,9 +94,10 @@ std::vector<NightlyStudy> read_all(const std::vector<StudyOrder>& orders, const 
 }
 
 /// Draws a study's report. @return Whether all of its scenes could be drawn; a warning if not.
-bool draw(const FolderReport& report, const Templates& page, int jobs, const Console& console) {
+bool draw(const FolderReport& report, const HistoryOutputs& outputs, const Console& console) {
   try {
-    write_report(report, page, jobs);
+    write_report(report, {outputs.page, outputs.jobs, outputs.disclosure},
+                 FolderLock(report.folder));
     return true;
   } catch (const SceneError& error) {
     console.warning(error.what());
@@ -128,7 +129,7 @@ bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& f
         {.nightly_run = nightly_run, .name = study.name, .is_compared = is_compared, .lost = lost},
         links);
     report.link_words = links.words();
-    scenes_drawn &= draw(report, outputs.page, outputs.jobs, invocation.console);
+    scenes_drawn &= draw(report, outputs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
   }
   return scenes_drawn;
@@ -171,25 +172,27 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   const std::vector<StudyOrder> orders =
       read_nightly_orders(arguments.experiments, arguments.order);
   const fs::path store = arguments.store;
-  const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs};
+  const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs,
+                               invocation.disclosure};
+  const SessionNames names{invocation.command, invocation.disclosure.host()};
   make_folder(store);
   const FolderLock lock(store, [&] {
     console.warning(store.string() +
                     ": another mapproof runs in it; waiting, since two at once would spoil "
                     "each other's seconds");
   });
+  for (const fs::path& folder : {store, outputs.out}) refuse_links_out(folder);
   HistoryStore history = HistoryStore::open(store);
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
-  NightlyRun nightly_run{
-      .facts = begun(next_nightly_run(history, store), arguments.jobs, invocation.command)};
+  NightlyRun nightly_run{.facts = begun(next_nightly_run(history, store), arguments.jobs, names)};
   if (asked) {  // Refused before hours of work.
     nightly_run.studies = planned_studies(orders);
     reference_nightly_run(history, nightly_run, asked);
   }
   const fs::path folder = nightly_folder(store, nightly_run.facts.number);
   begin_nightly_run(folder, orders, console);
-  const int made = make_all(orders, folder, arguments.jobs, invocation.command, console);
+  const int made = make_all(orders, folder, arguments.jobs, names, console);
   if (made != kDone) {
     console.warning(fmt::format("nightly run {}: not recorded, since a study was not finished",
                                 nightly_run.facts.number));

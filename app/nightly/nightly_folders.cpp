@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 
@@ -17,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path order_file(const fs::path& folder) { return folder / "order.txt"; }
-fs::path end_file(const fs::path& folder) { return folder / "nightly_run.json"; }
+constexpr const char* kOrderFile = "order.txt";
+constexpr const char* kEndFile = "nightly_run.json";
 
 std::string order_text(const std::vector<StudyOrder>& orders) {
   std::string text;
@@ -33,7 +34,7 @@ int finished_number(const fs::path& folder) {
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   std::error_code ignored;
   const bool is_number = error == std::errc() && end == name.data() + name.size();
-  return is_number && fs::exists(end_file(folder), ignored) ? number : 0;
+  return is_number && fs::exists(folder / kEndFile, ignored) ? number : 0;
 }
 
 /// The names of what a folder holds, ascending; none if it is not there.
@@ -66,7 +67,7 @@ void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& or
   std::error_code error;
   if (fs::exists(folder, error)) {
     std::string left;
-    if (fs::exists(order_file(folder), error)) left = read_file(order_file(folder));
+    if (fs::exists(folder / kOrderFile, error)) left = read_file(folder / kOrderFile);
     if (left == text) {
       console.warning(folder.string() + ": continues a nightly run that was stopped");
       remove_leftovers(folder);
@@ -78,11 +79,11 @@ void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& or
     if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
   }
   make_folder(folder);
-  write_file(order_file(folder), text);
+  OutputFolder(folder).write(kOrderFile, text);
 }
 
 void end_nightly_run(const fs::path& folder, const NightlyRun& nightly_run) {
-  write_file(end_file(folder), nightly_json(nightly_run));
+  OutputFolder(folder).write_durably(kEndFile, nightly_json(nightly_run));
 }
 
 LostNightlyRuns lost_nightly_runs(const fs::path& store, std::span<const NightlyFacts> known) {

@@ -64,17 +64,16 @@ std::vector<NightlyStudy> planned_studies(const std::vector<StudyOrder>& orders)
   return studies;
 }
 
-int make_apart(const StudyOrder& order, const fs::path& folder, int jobs,
-               const std::string& command, const Console& console) {
-  const auto make = [&] { return make_study(order, folder, jobs, command, console), kDone; };
+int make_apart(const StudyOrder& order, const fs::path& folder, int jobs, const SessionNames& names,
+               const Console& console) {
+  const auto make = [&] { return make_study(order, folder, jobs, names, console), kDone; };
   try {
     // No thread runs yet that the copy would lack. A nightly run that is killed takes its study
     // with it: its locks are free at once.
     ChildProcess process([&] { return exit_code_of(make, order.name + ": "); });
     const ProcessEnd end = process.wait();
     if (end.signal == 0) return end.exit_code;
-    console.warning(fmt::format("{}: {}", order.name, end.text()));
-    return kInternal;
+    return report_failure(fmt::format("{}: {}", order.name, end.text()), kInternal);
   } catch (const ProcessError& error) {
     throw IoError(folder.string(), error.what());
   }

@@ -6,6 +6,7 @@
 
 #include "app/console.hpp"
 #include "app/study/study_order.hpp"
+#include "app/study/study_run.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -25,6 +26,6 @@ std::vector<NightlyStudy> planned_studies(const std::vector<StudyOrder>& orders)
 /// and its crash is its own.
 /// @return The ExitCode of that process, kInternal if a signal ended it. @throws IoError.
 int make_apart(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
-               const std::string& command, const Console& console);
+               const SessionNames& names, const Console& console);
 
 }  // namespace mapproof

@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/experiment/log_unit.hpp"
@@ -135,6 +136,7 @@ const SlamRecord* best_record(const SlamRun& run) {
 
 SlamFolder::SlamFolder(const fs::path& folder, const SlamRun& run)
     : path_(folder), lock_(made_slam_folder(folder)) {
+  refuse_links_out(folder);
   const fs::path file = folder / kSlamFile;
   std::error_code error;
   if (fs::exists(file, error)) {

@@ -41,6 +41,7 @@ class SlamFolder {
   SlamFolder(const std::filesystem::path& folder, const SlamRun& run);
 
   const std::filesystem::path& path() const { return path_; }
+  const FolderLock& lock() const { return lock_; }
 
  private:
   std::filesystem::path path_;

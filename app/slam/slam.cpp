@@ -17,6 +17,7 @@
 #include "app/study/slam_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/observations/trajectories.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_logs.hpp"
@@ -78,23 +79,24 @@ std::optional<std::string> graph_of(const SlamRun& run, const SlamRecord& best) 
 }
 
 void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
-                   const Templates& page, const std::string& command) {
+                   const Templates& page, const Invocation& invocation) {
   const SlamRun& run = result.run;
   const SlamFolder folder(arguments.out, run);
-  const fs::path& out = folder.path();
+  const OutputFolder out(folder.path());
   // The file that marks the folder comes first: a killed command can then be repeated.
-  write_file(out / kSlamFile, slam_run_json(run));
-  write_paths(run, out / "paths");
+  out.write(kSlamFile, slam_run_json(run));
+  write_paths(run, out, "paths");
   if (const SlamRecord* best = best_record(run)) {
-    write_file(out / "landmarks.csv", landmarks_csv(run.log.landmarks, best->estimate.landmarks_m));
-    write_file(out / "path.csv", trajectory_csv(best->estimate.path));
-    write_file(out / "path.tum", trajectory_tum(best->estimate.path));
+    out.write("landmarks.csv", landmarks_csv(run.log.landmarks, best->estimate.landmarks_m));
+    out.write("path.csv", trajectory_csv(best->estimate.path));
+    out.write("path.tum", trajectory_tum(best->estimate.path));
     if (const std::optional<std::string> graph = graph_of(run, *best))
-      write_file(out / "log.g2o", *graph);
+      out.write("log.g2o", *graph);
   }
-  write_report(slam_folder_report(out, study_of(run),
-                                  {.methods = result.timings, .factorization = {}}, {}, command),
-               page, arguments.jobs);
+  write_report(
+      slam_folder_report(folder.path(), study_of(run),
+                         {.methods = result.timings, .factorization = {}}, {}, invocation.command),
+      {page, arguments.jobs, invocation.disclosure}, folder.lock());
 }
 
 nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
@@ -163,7 +165,8 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
                         {.out = arguments.out,
                          .observations = arguments.data,
                          .command = invocation.command,
-                         .page = page},
+                         .page = page,
+                         .disclosure = invocation.disclosure},
                         invocation);
 }
 
@@ -194,7 +197,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
     for (const Status& status : record.estimate.statuses)
       invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
                                              name(status.code), status_text(status)));
-  write_outputs(arguments, result, page, invocation.command);
+  write_outputs(arguments, result, page, invocation);
   invocation.console.result(slam_text(result.run, arguments.out),
                             slam_result(result.run, arguments.out));
   return best_record(result.run) == nullptr ? kNo : kDone;

@@ -12,6 +12,7 @@
 #include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "render/output/write_figure.hpp"
@@ -40,6 +41,8 @@ Section contents_section(const std::vector<FolderReport>& parts) {
   section.blocks.emplace_back(std::move(papers));
   return section;
 }
+
+constexpr const char* kReportFile = "report.html";
 
 std::string figure_command(const fs::path& folder) {
   return quoted_command({"mapproof", "render", folder.string(), "--figure"});
@@ -72,6 +75,7 @@ std::vector<fs::path> study_folders(const fs::path& folder) {
 
 FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
                                 const std::string& fallback) {
+  refuse_links_out(folder);
   if (!is_study(folder)) {
     const std::vector<fs::path> studies = study_folders(folder);
     if (!studies.empty()) {
@@ -128,7 +132,7 @@ Images images_of(const FolderReport& report) {
   return images;
 }
 
-Drawn write_images(const Images& images, const Theme& theme, const fs::path& folder, int jobs,
+Drawn write_images(const Images& images, const Theme& theme, const OutputFolder& folder, int jobs,
                    SceneClient& client) {
   Drawn drawn;
   for (const Figure* figure : images.figures) drawn.svg[figure->id];  // None in parallel.
@@ -152,23 +156,25 @@ Drawn write_images(const Images& images, const Theme& theme, const fs::path& fol
   return drawn;
 }
 
-fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
+fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
+                      const FolderLock& /*of_folder*/) {
+  const OutputFolder folder(report.folder);
   SceneClient client;
   const Drawn drawn =
-      write_images(images_of(report), report_theme(), report.folder / "figures", jobs, client);
+      write_images(images_of(report), report_theme(), folder / "figures", outputs.jobs, client);
   Report shown = report.report;
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
-  write_tables(shown, report.folder / "tables");
+  write_tables(shown, folder / "tables");
   const auto drawing = [&](const std::string& id) {
     const auto found = drawn.svg.find(id);
     return found == drawn.svg.end() ? std::string() : found->second;
   };
-  const fs::path path = report.folder / "report.html";
   HtmlOptions options;
   options.link_words = report.link_words;
-  write_file(path, report_html(shown, page, drawing, options));
+  folder.write(kReportFile,
+               outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)));
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
-  return path;
+  return report.folder / kReportFile;
 }
 
 }  // namespace mapproof

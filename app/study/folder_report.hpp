@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "app/disclosure.hpp"
 #include "app/study/study_outputs.hpp"
+#include "core/base/files/output_folder.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -56,13 +59,23 @@ struct Drawn {
 
 /// Draws the images into `folder`: figures several at a time, scenes one by one beside them.
 /// @throws IoError.
-Drawn write_images(const Images& images, const Theme& theme, const std::filesystem::path& folder,
-                   int jobs, SceneClient& client);
+Drawn write_images(const Images& images, const Theme& theme, const OutputFolder& folder, int jobs,
+                   SceneClient& client);
+
+/// How a report is written.
+struct ReportOutputs {
+  const Templates& page;
+  int jobs = 1;
+  const Disclosure& disclosure;
+};
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
 /// folder.
+/// @param of_folder  The lock of that folder.
 /// @return The path of the report.
+/// @throws IoError.
 /// @throws SceneError once all else is written, if a scene could not be drawn.
-std::filesystem::path write_report(const FolderReport& report, const Templates& page, int jobs);
+std::filesystem::path write_report(const FolderReport& report, const ReportOutputs& outputs,
+                                   const FolderLock& of_folder);
 
 }  // namespace mapproof

@@ -9,6 +9,8 @@
 
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_scene.hpp"
 
 namespace mapproof {
@@ -83,6 +85,8 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
+  make_folder(folder);
+  const FolderLock lock(folder);
   SceneClient client;  // One program draws scenes and films.
   const Drawn drawn = write_images(images, theme, folder, arguments.jobs, client);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);

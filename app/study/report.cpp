@@ -17,8 +17,10 @@ struct ReportArguments {
 
 int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  const FolderLock lock(arguments.study);
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
-  const std::filesystem::path path = write_report(view, page, arguments.jobs);
+  const std::filesystem::path path =
+      write_report(view, {page, arguments.jobs, invocation.disclosure}, lock);
   invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
                                         view.runs, view.figures.size(), view.scenes.size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},

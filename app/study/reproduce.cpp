@@ -13,6 +13,7 @@
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/study_store.hpp"
 
 namespace mapproof {
@@ -60,6 +61,7 @@ std::vector<StudyOrder> read_orders(const ReproduceArguments& arguments) {
 /// Throws if a folder for several studies holds anything else. @throws IoError.
 void check_folder_of_all(const fs::path& folder) {
   std::error_code error;
+  refuse_links_out(folder);
   if (is_study(folder))
     throw IoError(folder.string(), "holds a study; choose another folder for all of them");
   std::vector<std::string> ours = experiment_names();
@@ -76,12 +78,12 @@ void check_folder_of_all(const fs::path& folder) {
 
 /// The command that makes the same studies and report again, wherever it was typed.
 std::string command_again(const ReproduceArguments& arguments,
-                          const std::vector<StudyOrder>& orders) {
+                          const std::vector<StudyOrder>& orders, const Disclosure& disclosure) {
   std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
   const std::vector<std::string> more = words_of(orders, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
-  return quoted_command(words);
+  return quoted_command(disclosure.words(words));
 }
 
 int reproduce(const ReproduceArguments& arguments, const Invocation& invocation) {
@@ -90,13 +92,14 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
   const std::vector<StudyOrder> orders = read_orders(arguments);
   const bool is_alone = orders.size() == 1;
   if (!is_alone) check_folder_of_all(arguments.out);
-  const std::string command = command_again(arguments, orders);
+  const std::string command = command_again(arguments, orders, invocation.disclosure);
   std::string text;
   nlohmann::ordered_json object;
   for (const StudyOrder& order : orders) {
     const fs::path folder =
         is_alone ? fs::path(arguments.out) : arguments.out / fs::path(order.name);
-    make_study(order, folder, arguments.jobs, command, invocation.console);
+    make_study(order, folder, arguments.jobs, {command, invocation.disclosure.host()},
+               invocation.console);
     StudyNumbers numbers = outputs_of_study(folder).numbers(folder);
     for (const std::string& missing : numbers.missing) invocation.console.warning(missing);
     text += numbers.text;
@@ -105,8 +108,9 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
     else
       object["studies"].push_back(std::move(numbers.object));
   }
+  const FolderLock lock(arguments.out);
   const FolderReport report = read_folder_report(arguments.out, command, "");
-  const fs::path path = write_report(report, page, arguments.jobs);
+  const fs::path path = write_report(report, {page, arguments.jobs, invocation.disclosure}, lock);
   object["figures"] = report.figures.size();
   object["scenes"] = report.scenes.size();
   object["report"] = path.string();

@@ -17,18 +17,21 @@ struct RunArguments {
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
-std::string command_again(const RunArguments& arguments, const StudyOrder& order) {
+std::string command_again(const RunArguments& arguments, const StudyOrder& order,
+                          const Disclosure& disclosure) {
   std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
   const std::vector<std::string> more = words_of({&order, 1}, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
-  return quoted_command(words) + " && " + quoted_command({"mapproof", "report", arguments.out});
+  return quoted_command(disclosure.words(words)) + " && " +
+         quoted_command(disclosure.words({"mapproof", "report", arguments.out}));
 }
 
 int run(const RunArguments& arguments, const Invocation& invocation) {
   const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.options);
   check_data_used({&order, 1}, arguments.options);
-  make_study(order, arguments.out, arguments.jobs, command_again(arguments, order),
+  make_study(order, arguments.out, arguments.jobs,
+             {command_again(arguments, order, invocation.disclosure), invocation.disclosure.host()},
              invocation.console);
   StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;

@@ -7,11 +7,11 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include "app/build_facts.hpp"
 #include "app/progress_line.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/topics/study_kind.hpp"
@@ -20,11 +20,6 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string host_name() {
-  char name[256] = "";
-  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
-}
 
 std::optional<double> peak_memory_mib() {
   rusage usage{};
@@ -42,14 +37,16 @@ struct Stopwatch {
 };
 
 void copy_study(const fs::path& from, const fs::path& to) {
-  for (const fs::path& file : results_study_files(from))
-    write_file(to / file, read_file(from / file));
+  refuse_links_out(from);
+  make_folder(to);
+  const OutputFolder copy(to);
+  for (const fs::path& file : results_study_files(from)) copy.write(file, read_file(from / file));
 }
 
 }  // namespace
 
 void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
-                const std::string& command, const Console& console) {
+                const SessionNames& names, const Console& console) {
   if (!order.given.empty()) {
     copy_study(order.given, folder);
     return;
@@ -67,9 +64,9 @@ void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
     line(progress);
   });
   if (last.reused < last.total)
-    writer.write_session({.command = command,
+    writer.write_session({.command = names.command,
                           .started_utc = watch.started_utc,
-                          .host = host_name(),
+                          .host = names.host,
                           .jobs = jobs,
                           .seconds = watch.seconds(),
                           .peak_memory_mib = peak_memory_mib()});

@@ -8,9 +8,15 @@
 
 namespace mapproof {
 
+/// What a session is known by in the records.
+struct SessionNames {
+  std::string command;  ///< What makes the study again.
+  std::string host;
+};
+
 /// Runs what a folder does not hold yet, with a progress line, and notes the session.
-/// @param command  What makes the study again. @throws IoError, InvalidInput.
+/// @throws IoError, InvalidInput.
 void make_study(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
-                const std::string& command, const Console& console);
+                const SessionNames& names, const Console& console);
 
 }  // namespace mapproof

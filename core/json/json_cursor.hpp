@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <string>
@@ -13,36 +15,46 @@
 
 namespace mapproof {
 
+class JsonDocument;
+class JsonItems;
+
+enum class JsonKind { kNull, kBoolean, kNumber, kString, kArray, kObject };
+
 /// A value in a parsed JSON file, with typed getters whose errors name the file and the pointer:
 /// IoError("study.json: /runs/3/layout: expected an integer from 1 to 10000, got 1e9").
-/// The document must outlive it.
+/// The document must outlive it. It is small, and copied freely; numbers and strings are read from
+/// the text of the file each time that they are asked for.
 class JsonCursor {
  public:
-  JsonCursor(const nlohmann::json& value, const std::string& source, std::string pointer = "");
-
-  const std::string& source() const { return *source_; }
-  const std::string& pointer() const { return pointer_; }
-  bool is_null() const { return value_->is_null(); }
-  bool is_object() const { return value_->is_object(); }
-  bool is_array() const { return value_->is_array(); }
+  const std::string& source() const;
+  /// RFC 6901. @note Linear in the sizes of the containers around it: for messages.
+  std::string pointer() const;
+  JsonKind kind() const;
+  bool is_null() const { return kind() == JsonKind::kNull; }
+  bool is_object() const { return kind() == JsonKind::kObject; }
+  bool is_array() const { return kind() == JsonKind::kArray; }
 
   [[noreturn]] void fail(const std::string& what) const;
 
   /// The value of an object's key. @throws IoError if this is not an object or lacks the key.
-  JsonCursor at(const std::string& key) const;
+  JsonCursor at(std::string_view key) const;
   /// The same; empty if the key is missing.
-  std::optional<JsonCursor> find(const std::string& key) const;
+  std::optional<JsonCursor> find(std::string_view key) const;
   /// All of an object, sorted by key.
   std::vector<std::pair<std::string, JsonCursor>> members() const;
+  /// All of an object, as they stand in the file. @throws IoError if this is not an object.
+  JsonItems entries() const;
   /// @throws IoError at the first key that is not listed, with the one that was probably meant.
   void allow_only(std::initializer_list<std::string_view> keys) const;
   void allow_only(const std::vector<std::string_view>& keys) const;
 
   /// All of an array of `least` to `most` elements.
-  std::vector<JsonCursor> elements(
-      std::size_t least = 0, std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  JsonItems elements(std::size_t least = 0,
+                     std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  /// @note Linear in the index.
   JsonCursor element(std::size_t index) const;
-  std::size_t size() const { return value_->size(); }
+  /// How many elements or members; 0 of null, 1 of any other plain value.
+  std::size_t size() const;
 
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
   int integer32(int least, int most) const { return static_cast<int>(integer(least, most)); }
@@ -58,26 +70,72 @@ class JsonCursor {
   std::vector<double> numbers_or_null(double least, double most,
                                       std::optional<std::size_t> size = std::nullopt) const;
 
+  /// A plain value as it stands in the file, a string with its quotes.
+  std::string_view token() const;
+
  private:
+  friend class JsonDocument;
+  friend class JsonItems;
+
+  JsonCursor(const JsonDocument& document, std::uint32_t offset, std::uint32_t node)
+      : document_(&document), offset_(offset), node_(node) {}
+
   std::string got() const;
-  JsonCursor child(const nlohmann::json& value, std::string_view key) const;
+  /// The number; NaN of anything else.
+  double plain_number() const;
 
-  const nlohmann::json* value_;
-  const std::string* source_;
-  std::string pointer_;
+  const JsonDocument* document_;
+  std::uint32_t offset_;  ///< Of the value's first byte.
+  std::uint32_t node_;    ///< Of a container its own, of a plain value that of what holds it.
 };
 
-/// A whole JSON file.
-struct JsonDocument {
-  std::string source;
-  nlohmann::json root;
+/// The elements of an array, or the members of an object, one after the other.
+class JsonItems {
+ public:
+  class Iterator {
+   public:
+    using iterator_category = std::input_iterator_tag;
+    using value_type = JsonCursor;
+    using difference_type = std::ptrdiff_t;
+    using pointer = void;
+    using reference = JsonCursor;
 
-  JsonCursor cursor() const { return {root, source}; }
+    JsonCursor operator*() const;
+    Iterator& operator++();
+    bool operator==(const Iterator& other) const { return left_ == other.left_; }
+
+    /// Of a member.
+    std::string key() const;
+    /// Whether a member has this key.
+    bool has_key(std::string_view key) const;
+
+   private:
+    friend class JsonItems;
+    Iterator(const JsonDocument& document, std::uint32_t node, std::size_t left);
+    void enter_member();
+
+    const JsonDocument* document_;
+    std::uint32_t holder_;      ///< Node of the array or object.
+    std::uint32_t child_;       ///< Node of the next container in it.
+    std::uint32_t offset_ = 0;  ///< Of the value.
+    std::uint32_t key_ = 0;     ///< Offset of the member's key.
+    std::size_t left_;
+  };
+
+  Iterator begin() const { return {*document_, node_, size_}; }
+  Iterator end() const { return {*document_, node_, 0}; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+
+ private:
+  friend class JsonCursor;
+  JsonItems(const JsonDocument& document, std::uint32_t node, std::size_t size)
+      : document_(&document), node_(node), size_(size) {}
+
+  const JsonDocument* document_;
+  std::uint32_t node_;
+  std::size_t size_;
 };
-
-/// @throws IoError with line and column for broken or truncated JSON, repeated keys, numbers beyond
-///         a double, nesting deeper than 64, NUL bytes and bytes that are not UTF-8.
-JsonDocument parse_json(std::string_view text, const std::string& source);
 
 /// The format of a file of mapproof, from its key "schema".
 struct SchemaId {
@@ -87,10 +145,6 @@ struct SchemaId {
 
 /// @throws IoError if the document does not say what it is.
 SchemaId schema_of(const JsonCursor& document);
-
-/// The name of the schema that a JSON text names, before anything else is known of it: the
-/// text may be cut off, or wrong behind the name. Empty if there is none.
-std::string schema_name_in(std::string_view text);
 
 /// @throws IoError unless the document is of that schema, version 1.
 void expect_schema(const JsonCursor& document, std::string_view name);

@@ -36,10 +36,9 @@ std::string spaced(std::string_view type) {
 }  // namespace
 
 std::optional<JsonCursor> Reader::find(std::string_view key, const FieldRule& rule) const {
-  const std::string name(key);
-  if (rule.when && is_required(rule)) return json_.at(name);
-  const auto found = json_.find(name);
-  if (found && !rule.when) json_.fail("unknown key \"" + name + '"');
+  if (rule.when && is_required(rule)) return json_.at(key);
+  const auto found = json_.find(key);
+  if (found && !rule.when) json_.fail("unknown key \"" + std::string(key) + '"');
   return found;
 }
 
@@ -62,9 +61,11 @@ std::vector<double> read_numbers(const JsonCursor& json, const FieldRule& rule,
   else
     numbers = json.numbers_or_null(rule.minimum, rule.maximum, size);
   if (numbers.size() < rule.min_items || numbers.size() > rule.max_items) read_items(json, rule);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    if ((std::isnan(numbers[i]) && !rule.nullable) || rule.above_minimum)
-      read_number(json.element(i), rule);  // Throws, with the problem in its message.
+  const auto is_refused = [&](double number) {
+    return (std::isnan(number) && !rule.nullable) || (rule.above_minimum && number == rule.minimum);
+  };
+  if (const auto bad = std::ranges::find_if(numbers, is_refused); bad != numbers.end())
+    read_number(json.element(static_cast<std::size_t>(bad - numbers.begin())), rule);  // Throws.
   return numbers;
 }
 
@@ -85,7 +86,7 @@ std::size_t read_name(const JsonCursor& json, const EnumNames& names) {
                         nearest_word(text, names.names)));
 }
 
-std::vector<JsonCursor> read_items(const JsonCursor& json, const FieldRule& rule) {
+JsonItems read_items(const JsonCursor& json, const FieldRule& rule) {
   return json.elements(rule.min_items, rule.max_items);
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/record_outline.hpp"
 
 namespace mapproof {
@@ -23,7 +24,7 @@ std::string read_text(const JsonCursor& json, const FieldRule& rule);
 std::vector<double> read_numbers(const JsonCursor& json, const FieldRule& rule,
                                  std::optional<std::size_t> size = std::nullopt);
 std::size_t read_name(const JsonCursor& json, const EnumNames& names);
-std::vector<JsonCursor> read_items(const JsonCursor& json, const FieldRule& rule);
+JsonItems read_items(const JsonCursor& json, const FieldRule& rule);
 std::int64_t read_integer(const JsonCursor& json, const FieldRule& rule, std::int64_t least,
                           std::int64_t most);
 /// Below `json` as far as the pointer leads: a key that was left out is not there.
@@ -83,7 +84,7 @@ void read_variant(const JsonCursor& json, std::variant<T...>& value) {
   std::string given;
   const auto reads = [&](auto one) {
     const Outline outline = outline_of(one);
-    if (known.empty()) given = json.at(std::string(outline.tag_key)).text();
+    if (known.empty()) given = json.at(outline.tag_key).text();
     known.push_back(outline.tag_name);
     if (given != outline.tag_name) return false;
     read_record(json, one);
@@ -91,7 +92,7 @@ void read_variant(const JsonCursor& json, std::variant<T...>& value) {
     return true;
   };
   std::variant_alternative_t<0, std::variant<T...>> first;
-  if (!(reads(T{}) || ...)) refuse_tag(json.at(std::string(outline_of(first).tag_key)), known);
+  if (!(reads(T{}) || ...)) refuse_tag(json.at(outline_of(first).tag_key), known);
 }
 
 /// @throws IoError at the first item that stood there before.
@@ -112,14 +113,15 @@ void refuse_repeated(const JsonCursor& json, const T& items) {
 struct RowReader : FieldVisitor {
   static constexpr bool kReads = true;
 
-  const std::vector<JsonCursor>& columns;
-  std::size_t row = 0, column = 0;
+  std::vector<JsonItems::Iterator>& columns;  ///< At the row; behind it afterwards.
+  std::size_t column = 0;
 
-  RowReader(const std::vector<JsonCursor>& all, std::size_t index) : columns(all), row(index) {}
+  explicit RowReader(std::vector<JsonItems::Iterator>& all) : columns(all) {}
 
   template <typename T>
   void field(std::string_view, T& value, const FieldRule& rule = {}) {
-    read_value(columns[column++].element(row), value, rule);
+    read_value(*columns[column], value, rule);
+    ++columns[column++];
   }
 };
 
@@ -137,15 +139,16 @@ void read_columns(const JsonCursor& json, T& list, const FieldRule& rule) {
   typename T::value_type none{};
   const Outline outline = outline_of(none);
   json.allow_only(outline.keys);
-  std::vector<JsonCursor> columns;
+  std::vector<JsonItems::Iterator> columns;
   FieldRule same = rule;
+  std::size_t rows = 0;
   for (const std::string_view key : outline.keys) {
-    columns.push_back(json.at(std::string(key)));
-    read_items(columns.back(), same);
-    same.min_items = same.max_items = columns[0].size();
+    const JsonItems items = read_items(json.at(key), same);
+    columns.push_back(items.begin());
+    same.min_items = same.max_items = rows = items.size();
   }
-  for (std::size_t row = 0; row < columns[0].size(); ++row) {
-    RowReader reader(columns, row);
+  for (std::size_t row = 0; row < rows; ++row) {
+    RowReader reader(columns);
     fields(reader, list.emplace_back());
   }
 }
@@ -169,22 +172,24 @@ void read_matrix(const JsonCursor& json, T& matrix, const FieldRule& rule) {
   } else {
     FieldRule rows_rule = rule;
     if (kRows != Eigen::Dynamic) rows_rule.min_items = rows_rule.max_items = kRows;
-    const std::vector<JsonCursor> rows = read_items(json, rows_rule);
+    const JsonItems rows = read_items(json, rows_rule);
     std::size_t columns =
         kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
-    if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty()) columns = rows[0].size();
+    if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty()) columns = (*rows.begin()).size();
     if constexpr (kRows == Eigen::Dynamic)
-      matrix.resize(std::ssize(rows), static_cast<Eigen::Index>(columns));
+      matrix.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
     FieldRule row_rule = item_rule(rule);
     row_rule.nullable = rule.nullable_entries;
     if (rule.not_empty) row_rule.min_items = 1;
-    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-      const JsonCursor& row = rows[static_cast<std::size_t>(i)];
+    Eigen::Index i = 0;
+    for (const JsonCursor& row : rows) {
       matrix.row(i).setConstant(kNaN);
-      if (rule.nullable && row.is_null()) continue;
-      const std::vector<double> numbers = read_numbers(row, row_rule, columns);
-      for (Eigen::Index k = 0; k < matrix.cols(); ++k)
-        matrix(i, k) = numbers[static_cast<std::size_t>(k)];
+      if (!rule.nullable || !row.is_null()) {
+        const std::vector<double> numbers = read_numbers(row, row_rule, columns);
+        for (Eigen::Index k = 0; k < matrix.cols(); ++k)
+          matrix(i, k) = numbers[static_cast<std::size_t>(k)];
+      }
+      ++i;
     }
   }
 }
@@ -233,11 +238,15 @@ void read_value(const JsonCursor& json, T& value, const FieldRule& rule) {
       if (rule.ascending) refuse_descending(json, value);
   } else if constexpr (Kind<T>::is_map) {
     value.clear();
-    for (const auto& [key, member] : json.members()) read_value(member, value[key], rule);
+    const JsonItems members = json.entries();
+    for (auto member = members.begin(); member != members.end(); ++member)
+      read_value(*member, value[member.key()], rule);
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
-    const std::vector<JsonCursor> items = json.elements(element_count<T>(), element_count<T>());
-    auto item = items.begin();
-    for_each_element(value, [&](auto& one) { read_value(*item++, one, item_rule(rule)); });
+    auto item = json.elements(element_count<T>(), element_count<T>()).begin();
+    for_each_element(value, [&](auto& one) {
+      read_value(*item, one, item_rule(rule));
+      ++item;
+    });
   } else {
     read_record(json, value);
   }

@@ -6,7 +6,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
@@ -77,7 +79,7 @@ std::string results_table_of(const fs::path& folder) {
 }
 
 void write_results_table(const fs::path& folder) {
-  write_file(folder / kResultsFile, results_table_of(folder));
+  OutputFolder(folder).write_durably(kResultsFile, results_table_of(folder));
 }
 
 }  // namespace mapproof

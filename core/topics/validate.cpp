@@ -17,7 +17,9 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detections.hpp"
 #include "core/records/detections/mrclam.hpp"
@@ -389,11 +391,14 @@ std::vector<fs::path> studies_below(const fs::path& folder) {
 std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
   std::vector<Finding> findings;
   std::error_code error;
-  if (is_study(folder)) findings.push_back(check_study(folder));
   const std::vector<fs::path> studies = studies_below(folder);
+  const bool is_ours = is_study(folder) || !studies.empty() ||
+                       fs::is_regular_file(folder / "map.json", error) ||
+                       fs::is_regular_file(folder / "slam.json", error);
+  if (is_ours) refuse_links_out(folder);
+  if (is_study(folder)) findings.push_back(check_study(folder));
   for (const fs::path& study : studies) findings.push_back(check_study(study));
-  if (is_study(folder) || !studies.empty() || fs::is_regular_file(folder / "map.json", error) ||
-      fs::is_regular_file(folder / "slam.json", error)) {
+  if (is_ours) {
     for (const fs::path& path : our_files(folder)) {
       findings.push_back(check(path, foreign));
       if (is_leftover(path))

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/out_of_memory.hpp"
 
 namespace mapproof {
@@ -20,8 +21,9 @@ std::string drawn(const std::filesystem::path& path, const std::function<std::st
 
 }  // namespace
 
-void write_drawn(const std::filesystem::path& path, const std::function<std::string()>& draw) {
-  write_file(path, drawn(path, draw));
+void write_drawn(const OutputFolder& folder, const std::filesystem::path& file,
+                 const std::function<std::string()>& draw) {
+  folder.write(file, drawn(folder.path() / file, draw));
 }
 
 }  // namespace mapproof

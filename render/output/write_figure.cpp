@@ -1,6 +1,7 @@
 #include "render/output/write_figure.hpp"
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/figure_json.hpp"
@@ -22,13 +23,13 @@ std::string figure_pdf(const Figure& figure, const Theme& theme) {
 }
 
 std::string write_figure(const Figure& figure, const Theme& theme,
-                         const std::filesystem::path& folder) {
+                         const OutputFolder& folder) {
   const Drawing drawing = lay_out(figure, theme);
   std::string svg = to_svg(drawing);
-  write_file(folder / (figure.id + ".svg"), svg);
-  write_drawn(folder / (figure.id + ".png"), [&] { return to_png(drawing); });
-  write_drawn(folder / (figure.id + ".pdf"), [&] { return to_pdf(drawing); });
-  write_file(folder / (figure.id + ".figure.json"), figure_to_json(figure));
+  folder.write(figure.id + ".svg", svg);
+  write_drawn(folder, figure.id + ".png", [&] { return to_png(drawing); });
+  write_drawn(folder, figure.id + ".pdf", [&] { return to_pdf(drawing); });
+  folder.write(figure.id + ".figure.json", figure_to_json(figure));
   return svg;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "core/base/files/output_folder.hpp"
 #include "render/plot/figure.hpp"
 #include "render/theme/theme.hpp"
 
@@ -23,6 +23,6 @@ std::string figure_pdf(const Figure& figure, const Theme& theme);
 /// @return The SVG file's text, as of figure_svg.
 /// @throws InvalidInput as figure_svg; IoError if a file cannot be written.
 std::string write_figure(const Figure& figure, const Theme& theme,
-                         const std::filesystem::path& folder);
+                         const OutputFolder& folder);
 
 }  // namespace mapproof

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "render/animation/animation.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/image.hpp"
@@ -55,7 +56,7 @@ int poster_scale(const Drawing& drawing) {
 
 }  // namespace
 
-void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
+void write_animation(const Film& film, const Theme& theme, const OutputFolder& folder,
                      SceneClient& client) {
   std::vector<Image> frames;
   AnimationOptions options;
@@ -67,7 +68,7 @@ void write_animation(const Film& film, const Theme& theme, const std::filesystem
     drawing.id = film.id;
     options.texts = png_words(drawing);
   }
-  write_file(folder / (film.id + ".apng"), encode_animation(frames, options));
+  folder.write(film.id + ".apng", encode_animation(frames, options));
 }
 
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client) {
@@ -93,14 +94,14 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
   return drawn;
 }
 
-std::string write_scene(const Scene& scene, const Theme& theme, const std::filesystem::path& folder,
+std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
                         SceneClient& client) {
   const SceneDrawing drawn = draw_scene(scene, theme, client);
   std::string svg = to_svg(drawn.screen);
-  write_file(folder / (scene.id + ".svg"), svg);
-  write_drawn(folder / (scene.id + ".png"), [&] { return to_png(drawn.poster); });
-  write_drawn(folder / (scene.id + ".pdf"), [&] { return to_pdf(drawn.poster); });
-  write_file(folder / (scene.id + ".scene.json"), scene_to_json(scene));
+  folder.write(scene.id + ".svg", svg);
+  write_drawn(folder, scene.id + ".png", [&] { return to_png(drawn.poster); });
+  write_drawn(folder, scene.id + ".pdf", [&] { return to_pdf(drawn.poster); });
+  folder.write(scene.id + ".scene.json", scene_to_json(scene));
   return svg;
 }
 

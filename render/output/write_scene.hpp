@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "core/base/files/output_folder.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -17,7 +17,7 @@ namespace mapproof {
 /// @throws InvalidInput if a frame cannot be drawn, their sizes differ or they are too many (see
 ///         require_animation_size; checked after the first); IoError; SceneError;
 ///         AnimationError.
-void write_animation(const Film& film, const Theme& theme, const std::filesystem::path& folder,
+void write_animation(const Film& film, const Theme& theme, const OutputFolder& folder,
                      SceneClient& client);
 
 /// A scene laid out, its images drawn: at the theme's dpi, and at twice that unless a side would
@@ -34,7 +34,7 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
 /// ID.scene.json, each at once or not at all.
 /// @return The text of the SVG file.
 /// @throws IoError; otherwise as draw_scene.
-std::string write_scene(const Scene& scene, const Theme& theme, const std::filesystem::path& folder,
+std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
                         SceneClient& client);
 
 }  // namespace mapproof

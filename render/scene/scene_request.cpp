@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/text_input.hpp"
 
@@ -57,8 +58,9 @@ SceneRequest request_from_line(std::string_view text, const std::string& path) {
   request.height = json.at("height").integer32(1, kLargestSide);
   request.samples = json.at("samples").integer32(0, kMostSamples);
   request.background = read_colour(json.at("background"));
-  const std::vector<JsonCursor> inks = json.at("inks").elements(10, 10);
-  for (std::size_t i = 0; i < inks.size(); ++i) request.inks[i] = read_colour(inks[i]);
+  std::size_t i = 0;
+  for (const JsonCursor& ink : json.at("inks").elements(10, 10))
+    request.inks[i++] = read_colour(ink);
   return request;
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/diff/diff_result.hpp"
@@ -309,6 +310,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
                        const DiffSettings& settings) {
   check_there(baseline);
   check_there(current);
+  for (const fs::path& side : {baseline, current}) refuse_links_out(side);
   DiffResult result;
   result.baseline = baseline.string();
   result.current = current.string();

@@ -14,6 +14,7 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_result.hpp"
@@ -137,7 +138,7 @@ ParsedJson parse(const SceneText& file, SceneWords& words) {
     if (std::ranges::find(words.record_ids, id) == words.record_ids.end())
       words.record_ids.push_back(id);
   words.varies = scene.varies;
-  return parse_json(scene_to_json(scene), file.name).root;  // Every key is there.
+  return parse_json(scene_to_json(scene), file.name).tree();  // Every key is there.
 }
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;

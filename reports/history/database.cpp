@@ -7,6 +7,7 @@
 #include <sqlite3.h>
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/not_finite.hpp"
 
 namespace mapproof {
@@ -26,6 +27,27 @@ bool is_damage(int code) {
 
 bool is_out_of_memory(int code) {
   return (code & 0xFF) == SQLITE_NOMEM || code == SQLITE_IOERR_NOMEM;
+}
+
+/// The path for SQLite, behind the links of its folder, so that the file alone may not be one.
+/// @throws IoError if the file is a link, or anything that SQLite would wait for.
+std::string unlinked_path(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  if (path == ":memory:") return path.string();
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() == fs::file_type::symlink)
+    throw IoError(path.string(), "is a symbolic link; put the file itself there");
+  if (fs::exists(path, error)) require_file(path);
+  return (real_path(path.parent_path().empty() ? "." : path.parent_path()) / path.filename())
+      .string();
+}
+
+/// A history that somebody hands over runs nothing: no trigger, no view, no function of a schema.
+void refuse_code_in_schema(sqlite3* handle) {
+  for (const int option : {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                           SQLITE_DBCONFIG_TRUSTED_SCHEMA})
+    sqlite3_db_config(handle, option, 0, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
 }
 
 }  // namespace
@@ -100,20 +122,21 @@ bool Statement::is_null(int column) const {
 }
 
 Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
-  std::error_code error;
-  if (std::filesystem::exists(path, error)) require_file(path);  // SQLite would wait for a pipe.
-  const int flags = access == Access::kCreate ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE
-                                              : SQLITE_OPEN_READWRITE;
+  const std::string real = unlinked_path(path);
+  const int flags = SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_READWRITE |
+                    (access == Access::kCreate ? SQLITE_OPEN_CREATE : 0);
   // A reader opens for writing too, where it may: a killed writer's journal has to be rolled back.
-  int code = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
+  int code = sqlite3_open_v2(real.c_str(), &handle_, flags, nullptr);
   if (code != SQLITE_OK && access == Access::kRead) {
     sqlite3_close(handle_);
-    code = sqlite3_open_v2(path.c_str(), &handle_, SQLITE_OPEN_READONLY, nullptr);
+    code = sqlite3_open_v2(real.c_str(), &handle_, SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_READONLY,
+                           nullptr);
   }
   try {
     if (code != SQLITE_OK) fail();
     sqlite3_extended_result_codes(handle_, 1);
     sqlite3_busy_timeout(handle_, kBusyMilliseconds);
+    refuse_code_in_schema(handle_);
     execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA; PRAGMA foreign_keys = ON;");
   } catch (...) {
     sqlite3_close(handle_);

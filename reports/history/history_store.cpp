@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "reports/history/database.hpp"
 #include "reports/history/schema.hpp"
@@ -95,6 +96,7 @@ void begin_history(const fs::path& path) {
   }
   fs::rename(beside, path, error);
   if (error) throw IoError(path.string(), "cannot be put in place: " + error.message());
+  sync_folder(path.parent_path());
 }
 
 std::unique_ptr<Database> open_to_append(const fs::path& path) {

@@ -9,6 +9,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/topics/study_kind.hpp"
@@ -57,9 +58,9 @@ Scores scores_of(const Results& results, const std::vector<Result>& seconds) {
 }
 
 std::string order_digest(const std::string& study_json, const std::string& source) {
-  JsonDocument document = parse_json(study_json, source);
-  document.root.erase("provenance");
-  return sha256_hex(json_text(nlohmann::ordered_json(document.root)));
+  nlohmann::json root = parse_json(study_json, source).tree();
+  root.erase("provenance");
+  return sha256_hex(json_text(nlohmann::ordered_json(root)));
 }
 
 NightlyStudy read_nightly_study(const std::filesystem::path& folder, const std::string& name) {

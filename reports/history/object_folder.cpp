@@ -1,12 +1,11 @@
 #include "reports/history/object_folder.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/sha256.hpp"
 
 namespace mapproof {
@@ -30,7 +29,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 void link_in_place(const fs::path& target, const fs::path& path) {
   std::error_code error;
   if (fs::equivalent(target, path, error)) return;
-  const fs::path beside = path.string() + ".part-" + std::to_string(::getpid());
+  const fs::path beside = path.parent_path() / part_name(path.filename());
   fs::create_hard_link(target, beside, error);
   if (!error) fs::rename(beside, path, error);
 }
@@ -49,7 +48,8 @@ std::vector<FigureFile> ObjectFolder::keep(const fs::path& figures) const {
     const fs::path object = path(digest);
     std::error_code error;
     // A file that a fault of the disk cut short is put right.
-    if (fs::file_size(object, error) != bytes.size() || error) write_file(object, bytes);
+    if (fs::file_size(object, error) != bytes.size() || error)
+      OutputFolder(folder_).write(object.lexically_relative(folder_), bytes);
     link_in_place(object, file);
     kept.push_back({file.filename().string(), digest, static_cast<std::int64_t>(bytes.size())});
   }

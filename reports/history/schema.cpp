@@ -12,6 +12,7 @@
 #include <sqlite3.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/results/quantity.hpp"
 #include "reports/history/nightly_run.hpp"
 
@@ -200,6 +201,7 @@ void copy_to(Database& database, const fs::path& path) {
   }
   fs::rename(beside, path, error);
   if (error) throw IoError(path.string(), "cannot be put in place: " + error.message());
+  sync_folder(path.parent_path());
 }
 
 fs::path free_name(const fs::path& path) {
@@ -251,6 +253,18 @@ std::string damage_of_quantities(Database& database) {
   return "";
 }
 
+bool is_file_name(std::string_view name) {
+  constexpr std::size_t kLongest = 255;
+  return !name.empty() && name.size() <= kLongest && name != "." && name != ".." &&
+         name.find('/') == std::string_view::npos && name.find('\0') == std::string_view::npos;
+}
+
+bool is_digest(std::string_view text) {
+  constexpr std::size_t kDigits = 64;
+  return text.size() == kDigits &&
+         text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
 /// What SQLite's check cannot find: bytes that changed into names and numbers without meaning.
 std::string damage_of_rows(Database& database) {
   if (version_of(database) != schema_version()) return "";
@@ -262,6 +276,15 @@ std::string damage_of_rows(Database& database) {
       return fmt::format("nightly run {} has the unknown verdict \"{}\"", nightly_runs.integer(0),
                          printable(nightly_runs.text(1)));
   }
+  // Both are parts of paths.
+  Statement studies(database, "SELECT name FROM studies");
+  while (studies.step())
+    if (!is_file_name(studies.text(0)))
+      return fmt::format("no study has the name \"{}\"", printable(studies.text(0)));
+  Statement figures(database, "SELECT DISTINCT digest FROM figures");
+  while (figures.step())
+    if (!is_digest(figures.text(0)))
+      return fmt::format("no file has the SHA-256 \"{}\"", printable(figures.text(0)));
   Statement findings(database, "SELECT nightly_run, kind FROM findings");
   while (findings.step())
     if (!rule_named(findings.text(1)))

@@ -71,7 +71,8 @@ std::string displayable(const std::string& text) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view before = rest;
     const std::optional<char32_t> code = take_code_point(rest);
-    if (!code) {
+    const bool is_second_control = code && *code >= 0x80 && *code < 0xA0;  // They have no image.
+    if (!code || is_second_control) {
       out += kReplacement;
     } else if ((*code < 0x20 && *code != '\t' && *code != '\n') || *code == 0x7F) {
       append_utf8(out, 0x2400 + (*code == 0x7F ? 0x21 : *code));  // Its image.

@@ -23,8 +23,9 @@ std::string full_heading(const Column& column);
 /// "340 ms", "12.3 s", "4 min 10 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
-/// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 become U+FFFD, control
-/// characters other than tab and newline their images (U+2400 and on).
+/// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 and the controls
+/// U+0080 to U+009F become U+FFFD, other control characters but tab and newline their images (U+2400
+/// and on).
 std::string displayable(const std::string& text);
 
 }  // namespace mapproof

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "reports/model/format.hpp"
@@ -214,11 +215,11 @@ std::string joined(const TableLines& lines) {
   return text + lines.tail;
 }
 
-std::vector<std::string> write_tables(const Report& report, const std::filesystem::path& folder) {
+std::vector<std::string> write_tables(const Report& report, const OutputFolder& folder) {
   check(report);  // The ids become file names.
   std::vector<std::string> written;
   const auto write = [&](const std::string& file, const std::string& text) {
-    write_file(folder / file, text);
+    folder.write(file, text);
     written.push_back(file);
   };
   for (const Table* table : tables(report)) {

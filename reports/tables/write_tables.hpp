@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/files/output_folder.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -37,6 +38,6 @@ std::string table_markdown(const Table& table);
 /// Writes ID.csv, ID.tex and ID.md of every table into `folder`.
 /// @return The names of the files, sorted.
 /// @throws IoError if a file cannot be written; InvalidInput if an id is none.
-std::vector<std::string> write_tables(const Report& report, const std::filesystem::path& folder);
+std::vector<std::string> write_tables(const Report& report, const OutputFolder& folder);
 
 }  // namespace mapproof

@@ -4,6 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof {

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text/csv.hpp"
@@ -50,11 +51,12 @@ TEST_F(Files, WhatIsWrittenIsReadBackAndNothingElseIsLeft) {
 }
 
 TEST_F(Files, WhatIsAppendedStandsBehindWhatWasThere) {
-  append_file(folder_ / "file", "one\n");
-  append_file(folder_ / "file", "");
-  append_file(folder_ / "file", "two\n");
+  const OutputFolder outputs(folder_);
+  outputs.append("file", "one\n");
+  outputs.append("file", "");
+  outputs.append("file", "two\n");
   EXPECT_EQ(read_file(folder_ / "file"), "one\ntwo\n");
-  EXPECT_THROW(append_file(folder_ / "missing" / "file", "x"), IoError);
+  EXPECT_THROW(outputs.append("missing/file", "x"), IoError);
 }
 
 TEST_F(Files, AFullDiskLeavesTheOldFileAndNoPart) {

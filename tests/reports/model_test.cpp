@@ -60,6 +60,7 @@ TEST(Displayable, LeavesUtf8AndShowsTheRest) {
   EXPECT_EQ(displayable("\u00fcber \U0001F600"), "\u00fcber \U0001F600");
   EXPECT_EQ(displayable(std::string("a\0b", 3)), "a\u2400b");
   EXPECT_EQ(displayable("\x1b[31m\x7f"), "\u241b[31m\u2421");
+  EXPECT_EQ(displayable("a\u0085b\u009b31m\u00a0"), "a\uFFFDb\uFFFD31m\u00a0");
   EXPECT_EQ(displayable("\xff\xc0\x80"), "\uFFFD\uFFFD\uFFFD");
   EXPECT_EQ(displayable("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
   EXPECT_EQ(displayable("cut \xe2\x82"), "cut \uFFFD\uFFFD");

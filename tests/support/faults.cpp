@@ -171,6 +171,9 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   if (fails(Kind::kExchange)) return -1;
   return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
 }
+int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to)));
+}
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
   if (fails(Kind::kLink)) return -1;
   return static_cast<int>(changing(SYS_linkat, from_folder, at(from), to_folder, at(to), flags));
@@ -187,6 +190,10 @@ int unlinkat(int folder, const char* path, int flags) noexcept {
 int mkdir(const char* path, mode_t mode) noexcept {
   return static_cast<int>(changing(SYS_mkdirat, AT_FDCWD, at(path), mode));
 }
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+  return static_cast<int>(changing(SYS_mkdirat, folder, at(path), mode));
+}
+int fsync(int file) { return static_cast<int>(changing(SYS_fsync, file, 0, 0)); }
 int chmod(const char* path, mode_t mode) noexcept {
   return static_cast<int>(changing(SYS_fchmodat, AT_FDCWD, at(path), mode));
 }

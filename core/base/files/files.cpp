@@ -1,23 +1,18 @@
 #include "core/base/files/files.hpp"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/descriptor.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string reason() { return std::strerror(errno); }
 
 /// Where the file itself is that a path names: behind links, so that these stay.
 /// @throws IoError for what is there and no regular file: it cannot be replaced.
@@ -66,32 +61,8 @@ void make_folder(const fs::path& path) {
 }
 
 void write_file(const fs::path& path, std::string_view bytes) {
-  if (path.has_parent_path()) make_folder(path.parent_path());
   const fs::path location = replaceable_path(path);
-  fs::path beside = location;
-  beside += ".part-" + std::to_string(::getpid());
-  try {
-    Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
-    if (file.get() < 0) throw IoError(path.string(), "cannot be written: " + reason());
-    if (!write_all(file, bytes) || !file.close())
-      throw IoError(path.string(), "cannot be written: " + reason());
-    if (::rename(beside.c_str(), location.c_str()) != 0)
-      throw IoError(path.string(), "cannot be put in place: " + reason());
-  } catch (...) {
-    ::unlink(beside.c_str());
-    throw;
-  }
-}
-
-void append_file(const fs::path& path, std::string_view bytes) {
-  if (bytes.empty()) return;
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644));
-  const off_t size = file.get() < 0 ? -1 : ::lseek(file.get(), 0, SEEK_END);
-  if (size >= 0 && write_all(file, bytes) && file.close()) return;
-  const std::string why = reason();
-  // Where that fails too, a part of the bytes stays.
-  if (size >= 0) static_cast<void>(::ftruncate(file.get(), size) == 0);
-  throw IoError(path.string(), "cannot be appended to: " + why);
+  OutputFolder(location.parent_path()).write(location.filename(), bytes);
 }
 
 }  // namespace mapproof

@@ -16,14 +16,9 @@ void require_file(const std::filesystem::path& path);
 /// Makes the folder and those above it. @throws IoError if that cannot be done.
 void make_folder(const std::filesystem::path& path);
 
-/// Replaces the file at once: written next to it and renamed. After a kill or a full disk
-/// either the old file or the new one is there, whole. Folders above it are made.
+/// Replaces a file that somebody named; if the path is a link, the file behind it. Otherwise as
+/// OutputFolder::write(), which is for files below a folder.
 /// @throws IoError, and leaves nothing behind.
 void write_file(const std::filesystem::path& path, std::string_view bytes);
-
-/// Adds to the end of the file, which is made if it is not there. If the disk is full, nothing is
-/// added; after a kill a part of `bytes` may be there.
-/// @throws IoError.
-void append_file(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace mapproof

@@ -43,18 +43,18 @@ JsonDocument parse_with_profile(std::string_view text, const std::string& source
                                 std::string_view schema, const std::string& profile) {
   JsonDocument document = parse_json(text, source);
   expect_schema(document.cursor(), schema);
-  nlohmann::json patch;
   const auto members = profile_members(document.cursor());
-  if (!profile.empty()) {
-    if (!document.root.contains("profiles") || !document.root["profiles"].contains(profile))
-      throw IoError(source, "/profiles",
-                    "no profile " + in_quotes(profile) + ": " + known_profiles(members));
-    patch = document.root["profiles"][profile];
-    document.source = fmt::format("{} with profile {}", source, printable(profile, 40));
-  }
-  document.root.erase("profiles");
-  if (!profile.empty()) document.root.merge_patch(patch);
-  return document;
+  const auto is_it = [&](const auto& member) { return member.first == profile; };
+  if (!profile.empty() && std::ranges::none_of(members, is_it))
+    throw IoError(source, "/profiles",
+                  "no profile " + in_quotes(profile) + ": " + known_profiles(members));
+  if (!document.cursor().find("profiles")) return document;
+  nlohmann::json root = document.tree();
+  const nlohmann::json profiles = root.at("profiles");
+  root.erase("profiles");
+  if (profile.empty()) return parse_json(root.dump(), source);
+  root.merge_patch(profiles.at(profile));
+  return parse_json(root.dump(), fmt::format("{} with profile {}", source, printable(profile, 40)));
 }
 
 std::vector<std::string> profile_names(std::string_view text, const std::string& source,

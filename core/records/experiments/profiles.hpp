@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 
 namespace mapproof {
 

@@ -4,6 +4,7 @@
 
 #include "core/base/files/input_file.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 
 namespace mapproof {
 

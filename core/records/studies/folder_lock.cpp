@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The process that was writing NAME.part-PID; empty for any other name.
+/// The process that was writing NAME.part-PID-RANDOM (earlier versions: NAME.part-PID); empty for
+/// any other name.
 std::optional<pid_t> writer(const fs::path& file) {
   constexpr std::string_view kMark = ".part-";
   const std::string name = file.filename().string();
@@ -31,7 +32,11 @@ std::optional<pid_t> writer(const fs::path& file) {
   pid_t process = 0;
   const char* end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(name.data() + mark + kMark.size(), end, process);
-  if (error != std::errc() || stop != end || process <= 0) return std::nullopt;
+  const std::string_view random(stop, end);
+  const bool is_part =
+      random.empty() || (random.starts_with('-') &&
+                         random.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos);
+  if (error != std::errc() || !is_part || process <= 0) return std::nullopt;
   return process;
 }
 

@@ -25,8 +25,8 @@ class FolderLock {
   Descriptor folder_;
 };
 
-/// Removes the files NAME.part-PID that write_file() left behind when its process was killed, here
-/// and in the folders below, unless that process still runs.
+/// Removes the files NAME.part-PID-RANDOM (see part_name()) that OutputFolder left behind when its
+/// process was killed, here and in the folders below, unless that process still runs.
 /// @throws IoError if a folder cannot be searched.
 void remove_leftovers(const std::filesystem::path& folder);
 

@@ -16,6 +16,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/descriptor.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/files/paths.hpp"
 
 namespace mapproof {
@@ -104,6 +105,17 @@ void take_over_all(const fs::path& from, const fs::path& to, dev_t device) {
     take_over_all(inner, copy, device);
   }
   if (error) throw IoError(from.string(), "cannot be listed: " + error.message());
+}
+
+/// Waits until the entries of the folder and of those below it are on the disk.
+void sync_folders(const fs::path& folder) {
+  sync_folder(folder);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->symlink_status(error).type() == fs::file_type::directory)
+      sync_folders(entry->path());
+  if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
 }
 
 /// Gives the folders of the copy the owners and modes of the old ones. New folders keep their own.
@@ -221,7 +233,7 @@ void FolderReplacement::write(const fs::path& file, std::string_view bytes) {
   Descriptor written(::open(location.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   if (written.get() < 0 || !write_all(written, bytes) ||
       (replaces && S_ISREG(old.st_mode) && ::fchmod(written.get(), old.st_mode & kModeBits) != 0) ||
-      !written.close())
+      ::fsync(written.get()) != 0 || !written.close())
     fail_at(folder_ / file, "cannot be written");
 }
 
@@ -231,12 +243,20 @@ void FolderReplacement::remove(const fs::path& file) {
 }
 
 void FolderReplacement::commit() {
+  sync_folders(copy_);
   if (is_new_) {
     if (::rename(copy_.c_str(), folder_.c_str()) != 0) fail_at(folder_, "cannot be made");
-    return;
+  } else {
+    finish_folders(folder_, copy_);
+    if (!exchange(folder_, copy_)) fail_at(folder_, "cannot be replaced in one step");
   }
-  finish_folders(folder_, copy_);
-  if (!exchange(folder_, copy_)) fail_at(folder_, "cannot be replaced in one step");
+  try {
+    sync_folder(folder_.parent_path());
+  } catch (const IoError&) {  // It may be lost: the old one comes back.
+    is_new_ ? static_cast<void>(::rename(folder_.c_str(), copy_.c_str()))
+            : static_cast<void>(exchange(folder_, copy_));
+    throw;
+  }
 }
 
 void recover_folder(const fs::path& folder) {

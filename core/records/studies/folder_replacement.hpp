@@ -43,7 +43,8 @@ class FolderReplacement {
   /// @throws IoError if it cannot be removed, or lies behind a symbolic link.
   void remove(const std::filesystem::path& file);
 
-  /// Exchanges the folder and the copy. @throws IoError, and leaves the old folder.
+  /// Exchanges the folder and the copy, and returns when a loss of power cannot undo it.
+  /// @throws IoError, and leaves the old folder.
   void commit();
 
  private:

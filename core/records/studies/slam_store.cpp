@@ -184,9 +184,9 @@ bool holds_space(const fs::path& folder) {
   });
 }
 
-void write_paths(const SlamRun& run, const fs::path& folder) {
-  remove_tree(folder);
-  for (const PartFile& file : path_files(run, folder)) write_file(file.file, file.text);
+void write_paths(const SlamRun& run, const OutputFolder& folder, const fs::path& paths) {
+  folder.remove(paths);
+  for (const PartFile& file : path_files(run, paths)) folder.write(file.file, file.text);
 }
 
 SlamStudy read_slam_study(const fs::path& folder) {

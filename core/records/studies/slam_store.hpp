@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/files/output_folder.hpp"
 #include "core/model/slam.hpp"
 #include "core/model/slam_experiment.hpp"
 #include "core/model/slam_study.hpp"
@@ -50,8 +51,10 @@ bool holds_space(const std::filesystem::path& folder);
 
 /// Writes each path of a run, the true one among them, as NAME.tum and NAME.csv into a folder of
 /// its own, whose earlier files are removed.
+/// @param paths  That folder, below `folder`.
 /// @throws IoError.
-void write_paths(const SlamRun& run, const std::filesystem::path& folder);
+void write_paths(const SlamRun& run, const OutputFolder& folder,
+                 const std::filesystem::path& paths);
 
 /// The study in a folder, as far as it was made: the simulated run first, the data sets in the
 /// experiment's order, those without a run in `missing`.

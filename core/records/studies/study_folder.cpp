@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 
 namespace mapproof {
 

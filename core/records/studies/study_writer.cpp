@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
@@ -41,12 +42,13 @@ void check_is_new(const fs::path& folder) {
 /// Brings a locked folder to where a study goes on.
 /// @return Whether records of another solver were removed.
 bool take_up_study(const fs::path& folder, const StudyStart& start) {
-  const fs::path study = folder / kStudyFile, timings = folder / kTimingsFile;
+  const fs::path study = folder / kStudyFile;
+  const OutputFolder outputs(folder);
   if (!is_study(folder)) {
     check_is_new(folder);
     remove_leftovers(folder);
-    write_file(study, start.text);
-    start_lines(timings);
+    outputs.write(kStudyFile, start.text);
+    start_lines(folder);
     return false;
   }
   remove_leftovers(folder);
@@ -61,12 +63,12 @@ bool take_up_study(const fs::path& folder, const StudyStart& start) {
   // The records first: until study.json is replaced, a kill in between leaves the old study's
   // start.
   if (is_redone) {
-    for (const fs::path& record : start.records) remove_tree(folder / record);
-    for (const char* file : {kTimingsFile, kResultsFile}) remove_tree(folder / file);
+    for (const fs::path& record : start.records) outputs.remove(record);
+    for (const char* file : {kTimingsFile, kResultsFile}) outputs.remove(file);
   }
-  if (old_text != start.text) write_file(study, start.text);
-  mend_lines(timings);
-  start_lines(timings);
+  if (old_text != start.text) outputs.write(kStudyFile, start.text);
+  mend_lines(folder);
+  start_lines(folder);
   return is_redone;
 }
 
@@ -77,7 +79,7 @@ struct StudyWriter::State {
 
   void append(const std::string& lines) {
     const std::lock_guard guard(mutex);
-    append_file(folder / kTimingsFile, lines);
+    OutputFolder(folder).append(kTimingsFile, lines);
   }
 
   fs::path folder;
@@ -89,6 +91,7 @@ struct StudyWriter::State {
 StudyWriter::StudyWriter(const fs::path& folder, const StudyStart& start) {
   make_folder(folder);
   state_ = std::make_unique<State>(folder);
+  refuse_links_out(folder);
   state_->is_redone = take_up_study(folder, start);
 }
 
@@ -101,17 +104,12 @@ const fs::path& StudyWriter::folder() const { return state_->folder; }
 bool StudyWriter::redone() const { return state_->is_redone; }
 
 void StudyWriter::write(const StudyPart& part) {
-  if (!part.emptied.empty()) remove_tree(state_->folder / part.emptied);
-  for (const PartFile& file : part.files) write_file(state_->folder / file.file, file.text);
+  const OutputFolder outputs(state_->folder);
+  if (!part.emptied.empty()) outputs.remove(part.emptied);
+  for (const PartFile& file : part.files) outputs.write(file.file, file.text);
   if (!part.timings.empty()) state_->append(part.timings);
 }
 
 void StudyWriter::write_session(const Session& session) { state_->append(session_line(session)); }
-
-void remove_tree(const fs::path& path) {
-  std::error_code error;
-  fs::remove_all(path, error);
-  if (error) throw IoError(path.string(), "cannot be removed: " + error.message());
-}
 
 }  // namespace mapproof

@@ -71,7 +71,4 @@ class StudyWriter {
   std::unique_ptr<State> state_;
 };
 
-/// Removes a file, or a folder with all that is in it. @throws IoError.
-void remove_tree(const std::filesystem::path& path);
-
 }  // namespace mapproof

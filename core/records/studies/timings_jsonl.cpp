@@ -8,9 +8,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/json_text.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
+#include "core/records/studies/study_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -61,20 +64,23 @@ Timings parse_timings(std::string_view text, const std::string& source) {
   return timings;
 }
 
-void mend_lines(const std::filesystem::path& path) {
+void mend_lines(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kTimingsFile;
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return;
   const std::string text = read_file(path);
   if (text.empty() || text.back() == '\n') return;
   const std::size_t last = text.rfind('\n');
-  write_file(path, last == std::string::npos ? std::string_view()
-                                             : std::string_view(text).substr(0, last + 1));
+  OutputFolder(folder).write(kTimingsFile, last == std::string::npos
+                                               ? std::string_view()
+                                               : std::string_view(text).substr(0, last + 1));
 }
 
-void start_lines(const std::filesystem::path& path) {
+void start_lines(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / kTimingsFile;
   std::error_code error;
   if (std::filesystem::exists(path, error) && std::filesystem::file_size(path, error) > 0) return;
-  write_file(path, timings_header());
+  OutputFolder(folder).write(kTimingsFile, timings_header());
 }
 
 }  // namespace mapproof

@@ -78,9 +78,9 @@ using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, TrialSeco
 /// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "trial", ...} or
 /// {"kind": "session", ...}.
 ///
-/// Lines are appended, a batch at a time, by append_file(): to rewrite the whole file for every run
-/// would cost the square of their number, and a kill can only tear the last line, which readers
-/// leave out and mend_lines() removes.
+/// Lines are appended, a batch at a time, by OutputFolder::append(): to rewrite the whole file for
+/// every run would cost the square of their number, and a kill can only tear the last line, which
+/// readers leave out and mend_lines() removes.
 struct Timings {
   std::vector<Timing> maps;
   SlamTimings slam;
@@ -100,10 +100,10 @@ std::string session_line(const Session& session);
 /// All whole lines in their order. @throws IoError naming the line.
 Timings parse_timings(std::string_view text, const std::string& source);
 
-/// Removes a last line without an end, if there is one. @throws IoError.
-void mend_lines(const std::filesystem::path& path);
+/// Removes a last line without an end from the timings.jsonl of a study's folder. @throws IoError.
+void mend_lines(const std::filesystem::path& folder);
 
-/// Writes the first line if the file is empty or not there. @throws IoError.
-void start_lines(const std::filesystem::path& path);
+/// Writes the first line if that file is empty or not there. @throws IoError.
+void start_lines(const std::filesystem::path& folder);
 
 }  // namespace mapproof

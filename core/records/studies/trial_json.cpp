@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/json/json_document.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/json/text_input.hpp"

@@ -68,6 +68,17 @@ ApprovalFiles approval_files(const fs::path& root) {
   return files;
 }
 
+void require_plain(const fs::path& root, const fs::path& file) {
+  fs::path path = root;
+  for (const fs::path& part : file) {
+    path /= part;
+    std::error_code error;
+    if (fs::symlink_status(path, error).type() == fs::file_type::symlink)
+      throw InvalidInput("not approved: " + path.string() +
+                         ": is a symbolic link, and a baseline takes regular files alone");
+  }
+}
+
 void require_readable(const fs::path& file) {
   try {
     read_as_what_it_is(file);

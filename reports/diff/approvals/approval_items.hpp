@@ -16,6 +16,11 @@ using ApprovalFiles = std::map<std::string, std::set<std::filesystem::path>>;
 /// @throws IoError if it cannot be listed, or is not a folder.
 ApprovalFiles approval_files(const std::filesystem::path& root);
 
+/// A link never becomes a baseline, nor what one leads to.
+/// @param file  Relative to the folder `root`.
+/// @throws InvalidInput unless it is a regular file, in folders that are no links.
+void require_plain(const std::filesystem::path& root, const std::filesystem::path& file);
+
 /// A file that cannot be read never becomes a baseline. @throws InvalidInput with the reason.
 void require_readable(const std::filesystem::path& file);
 

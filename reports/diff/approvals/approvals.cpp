@@ -14,9 +14,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/files/paths.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "core/records/studies/study_folder.hpp"
@@ -272,6 +274,7 @@ class Planner {
   /// Adds a step for a file that differs and has none yet. @return Whether it did.
   bool add(const fs::path& relative) {
     const fs::path from = current_ / relative, to = baseline_ / relative;
+    require_plain(current_, relative);
     if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
     require_readable(from);
     require_no_folder(to);
@@ -311,6 +314,7 @@ class Planner {
     for (const fs::path& path : after->second) {
       const std::string extension = path.extension().string();
       if (extension != ".png" && extension != ".svg") continue;
+      require_plain(current_, path);
       require_readable(current_ / path);
       const fs::path name = path.stem().string() + "@" + key + extension;
       steps_.push_back({current_ / path, path.parent_path() / name});
@@ -324,6 +328,7 @@ class Planner {
     for (const fs::path& path : after->second) {
       if (!path.filename().string().ends_with(".figure.json")) continue;
       const fs::path file = current_ / path;
+      require_plain(current_, path);
       require_readable(file);
       const Figure figure = figure_from_json(read_file(file), file.string());
       for (const fs::path& record : records_of(figure, current_)) add_record(id, record);
@@ -362,6 +367,7 @@ ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
                        "\" may hold letters, digits, '.', '_' and '-' alone");
   std::error_code error;
   if (!fs::exists(current, error)) throw IoError(current.string(), "does not exist");
+  refuse_links_out(current);
   return Planner(baseline, current).plan(order);
 }
 

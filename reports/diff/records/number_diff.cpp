@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "reports/diff/documents/excerpts.hpp"
 #include "reports/diff/records/numbers_in_text.hpp"
 
@@ -126,8 +126,6 @@ void keep_farthest(std::vector<PointMove>& moves) {
   if (moves.size() > kMostMoves) moves.resize(kMostMoves);
 }
 
-using ParsedJson = nlohmann::json;
-
 constexpr std::size_t kMostNumberText = 60;  // Characters of a value in a message.
 
 /// The quantities of keys that do not have the name of a quantity.
@@ -143,18 +141,24 @@ constexpr std::array kKeys = {KeyQuantity{"estimate", "landmark_m"},
                               KeyQuantity{"error_m", "path_m"},
                               KeyQuantity{"positions_m", "path_m"}};
 
-std::string shown(const ParsedJson& value) {
-  if (value.is_string()) return printable(value.get<std::string>(), kMostNumberText);
-  if (value.is_structured())
-    return fmt::format("{} of {}", value.is_array() ? "an array" : "an object", value.size());
-  return value.dump(-1, ' ', false, ParsedJson::error_handler_t::replace);
+std::string text_in(const JsonCursor& value) {
+  return value.text(std::numeric_limits<std::size_t>::max());
 }
 
-double largest(const ParsedJson& value) {
-  if (value.is_number()) return std::abs(value.get<double>());
+std::string shown(const JsonCursor& value) {
+  if (value.kind() == JsonKind::kString) return printable(text_in(value), kMostNumberText);
+  if (value.is_array() || value.is_object())
+    return fmt::format("{} of {}", value.is_array() ? "an array" : "an object", value.size());
+  return printable(std::string(value.token()), kMostNumberText);
+}
+
+double value_in(const JsonCursor& value) { return value.number(-kInfinity, kInfinity); }
+
+double largest(const JsonCursor& value) {
+  if (value.kind() == JsonKind::kNumber) return std::abs(value_in(value));
   double most = 0.0;
   if (value.is_array())
-    for (const ParsedJson& item : value) most = std::max(most, largest(item));
+    for (const JsonCursor& item : value.elements()) most = std::max(most, largest(item));
   return most;
 }
 
@@ -163,16 +167,20 @@ class NumberComparer {
   NumberComparer(const Tolerances& tolerances, OtherDiff& diff)
       : tolerances_(tolerances), diff_(diff) {}
 
-  void compare(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
+  void compare(const JsonCursor& a, const JsonCursor& b, const std::string& pointer,
                const Tolerance& tolerance) {
-    if (a.is_number() && b.is_number()) return number(a, b, pointer, tolerance);
-    if (a.is_string() && b.is_string()) return text(a, b, pointer, tolerance);
-    if (a.type() != b.type() || a.is_primitive()) {
-      if (a != b) beyond(a, b, pointer, true);
-    } else if (a.is_array()) {
-      array(a, b, pointer, tolerance);
-    } else {
-      object(a, b, pointer, tolerance);
+    if (a.kind() != b.kind()) return beyond(a, b, pointer, true);
+    switch (a.kind()) {
+      case JsonKind::kNumber:
+        return number(a, b, pointer, tolerance);
+      case JsonKind::kString:
+        return text(text_in(a), text_in(b), pointer, tolerance);
+      case JsonKind::kArray:
+        return array(a, b, pointer, tolerance);
+      case JsonKind::kObject:
+        return object(a, b, pointer, tolerance);
+      default:
+        if (a.token() != b.token()) beyond(a, b, pointer, true);
     }
   }
 
@@ -182,23 +190,25 @@ class NumberComparer {
   }
 
  private:
-  void beyond(const ParsedJson& a, const ParsedJson& b, const std::string& location, bool shape) {
+  /// Notes a difference. @param a, b  As they are shown if it is the first.
+  void beyond(std::string a, std::string b, const std::string& location, bool shape) {
     if (diff_.first.empty()) {
       diff_.first = location.empty() ? "/" : location;
-      diff_.baseline = shown(a);
-      diff_.current = shown(b);
-      if (a.is_string() && b.is_string())
-        std::tie(diff_.baseline, diff_.current) =
-            excerpts(a.get<std::string>(), b.get<std::string>(), kMostNumberText);
+      diff_.baseline = std::move(a);
+      diff_.current = std::move(b);
     }
     diff_.shape |= shape;
     if (!shape) ++diff_.beyond;
   }
 
-  void number(const ParsedJson& a, const ParsedJson& b, const std::string& location,
+  void beyond(const JsonCursor& a, const JsonCursor& b, const std::string& location, bool shape) {
+    beyond(shown(a), shown(b), location, shape);
+  }
+
+  void number(const JsonCursor& a, const JsonCursor& b, const std::string& location,
               const Tolerance& tolerance) {
     ++diff_.numbers;
-    const double first = a.get<double>(), second = b.get<double>();
+    const double first = value_in(a), second = value_in(b);
     if (first == second) return;
     if (tolerance.holds(first, second))
       ++diff_.within;
@@ -206,40 +216,46 @@ class NumberComparer {
       beyond(a, b, location, false);
   }
 
-  void text(const ParsedJson& a, const ParsedJson& b, const std::string& location,
+  void text(const std::string& a, const std::string& b, const std::string& location,
             const Tolerance& tolerance) {
-    const TextChange change =
-        text_change(a.get_ref<const std::string&>(), b.get_ref<const std::string&>(), tolerance);
+    const TextChange change = text_change(a, b, tolerance);
     if (change == TextChange::kWithin) ++diff_.within;
-    if (change > TextChange::kWithin) beyond(a, b, location, change == TextChange::kWords);
+    if (change <= TextChange::kWithin) return;
+    const auto [before, after] = excerpts(a, b, kMostNumberText);
+    beyond(before, after, location, change == TextChange::kWords);
   }
 
-  void array(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
+  void array(const JsonCursor& a, const JsonCursor& b, const std::string& pointer,
              Tolerance tolerance) {
     if (a.size() != b.size()) return beyond(a, b, pointer, true);
     tolerance.absolute += tolerance.relative * largest(a);
-    for (std::size_t i = 0; i < a.size(); ++i)
-      compare(a[i], b[i], fmt::format("{}/{}", pointer, i), tolerance);
+    auto other = b.elements().begin();
+    std::size_t i = 0;
+    for (const JsonCursor& item : a.elements()) {
+      compare(item, *other, fmt::format("{}/{}", pointer, i++), tolerance);
+      ++other;
+    }
   }
 
-  void object(const ParsedJson& a, const ParsedJson& b, const std::string& pointer,
+  void object(const JsonCursor& a, const JsonCursor& b, const std::string& pointer,
               const Tolerance& tolerance) {
-    const bool is_shape = a.contains("frame") && a["frame"] == "similarity";
-    for (const auto& [key, value] : a.items()) {
+    const auto frame = a.find("frame");
+    const bool is_shape = frame && frame->token() == R"("similarity")";
+    for (const auto& [key, value] : a.members()) {
       const std::string location = pointer + "/" + key;
       const auto other = b.find(key);
-      if (other == b.end())
-        beyond(value, "missing", location, true);
+      if (!other)
+        beyond(shown(value), "missing", location, true);
       else if (!is_shape || key != "estimate")
         compare(value, *other, location, tolerance_at(key, value, tolerance));
     }
-    for (const auto& [key, value] : b.items())
-      if (!a.contains(key)) beyond("missing", value, pointer + "/" + key, true);
+    for (const auto& [key, value] : b.members())
+      if (!a.find(key)) beyond("missing", shown(value), pointer + "/" + key, true);
   }
 
-  Tolerance tolerance_at(const std::string& key, const ParsedJson& value,
+  Tolerance tolerance_at(const std::string& key, const JsonCursor& value,
                          const Tolerance& outer) const {
-    if (value.is_structured())  // Scores have numbers with the same names.
+    if (value.is_array() || value.is_object())  // Scores have numbers with the same names.
       for (const KeyQuantity& known : kKeys)
         if (known.key == key) return tolerance_of(known_quantity(known.quantity), tolerances_);
     const Quantity* facts = find_quantity(key);
@@ -320,8 +336,8 @@ OtherDiff number_diff(const std::string& name, const std::filesystem::path& base
   const Tolerance tolerance = tolerance_of_others(tolerances);
   const std::string before = read_input(baseline), after = read_input(current);
   if (name.empty() || baseline.extension() == ".json")
-    comparer.compare(parse_json(before, baseline.string()).root,
-                     parse_json(after, current.string()).root, "", tolerance);
+    comparer.compare(parse_json(before, baseline.string()).cursor(),
+                     parse_json(after, current.string()).cursor(), "", tolerance);
   else
     comparer.lines(before, after, tolerance_of(known_quantity("path_m"), tolerances));
   return diff;

@@ -15,6 +15,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/observations/input_kind.hpp"
@@ -71,7 +72,7 @@ bool is_single(const fs::path& file) {
 
 /// All values of a JSON document as text, by pointer; an array of plain values is one value.
 void add_settings(RecordSet& set, const fs::path& study) {
-  const nlohmann::json root = parse_json(read_file(study), study.string()).root;
+  const nlohmann::json root = parse_json(read_file(study), study.string()).tree();
   for (auto& [pointer, text] : flattened(root.contains("experiment") ? root["experiment"] : root))
     set.settings[pointer] = std::move(text);
   const auto seed = set.settings.find("/seed");

@@ -14,12 +14,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/diff/svg/svg_active.hpp"
 #include "reports/diff/svg/xml_place.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kSvg = "http://www.w3.org/2000/svg|";
+constexpr std::string_view kSvg = "http://www.w3.org/2000/svg";
 
 /// White space as one blank, none at the ends.
 std::string spaced(std::string_view text) {
@@ -41,25 +42,9 @@ bool holds_any(std::string_view value, std::string_view bytes) {
 }
 
 /// "name" of SVG's name space or of none, "{space}name" of another.
-std::string short_name(std::string_view name) {
-  if (name.starts_with(kSvg)) return std::string(name.substr(kSvg.size()));
-  const std::size_t bar = name.rfind('|');
-  if (bar == std::string_view::npos) return std::string(name);
-  return fmt::format("{{{}}}{}", name.substr(0, bar), name.substr(bar + 1));
-}
-
-/// Whether a value loads something: url(...) of anything but a part of the file, or an @import.
-bool loads(std::string_view value) {
-  if (!holds_any(value, "@(")) return false;
-  const std::string text = lower_case(value);
-  if (text.find("@import") != std::string::npos) return true;
-  for (std::size_t at = text.find("url("); at != std::string::npos;
-       at = text.find("url(", at + 1)) {
-    const std::size_t start = text.find_first_not_of(" \t\r\n\"'", at + 4);
-    if (start == std::string::npos) return true;
-    if (text[start] != '#' && text.compare(start, 5, "data:") != 0) return true;
-  }
-  return false;
+std::string short_name(const XmlName& name) {
+  if (name.space.empty() || name.space == kSvg) return std::string(name.local);
+  return fmt::format("{{{}}}{}", name.space, name.local);
 }
 
 class Builder {
@@ -75,6 +60,10 @@ class Builder {
     XML_SetCharacterDataHandler(parser, [](void* self, const char* text, int length) {
       const std::string_view words(text, static_cast<std::size_t>(length));
       guarded(self, [&](Builder& builder) { builder.characters(words); });
+    });
+    XML_SetProcessingInstructionHandler(parser, [](void* self, const char* target, const char*) {
+      if (lower_case(target) == "xml-stylesheet")
+        guarded(self, [](Builder& builder) { builder.refuse("a style sheet of another file"); });
     });
     XML_SetCommentHandler(parser, [](void* self, const char* text) {
       guarded(self, [&](Builder& builder) { builder.comment(text); });
@@ -121,13 +110,16 @@ class Builder {
     if (open_.size() >= kMostSvgDepth)
       return refuse(fmt::format("elements nested more than {} deep", kMostSvgDepth));
     SvgElement element;
-    element.name = short_name(full_name);
+    const XmlName name = xml_name(full_name);
+    element.name = short_name(name);
     if (index == 0 && element.name != "svg") return refuse("its root is not a svg element");
-    if (lower_case(element.name) == "script" || element.name == "foreignObject")
-      return refuse("a " + element.name + " element");
-    for (; *attributes; attributes += 2)
-      if (!add(element, short_name(attributes[0]), attributes[1])) return;
-    if (animates_reference(element)) return refuse("an animation of a reference or of a handler");
+    if (const std::string what = active_element(name); !what.empty()) return refuse(what);
+    for (; *attributes; attributes += 2) {
+      const XmlName attribute = xml_name(attributes[0]);
+      const std::string what = active_attribute(name, attribute, attributes[1]);
+      if (!what.empty()) return refuse(what);
+      if (!add(element, short_name(attribute), attributes[1])) return;
+    }
     if (!open_.empty()) {
       element.parent = open_.back();
       tree.elements[element.parent].children.push_back(index);
@@ -142,7 +134,7 @@ class Builder {
     if (open_.empty()) return;
     std::string& text = tree.elements[open_.back()].text;
     text = spaced(text);
-    if (tree.elements[open_.back()].name == "style" && loads(text))
+    if (lower_case(tree.elements[open_.back()].name) == "style" && css_loads(text))
       refuse("a style that loads another file");
     open_.pop_back();
     locations_.pop_back();
@@ -175,29 +167,13 @@ class Builder {
     return false;
   }
 
-  /// Whether it sets, later, what would be refused at once.
-  static bool animates_reference(const SvgElement& element) {
-    const auto target = element.values.find("attributeName");
-    if (target == element.values.end()) return false;
-    const std::string name = lower_case(target->second);
-    return name == "href" || name.ends_with(":href") || name.starts_with("on");
-  }
-
   /// False if the attribute is refused.
   bool add(SvgElement& element, const std::string& name, std::string_view value) {
-    if (lower_case(name).starts_with("on")) return refuse("an event handler: " + name), false;
     if (is_no_number(name, value))
       return refuse(fmt::format("{} of a {} is not a finite number: {}", name, element.name,
                                 printable(std::string(value), 40))),
              false;
     const bool is_reference = name == "href" || name.ends_with("}href");
-    const std::string_view target = trimmed(value, kWhiteSpace);
-    if (is_reference && element.name != "a" && !target.starts_with('#') &&
-        !target.starts_with("data:image/"))
-      return refuse("a reference to another file"), false;
-    if (is_reference && lower_case(target).starts_with("javascript:"))
-      return refuse("a reference that runs a script"), false;
-    if (loads(value)) return refuse("a reference to another file"), false;
     if (name == "id") {
       element.id = value;
     } else if (name == "style") {

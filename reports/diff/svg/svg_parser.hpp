@@ -13,9 +13,9 @@ inline constexpr std::size_t kMostSvgDepth = 256;
 
 /// @throws InvalidInput with the line and the reason if it is not well-formed XML with a root
 /// `svg`,
-///         exceeds the limits above, or holds what runs or loads something: entities, scripts,
-///         event handlers, references to other files. A DOCTYPE without declarations is allowed and
-///         not followed.
+///         exceeds the limits above, or holds what runs or loads something: entities, style
+///         sheets of other files, and all that svg_active.hpp names. A DOCTYPE without declarations
+///         is allowed and not followed.
 SvgTree parse_svg(std::string_view bytes);
 
 }  // namespace mapproof

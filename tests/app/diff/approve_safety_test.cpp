@@ -177,6 +177,11 @@ TEST(ApproveCommand, ReplacesABaselineBehindALinkAndWritesBehindNoneWithinIt) {
   fs::copy_file(fs::path(kImages) / "map-usual.png", two.after + "/figures/map-usual.png",
                 fs::copy_options::overwrite_existing);
   expect_refused(two.folder, {two.before, two.after, "map-usual"},
+                 "figures: is a link that leads out of the folder");
+  fs::rename(away, two.before + "/away");
+  fs::remove(figures);
+  fs::create_directory_symlink("away", figures);
+  expect_refused(two.folder, {two.before, two.after, "map-usual"},
                  "figures: is not a folder of its own");
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/json/json_text.hpp"
 #include "tests/core/records/samples.hpp"
 
@@ -64,7 +65,7 @@ TEST(JsonParser, RefusesWhatIsNoText) {
 }
 
 TEST(JsonParser, ReadsBehindAByteOrderMark) {
-  EXPECT_EQ(parse_json("\xEF\xBB\xBF[1]", "f.json").root.dump(), "[1]");
+  EXPECT_EQ(parse_json("\xEF\xBB\xBF[1]", "f.json").tree().dump(), "[1]");
 }
 
 TEST(JsonCursor, NamesFilePlaceAndBounds) {
@@ -140,7 +141,7 @@ TEST(JsonText, WritesNumbersThatAreReadBackExactly) {
                                           -0.0, 3.0};
   EXPECT_EQ(json_line(numbers),
             "[0.1, 0.3333333333333333, 5e-324, 1.7976931348623157e+308, -0.0, 3]\n");
-  const auto back = parse_json(json_line(numbers), "f").root;
+  const auto back = parse_json(json_line(numbers), "f").tree();
   for (std::size_t i = 0; i < numbers.size(); ++i)
     EXPECT_EQ(back[i].get<double>(), numbers[i].get<double>());
   EXPECT_TRUE(std::signbit(back[4].get<double>()));
@@ -175,8 +176,8 @@ nlohmann::ordered_json any_value(int depth) {
 
 RC_GTEST_PROP(JsonText, IsReadBackAsTheValueItWasMadeFrom, ()) {
   const nlohmann::ordered_json value = any_value(4);
-  RC_ASSERT(parse_json(json_text(value), "f").root == nlohmann::json(value));
-  RC_ASSERT(parse_json(json_line(value), "f").root == nlohmann::json(value));
+  RC_ASSERT(parse_json(json_text(value), "f").tree() == nlohmann::json(value));
+  RC_ASSERT(parse_json(json_line(value), "f").tree() == nlohmann::json(value));
   RC_ASSERT(nlohmann::json::parse(json_text(value)) == nlohmann::json(value));
 }
 

@@ -1,3 +1,4 @@
+#include "core/json/json_document.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 
@@ -325,7 +326,7 @@ bool is_taken(const std::string& text) {
   static const nlohmann::json schema = nlohmann::json::parse(json_schema<T>().dump());
   const JsonDocument document = parse_json(text, "f.json");
   const bool is_read = error_of([&] { from_json_value<T>(document.cursor()); }) == "no error";
-  EXPECT_EQ(test::schema_problem_of(schema, document.root) == "", is_read) << text;
+  EXPECT_EQ(test::schema_problem_of(schema, document.tree()) == "", is_read) << text;
   return is_read;
 }
 

@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/random.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
@@ -160,7 +161,7 @@ TEST(HistoryStore, ThatIsInUseIsNotTakenForADamagedOne) {
     HistoryStore store = HistoryStore::open(folder);
     const int number = store.last_number() + 1;
     store.append(sample_nightly_run(number, 1));
-    append_file(finished, std::to_string(number) + "\n");
+    OutputFolder(finished.parent_path()).append(finished.filename(), std::to_string(number) + "\n");
   }
 }
 

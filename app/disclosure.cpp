@@ -1,0 +1,152 @@
+#include "app/disclosure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <system_error>
+
+#include <pwd.h>
+#include <unistd.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/sha256.hpp"
+#include "reports/html/diff/diff_html.hpp"
+#include "reports/html/escape.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string machine_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// The number of this installation of the operating system; empty where there is none.
+std::string machine_id() {
+  std::ifstream file("/etc/machine-id");
+  std::string id;
+  std::getline(file, id);
+  return id;
+}
+
+/// A folder in the spellings of paths, JSON, HTML and URLs.
+std::set<std::string> spellings(const std::string& folder) {
+  const std::string json =
+      nlohmann::json(folder).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return {folder, json.substr(1, json.size() - 2), html_escaped(folder), url_text(folder)};
+}
+
+/// Every path of the home folder, in every spelling, the longest first.
+std::vector<std::string> home_spellings() {
+  std::set<std::string> folders = {variable("HOME")}, all;
+  if (const passwd* entry = ::getpwuid(::getuid()); entry != nullptr) folders.insert(entry->pw_dir);
+  for (std::string folder : std::set<std::string>(folders)) {
+    std::error_code error;
+    folders.insert(fs::canonical(folder, error).string());
+  }
+  for (std::string folder : folders) {
+    while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+    if (folder.size() > 1 && folder.starts_with('/')) all.merge(spellings(folder));
+  }
+  std::vector<std::string> sorted(all.begin(), all.end());
+  std::ranges::stable_sort(sorted, std::ranges::greater(), &std::string::size);
+  return sorted;
+}
+
+/// Names of the user and the host. "root" names nobody.
+std::vector<std::pair<std::string, std::string>> private_names() {
+  std::set<std::string> users = {variable("USER"), variable("LOGNAME")};
+  if (const passwd* entry = ::getpwuid(::getuid()); entry != nullptr) users.insert(entry->pw_name);
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const std::string& user : users)
+    if (!user.empty() && user != "root") names.emplace_back(user, "USER");
+  const std::string host = machine_name();
+  if (!host.empty() && host != "localhost") names.emplace_back(host, "HOST");
+  return names;
+}
+
+/// Whether a path can go on with this character: "/home/a" is not in "/home/ab", nor in "x/home/a".
+bool is_of_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '.' ||
+         static_cast<unsigned char>(c) >= 0x80;
+}
+
+/// A full stop ends a sentence, or begins an extension.
+bool is_end_of_name(std::string_view text, std::size_t at) {
+  if (at < text.size() && text[at] == '.') ++at;
+  return at >= text.size() || !is_of_name(text[at]);
+}
+
+void replace_folder(std::string& text, const std::string& folder) {
+  for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
+    const std::size_t end = at + folder.size();
+    const bool begins = at == 0 || !is_of_name(text[at - 1]);
+    if (begins && is_end_of_name(text, end)) text.replace(at, folder.size(), "~");
+    ++at;
+  }
+}
+
+/// Whether the word looks like "name@host.domain", and not like the image "ID@KEY.png".
+bool is_address(std::string_view word) {
+  constexpr std::array<std::string_view, 9> kFiles = {"png", "svg", "pdf", "json", "csv",
+                                                      "tum", "txt", "gz",  "xz"};
+  const std::size_t at = word.find('@'), dot = word.rfind('.');
+  if (at == 0 || at == word.npos || dot == word.npos || dot < at + 2) return false;
+  const std::string_view domain = word.substr(dot + 1);
+  return domain.size() >= 2 && std::ranges::find(kFiles, domain) == kFiles.end() &&
+         std::ranges::all_of(
+             domain, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
+}
+
+}  // namespace
+
+Disclosure::Disclosure(bool full) : full_(full) {
+  if (full_) return;
+  homes_ = home_spellings();
+  names_ = private_names();
+}
+
+std::string Disclosure::text(std::string text) const {
+  for (const std::string& home : homes_) replace_folder(text, home);
+  return text;
+}
+
+std::vector<std::string> Disclosure::words(std::vector<std::string> words) const {
+  if (full_) return words;
+  for (std::string& word : words) {
+    word = text(std::move(word));
+    std::string kept;
+    for (std::size_t at = 0; at <= word.size();) {
+      const std::size_t end = std::min(word.find_first_of("/=:,", at), word.size());
+      const std::string part = word.substr(at, end - at);
+      const auto name =
+          std::ranges::find(names_, part, &std::pair<std::string, std::string>::first);
+      kept += name != names_.end() ? name->second : is_address(part) ? "E-MAIL" : part;
+      if (end < word.size()) kept += word[end];
+      at = end + 1;
+    }
+    word = std::move(kept);
+  }
+  return words;
+}
+
+std::string Disclosure::host() const {
+  if (full_) return machine_name();
+  constexpr std::size_t kDigits = 8;
+  return "host-" +
+         sha256_hex("mapproof\n" + machine_id() + '\n' + machine_name()).substr(0, kDigits);
+}
+
+}  // namespace mapproof

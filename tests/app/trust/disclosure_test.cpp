@@ -1,0 +1,136 @@
+#include "app/disclosure.hpp"
+
+#include <unistd.h>
+
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files/files.hpp"
+#include "tests/app/two_studies.hpp"
+#include "tests/support/environment.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+const std::string kSource = MAPPROOF_SOURCE_DIR;
+const std::string kUser = "odd-user-4711";
+
+std::string host() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// A person of an odd name, at home in a folder of an odd name.
+struct Person {
+  TemporaryFolder folder;
+  fs::path home = folder / "Ödd & home of 4711";
+  Environment environment{
+      {{"HOME", home.c_str()}, {"USER", kUser.c_str()}, {"LOGNAME", kUser.c_str()}}};
+
+  Person() { fs::create_directories(home / "in"); }
+
+  std::string in(const std::string& name, const std::string& from) const {
+    fs::copy(kSource + "/" + from, home / "in" / name, fs::copy_options::recursive);
+    return home / "in" / name;
+  }
+};
+
+/// Expects no file below the folder to hold a word that only the person or the machine has.
+void expect_anonymous(const fs::path& folder) {
+  std::vector<std::string> words = {kUser, "dd & home", "dd &amp; home", "dd%20%26%20home"};
+  // A short name may be a part of any word.
+  if (const std::string name = host(); name.size() > 4 && name != "localhost")
+    words.push_back(name);
+  std::size_t files = 0;
+  for (const auto& [file, bytes] : contents(folder)) {
+    ++files;
+    for (const std::string& word : words)
+      EXPECT_EQ(bytes.find(word), std::string::npos) << file << " holds " << word;
+  }
+  EXPECT_GT(files, 0U) << folder;
+}
+
+void expect_done(const std::vector<std::string>& command, int code = 0) {
+  const Outcome outcome = mapproof(command);
+  EXPECT_EQ(outcome.exit_code, code) << command.front() << ": " << outcome.error;
+}
+
+TEST(Provenance, OfMapsNamesNoUserHostOrHome) {
+  const Person person;
+  const std::string map = person.in("map", "examples/map"),
+                    log = person.in("slam", "examples/slam");
+  const std::string out = person.home / "out";
+  expect_done({"map", map + "/bearings.csv", "--sensor", "bearing", "--method", "lpca", "--anchors",
+               map + "/anchors.csv", "--out", out + "/map"});
+  expect_done({"slam", log, "--out", out + "/slam"});
+  expect_anonymous(out);
+  EXPECT_NE(read_file(out + "/map/report.html").find("~/in/map/bearings.csv"), std::string::npos);
+}
+
+TEST(Provenance, OfStudiesAndComparisonsNamesNoUserHostOrHome) {
+  const Person person;
+  const std::string order = person.in("small.json", "tests/data/experiments/small.json");
+  const std::string out = person.home / "out";
+  fs::create_directory(out);
+  for (const char* study : {"/a", "/b"}) {
+    expect_done({"run", order, "--profile", "tiny", "--jobs", "1", "--out", out + study});
+    expect_done({"report", out + study});
+  }
+  replace_in(out + "/b/runs/layout-1-pose-1.json", "\"mpe_m\": 0.", "\"mpe_m\": 0.9");
+  expect_done({"diff", out + "/a", out + "/b", "--out", out + "/diff.html", "--json",
+               out + "/diff.json", "--junit", out + "/diff.xml", "--markdown", out + "/diff.md"},
+              1);
+  expect_anonymous(out);
+  EXPECT_NE(read_file(out + "/a/timings.jsonl").find("\"host\": \"host-"), std::string::npos);
+}
+
+TEST(Provenance, OfNightlyRunsNamesNoUserHostOrHomeUnlessItIsAskedFor) {
+  const Person person;
+  const std::string order = person.in("small.json", "tests/data/experiments/small.json");
+  const std::string store = person.home / "store", full = person.home / "full";
+  for (int i = 0; i < 2; ++i)
+    expect_done({"nightly", order, "--profile", "tiny", "--jobs", "1", "--store", store});
+  expect_anonymous(store);
+  const Outcome list = mapproof({"history", store, "--json"});
+  EXPECT_TRUE(
+      nlohmann::json::parse(list.out)["nightly_runs"][0]["host"].get<std::string>().starts_with(
+          "host-"));
+  expect_done({"nightly", order, "--profile", "tiny", "--jobs", "1", "--store", full,
+               "--provenance", "full"});
+  EXPECT_NE(read_file(full + "/index.html").find(host()), std::string::npos);
+  EXPECT_NE(read_file(full + "/history.sqlite").find(person.home.string()), std::string::npos);
+}
+
+TEST(Disclosure, WritesATildeForTheHomeFolderAndNothingElse) {
+  const Environment environment{{{"HOME", "/home/ann o'x"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
+  const Disclosure reduced(false), full(true);
+  EXPECT_EQ(reduced.text("see /home/ann o'x/a, /home/ann o'x."), "see ~/a, ~.");
+  EXPECT_EQ(reduced.text("/home/ann o'xy/a /mnt/home/ann o'x/a /home/ann o'x.d"),
+            "/home/ann o'xy/a /mnt/home/ann o'x/a /home/ann o'x.d");
+  EXPECT_EQ(reduced.text("href=\"/home/ann o&#39;x/a\" /home/ann%20o%27x/a"), "href=\"~/a\" ~/a");
+  EXPECT_EQ(full.text("/home/ann o'x/a"), "/home/ann o'x/a");
+}
+
+TEST(Disclosure, NamesNoUserHostOrAddressInACommand) {
+  const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
+  const Disclosure reduced(false);
+  const std::vector<std::string> words = {"map",  "/scratch/ann/a.csv", "--out=/home/ann/b c",
+                                          "anna", "ann@example.org/x",  "map@cairo-1.18.png"};
+  EXPECT_EQ(reduced.words(words),
+            (std::vector<std::string>{"map", "/scratch/USER/a.csv", "--out=~/b c", "anna",
+                                      "E-MAIL/x", "map@cairo-1.18.png"}));
+  EXPECT_EQ(Disclosure(true).words(words), words);
+  EXPECT_EQ(reduced.host(), Disclosure(false).host());
+  EXPECT_EQ(reduced.host().size(), 13U);
+  EXPECT_EQ(Disclosure(true).host(), host());
+}
+
+}  // namespace
+}  // namespace mapproof::test
