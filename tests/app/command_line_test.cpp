@@ -89,6 +89,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},
       {"map", data + "/mrclam", "--method", "lpca", "--out", folder / "map"},
       {"slam", folder / "log", "--out", folder / "slam"},
+      {"example", "hall", "--out", folder / "hall"},
       {"methods"},
       {"validate", data + "/experiments/small.json", study},
       {"approve", folder / "baseline", study, "--all"},

@@ -150,6 +150,7 @@ const std::vector<MemoryCase>& memory_cases() {
        [](const std::string& folder) {
          return std::vector<std::string>{"map",      folder + "/observations.csv",
                                          "--sensor", "visibility",
+                                         "--drop-unseen",
                                          "--out",    folder + "/out"};
        }},
   };

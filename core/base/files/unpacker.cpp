@@ -225,10 +225,14 @@ struct Unpacker::State {
 
   void choose() {
     if (is_known) return;
-    const bool is_open = may_be<unpacking::GzipDecoder>() || may_be<unpacking::XzDecoder>() ||
-                         may_be<unpacking::Utf16LittleEndian>() ||
-                         may_be<unpacking::Utf16BigEndian>();
+    const bool is_open =
+        (!is_unpacked && (may_be<unpacking::GzipDecoder>() || may_be<unpacking::XzDecoder>())) ||
+        may_be<unpacking::Utf16LittleEndian>() || may_be<unpacking::Utf16BigEndian>();
     is_known = decoder != nullptr || !is_open;
+    if (decoder && packing != unpacking::Utf16Decoder::kName) {
+      text = std::make_unique<Unpacker>(source);
+      text->state_->is_unpacked = true;
+    }
   }
 
   /// Appends up to `count` bytes to `bytes`; fewer: all of `packed` was used.
@@ -244,6 +248,21 @@ struct Unpacker::State {
     }
   }
 
+  /// decode(), with text of UTF-16 as UTF-8.
+  std::size_t decode_text(std::string_view& packed, std::string& bytes, std::size_t count) {
+    std::size_t added = text->drain(bytes, count);
+    for (std::string block; added < count; block.clear()) {
+      if (decode(packed, block, kUnpackedBlock) > 0)
+        text->feed(block);
+      else if (is_ended && !std::exchange(is_text_ended, true))
+        text->end();
+      else
+        break;
+      added += text->drain(bytes, count - added);
+    }
+    return added;
+  }
+
   /// The fed bytes that are not used yet.
   std::string_view packed() const { return std::string_view(fed).substr(used); }
 
@@ -252,7 +271,10 @@ struct Unpacker::State {
   std::size_t used = 0;
   bool is_ended = false;
   bool is_known = false;
+  bool is_unpacked = false;    ///< The input was unpacked already.
+  bool is_text_ended = false;  ///< `text` knows that no more comes.
   std::unique_ptr<unpacking::Decoder> decoder;  ///< Null: the bytes pass unchanged.
+  std::unique_ptr<Unpacker> text;               ///< Of what gzip or xz held; else null.
   std::string room;                             ///< Buffer of decoded bytes.
   std::string_view packing = {};
   double packed_bytes = 0.0;
@@ -279,8 +301,9 @@ std::size_t Unpacker::drain(std::string& bytes, std::size_t count) {
   state.choose();
   if (!state.is_known) return 0;
   std::string_view packed = state.packed();
-  const std::size_t added =
-      state.decoder ? state.decode(packed, bytes, count) : std::min(count, packed.size());
+  const std::size_t added = state.text      ? state.decode_text(packed, bytes, count)
+                            : state.decoder ? state.decode(packed, bytes, count)
+                                            : std::min(count, packed.size());
   if (!state.decoder) {
     bytes += packed.substr(0, added);
     packed.remove_prefix(added);
@@ -305,7 +328,10 @@ bool Unpacker::is_passing() const {
   return state_->is_known && !state_->decoder && state_->packed().empty();
 }
 
-bool Unpacker::is_cut() const { return state_->decoder && !state_->decoder->is_whole(); }
+bool Unpacker::is_cut() const {
+  return state_->decoder &&
+         (!state_->decoder->is_whole() || (state_->text && state_->text->is_cut()));
+}
 
 double Unpacker::ratio() const {
   const double used = state_->packed_bytes - static_cast<double>(state_->packed().size());

@@ -8,7 +8,7 @@
 namespace mapproof {
 
 /// Unpacks the bytes of gzip and xz as they come, also members and streams that follow one another,
-/// and makes UTF-8 of UTF-16 with a byte order mark. Other bytes pass unchanged.
+/// and makes UTF-8 of UTF-16 with a byte order mark, packed or not. Other bytes pass unchanged.
 class Unpacker {
  public:
   /// @param source  The name of the input in errors.
