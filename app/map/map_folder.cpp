@@ -70,6 +70,7 @@ void check_result_folder(const fs::path& folder, const char* file, const char* k
   if (status.type() == fs::file_type::not_found) return;
   if (error) throw IoError(folder.string(), error.message());
   if (status.type() != fs::file_type::directory) throw IoError(folder.string(), "is not a folder");
+  refuse_links_out(folder);
   if (is_study(folder))
     throw IoError(folder.string(),
                   fmt::format("holds a study; choose another --out for the {}", kind));

@@ -9,6 +9,7 @@
 #include "app/study/study_run.hpp"
 #include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "reports/history/nightly_scores.hpp"
@@ -39,6 +40,7 @@ std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& expe
   std::vector<StudyOrder> orders;
   std::map<std::string, std::string> files;  // By the study's name.
   for (const std::string& experiment : experiments) {
+    refuse_links_out(experiment);  // Of the folder of a study of results.
     StudyOrder order;
     std::string file = (fs::path(experiment) / kStudyFile).string();
     if (is_results_study(experiment)) {

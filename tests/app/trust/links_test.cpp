@@ -140,7 +140,7 @@ TEST(HandedOverResults, AreReadFromTheirFolderAlone) {
     const fs::path study = folder / "mine";
     write_file(study / "study.json",
                R"({"schema": {"name": "mapproof.results_study", "version": 1}, "title": "t"})");
-    write_file(study / "results.csv", "setup,method,quantity,value\na,b,ate_m,0.5\n");
+    write_file(study / "results.csv", "setup,method,quantity,value\na,b,mpe_m,0.5\n");
     trap.put_at(study / file, std::string(file) == "paths");
     expect_named(mapproof({"report", study}), file);
     expect_named(mapproof({"nightly", study, "--store", folder / "store"}), file);
