@@ -10,6 +10,7 @@
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,6 +32,10 @@ void add_method_options(CLI::App& app, MapJob& job) {
   parameter->add_option("--sigma2", job.variance,
                         "Variance of the Gaussian kernel (default: the median squared distance)");
   parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
+  app.add_option("--stress-fall", job.stress_fall,
+                 "SMACOF stops when a step reduces the stress by less than this share of it "
+                 "(default: 1e-10; 0.01 with kNN weights, where stopping early makes better maps)")
+      ->check(CLI::Range(0.0, 1.0));
 }
 
 /// What was observed, and what is known of it.
@@ -52,6 +57,9 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option("--layout", job.layout, "Layout of a CSV file")
       ->check(CLI::IsMember({"auto", "wide", "long"}))
       ->capture_default_str();
+  app.add_option("--scan-window", job.scan_window,
+                 "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
+                 "are one scan (default: found from the gaps between the stamps)");
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -138,6 +146,10 @@ AffineFit MapJob::affine_fit() const {
 
 Layout MapJob::table_layout() const {
   return layout == "wide" ? Layout::kWide : layout == "long" ? Layout::kLong : Layout::kAuto;
+}
+
+std::optional<double> MapJob::scan_window_s() const {
+  return scan_window.empty() ? std::nullopt : std::optional(scan_window_of(scan_window));
 }
 
 std::vector<std::string> missing_ways() {

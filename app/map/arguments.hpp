@@ -25,6 +25,7 @@ struct MapJob {
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
   std::string kind;  ///< A sensor's name, kRangeBearing, or empty: as in the file.
   std::string layout = "auto";
+  std::string scan_window;  ///< Seconds, or with a unit; empty: found from the gaps.
   bool degrees = false;
   std::vector<std::string> with;       ///< Files of other sensors,
   std::vector<std::string> with_kind;  ///< and what each holds.
@@ -39,6 +40,7 @@ struct MapJob {
   std::optional<double> neighbours;
   std::optional<double> variance;
   std::optional<double> degree;
+  std::optional<double> stress_fall;  ///< SMACOF's stop rule; empty: the method's own.
   EmbedderOptions embedder;
 
   std::string missing = "pairwise-complete";  ///< One of missing_ways().
@@ -70,6 +72,7 @@ struct MapJob {
   bool is_rigid() const { return fit == "rigid"; }
   AffineFit affine_fit() const;
   Layout table_layout() const;
+  std::optional<double> scan_window_s() const;  ///< @throws InvalidInput for other texts.
   AngleUnit unit() const { return degrees ? AngleUnit::kDegrees : AngleUnit::kRadians; }
 };
 

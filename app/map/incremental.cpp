@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/map/id_check.hpp"
+#include "app/map/scan_sizes.hpp"
 #include "core/align/aligned_to.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
@@ -46,7 +47,7 @@ class ValueFollower : public Follower {
  public:
   explicit ValueFollower(const FollowedTable& table)
       : table_(table),
-        stream_(table.source, table.sensor, table.unit),
+        stream_(table.source, table.sensor, table.unit, table.scan_window_s),
         map_(table.sensor, table.options) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
@@ -114,7 +115,8 @@ class ValueFollower : public Follower {
 class PairFollower : public Follower {
  public:
   explicit PairFollower(const FollowedTable& table)
-      : table_(table), stream_(table.source, {.unit = table.unit, .value = std::nullopt}) {}
+      : table_(table),
+        stream_(table.source, {.unit = table.unit, .scan_window_s = table.scan_window_s}) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -151,6 +153,7 @@ class PairFollower : public Follower {
           with_association_checked(outcome.log, {.find_moved = true}, Points::Constant(M, 2, kNaN));
     }
     MapResult result = map_of(outcome.log);
+    add_scan_sizes(scan_sizes(outcome.log), result);
     result.members.push_back({"data_association", labels_json(outcome.facts)});
     for (const auto& more : {stream_.remarks(), outcome.remarks})
       result.remarks.insert(result.remarks.end(), more.begin(), more.end());
@@ -209,7 +212,8 @@ constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known on
 class RangeFollower : public Follower {
  public:
   explicit RangeFollower(const FollowedTable& table)
-      : table_(table), stream_(table.source, Sensor::kRange) {}
+      : table_(table),
+        stream_(table.source, Sensor::kRange, AngleUnit::kRadians, table.scan_window_s) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }

@@ -20,6 +20,7 @@ struct FollowedTable {
   std::string source = {};                      ///< What to call it in errors.
   Sensor sensor = Sensor::kRange;               ///< Of values alone.
   AngleUnit unit = AngleUnit::kRadians;         ///< Of bearings.
+  std::optional<double> scan_window_s = {};     ///< See DetectionFormat.
   FollowOptions options = {};                   ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
   std::optional<NamedPointsFile> ground_truth = {};  ///< For scores, of what is known of it so far.

@@ -8,6 +8,7 @@
 
 #include "app/map/alignment.hpp"
 #include "app/map/option_table.hpp"
+#include "app/map/scan_sizes.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
@@ -20,12 +21,15 @@ namespace {
 // Read.
 
 ObservationSource read_values(const MapJob& job, std::optional<Sensor> sensor) {
-  return job.source ? read_observations(*job.source, sensor, job.table_layout(), job.unit())
-                    : read_observations(job.path, sensor, job.table_layout(), job.unit());
+  return job.source ? read_observations(*job.source, sensor, job.table_layout(), job.unit(),
+                                        job.scan_window_s())
+                    : read_observations(job.path, sensor, job.table_layout(), job.unit(),
+                                        job.scan_window_s());
 }
 
 DetectionSource read_scans(const MapJob& job, std::optional<Sensor> value) {
-  const DetectionFormat format{.unit = job.unit(), .value = value};
+  const DetectionFormat format{
+      .unit = job.unit(), .value = value, .scan_window_s = job.scan_window_s()};
   return job.source ? read_detections(*job.source, format) : read_detections(job.path, format);
 }
 
@@ -33,7 +37,7 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
   std::vector<ObservationSource> sources = {read_values(job, sensor)};
   for (std::size_t k = 0; k < job.with.size(); ++k)
     sources.push_back(read_observations(job.with[k], sensor_named(job.with_kind[k]),
-                                        job.table_layout(), job.unit()));
+                                        job.table_layout(), job.unit(), job.scan_window_s()));
   for (const ObservationSource& source : sources)
     if (!source.unassociated.empty())
       throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),
@@ -104,6 +108,8 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
   draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
                        {"Steps used", fmt::format("{} of {}", steps, history.steps())},
                        {"Missing entries", fmt::format("{:.1f} %", 100.0 * missing / entries)}};
+  if (history.sensor == Sensor::kVisibility || missing > 0.0)
+    add_scan_sizes(scan_sizes(history), draft.result);
 }
 
 /// Leaves the first scans, as many as the job asks for.
@@ -131,6 +137,7 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
   draft.result.read = {{"Landmarks", std::to_string(log.names.size())},
                        {"Steps used", fmt::format("{} of {}", log.steps, scans)},
                        {"Detections", std::to_string(log.detections.size())}};
+  add_scan_sizes(scan_sizes(log), draft.result);
 }
 
 /// Steps, landmarks and K; what was observed, in numbers.

@@ -97,7 +97,10 @@ void check_table(ByteSource& input, std::string& kind) {
   }
   if (has_long_header(text, source) || starts_as_long(text, source)) {
     kind = "long CSV observations";
-    return check_observations(text, source, read_long);
+    return check_observations(text, source,
+                              [](auto rows, const auto& name, auto sensor, auto unit) {
+                                return read_long(rows, name, sensor, unit);
+                              });
   }
   if (is_landmarks_table(text, source)) {
     kind = "landmarks with positions";

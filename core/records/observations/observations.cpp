@@ -13,6 +13,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detections.hpp"
 #include "core/records/detections/mrclam.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/observations/name_list.hpp"
@@ -140,6 +141,25 @@ std::vector<ScanKey> distinct_scans(const std::vector<Measured>& measurements) {
   return steps;
 }
 
+/// Groups the time stamps of rows into scans: each row gets the first stamp of its scan.
+/// @return A remark; empty if every stamp is a scan.
+std::string group_rows(std::vector<Measured>& measurements, std::optional<double> scan_window_s) {
+  const std::vector<ScanKey> stamps = distinct_scans(measurements);
+  const auto stamp_of = [&](const Measured& measured) {
+    return static_cast<int>(std::ranges::lower_bound(stamps, measured.scan) - stamps.begin());
+  };
+  std::vector<Detection> seen;
+  for (const Measured& measured : measurements)
+    seen.push_back({.step = stamp_of(measured), .landmark = static_cast<int>(measured.landmark)});
+  sort_detections(seen);
+  const ScanGrouping grouping = group_stamps(stamps, seen, scan_window_s);
+  for (Measured& measured : measurements) {
+    const int scan = grouping.scan_of[static_cast<std::size_t>(stamp_of(measured))];
+    measured.scan = grouping.scans[static_cast<std::size_t>(scan)];
+  }
+  return grouping_remark(grouping, stamps.size());
+}
+
 [[noreturn]] void refuse_repeat(const Measured& repeat, const std::vector<Measured>& measurements,
                                 const ValueRows& rows, const std::string& source) {
   const auto first = std::ranges::find_if(measurements, [&](const Measured& measured) {
@@ -210,7 +230,7 @@ ObservationSource read_wide(std::string_view text, const std::string& source, Se
 }
 
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
-                            AngleUnit unit) {
+                            AngleUnit unit, std::optional<double> scan_window_s) {
   TableReader reader(text, source);
   TableRow row;
   ValueRows rows(source, sensor, unit);
@@ -222,6 +242,9 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }
   if (measurements.empty()) throw IoError(source, "holds no observations");
+  require_stamps(rows.scans(), scan_window_s);
+  const std::string grouping =
+      rows.scans().is_timed() ? group_rows(measurements, scan_window_s) : "";
   const bool lists_detections = sensor == Sensor::kVisibility &&
                                 std::ranges::all_of(measurements, [](const Measured& measured) {
                                   return measured.value == 1.0;
@@ -235,6 +258,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                            .locations = rows.names().locations(),
                            .path = source,
                            .unassociated = unassociated_in(measurements)};
+  if (!grouping.empty()) result.remarks.push_back(grouping);
   if (lists_detections)
     result.remarks.push_back(
         "Only detections are listed: all other landmarks are taken as not seen");
@@ -257,33 +281,38 @@ bool starts_as_long(std::string_view text, const std::string& source) {
 }
 
 ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind, Layout layout,
-                                    AngleUnit unit) {
+                                    AngleUnit unit, std::optional<double> scan_window_s) {
   const std::string& name = source.name();
   if (layout == Layout::kAuto && is_detections(source)) {
     if (!kind)
       throw IoError(
           name, "holds detections: range-bearing, range, bearing or visibility has to be given");
-    return observations_of(read_detections(source, {.unit = unit, .value = std::nullopt}), *kind);
+    return observations_of(read_detections(source, {.unit = unit, .scan_window_s = scan_window_s}),
+                           *kind);
   }
   const bool holds_json = is_json(source);
   const std::string bytes = source.rest();
   const std::string_view text = checked_text(bytes, name);
+  if (holds_json && scan_window_s) refuse_window(name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
     throw IoError(name,
                   "does not state what it holds: visibility, bearing or range has to be given");
   if (layout == Layout::kAuto) layout = has_long_header(text, name) ? Layout::kLong : Layout::kWide;
-  ObservationSource result = layout == Layout::kLong ? read_long(text, name, *kind, unit)
-                                                     : read_wide(text, name, *kind, unit);
+  if (layout == Layout::kWide && scan_window_s) refuse_window(name);
+  ObservationSource result = layout == Layout::kLong
+                                 ? read_long(text, name, *kind, unit, scan_window_s)
+                                 : read_wide(text, name, *kind, unit);
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
 }
 
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
-                                    Layout layout, AngleUnit unit) {
-  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility));
+                                    Layout layout, AngleUnit unit,
+                                    std::optional<double> scan_window_s) {
+  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility), scan_window_s);
   ByteSource source(path);
-  return read_observations(source, kind, layout, unit);
+  return read_observations(source, kind, layout, unit, scan_window_s);
 }
 
 }  // namespace mapproof

@@ -20,6 +20,8 @@ namespace mapproof {
 ///
 /// @param kind  What the values are. Required for CSV; must agree with a JSON file.
 /// @param unit  Of bearings in CSV; a JSON file states it.
+/// @param scan_window_s  Between time stamps of one scan, see ScanWindow; empty: found from the
+///         gaps.
 /// @throws IoError naming file and location if the source cannot be read as such, breaks the bounds
 /// of
 ///         its kind (0 or 1; |rad| <= 2 pi; 0 <= m <= 1e6), repeats a name or a (step, landmark),
@@ -27,20 +29,23 @@ namespace mapproof {
 /// @note Linear in the size of the file; about 0.2 s for 50 x 100,000 entries.
 ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind,
                                     Layout layout = Layout::kAuto,
-                                    AngleUnit unit = AngleUnit::kRadians);
+                                    AngleUnit unit = AngleUnit::kRadians,
+                                    std::optional<double> scan_window_s = {});
 
 /// The same of a file or stream, or of a folder of MRCLAM [leung2011], then of visibility if `kind`
 /// is empty.
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
                                     Layout layout = Layout::kAuto,
-                                    AngleUnit unit = AngleUnit::kRadians);
+                                    AngleUnit unit = AngleUnit::kRadians,
+                                    std::optional<double> scan_window_s = {});
 
 /// The wide and the long form of a table; `text` is from checked_text().
 ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
                             AngleUnit unit = AngleUnit::kRadians);
 
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
-                            AngleUnit unit = AngleUnit::kRadians);
+                            AngleUnit unit = AngleUnit::kRadians,
+                            std::optional<double> scan_window_s = {});
 
 /// Whether the table's first row names the columns landmark and value, as a long one does.
 bool has_long_header(std::string_view text, const std::string& source);

@@ -25,7 +25,9 @@ struct DetectionSource {
 struct DetectionFormat {
   AngleUnit unit = AngleUnit::kRadians;  ///< Where the file does not state it.
   /// What a column `value` holds; visibility: 1, seen.
-  std::optional<Sensor> value;
+  std::optional<Sensor> value = {};
+  /// Seconds between time stamps of one scan, see ScanWindow; empty: found from the gaps.
+  std::optional<double> scan_window_s = {};
 };
 
 /// How a CSV file holds observations.
