@@ -111,8 +111,11 @@ double found_window(std::span<const ScanKey> stamps, std::span<const Detection> 
   if (gaps.size() < kFewestGaps) return 0.0;
   for (const Interval& one : intervals(std::move(gaps))) {
     const ScanGrouping tried = grouped(stamps, seen, one.window);
-    const auto joined = static_cast<double>(stamps.size() - tried.scans.size() + tried.cut);
-    if (static_cast<double>(tried.cut) <= kMostRepeats * joined) return one.window;
+    const std::size_t joined = stamps.size() - tried.scans.size();
+    // Where more rows have equal stamps, equal stamps are what marks a scan.
+    if (joined < seen.size() - stamps.size()) continue;
+    if (static_cast<double>(tried.cut) <= kMostRepeats * static_cast<double>(joined + tried.cut))
+      return one.window;
   }
   return 0.0;
 }

@@ -26,8 +26,9 @@ inline constexpr std::size_t kFewestGaps = 20;  ///< Of which a window is found.
 
 /// The window that the gaps between stamps suggest: the middle, in ratio, of the widest interval
 /// without gaps that divides gaps within scans from gaps between scans. The interval has to span a
-/// factor of 3, with 2 % of the gaps, and 3, or more on each side; and hardly a stamp may bring a
-/// landmark that the scan has already. 0 if no interval does, and for fewer than kFewestGaps gaps.
+/// factor of 3, with 2 % of the gaps, and 3, or more on each side. It has to join at least as many
+/// stamps as there are rows with the stamp of another row, and hardly a stamp may bring a landmark
+/// that the scan has already. 0 if no interval does, and for fewer than kFewestGaps gaps.
 /// @param stamps  Distinct, ascending.
 /// @param seen  Ascending by step, which is the index of the stamp.
 /// @note O(n log n) time for n stamps.

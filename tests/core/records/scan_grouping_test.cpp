@@ -73,6 +73,16 @@ TEST(ScanGrouping, ScansOfOneStampEachStayAsTheyAre) {
   EXPECT_TRUE(source.remarks.empty());
 }
 
+TEST(ScanGrouping, EqualStampsMarkScansWhereMostRowsHaveThem) {
+  // As a few clocks do: one scan in ten begins a millisecond after the one before.
+  std::string text = "time,landmark,range,bearing\n";
+  for (int scan = 0; scan < 300; ++scan)
+    for (int k = 0; k < 2; ++k)
+      text += fmt::format("{:.3f},L{},2,0.1\n", 0.2 * scan - (scan % 10 == 9 ? 0.199 : 0.0),
+                          (2 * scan + k) % 8);
+  EXPECT_EQ(read_stamped(text).log.steps, 300);
+}
+
 TEST(ScanGrouping, AGivenWindowCounts) {
   const JitteredTable table = jittered(0.004, 100, 5);
   EXPECT_GT(read_stamped(table.text, 0.0).log.steps, table.scans);
