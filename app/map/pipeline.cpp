@@ -252,7 +252,9 @@ constexpr std::array kSteps = {
     &kMissingData,   // Distances where entries are missing.
     &kMethodChoice,  // --method auto.
     &kSubmaps,       // Embeddings other than of the whole map of one sensor.
-    &kJointMap,        &kEmbedding,
+    &kJointMap,
+    &kEmbedding,
+    &kFit,          // Whether the data fit the map, in its own frame.
     &kAlignment,    // And the score.
     &kUncertainty,  // Ellipses.
     &kExplanation,
