@@ -10,6 +10,7 @@
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 
 namespace mapproof {
 namespace {
@@ -32,6 +33,10 @@ void add_method_options(CLI::App& app, MapJob& job) {
   parameter->add_option("--sigma2", job.variance,
                         "Variance of the Gaussian kernel (default: the median squared distance)");
   parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
+  app.add_option("--stress-fall", job.stress_fall,
+                 "SMACOF stops when a step reduces the stress by less than this share of it "
+                 "(default: 1e-10; 0.01 with kNN weights, where stopping early makes better maps)")
+      ->check(CLI::Range(0.0, 1.0));
 }
 
 /// What was observed, and what is known of it.
@@ -50,6 +55,9 @@ void add_observation_options(CLI::App& app, MapJob& job) {
       ->check(CLI::IsMember({"visibility", "bearing", "range"}))
       ->take_all();
   add_table_options(app, job.table);
+  app.add_option("--scan-window", job.scan_window,
+                 "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
+                 "are one scan (default: found from the gaps between the stamps)");
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -137,6 +145,12 @@ bool MapJob::may_choose_method() const {
 
 AffineFit MapJob::affine_fit() const {
   return fit == "least-squares" ? AffineFit::kLeastSquares : AffineFit::kLeastDistances;
+}
+
+TableFormat MapJob::table_format() const {
+  TableFormat format = table.format();
+  if (!scan_window.empty()) format.scan_window_s = scan_window_of(scan_window);
+  return format;
 }
 
 std::vector<std::string> missing_ways() {

@@ -25,9 +25,10 @@ namespace mapproof {
 struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
-  std::string kind;               ///< A sensor's name, kRangeBearing, or empty: as in the file.
-  TableOptions table = {};        ///< How the files are to be read.
-  std::vector<std::string> with;  ///< Files of other sensors,
+  std::string kind;         ///< A sensor's name, kRangeBearing, or empty: as in the file.
+  TableOptions table = {};  ///< How the files are to be read.
+  std::string scan_window;  ///< Seconds, or with a unit; empty: found from the gaps.
+  std::vector<std::string> with;       ///< Files of other sensors,
   std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;
@@ -40,6 +41,7 @@ struct MapJob {
   std::optional<double> neighbours;
   std::optional<double> variance;
   std::optional<double> degree;
+  std::optional<double> stress_fall;  ///< SMACOF's stop rule; empty: the method's own.
   EmbedderOptions embedder;
 
   std::string missing = "pairwise-complete";  ///< One of missing_ways().
@@ -76,7 +78,8 @@ struct MapJob {
   bool judges_ids() const { return check_ids || repair_ids || find_moved; }
   bool is_rigid() const { return fit == "rigid"; }
   AffineFit affine_fit() const;
-  TableFormat table_format() const { return table.format(); }
+  /// @throws InvalidInput for a scan window that is none.
+  TableFormat table_format() const;
 };
 
 /// "pairwise-complete", "ppca", "pca", "covisible", "auto": strategies for missing data.

@@ -7,6 +7,7 @@
 
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
+#include "core/association/held_out.hpp"
 #include "core/association/shared_id.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
@@ -62,7 +63,9 @@ DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
   add_doubts(check, repair, outcome);
   outcome.loss_m = check.loss_after_m;
   outcome.doubtful = shown_names(check.doubts.landmarks, outcome.log);
-  return std::move(check.repaired);
+  DetectionLog repaired = std::move(check.repaired);
+  if (!repair) outcome.check = std::move(check);
+  return repaired;
 }
 
 /// Finds a landmark ID that two landmarks share. @return The log with an ID for each.
@@ -125,13 +128,28 @@ DetectionLog check_scans(AssociationOutcome& outcome, bool repair) {
   return check_shared(outcome, check_pairs(outcome, repair), repair);
 }
 
+/// Whether corrected IDs foretell held-out scans at least as well as the given ones. If not, they
+/// stay as they are, and a warning says so.
+bool keeps_repair(AssociationOutcome& outcome, const DetectionLog& corrected) {
+  if (outcome.facts.empty()) return true;
+  const HeldOutFit held_out = held_out_fit(outcome.log, corrected);
+  if (held_out.is_better()) {
+    if (held_out.pairs > 0) outcome.remarks.push_back(repair_kept_text(held_out));
+    return true;
+  }
+  outcome.warnings.push_back(repair_dropped_text(held_out));
+  for (AssociationFact& fact : outcome.facts) fact.repaired = false;
+  return false;
+}
+
 void check_and_repair(AssociationOutcome& outcome, bool repair, const Points& known_m) {
   DetectionLog corrected = check_scans(outcome, repair);
+  if (repair && !keeps_repair(outcome, corrected)) corrected = outcome.log;
   Points positions_shown_m = Points::Constant(std::ssize(corrected.names), 2, kNaN);
   positions_shown_m.topRows(known_m.rows()) = known_m;
   corrected = check_paths(outcome, corrected, positions_shown_m, repair);
   for (const AssociationFact& fact : outcome.facts)
-    outcome.remarks.push_back(fact.sentence + (repair ? "; repaired." : "."));
+    outcome.remarks.push_back(fact.sentence + (fact.repaired ? "; repaired." : "."));
   if (!outcome.facts.empty() && !repair)
     outcome.remarks.emplace_back(
         "The landmark IDs are used as they are; --repair-ids corrects them.");
@@ -139,7 +157,7 @@ void check_and_repair(AssociationOutcome& outcome, bool repair, const Points& kn
 }
 
 void split_moved(AssociationOutcome& outcome) {
-  MovedCheck check = find_moved(outcome.log);
+  MovedCheck check = find_moved(outcome.log, {.is_contrasted = true});
   for (const MovedLandmark& moved : check.moved) {
     outcome.facts.push_back({"moved",
                              label(outcome.log, moved.landmark),
@@ -158,7 +176,8 @@ void split_moved(AssociationOutcome& outcome) {
 /// whose ground truth is unknown. @return The log to be mapped.
 template <typename Source>
 DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& job,
-                         MapResult& result) {
+                         MapDraft& draft) {
+  MapResult& result = draft.result;
   AssociationOutcome outcome = with_association_checked(
       log, {.check = job.check_ids, .repair = job.repair_ids, .find_moved = job.find_moved},
       known_positions(log, source.ground_truth_m, job.known_anchors, job.known_ground_truth));
@@ -171,8 +190,9 @@ DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& 
     source.ground_truth_m = ground_truth_m;
   }
   result.remarks.insert(result.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
-  result.warnings = std::move(outcome.warnings);
+  result.warnings.insert(result.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
   result.members.push_back({"data_association", labels_json(outcome.facts)});
+  draft.association = std::move(outcome.check);
   return std::move(outcome.log);
 }
 
@@ -181,7 +201,7 @@ DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& 
 MapDraft check_ids(MapDraft draft, const MapJob& job) {
   if (!job.judges_ids()) return draft;
   if (auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
-    scans->log = checked_log(*scans, scans->log, job, draft.result);
+    scans->log = checked_log(*scans, scans->log, job, draft);
     return draft;
   }
   auto& source = std::get<ObservationSource>(draft.observed);
@@ -191,8 +211,7 @@ MapDraft check_ids(MapDraft draft, const MapJob& job) {
                               "--sensor range-bearing, or a folder of MRCLAM files",
                               job.check_ids || job.repair_ids ? "landmark IDs are checked"
                                                               : "a landmark that moved is found"));
-  const DetectionLog log =
-      checked_log(source, read_mrclam_detections(source.path).log, job, draft.result);
+  const DetectionLog log = checked_log(source, read_mrclam_detections(source.path).log, job, draft);
   source.history = history_of(log, source.history.sensor);
   return draft;
 }
@@ -205,8 +224,19 @@ AssociationOutcome with_association_checked(const DetectionLog& log,
                                             const AssociationChoice& choice,
                                             const Points& known_m) {
   AssociationOutcome outcome{.log = log};
-  if (choice.check || choice.repair) check_and_repair(outcome, choice.repair, known_m);
-  if (choice.find_moved) split_moved(outcome);
+  const auto step = [&](const char* what, const auto& take) {
+    AssociationOutcome tried = outcome;
+    try {
+      take(tried);
+      outcome = std::move(tried);
+    } catch (const InvalidInput& problem) {
+      outcome.warnings.push_back(check_failed_text(what, problem.what()));
+    }
+  };
+  if (choice.check || choice.repair)
+    step("landmark IDs",
+         [&](AssociationOutcome& tried) { check_and_repair(tried, choice.repair, known_m); });
+  if (choice.find_moved) step("moved landmarks", split_moved);
   return outcome;
 }
 

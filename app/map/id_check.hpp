@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,8 @@ struct AssociationOutcome {
   std::vector<std::string> remarks = {};   ///< A sentence each.
   std::vector<std::string> warnings = {};  ///< Likewise: reasons to doubt the map.
   double loss_m = 0.0;  ///< Of the pairs, what was found corrected; 0: not checked.
-  std::vector<std::string> doubtful = {};  ///< Landmarks that fit worst then.
+  std::vector<std::string> doubtful = {};      ///< Landmarks that fit worst then.
+  std::optional<AssociationCheck> check = {};  ///< Of the log as it is mapped, if it was made.
 };
 
 /// Checks, and if that is chosen corrects, the landmark IDs of detections with range and bearing.

@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 
 #include "app/map/id_check.hpp"
+#include "app/map/scan_sizes.hpp"
 #include "core/align/aligned_to.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/follow/moved_watch.hpp"
+#include "core/map_fit/map_fit.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/records/detections/detection_stream.hpp"
@@ -82,6 +84,8 @@ class ValueFollower : public Follower {
     record.estimate = update.embedding.coordinates;
     record.statuses = update.embedding.statuses;
     record.certificate = update.embedding.certificate;
+    // An incremental map keeps no steps that could be compared with one another.
+    result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
     align_so_far(result, table_);
     if (record.frame != Frame::kGroundTruth) lay_on_last(record.estimate);
     return result;
@@ -151,6 +155,7 @@ class PairFollower : public Follower {
           with_association_checked(outcome.log, {.find_moved = true}, Points::Constant(M, 2, kNaN));
     }
     MapResult result = map_of(outcome.log);
+    add_scan_sizes(scan_sizes(outcome.log), result);
     result.members.push_back({"data_association", labels_json(outcome.facts)});
     for (const auto& more : {stream_.remarks(), outcome.remarks})
       result.remarks.insert(result.remarks.end(), more.begin(), more.end());
@@ -171,8 +176,19 @@ class PairFollower : public Follower {
     const Embedding embedding = pair_map_of(log).embedding;
     record.estimate = embedding.coordinates;
     record.statuses = embedding.statuses;
+    result.fit = fit_so_far(log, record);
     if (!align_so_far(result, table_)) lay_on_last(record);
     return result;
+  }
+
+  /// Of the scans and of what is known of the landmarks so far; landmark IDs are not checked.
+  Fit fit_so_far(const DetectionLog& log, MapRecord record) const {
+    const Reference known = known_so_far(record, table_.anchors, table_.ground_truth);
+    try {
+      return range_bearing_fit(log, record.estimate, {.known_m = &known.positions_m});
+    } catch (const InvalidInput&) {
+      return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
+    }
   }
 
   /// Rotated and translated, not reflected: the scans determine the reflection.
@@ -199,7 +215,7 @@ class PairFollower : public Follower {
   FollowedTable table_;
   DetectionStream stream_;
   IncrementalLog scans_;
-  MovedWatch watch_;
+  MovedWatch watch_{MovedOptions{.is_contrasted = true}};
   Points last_ = Points(0, 2);  ///< Without anchors and ground truth: the map before.
   std::vector<std::string> last_names_;
 };
@@ -209,7 +225,8 @@ constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known on
 class RangeFollower : public Follower {
  public:
   explicit RangeFollower(const FollowedTable& table)
-      : table_(table), stream_(table.source, Sensor::kRange) {}
+      : table_(table),
+        stream_(table.source, Sensor::kRange, AngleUnit::kRadians, table.scan_window_s) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -227,6 +244,7 @@ class RangeFollower : public Follower {
     MapRecord& record = result.record;
     record.id = "map";
     record.origin = FromRanges{};
+    result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kOdometry}};
     record.step = static_cast<int>(steps());
     for (const Eigen::Index landmark : landmarks_)
       record.names.push_back(stream_.names()[static_cast<std::size_t>(landmark)]);

@@ -210,6 +210,7 @@ MapResult last_map(FollowedFile& followed) {
                 {"Landmarks", std::to_string(last.record.names.size())},
                 {"Steps read", std::to_string(last.record.step)},
                 {"Method", method_label(last.record)}};
+  last.facts.insert(last.facts.end(), last.read.begin(), last.read.end());
   return last;
 }
 

@@ -20,6 +20,9 @@
 namespace mapproof {
 namespace {
 
+constexpr double kStressFall = 1e-10;
+constexpr int kMostIterations = 20'000;
+
 /// The method, and its parameter if one was given. @throws InvalidInput for an unknown method, or a
 /// parameter out of its bounds.
 MethodSetting chosen_setting(const MapJob& job) {
@@ -34,6 +37,18 @@ MethodSetting chosen_setting(const MapJob& job) {
         "{}: {} = {:g} is not {} from {:g} to {:g}", given->option, parameter.shown, given->value,
         parameter.integer ? "an integer" : "a number", parameter.minimum, parameter.maximum));
   return {method, given->value};
+}
+
+/// SMACOF's stop rules: near the minimum of the stress, unless it is to stop early.
+void set_stop_rules(MapJob& job) {
+  job.embedder.smacof.relative_fall = kStressFall;
+  job.embedder.smacof.max_iterations = kMostIterations;
+  if (!job.stress_fall) return;
+  const bool is_weighted = method_of(job) == Method::kSmacofKnn;
+  if (!is_weighted) job.embedder.smacof.relative_fall = *job.stress_fall;
+  if (is_weighted || job.chooses_method())
+    job.embedder.smacof_knn = {.relative_fall = *job.stress_fall,
+                               .max_iterations = kMostIterations};
 }
 
 /// Opens the observations, and takes the sensor of detections from their columns if none is given.
@@ -66,8 +81,10 @@ void complete(MapJob& job) {
   // A stream cannot be opened before it is read.
   if (!job.follow) open_observations(job);
   require_known_method(job);
+  job.scan_window_s();  // Refuses what is not a window before anything is read.
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
+  set_stop_rules(job);
   job.known_anchors = read_points(job.anchors);
   job.known_ground_truth = read_points(job.ground_truth);
 }

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/model/fit.hpp"
 #include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/sensor.hpp"
@@ -30,6 +31,7 @@ struct MapResult {
   MapRecord record;
   std::optional<MapCertainty> certainty = {};  ///< If ellipses were asked for.
   std::optional<MapSensors> sensors = {};      ///< If it is of several sensors.
+  Fit fit = {};                                ///< Of the data to the map.
   Facts read = {};                             ///< Of the observations.
   Facts facts = {};                            ///< For the head of the report.
   std::vector<std::string> remarks = {};

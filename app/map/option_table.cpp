@@ -62,6 +62,14 @@ const std::vector<MapOption>& all_options() {
       {"a method with K", [](Job job) { return has_parameter(job, "K"); }},
       {"a method with sigma2", [](Job job) { return has_parameter(job, "sigma2"); }},
       {"a method with d", [](Job job) { return has_parameter(job, "d"); }},
+      {"--stress-fall",
+       [](Job job) { return job.stress_fall.has_value(); },
+       {"--stress-fall", "1e-6"}},
+      {"a method of least stress",
+       [](Job job) {
+         const std::optional<Method> method = method_of(job);
+         return method == Method::kSmacof || method == Method::kSmacofKnn || job.chooses_method();
+       }},
       {"--with", [](Job job) { return !job.with.empty() || !job.with_kind.empty(); }, {"--with"}},
       {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
       {"--degrees", [](Job job) { return job.table.degrees; }, {"--degrees"}},
@@ -75,6 +83,9 @@ const std::vector<MapOption>& all_options() {
       {"--columns",
        [](Job job) { return !job.table.columns.empty(); },
        {"--columns", "landmark=landmark"}},
+      {"--scan-window",
+       [](Job job) { return !job.scan_window.empty(); },
+       {"--scan-window", "50ms"}},
       {"--anchors", [](Job job) { return !job.anchors.empty(); }, {"--anchors"}},
       {"--ground-truth", [](Job job) { return !job.ground_truth.empty(); }, {"--ground-truth"}},
       {"--steps", [](Job job) { return job.steps > 0; }, {"--steps", "20"}},
@@ -189,6 +200,8 @@ constexpr OptionPair kNeeded[] = {
     {"-K", "a method with K", "the method {method} has {has}"},
     {"--sigma2", "a method with sigma2", "the method {method} has {has}"},
     {"--degree", "a method with d", "the method {method} has {has}"},
+    {"--stress-fall", "a method of least stress",
+     "it is the stop rule of smacof and smacof-knn; the method {method} does not have it"},
     {"--dimensions", "--missing ppca, pca or auto", "--missing {missing} has no dimensions"},
     {"--overlap", "--submaps", "it is the overlap of sub-maps; add --submaps N"},
 };

@@ -20,6 +20,8 @@
 #include "render/figures/status_text.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/sections/fit_section.hpp"
+#include "reports/sections/fit_text.hpp"
 #include "reports/sections/map_report.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -40,14 +42,17 @@ std::string map_title(const std::string& observations) {
 std::vector<Figure> figures_of(const MapResult& map) {
   std::vector<Figure> figures = {map_figure(map.record, "map")};
   if (map.certainty) add_ellipses(map.record, *map.certainty, figures.front());
+  if (!map.fit.tests.empty()) figures.push_back(fit_figure(map.fit, kFitSection, {map.record.id}));
   figures.insert(figures.end(), map.figures.begin(), map.figures.end());
   return figures;
 }
 
 Report report_of(const MapPlace& location, const MapResult& map,
                  const std::vector<Figure>& figures) {
+  std::vector<FigureBlock> of_fit;
   std::vector<FigureBlock> more;
-  for (std::size_t k = 1; k < figures.size(); ++k) more.push_back(figure_block(figures[k]));
+  for (std::size_t k = 1; k < figures.size(); ++k)
+    (figures[k].id == kFitSection ? of_fit : more).push_back(figure_block(figures[k]));
   return map_report({.record = map.record,
                      .title = map_title(location.observations),
                      .facts = map.facts,
@@ -57,14 +62,18 @@ Report report_of(const MapPlace& location, const MapResult& map,
                      .more_figures = std::move(more),
                      .provenance = build_provenance(),
                      .command = location.command,
-                     .more = map.sections});
+                     .more = map.sections,
+                     .fit = fit_section(map.fit, of_fit)});
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.
 void remove_stale(const OutputFolder& out, const MapResult& map) {
   for (const MapStep* step : map_steps()) {
-    if (!step->figure.empty() &&
-        std::ranges::find(map.figures, step->figure, &Figure::id) == map.figures.end())
+    const bool is_drawn =
+        step->figure == kFitSection
+            ? !map.fit.tests.empty()
+            : std::ranges::find(map.figures, step->figure, &Figure::id) != map.figures.end();
+    if (!step->figure.empty() && !is_drawn)
       for (const char* ending : {".svg", ".png", ".pdf", ".figure.json"})
         (out / "figures").remove(std::string(step->figure) + ending);
     if (!step->file.empty() &&
@@ -99,6 +108,7 @@ nlohmann::ordered_json result_json(const MapResult& map, const fs::path& out) {
       {"frame", name(record.frame)},
       {"score", nullptr},
       {"landmarks", nlohmann::ordered_json::array()},
+      {"fit", fit_json(map.fit)},
       {"statuses", statuses_json(record.statuses)},
       {"data_association", nlohmann::ordered_json::array()},
       {"remarks", map.remarks},
@@ -127,6 +137,7 @@ std::string map_text(const MapResult& map, const fs::path& out) {
                   is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
   if (record.score)
     if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;
+  text += "\n" + verdict_text(map.fit);
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
@@ -136,7 +147,7 @@ void write_map(const MapFolder& folder, const MapPlace& location, const MapResul
   const OutputFolder out(folder.path());
   const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  out.write(kMapFile, map_json(map.record, map.certainty, map.sensors));
+  out.write(kMapFile, map_json(map.record, map.certainty, map.sensors, map.fit));
   out.write("map.csv", map_csv(map.record, map.certainty));
   remove_stale(out, map);
   for (const auto& [name, text] : map.files) out.write(name, text);

@@ -8,6 +8,7 @@
 
 #include "app/map/alignment.hpp"
 #include "app/map/option_table.hpp"
+#include "app/map/scan_sizes.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
@@ -105,6 +106,8 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
   draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
                        {"Steps used", fmt::format("{} of {}", steps, history.steps())},
                        {"Missing entries", fmt::format("{:.1f} %", 100.0 * missing / entries)}};
+  if (history.sensor == Sensor::kVisibility || missing > 0.0)
+    add_scan_sizes(scan_sizes(history), draft.result);
 }
 
 /// Reports what was understood of the files.
@@ -145,6 +148,7 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
   draft.result.read = {{"Landmarks", std::to_string(log.names.size())},
                        {"Steps used", fmt::format("{} of {}", log.steps, scans)},
                        {"Detections", std::to_string(log.detections.size())}};
+  add_scan_sizes(scan_sizes(log), draft.result);
 }
 
 /// Steps, landmarks and K; what was observed, in numbers.
@@ -259,7 +263,9 @@ constexpr std::array kSteps = {
     &kMissingData,   // Distances where entries are missing.
     &kMethodChoice,  // --method auto.
     &kSubmaps,       // Embeddings other than of the whole map of one sensor.
-    &kJointMap,        &kEmbedding,
+    &kJointMap,
+    &kEmbedding,
+    &kFit,          // Whether the data fit the map, in its own frame.
     &kAlignment,    // And the score.
     &kUncertainty,  // Ellipses.
     &kExplanation,

@@ -11,6 +11,7 @@
 #include "app/map/arguments.hpp"
 #include "app/map/map_result.hpp"
 #include "app/map/reference.hpp"
+#include "core/association/association_check.hpp"
 #include "core/certainty/history_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/records/detections/detections.hpp"
@@ -46,7 +47,9 @@ struct MapDraft {
   DistanceRule distances = {};
   MethodSetting setting = {};  ///< Without a parameter: the usual one of these data.
   bool is_embedded = false;    ///< The result's record holds an estimate.
-  CertaintyFrame frame = {};   ///< That other maps of the landmarks are brought to.
+  std::optional<AssociationCheck> association =
+      {};                     ///< Of the log as it is mapped, if it was made.
+  CertaintyFrame frame = {};  ///< That other maps of the landmarks are brought to.
   MapResult result = {};
 };
 
@@ -61,7 +64,7 @@ struct MapStep {
 /// What `map` is capable of besides a plain map, one file each. Their order among the steps is in
 /// pipeline.cpp.
 extern const MapStep kIdCheck, kDataAssociation, kCommonLandmarks, kMissingData, kMethodChoice,
-    kSubmaps, kJointMap, kUncertainty;
+    kSubmaps, kJointMap, kFit, kUncertainty;
 
 /// All steps, in their order.
 std::span<const MapStep* const> map_steps();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/map/pipeline.hpp"
+#include "core/base/errors.hpp"
 #include "core/certainty/history_certainty.hpp"
 #include "core/certainty/pair_certainty.hpp"
 #include "reports/sections/certainty_section.hpp"
@@ -32,7 +33,13 @@ MapDraft estimate_uncertainty(MapDraft draft, const MapJob& job) {
     result.remarks.emplace_back("There is no map, so there are no ellipses.");
     return draft;
   }
-  const MapCertainty certainty = certainty_of(draft, job);
+  MapCertainty certainty;
+  try {
+    certainty = certainty_of(draft, job);
+  } catch (const InvalidInput& problem) {
+    result.warnings.push_back(fmt::format("There are no ellipses: {}.", problem.what()));
+    return draft;
+  }
   const auto without = std::ranges::count_if(
       certainty.covariances, [](const Eigen::Matrix2d& C) { return !C.allFinite(); });
   if (without > 0)

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/association/move_contrast.hpp"
 #include "core/association/position_costs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
@@ -403,6 +404,9 @@ MovedCheck find_moved(const DetectionLog& log, const MovedOptions& options) {
   while (std::ssize(check.moved) < options.most_findings) {
     const auto [landmark, rough, p] = least_p(items, map, blocks, tried, options);
     if (landmark < 0 || rough == 0 || p > options.level) break;
+    if (options.is_contrasted &&
+        contrast_ratio(move_contrasts(items, map, blocks), landmark) <= 1.0)
+      break;
     const std::vector<int>& steps = blocks.step_orders.back();
     std::size_t position = 0;
     while (position < steps.size() &&

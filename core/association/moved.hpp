@@ -62,6 +62,9 @@ struct MovedOptions {
   double least_move = 1.5;  ///< In standard deviations of a pair's residuals; 0: any.
   int most_findings = 10;   ///< >= 0.
   std::uint64_t seed = 1;   ///< Of the permutations.
+  /// Whether a move must also stand out from what correlated errors do to other landmarks, see
+  /// contrast_ratio(). Permutations take slices of time to be independent.
+  bool is_contrasted = false;
 };
 
 /// A landmark that is at another position from some step on.

@@ -27,9 +27,11 @@ struct Mapped {
 };
 
 /// The landmarks of the largest group that pairs hold together.
-Mapped mapped_landmarks(const std::vector<PairItem>& items, int landmarks) {
-  Graph graph(static_cast<std::size_t>(landmarks));
+/// @param start  M x 2; landmarks with NaN rows do not count, and hold no others together.
+Mapped mapped_landmarks(const std::vector<PairItem>& items, const Points& start) {
+  Graph graph(static_cast<std::size_t>(start.rows()));
   for (const PairItem& item : items) {
+    if (!start.row(item.first).allFinite() || !start.row(item.second).allFinite()) continue;
     graph[static_cast<std::size_t>(item.first)].push_back({item.second, item.distance_m});
     graph[static_cast<std::size_t>(item.second)].push_back({item.first, item.distance_m});
   }
@@ -206,11 +208,7 @@ double map_cost(const std::vector<PairItem>& items, const Points& map, double wi
 
 RobustMap minimized_map(const std::vector<PairItem>& items, const Points& start, double width_m,
                         int rounds) {
-  Mapped mapped = mapped_landmarks(items, static_cast<int>(start.rows()));
-  std::erase_if(mapped.landmarks, [&](int k) { return !start.row(k).allFinite(); });
-  std::ranges::fill(mapped.row, -1);
-  for (std::size_t k = 0; k < mapped.landmarks.size(); ++k)
-    mapped.row[static_cast<std::size_t>(mapped.landmarks[k])] = static_cast<int>(k);
+  const Mapped mapped = mapped_landmarks(items, start);
   Points map = Points::Constant(start.rows(), 2, kNaN);
   const auto n = static_cast<Eigen::Index>(mapped.landmarks.size());
   if (n < 3) return finished(items, std::move(map), width_m);
@@ -237,7 +235,7 @@ RobustMap robust_map(const std::vector<PairItem>& items, int landmarks) {
   for (const PairItem& item : items)
     if (item.first < 0 || item.second >= landmarks)
       throw InvalidInput("a pair names a landmark that does not exist");
-  const Mapped mapped = mapped_landmarks(items, landmarks);
+  const Mapped mapped = mapped_landmarks(items, Points::Zero(landmarks, 2));
   Points start = Points::Constant(landmarks, 2, kNaN);
   if (mapped.landmarks.size() < 3) return finished(items, std::move(start), 1.0);
   const Eigen::MatrixXd D = completed_distances(median_distances(items, mapped));

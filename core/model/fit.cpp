@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kFitVerdicts = {"fits", "doubtful", "undetermined",
                                                           "does_not_fit", "not_testable"};
 
-constexpr std::array<std::string_view, 23> kFitCodes = {
+constexpr std::array<std::string_view, 28> kFitCodes = {
     "residuals",
     "landmark_residuals",
     "outliers",
@@ -32,6 +32,11 @@ constexpr std::array<std::string_view, 23> kFitCodes = {
     "mirror",
     "fold",
     "wrong_ids",
+    "scatter",
+    "robot_ranges",
+    "robot_bearings",
+    "known_mirrored",
+    "known_scale",
     "disconnected"};
 static_assert(kFitCodes.size() == static_cast<std::size_t>(FitCode::kDisconnected) + 1);
 

@@ -52,6 +52,8 @@ std::vector<Quantity> dictionary() {
       {"fit_verdict", "verdict on the fit, 1: fits to 4: does not", "", kLower, kNumber, kRatio},
       {"fit_chi2_ratio", "chi-squared over that of the noise", "", kLower, kNumber, kRatio},
       {"fit_outliers_percent", "outliers", "%", kNeither, kNumber, kKept},
+      {"fit_scatter_m", "scatter of a measured distance", "m", kNeither, kLength, kKept},
+      {"fit_known_misfit_m", "misfit to given positions", "m", kLower, kLength, kRatio},
       {"fit_range_sigma_m", "noise of a range", "m", kNeither, kLength, kKept},
       {"fit_forward_sigma_m", "noise of odometry after 1 m", "m", kNeither, kLength, kKept},
       {"fit_turn_sigma_rad", "noise of the heading after 1 m", "rad", kNeither, kNumber, kKept},

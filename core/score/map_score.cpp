@@ -9,6 +9,7 @@
 
 #include "core/align/affine.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/vectorised.hpp"
 #include "core/linalg/planarity.hpp"
@@ -18,6 +19,10 @@ namespace {
 
 /// The sine of an angle that rounding alone may have opened.
 constexpr double kStraight = 1e-12;
+
+/// What rounding may have moved a landmark of a map by, as a share of the median distance of
+/// landmarks from the origin: one that is far out does not count.
+constexpr double kRounding = 1e-12;
 
 /// The points behind one, as seen from it: coordinates apart, so that they fill vectors.
 struct Offsets {
@@ -30,9 +35,11 @@ struct Count {
   std::int64_t wrong = 0;
 };
 
-/// Of the triples that the offset `first` forms with all after it.
-MAPPROOF_VECTORISED Count count_turns(Offsets ground_truth, Offsets estimate, Eigen::Index first,
-                                      Eigen::Index count) {
+/// Of the triples that the offset `first` forms with all after it. A triple is flat on the map if
+/// its height may be rounding.
+/// @param slack  Of each offset of the estimate: its length times what rounding may have moved.
+MAPPROOF_VECTORISED Count count_turns(Offsets ground_truth, Offsets estimate, const double* slack,
+                                      Eigen::Index first, Eigen::Index count) {
   const double tx = ground_truth.x[first], ty = ground_truth.y[first];
   const double ex = estimate.x[first], ey = estimate.y[first];
   std::int64_t judged = 0;
@@ -41,7 +48,9 @@ MAPPROOF_VECTORISED Count count_turns(Offsets ground_truth, Offsets estimate, Ei
     const double turn = tx * ground_truth.y[k] - ty * ground_truth.x[k];
     const double found = ex * estimate.y[k] - ey * estimate.x[k];
     const bool counts = std::abs(turn) > kStraight;
-    const bool right = ((turn > 0.0) & (found > 0.0)) | ((turn < 0.0) & (found < 0.0));
+    const bool is_flat = !(std::abs(found) > slack[first] + slack[k]);
+    const bool right =
+        (!is_flat) & (((turn > 0.0) & (found > 0.0)) | ((turn < 0.0) & (found < 0.0)));
     judged += counts;
     wrong += counts & !right;
   }
@@ -66,6 +75,9 @@ double orientation_error_percent(const Points& ground_truth, const Points& estim
   if (estimate.rows() != n) throw InvalidInput("ground truth and estimate differ in size");
   std::int64_t judged = 0;
   std::int64_t wrong = 0;
+  const Eigen::VectorXd distances = estimate.rowwise().norm();
+  const double moved =
+      n > 0 ? kRounding * median({distances.data(), static_cast<std::size_t>(n)}) : 0.0;
   for (Eigen::Index i = 0; i < n; ++i) {
     // Of length one, so that each turn's value is a sine; NaN where two points coincide.
     const Points t =
@@ -73,8 +85,9 @@ double orientation_error_percent(const Points& ground_truth, const Points& estim
     const Points e = estimate.bottomRows(n - i - 1).rowwise() - estimate.row(i);
     const Offsets to_ground_truth{t.col(0).data(), t.col(1).data()};
     const Offsets to_estimate{e.col(0).data(), e.col(1).data()};
+    const Eigen::VectorXd slack = moved * e.rowwise().norm();
     for (Eigen::Index j = 0; j < t.rows(); ++j) {
-      const Count found = count_turns(to_ground_truth, to_estimate, j, t.rows());
+      const Count found = count_turns(to_ground_truth, to_estimate, slack.data(), j, t.rows());
       judged += found.judged;
       wrong += found.wrong;
     }

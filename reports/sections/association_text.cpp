@@ -116,6 +116,26 @@ std::string doubts_text(const AssociationCheck& check, const DetectionLog& log) 
           : "; most with landmarks " + listed(shown_names(doubts.landmarks, log), 4));
 }
 
+std::string repair_kept_text(const HeldOutFit& held_out) {
+  return fmt::format(
+      "The corrected landmark IDs make a map that foretells held-out scans as well or better: mean "
+      "log-likelihood {:.3f} instead of {:.3f} over {}.",
+      held_out.repaired, held_out.given, counted(held_out.pairs, "pair"));
+}
+
+std::string repair_dropped_text(const HeldOutFit& held_out) {
+  return fmt::format(
+      "The corrections of landmark IDs are not made: their map foretells held-out scans worse, "
+      "with a mean log-likelihood of {:.3f} instead of {:.3f} over {}. The landmark IDs are wrong "
+      "in a way that cannot be repaired.",
+      held_out.repaired, held_out.given, counted(held_out.pairs, "pair"));
+}
+
+std::string check_failed_text(const std::string& what, const std::string& problem) {
+  return fmt::format("The check of {} failed, and the map is of the data as they are: {}.", what,
+                     problem);
+}
+
 std::string nothing_found_text(const AssociationCheck& check) {
   return fmt::format(
       "No ID swap and no wrong data association, over a stretch or in single scans, explains the "

@@ -5,6 +5,7 @@
 
 #include "core/association/anchor_ids.hpp"
 #include "core/association/association_check.hpp"
+#include "core/association/held_out.hpp"
 #include "core/association/moved.hpp"
 #include "core/association/shared_id.hpp"
 #include "core/model/detection_log.hpp"
@@ -36,6 +37,13 @@ std::string undetermined_text(const SharedId& shared, const std::string& first, 
 
 /// That the scans do not fit one map, and with which landmarks they fit worst.
 std::string doubts_text(const AssociationCheck& check, const DetectionLog& log);
+
+/// That corrected IDs are used, or not, by what their map foretells of held-out scans.
+std::string repair_kept_text(const HeldOutFit& held_out);
+std::string repair_dropped_text(const HeldOutFit& held_out);
+
+/// That a check ended without a result, and what the map is of then.
+std::string check_failed_text(const std::string& what, const std::string& problem);
 
 /// That a check without findings found none.
 std::string nothing_found_text(const AssociationCheck& check);

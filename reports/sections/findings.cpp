@@ -167,6 +167,21 @@ Paragraph ordering_finding(Sensor sensor, std::span<const OrderingClaim> claims)
   return {{strong(title_of(sensor)), phrase(text)}};
 }
 
+/// Printed values that stand at another parameter than ours: the two cannot be compared.
+std::string other_parameter_words(std::span<const SettingSummary> methods) {
+  std::vector<std::string> pairs;
+  for (const SettingSummary& one : methods) {
+    if (!one.published || !one.mpe_m || one.published->note.empty()) continue;
+    if (one.published->setting == one.setting) continue;
+    pairs.push_back(fmt::format("{} at {} here, {} at {} in the paper", metres(one.mpe_m->mean),
+                                label(one.setting), metres(one.published->mpe_m),
+                                label(one.published->setting)));
+  }
+  if (pairs.empty()) return "";
+  return ": not to be compared, because the parameters differ and a note says why: " +
+         in_series(pairs) + ".";
+}
+
 }  // namespace
 
 std::string metres(double value) { return format_number(value, value < 0.1 ? 4 : 3) + " m"; }
@@ -205,6 +220,8 @@ BulletList sensor_findings(const Study& study, const SensorStudy& sensor,
     findings.items.push_back(order_finding(which, {methods.begin(), methods.end()}));
   if (std::ranges::any_of(methods, [](const SettingSummary& s) { return s.published && s.mpe_m; }))
     findings.items.push_back(agreement_finding(which, methods));
+  if (const std::string other = other_parameter_words(methods); !other.empty())
+    findings.items.push_back({{strong(title_of(which)), phrase(other)}});
   const std::vector<OrderingClaim> claims = ordering_claims(study, sensor);
   if (std::ranges::any_of(claims,
                           [](const OrderingClaim& c) { return c.difference_m.has_value(); }))

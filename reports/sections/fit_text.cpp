@@ -88,9 +88,9 @@ std::string range_cause_words(const FitCause& cause) {
       return fmt::format("the given positions of {} are exchanged", names);
     case FitCode::kKnownLandmarksAtOdds:
       return fmt::format(
-          "the given positions of {} contradict the measurements by up to {}; which of them is "
+          "the given positions{} contradict the measurements by up to {}; which of them is "
           "wrong cannot be determined",
-          names, values.amount("distance_m", "m"));
+          names.empty() ? "" : " of " + names, values.amount("distance_m", "m"));
     case FitCode::kResidualsOverTime:
       return fmt::format("residuals{} are larger than at other times", values.when());
     case FitCode::kResidualsOverRange:
@@ -123,6 +123,28 @@ std::string map_cause_words(const FitCause& cause) {
       return fmt::format("{} fit as well when they are folded over", names);
     case FitCode::kWrongIds:
       return fmt::format("measurements of {} have a wrong landmark ID", names);
+    case FitCode::kScatter:
+      return fmt::format(
+          "repeated measurements of a distance differ by {} of it, and not as normal errors do: "
+          "the "
+          "unit of the bearings, or most landmark IDs, may be wrong",
+          values.amount("share_percent", "%"));
+    case FitCode::kRobotRanges:
+      return fmt::format("the ranges of robot {} are {} times those of the other robots",
+                         significant(values.find("robot").value_or(0.0)),
+                         significant(values.find("ratio").value_or(1.0)));
+    case FitCode::kRobotBearings:
+      return fmt::format(
+          "robot {} sees landmarks in the opposite orientation: the sign of its "
+          "bearings may be wrong",
+          significant(values.find("robot").value_or(0.0)));
+    case FitCode::kKnownMirrored:
+      return "the given positions fit the reflected map: an axis of theirs, or the sign of the "
+             "bearings, may be wrong";
+    case FitCode::kKnownScale:
+      return fmt::format(
+          "the given positions are {} times as far apart as the landmarks in the map",
+          significant(values.find("ratio").value_or(1.0)));
     case FitCode::kDisconnected:
       return fmt::format("no measurement connects {} with the other landmarks", names);
     default:
@@ -155,6 +177,16 @@ std::string map_test_words(FitCode code, const std::string& names) {
       return "fold of " + names;
     case FitCode::kWrongIds:
       return names.empty() ? "data association" : "data association of " + names;
+    case FitCode::kScatter:
+      return "scatter of repeated measurements";
+    case FitCode::kRobotRanges:
+      return "ranges of a robot";
+    case FitCode::kRobotBearings:
+      return "bearings of a robot";
+    case FitCode::kKnownMirrored:
+      return "reflection of the given positions";
+    case FitCode::kKnownScale:
+      return "scale of the given positions";
     case FitCode::kDisconnected:
       return "groups without a connection";
     default:
@@ -282,9 +314,9 @@ std::string test_label(FitCode code, const std::vector<std::string>& landmarks) 
     case FitCode::kClockJump:
       return "jump of the clock";
     case FitCode::kLandmarkMoved:
-      return "move of " + names;
+      return names.empty() ? "moved landmarks" : "move of " + names;
     case FitCode::kIdsExchanged:
-      return "IDs of " + names + " exchanged";
+      return names.empty() ? "exchanged IDs" : "IDs of " + names + " exchanged";
     case FitCode::kOdometryGap:
       return "gap in odometry";
     case FitCode::kOdometryFrozen:

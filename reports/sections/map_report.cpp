@@ -218,6 +218,7 @@ Report map_report(const MapReportInput& input) {
   report.subtitle =
       fmt::format("{}, {}, {}", method_label(input.record), sensor_label(input.record),
                   counted(input.record.step, "observation"));
+  if (input.fit) report.sections.push_back(*input.fit);
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   for (const FigureBlock& figure : input.more_figures)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +22,9 @@ struct MapReportInput {
   FigureBlock figure;                      ///< figure_block(map_figure(record, id)).
   std::vector<FigureBlock> more_figures;   ///< Below it.
   Provenance provenance;
-  std::string command;             ///< The one that makes it again, ready to be typed.
-  std::vector<Section> more = {};  ///< After the landmarks: what else was asked for.
+  std::string command;              ///< The one that makes it again, ready to be typed.
+  std::vector<Section> more = {};   ///< After the landmarks: what else was asked for.
+  std::optional<Section> fit = {};  ///< At the head: see fit_section().
 };
 
 /// Summary, figure, landmarks (with errors where the ground truth is known), remarks, statuses,

@@ -119,6 +119,23 @@ TEST(OrientationError, CountsFlattenedTriplesAsWrongAndLeavesFlatGroundTruthOut)
       std::isnan(orientation_error_percent(ground_truth.topRows(3), ground_truth.topRows(3))));
 }
 
+TEST(OrientationError, DoesNotDependOnRoundingWhereLandmarksCoincide) {
+  // Three landmarks at one point of the map: each triple with two of them is flat, whatever the
+  // last digits are.
+  const Points ground_truth = scattered(12, 5);
+  Points together = ground_truth;
+  together.row(4) = together.row(7) = together.row(9);
+  const double wrong = orientation_error_percent(ground_truth, together);
+  Random random(3);
+  for (int draw = 0; draw < 20; ++draw) {
+    Points moved = together;
+    for (Eigen::Index k = 0; k < moved.size(); ++k)
+      moved(k) *= 1.0 + 1e-15 * (random.uniform() - 0.5);
+    for (const Eigen::Index k : {4, 7, 9}) moved(k, draw % 2) += 1e-16 * draw;
+    EXPECT_EQ(orientation_error_percent(ground_truth, moved), wrong) << draw;
+  }
+}
+
 TEST(OrientationError, LeavesALineInTheGroundTruthOutHoweverItIsRotated) {
   Points ground_truth(9, 2);
   for (Eigen::Index i = 0; i < 8; ++i) ground_truth.row(i) << 0.1 * static_cast<double>(i * i), 0.0;

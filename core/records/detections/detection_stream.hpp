@@ -19,34 +19,57 @@ struct StreamedScan {
 };
 
 /// Gathers the rows of a long table of detections (see read_detections) into scans as they come. A
-/// scan is complete once a later row of the same robot is there. A robot's scans come in ascending
-/// order.
+/// scan is complete once a later row of the same robot is there that is not of it. A robot's scans
+/// come in ascending order. Time stamps are grouped as by group_stamps(); the first rows wait until
+/// they determine the window (see FirstRows).
 class ScanGatherer {
  public:
   /// @param source  What to call the table in errors; must outlive the object.
   ScanGatherer(const std::string& source, const TableFormat& format)
-      : source_(source), rows_(source, format) {}
+      : source_(source), rows_(source, format), window_s_(format.scan_window_s) {}
 
   /// @param row  The first one may be a header. @throws IoError with the line, as read_detections;
   ///             or for a scan that is not ascending.
   void take(const TableRow& row);
 
   /// There will be no more: the last scans are complete.
+  /// @throws IoError as take().
   void end();
 
   /// The scans that became complete since the last call, in order of each robot.
   std::vector<StreamedScan> scans() { return std::exchange(complete_, {}); }
 
   const DetectionRows& rows() const { return rows_; }
+  /// Remarks on the columns and the window, a sentence each.
+  std::vector<std::string> remarks() const;
 
  private:
-  void open(const ScanKey& scan, const TableRow& row);
+  /// A row that was read.
+  struct Row {
+    ScanKey stamp;
+    Detection seen;
+    std::size_t line;
+  };
+
+  /// The last scan of a robot.
+  struct OpenScan {
+    StreamedScan scan;
+    double last_stamp = 0.0;
+  };
+
+  bool begins_scan(const OpenScan& open, const Row& row) const;
+  void find_window();
+  void add(const Row& row);
+  void open(OpenScan& last, const Row& row);
   void close(StreamedScan& scan);
 
   const std::string& source_;
   DetectionRows rows_;
   bool begun_ = false;              ///< The first row was read.
-  std::vector<StreamedScan> open_;  ///< The last scan of each robot.
+  std::optional<double> window_s_;  ///< Empty: not found yet.
+  std::vector<Row> waiting_;        ///< Until it is.
+  std::string grouping_;            ///< A remark.
+  std::vector<OpenScan> open_;      ///< Of each robot.
   std::vector<StreamedScan> complete_;
   std::size_t scans_ = 0;
   std::size_t detections_ = 0;

@@ -12,6 +12,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detections_long.hpp"
 #include "core/records/detections/mrclam.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/input_kind.hpp"
@@ -59,12 +60,13 @@ bool is_large_long_table(ByteSource& source, const TableFormat& format) {
 DetectionSource read_detections(ByteSource& source, const TableFormat& format) {
   respell(source);
   if (!is_json(source)) return read_long_detections(source, format);
+  if (format.scan_window_s) refuse_window(source.name());
   const std::string bytes = source.rest();
   return parse_detections(checked_text(bytes, source.name()), source.name());
 }
 
 DetectionSource read_detections(const std::filesystem::path& path, const TableFormat& format) {
-  if (is_folder(path)) return read_mrclam_detections(path);
+  if (is_folder(path)) return read_mrclam_detections(path, format.scan_window_s);
   ByteSource source(path);
   return read_detections(source, format);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detection_rows.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/tables/cells.hpp"
 #include "core/records/tables/table_stream.hpp"
@@ -31,7 +33,7 @@ struct RowRun {
 class LongDetections {
  public:
   LongDetections(TableStream& stream, const TableFormat& format)
-      : stream_(stream), rows_(stream.source(), format) {}
+      : stream_(stream), rows_(stream.source(), format), scan_window_s_(format.scan_window_s) {}
 
   DetectionSource read() && {
     TableRow row;
@@ -40,6 +42,7 @@ class LongDetections {
     while (stream_.next(row)) add(row);
     if (log_.detections.empty()) throw IoError(stream_.source(), "holds a header and no rows");
     scale_times();
+    require_stamps(rows_.scans(), scan_window_s_);
     order();
     log_.names = rows_.names().names();
     return {.log = std::move(log_),
@@ -108,9 +111,20 @@ class LongDetections {
     std::ranges::sort(distinct);
     const auto rest = std::ranges::unique(distinct);
     distinct.erase(rest.begin(), rest.end());
+    number_runs(distinct);
+    if (rows_.scans().is_timed()) group(distinct);
     if (distinct.size() > static_cast<std::size_t>(kMostSteps))
       throw IoError(stream_.source(), "as a whole",
                     fmt::format("{} scans; at most {}", distinct.size(), kMostSteps));
+    log_.steps = static_cast<int>(distinct.size());
+    log_.scans = distinct;
+    log_.robots = rows_.scans().robots();
+    if (rows_.scans().is_timed())
+      for (const ScanKey& scan : distinct) log_.times_s.push_back(scan.key);
+  }
+
+  /// Replaces the number of each detection's run by that of its scan, and sorts the detections.
+  void number_runs(const std::vector<ScanKey>& distinct) {
     std::vector<int> step;
     for (const RowRun& run : runs_)
       step.push_back(
@@ -123,11 +137,17 @@ class LongDetections {
     const auto repeat = std::ranges::adjacent_find(log_.detections, {}, location);
     if (repeat != log_.detections.end()) refuse_repeat(*repeat, *std::next(repeat));
     for (Detection& seen : log_.detections) seen.step = step[static_cast<std::size_t>(seen.step)];
-    log_.steps = static_cast<int>(distinct.size());
-    log_.scans = distinct;
-    log_.robots = rows_.scans().robots();
-    if (rows_.scans().is_timed())
-      for (const ScanKey& scan : distinct) log_.times_s.push_back(scan.key);
+  }
+
+  /// Groups the time stamps of rows into scans.
+  void group(std::vector<ScanKey>& stamps) {
+    ScanGrouping grouping = group_stamps(stamps, log_.detections, scan_window_s_);
+    grouping_ = grouping_remark(grouping, stamps.size());
+    if (grouping_.empty()) return;
+    for (Detection& seen : log_.detections)
+      seen.step = grouping.scan_of[static_cast<std::size_t>(seen.step)];
+    sort_detections(log_.detections);
+    stamps = std::move(grouping.scans);
   }
 
   /// Two detections of one landmark in different runs of one scan.
@@ -152,12 +172,15 @@ class LongDetections {
 
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks = rows_.scans().remarks();
+    if (!grouping_.empty()) remarks.push_back(grouping_);
     if (stream_.is_cut()) remarks.emplace_back(kCutRemark);
     return remarks;
   }
 
   TableStream& stream_;
   DetectionRows rows_;
+  std::optional<double> scan_window_s_;
+  std::string grouping_;  ///< A remark.
   DetectionLog log_;
   TimeScale scale_;
   std::vector<RowRun> runs_;

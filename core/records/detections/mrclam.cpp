@@ -79,7 +79,9 @@ struct Row {
 /// Gathers the scans of all robots, and counts what is left out.
 class Scans {
  public:
-  explicit Scans(const std::map<int, int>& subject_of) : subject_of_(subject_of) {
+  /// @param window_s  Between time stamps of one scan.
+  Scans(const std::map<int, int>& subject_of, double window_s)
+      : subject_of_(subject_of), window_s_(window_s) {
     for (const auto& [barcode, subject] : subject_of)
       if (subject > kLastRobot) index_.emplace(subject, 0);
     int landmark = 0;
@@ -104,8 +106,9 @@ class Scans {
     while (rows.next()) detections.push_back(row_of(rows));
     std::ranges::stable_sort(detections, {}, &Row::time_s);
     for (auto first = detections.begin(); first != detections.end();) {
-      const auto last = std::find_if(
-          first, detections.end(), [&](const Row& other) { return other.time_s != first->time_s; });
+      auto last = std::next(first);
+      while (last != detections.end() && last->time_s - std::prev(last)->time_s <= window_s_)
+        ++last;
       add_scan({first, last});
       first = last;
     }
@@ -181,6 +184,7 @@ class Scans {
   }
 
   const std::map<int, int>& subject_of_;
+  double window_s_;
   std::map<int, int> index_;  ///< Among the landmarks, of each one's subject number.
   DetectionLog log_;
   std::vector<std::string> empty_files_;
@@ -218,13 +222,14 @@ std::optional<Points> read_ground_truth(const fs::path& path, const std::vector<
 
 bool is_mrclam(const fs::path& folder) { return !measurement_files(folder).empty(); }
 
-DetectionSource read_mrclam_detections(const fs::path& folder) {
+DetectionSource read_mrclam_detections(const fs::path& folder,
+                                       std::optional<double> scan_window_s) {
   const std::vector<fs::path> robots = measurement_files(folder);
   if (robots.empty())
     throw IoError(folder.string(), "is a folder without MRCLAM's RobotN_Measurement.dat");
   const fs::path barcodes = plain_or_packed(folder / "Barcodes.dat");
   const std::map<int, int> subject_of = read_barcodes(barcodes);
-  Scans scans(subject_of);
+  Scans scans(subject_of, scan_window_s.value_or(0.0));
   const std::size_t landmarks = scans.log().names.size();
   if (landmarks == 0)
     throw IoError(barcodes.string(), fmt::format("names no landmark: none above {}", kLastRobot));
@@ -243,8 +248,9 @@ DetectionSource read_mrclam_detections(const fs::path& folder) {
   return result;
 }
 
-ObservationSource read_mrclam(const fs::path& folder, Sensor sensor) {
-  return observations_of(read_mrclam_detections(folder), sensor);
+ObservationSource read_mrclam(const fs::path& folder, Sensor sensor,
+                              std::optional<double> scan_window_s) {
+  return observations_of(read_mrclam_detections(folder, scan_window_s), sensor);
 }
 
 }  // namespace mapproof

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/json/text_input.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/limits.hpp"
 
@@ -14,11 +15,15 @@ ObservationStream::ObservationStream(std::string source, Sensor sensor, const Ta
     : table_(std::move(source)),
       sensor_(sensor),
       format_(format),
-      values_(table_.source(), sensor, format) {}
+      values_(table_.source(), sensor, format),
+      window_s_(format.scan_window_s) {}
 
 void ObservationStream::end() {
   table_.end([this](const TableRow& row) { read_row(row); });
-  if (detections_) detections_->end();
+  if (detections_)
+    detections_->end();
+  else if (!window_s_)
+    find_window();
   if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
 }
 
@@ -39,7 +44,8 @@ std::vector<StreamedStep> ObservationStream::steps() {
 
 std::vector<std::string> ObservationStream::remarks() const {
   std::vector<std::string> remarks =
-      (detections_ ? detections_->rows().scans() : values_.scans()).remarks();
+      detections_ ? detections_->remarks() : values_.scans().remarks();
+  if (!grouping_.empty()) remarks.push_back(grouping_);
   if (table_.cut_remark() != nullptr) remarks.emplace_back(table_.cut_remark());
   return remarks;
 }
@@ -49,22 +55,45 @@ void ObservationStream::read_row(const TableRow& row) {
   if (first && (names_detection_columns(row, format_.columns) || starts_detection_list(row)))
     detections_.emplace(table_.source(), format_);
   if (detections_) return detections_->take(row);
-  if (first && values_.begin(row)) {
-    if (values_.scans().columns()[ColumnRole::kRobot])
+  if (first) {
+    const bool is_header = values_.begin(row);
+    require_stamps(values_.scans(), window_s_);
+    if (!values_.scans().is_timed()) window_s_ = 0.0;
+    if (is_header && values_.scans().columns()[ColumnRole::kRobot])
       values_.scans().fail(row.line, "a streamed file is of one robot");
-    return;
+    if (is_header) return;
   }
-  add(values_.measured(row));
+  if (window_s_) return add(values_.measured(row));
+  waiting_.push_back(values_.measured(row));
+  if (waiting_.size() == kFirstRows) find_window();
+}
+
+void ObservationStream::find_window() {
+  FirstRows first;
+  for (const ValueRows::Measured& measured : waiting_)
+    first.add(measured.scan, static_cast<int>(measured.landmark));
+  window_s_ = first.window_s();
+  grouping_ = first_rows_remark(*window_s_, waiting_.size());
+  for (const ValueRows::Measured& measured : std::exchange(waiting_, {})) add(measured);
+}
+
+bool ObservationStream::begins_step(const ValueRows::Measured& measured) const {
+  if (!open_) return true;
+  if (measured.scan.key == last_stamp_) return false;
+  const auto row = static_cast<std::size_t>(measured.landmark);
+  return measured.scan.key - last_stamp_ > *window_s_ || (row < listed_.size() && listed_[row]);
 }
 
 void ObservationStream::begin_step(const ValueRows::Measured& measured) {
   const ScanRows& scans = values_.scans();
   const double step = measured.scan.key;
-  if (open_ && step < open_->step)
+  if (open_ && step < last_stamp_)
     scans.fail(measured.line, fmt::format("{} after {}: a streamed file lists its scans in "
                                           "ascending order",
-                                          scans.words(step), scans.words(open_->step)));
-  if (open_ && step == open_->step) return;
+                                          scans.words(step), scans.words(last_stamp_)));
+  const bool begins = begins_step(measured);
+  last_stamp_ = step;
+  if (!begins) return;
   if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
   if (++steps_ > static_cast<std::size_t>(kMostSteps))
     scans.fail(measured.line, fmt::format("more than {} steps", kMostSteps));

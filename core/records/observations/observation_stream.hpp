@@ -26,8 +26,8 @@ struct StreamedStep {
 
 /// Reads one sensor's values from long CSV (step or time, landmark, value) as it grows. A line
 /// counts once its end is there (see StreamedTable), and a step once a row of a later one is. Steps
-/// come in ascending order. A header of detections (see read_detections) does as well: of each scan
-/// what the sensor saw.
+/// come in ascending order; time stamps are grouped as by ScanGatherer. A header of detections (see
+/// read_detections) does as well: of each scan what the sensor saw.
 class ObservationStream {
  public:
   /// @param source  What to call the file in errors.
@@ -61,15 +61,21 @@ class ObservationStream {
 
  private:
   void read_row(const TableRow& row);
+  void find_window();
   void add(const ValueRows::Measured& measured);
+  bool begins_step(const ValueRows::Measured& measured) const;
   void begin_step(const ValueRows::Measured& measured);
 
   StreamedTable table_;
   Sensor sensor_;
   TableFormat format_;
   ValueRows values_;
-  std::optional<ScanGatherer> detections_;  ///< If that is what the header names.
-  bool begun_ = false;                      ///< A row was read: no header comes any more.
+  std::optional<ScanGatherer> detections_;    ///< If that is what the header names.
+  std::optional<double> window_s_;            ///< Empty: not found yet.
+  std::vector<ValueRows::Measured> waiting_;  ///< Until it is.
+  std::string grouping_;                      ///< A remark.
+  double last_stamp_ = 0.0;                   ///< Of the open step.
+  bool begun_ = false;                        ///< A row was read: no header comes any more.
   std::optional<StreamedStep> open_;
   std::vector<bool> listed_;  ///< Landmarks in the open step.
   std::vector<StreamedStep> complete_;

@@ -13,6 +13,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detections.hpp"
 #include "core/records/detections/mrclam.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/observations/name_list.hpp"
@@ -156,6 +157,25 @@ std::vector<ScanKey> distinct_scans(const std::vector<Measured>& measurements) {
   return steps;
 }
 
+/// Groups the time stamps of rows into scans: each row gets the first stamp of its scan.
+/// @return A remark; empty if every stamp is a scan.
+std::string group_rows(std::vector<Measured>& measurements, std::optional<double> scan_window_s) {
+  const std::vector<ScanKey> stamps = distinct_scans(measurements);
+  const auto stamp_of = [&](const Measured& measured) {
+    return static_cast<int>(std::ranges::lower_bound(stamps, measured.scan) - stamps.begin());
+  };
+  std::vector<Detection> seen;
+  for (const Measured& measured : measurements)
+    seen.push_back({.step = stamp_of(measured), .landmark = static_cast<int>(measured.landmark)});
+  sort_detections(seen);
+  const ScanGrouping grouping = group_stamps(stamps, seen, scan_window_s);
+  for (Measured& measured : measurements) {
+    const int scan = grouping.scan_of[static_cast<std::size_t>(stamp_of(measured))];
+    measured.scan = grouping.scans[static_cast<std::size_t>(scan)];
+  }
+  return grouping_remark(grouping, stamps.size());
+}
+
 [[noreturn]] void refuse_repeat(const Measured& repeat, const std::vector<Measured>& measurements,
                                 const ValueRows& rows, const std::string& source) {
   const auto first = std::ranges::find_if(measurements, [&](const Measured& measured) {
@@ -242,6 +262,9 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
       throw IoError(source, fmt::format("more than {:.0f} rows", kMostEntries));
   }
   if (measurements.empty()) throw IoError(source, "holds no observations");
+  require_stamps(rows.scans(), format.scan_window_s);
+  const std::string grouping =
+      rows.scans().is_timed() ? group_rows(measurements, format.scan_window_s) : "";
   const bool lists_detections = sensor == Sensor::kVisibility &&
                                 std::ranges::all_of(measurements, [](const Measured& measured) {
                                   return measured.value == 1.0;
@@ -259,6 +282,7 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
   result.reading.form = "long table";
   result.reading.separator = reader.separator();
   result.reading.has_decimal_commas = reader.has_decimal_commas();
+  if (!grouping.empty()) result.remarks.push_back(grouping);
   if (lists_detections)
     result.remarks.push_back(
         "Only detections are listed: all other landmarks are taken as not seen");
@@ -293,6 +317,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   const bool holds_json = is_json(source);
   const std::string bytes = source.rest();
   const std::string_view text = checked_text(bytes, name);
+  if (holds_json && scan_window_s) refuse_window(name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
     throw IoError(name,
@@ -301,6 +326,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
       format.layout == Layout::kLong ||
       (format.layout == Layout::kAuto &&
        (has_long_header(text, name, format.columns) || starts_as_long(text, name)));
+  if (!is_long && format.scan_window_s) refuse_window(name);
   ObservationSource result =
       is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
   result.reading.packing = source.packing();
@@ -310,7 +336,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
 
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
                                     const TableFormat& format) {
-  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility));
+  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility), format.scan_window_s);
   ByteSource source(path);
   return read_observations(source, kind, format);
 }

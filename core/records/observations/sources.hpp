@@ -67,6 +67,8 @@ struct TableFormat {
   Layout layout = Layout::kAuto;
   BearingConvention convention = BearingConvention::kCounterclockwise;
   ColumnNames columns = {};  ///< Columns that a long or transposed table names otherwise.
+  /// Seconds between time stamps of one scan, see ScanWindow; empty: found from the gaps.
+  std::optional<double> scan_window_s = std::nullopt;
 };
 
 /// A measurement without a landmark ID.

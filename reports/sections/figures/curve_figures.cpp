@@ -31,6 +31,7 @@ struct Family {
   std::string id;
   std::string words;  ///< ", methods on a neighbour graph"; may be empty.
   std::vector<Method> methods;
+  std::string note = {};  ///< For the caption.
 };
 
 ErrorLine curve(const Steps& steps, const Measure& measure) {
@@ -69,9 +70,9 @@ std::string caption(const std::vector<Steps>& curves, const Measure& measure,
                         estimate->mean, measure.unit);
   }
   const SettingSummary& first = curves.front().back();
-  return fmt::format("{}{}: {} ({}) over observations. After {} of them \u2013 {}.",
+  return fmt::format("{}{}: {} ({}) over observations. After {} of them \u2013 {}.{}",
                      title_of(first.sensor), family.words, measure.words, measure.name, first.step,
-                     ends);
+                     ends, family.note);
 }
 
 /// Nothing if none of the methods was scored.
@@ -122,6 +123,13 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
       shown.insert(shown.end(), figure.methods.begin(), figure.methods.end());
     }
   if (result.empty()) return families(kMpe.id, sensor);
+  if (result.size() > 1)
+    for (Family& family : result)
+      family.note = fmt::format(
+          " Which methods the paper draws in which of these {} figures is lost with their "
+          "captions: "
+          "the division is ours.",
+          result.size());
   Family others{fmt::format("mpe-{}-others", name(sensor)),
                 ", methods that the paper's figures leave out",
                 {}};

@@ -40,16 +40,17 @@ void add_pair(FigureSource& source, const PaperFigure& wanted, std::vector<Figur
   const MapRecord* first = map_of(*nearest);
   const MapRecord* second = map_of(*median);
   if (first == nullptr || second == nullptr || first->frame != second->frame) return;
-  MapGridSpec spec{.id = wanted.id,
-                   .title = fmt::format("{}, {} after {} steps", title_of(wanted.sensor),
-                                        label(summary->setting), summary->step),
-                   .maps = {{fmt::format("nearest to the paper's: {}", words_of(*nearest)), *first},
-                            {fmt::format("median run: {}", words_of(*median)), *second}}};
+  MapGridSpec spec{
+      .id = wanted.id,
+      .title = fmt::format("{}, {} after {} steps: a run chosen by the printed MPE",
+                           title_of(wanted.sensor), label(summary->setting), summary->step),
+      .maps = {{fmt::format("chosen by the printed MPE: {}", words_of(*nearest)), *first},
+               {fmt::format("median run: {}", words_of(*median)), *second}}};
   Figure figure = map_pair_figure(spec);
   figure.caption += fmt::format(
-      " The paper's example has MPE {:.4g} m and MOE {:.4g} %; the run drawn on the left is the "
-      "one "
-      "of {} whose MPE is nearest to that.",
+      " The paper's example has MPE {:.4g} m and MOE {:.4g} %; the run drawn on the left was "
+      "chosen by that number, as the one of {} whose MPE is nearest to it: that it is near says "
+      "nothing about the method. The run on the right is the median one.",
       wanted.example->mpe_m, wanted.example->moe_percent, summary->scored);
   figures.push_back(std::move(figure));
 }

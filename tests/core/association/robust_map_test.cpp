@@ -1,5 +1,8 @@
 #include "core/association/robust_map.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace mapproof {
@@ -41,6 +44,19 @@ TEST(RobustMap, LeavesAGroupThatNothingJoinsUnmapped) {
   const RobustMap map = robust_map(items, 8);
   EXPECT_TRUE(map.positions_m.topRows(4).allFinite());
   EXPECT_TRUE(map.positions_m.bottomRows(4).array().isNaN().all());
+}
+
+TEST(RobustMap, StartsWithoutALandmarkThatAloneJoinsTwoGroups) {
+  // Only the landmark 0 holds the second square, and the start does not have it.
+  std::vector<PairItem> items = items_of(two_squares(), 10.0, 1.0);
+  std::erase_if(items, [](const PairItem& item) {
+    return (item.first < 4) != (item.second < 4) && item.first != 0;
+  });
+  Points start = two_squares();
+  start.row(0).setConstant(std::nan(""));
+  const RobustMap map = minimized_map(items, start, 0.1);
+  EXPECT_TRUE(map.positions_m.row(0).array().isNaN().all());
+  EXPECT_TRUE(map.positions_m.bottomRows(4).allFinite());
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/map/fit.hpp"
+#include "app/map/pipeline.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/map_fit/history_fit.hpp"
+#include "core/map_fit/map_fit.hpp"
+#include "core/pairs/pair_map.hpp"
+#include "core/records/detections/mrclam.hpp"
+#include "reports/sections/fit_section.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Pairs of detections times landmarks up to which landmark IDs are checked without being asked:
+/// about a second.
+constexpr double kCheapCheck = 6e5;
+constexpr double kMostHistory = 2e7;  ///< Entries of a long table that are tested.
+
+bool is_cheap(const DetectionLog& log) {
+  constexpr std::size_t kMostLandmarks = 60;
+  if (log.names.size() > kMostLandmarks) return false;
+  const auto pairs = static_cast<double>(scan_pairs(log).size());
+  return pairs * static_cast<double>(log.names.size()) <= kCheapCheck;
+}
+
+/// Landmark IDs are checked where that costs little, unless a step before has done so.
+void check_cheaply(MapDraft& draft, const DetectionLog& log) {
+  if (draft.association || !is_cheap(log)) return;
+  draft.association = check_association(log);
+}
+
+/// The fit of the scans that a map of one sensor of an MRCLAM folder leaves out: range and bearing
+/// are there, too.
+Fit mrclam_fit(const std::string& path, const Fit& of_sensor, const Points& known_m) {
+  const DetectionLog log = read_mrclam_detections(path).log;
+  const Fit of_pairs =
+      range_bearing_fit(log, pair_map_of(log).embedding.coordinates, {.known_m = &known_m});
+  Fit fit = of_sensor;
+  if (fit.verdict == FitVerdict::kNotTestable) return of_pairs;
+  for (const FitCause& cause : of_pairs.causes)
+    if (cause.code == FitCode::kKnownLandmarksExchanged) {
+      fit.causes.insert(fit.causes.begin(), cause);
+      fit.verdict = FitVerdict::kDoesNotFit;
+    }
+  return fit;
+}
+
+Fit fit_of(MapDraft& draft, const MapJob& job) {
+  const Points& map = draft.result.record.estimate;
+  const Points& known_m = draft.reference.positions_m;
+  if (const auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
+    const DetectionLog& log = scans->log;
+    if (job.is_range_bearing()) {
+      check_cheaply(draft, log);
+      return range_bearing_fit(
+          log, map,
+          {.known_m = &known_m, .association = draft.association ? &*draft.association : nullptr});
+    }
+    if (static_cast<double>(log.steps) * static_cast<double>(log.names.size()) > kMostHistory)
+      return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
+    return history_fit(history_of(log, *sensor_named(job.kind)), log.steps, map, known_m);
+  }
+  if (const auto* source = std::get_if<ObservationSource>(&draft.observed)) {
+    const bool is_real = is_folder(source->path) && is_mrclam(source->path);
+    const Fit fit = history_fit(source->history, draft.result.record.step, map, known_m,
+                                is_real ? kMostKnownShareOfReal : kMostKnownShare);
+    return is_real ? mrclam_fit(source->path, fit, known_m) : fit;
+  }
+  return joint_fit(std::get<std::vector<ObservationSource>>(draft.observed), map, known_m);
+}
+
+MapDraft test_fit(MapDraft draft, const MapJob& job) {
+  try {
+    draft.result.fit = fit_of(draft, job);
+  } catch (const InvalidInput& problem) {
+    // The map is shown although a test cannot take its data.
+    draft.result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
+    draft.result.warnings.push_back(std::string("The fit was not tested: ") + problem.what());
+  }
+  for (FitCause& cause : draft.result.fit.causes) cause.figure = kFitSection;
+  return draft;
+}
+
+}  // namespace
+
+Fit joint_fit(const std::vector<ObservationSource>& sources, const Points& map,
+              const Points& known_m) {
+  Fit gravest{.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
+  for (const ObservationSource& source : sources) {
+    const Fit one = history_fit(source.history, source.history.steps(), map, known_m);
+    if (fit_rank(one.verdict).value_or(0.0) > fit_rank(gravest.verdict).value_or(0.0))
+      gravest = one;
+  }
+  return gravest;
+}
+
+const MapStep kFit{.take = test_fit, .figure = kFitSection};
+
+}  // namespace mapproof
