@@ -226,7 +226,7 @@ class RangeFollower : public Follower {
  public:
   explicit RangeFollower(const FollowedTable& table)
       : table_(table),
-        stream_(table.source, Sensor::kRange, AngleUnit::kRadians, table.scan_window_s) {}
+        stream_(table.source, Sensor::kRange, table.format) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }

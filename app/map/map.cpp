@@ -81,7 +81,6 @@ void complete(MapJob& job) {
   // A stream cannot be opened before it is read.
   if (!job.follow) open_observations(job);
   require_known_method(job);
-  job.scan_window_s();  // Refuses what is not a window before anything is read.
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
   set_stop_rules(job);

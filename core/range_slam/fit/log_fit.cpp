@@ -25,8 +25,11 @@ constexpr int kJumpTimes = 20;          ///< Times at which a jump of the clock 
 constexpr int kMoveTimes = 9;           ///< Likewise of a move, among a landmark's ranges.
 constexpr std::size_t kMostTried = 3;   ///< Hypotheses of one code that are fitted.
 constexpr int kMostTimeRounds = 4;      ///< Estimates of a hypothesis's time, in turn with its fit.
-/// An effect below this share of a range's sigma hardly moves the map.
+/// An effect below this number of a range's sigmas hardly moves the map.
 constexpr double kSmallEffect = 0.5;
+/// A landmark that moved by less is only doubtful: residuals that hang together in time look alike
+/// (on the logs of Plaza and Sapienza up to 1.7).
+constexpr double kSmallMove = 3.0;
 /// A clock jumped only if so many ranges are before and after, and if a clock that is late
 /// throughout explains less than this share of it.
 constexpr double kLeastSide = 0.08;
@@ -554,10 +557,12 @@ double LogTester::effect_of(const TriedHypothesis& tried) const {
 
 FitCause LogTester::cause_of(const TriedHypothesis& tried) const {
   const LogState& state = tried.fit.state;
-  FitCause cause{.code = tried.hypothesis.code,
-                 .statistic = tried.statistic,
-                 .bound = rule_of(tried.hypothesis.code).bound,
-                 .is_small = effect_of(tried) < kSmallEffect};
+  FitCause cause{
+      .code = tried.hypothesis.code,
+      .statistic = tried.statistic,
+      .bound = rule_of(tried.hypothesis.code).bound,
+      .is_small = effect_of(tried) <
+                  (tried.hypothesis.code == FitCode::kLandmarkMoved ? kSmallMove : kSmallEffect)};
   for (const Index n : tried.hypothesis.landmarks) cause.landmarks.push_back(named(n));
   switch (cause.code) {
     case FitCode::kCommonOffset:

@@ -10,7 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/words.hpp"
-#include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/tables/column_names.hpp"
@@ -187,10 +187,10 @@ std::string lines_csv(std::string_view text, const std::string& source) {
     const std::string_view one = trimmed(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
     if (one.empty()) continue;
-    const JsonDocument document = parse_json(one, fmt::format("{}: line {}", source, line));
-    if (!document.root.is_object())
+    const Json object = parse_json(one, fmt::format("{}: line {}", source, line)).tree();
+    if (!object.is_object())
       throw IoError(source, fmt::format("line {}", line), "is not a JSON object");
-    table.add(document.root);
+    table.add(object);
   }
   if (table.is_empty()) throw IoError(source, "holds no rows");
   return table.csv();
@@ -220,8 +220,7 @@ bool holds_json_rows(ByteSource& source) {
 
 std::string json_rows_csv(std::string_view text, const std::string& source) {
   if (are_lines(trimmed(text, kWhiteSpace))) return lines_csv(text, source);
-  const JsonDocument document = parse_json(text, source);
-  const Json& root = document.root;
+  const Json root = parse_json(text, source).tree();
   JsonTable table(source);
   if (root.is_array()) {
     if (!lists_objects(root)) return matrix_csv(root, source);
