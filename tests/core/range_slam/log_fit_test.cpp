@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
