@@ -139,6 +139,7 @@ std::vector<LogOfSet> read_logs(const SlamExperiment& experiment,
       }
       RangeLogOptions options;
       options.name = set.title;
+      options.keeps_repeats = true;  // The papers count them.
       logs.push_back({.set = set, .log = read_range_log(*folder / file, options)});
       break;
     }

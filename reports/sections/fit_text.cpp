@@ -221,8 +221,9 @@ std::string verdict_text(const Fit& fit) {
       return first.empty() ? "It is doubtful whether the data fit the map."
                            : fmt::format("It is doubtful whether the data fit the map: {}.", first);
     case FitVerdict::kUndetermined:
-      return first.empty() ? "Several maps fit the data equally well."
-                           : fmt::format("Several maps fit the data equally well: {}.", first);
+      return first.empty() || fit.causes.front().is_small
+                 ? "Several maps fit the data equally well."
+                 : fmt::format("Several maps fit the data equally well: {}.", first);
     case FitVerdict::kDoesNotFit:
       return first.empty() ? "The data do not fit the map."
                            : fmt::format("The data do not fit the map: {}.", first);

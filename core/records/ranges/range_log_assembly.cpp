@@ -53,7 +53,7 @@ std::map<std::string_view, Eigen::Index> rows_by_name(const std::vector<std::str
   return rows;
 }
 
-void take_measurements(RangeLogParts& parts, RangeLog& log) {
+void take_measurements(const RangeLogOptions& options, RangeLogParts& parts, RangeLog& log) {
   std::size_t jumps = 0;
   double farthest_s = 0.0;
   for (std::size_t i = 1; i < parts.measurements.size(); ++i) {
@@ -75,7 +75,7 @@ void take_measurements(RangeLogParts& parts, RangeLog& log) {
     double& last = last_s[static_cast<std::size_t>(row)];
     if (!(measured.range_m > 0.0)) {
       ++zeros;
-    } else if (measured.time_s == last) {
+    } else if (measured.time_s == last && !options.keeps_repeats) {
       ++repeated;
     } else {
       last = measured.time_s;
@@ -212,7 +212,7 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
                .ground_truth = parts.ground_truth,
                .true_landmarks = std::nullopt,
                .remarks = parts.remarks};
-  take_measurements(parts, log);
+  take_measurements(options, parts, log);
   take_true_landmarks(parts, log);
   take_start(parts, log);
   count_outside(log);

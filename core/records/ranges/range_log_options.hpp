@@ -17,6 +17,8 @@ struct RangeLogOptions {
   std::filesystem::path odometry_file;  ///< Taken instead; CSV with the columns of odometry.csv.
   std::filesystem::path ground_truth_file;  ///< Taken instead; CSV as groundtruth.csv.
   std::filesystem::path landmarks_file;     ///< Taken instead; CSV as landmarks.csv.
+  /// Whether ranges stay that repeat landmark and stamp of another one, as in the published counts.
+  bool keeps_repeats = false;
 };
 
 }  // namespace mapproof

@@ -51,12 +51,14 @@ TEST(AcrossProcessors, EveryMethodGivesNumbersToCompare) {
     ASSERT_TRUE(map != numbers.end() && map->first.starts_with(start)) << start;
     is_reported(map->first, map->second);
   }
-  for (const SlamMethodInfo& method : all_slam_methods())
+  for (const SlamMethodInfo& method : all_slam_methods()) {
+    if (method.method == SlamMethod::kRepaired) continue;  // Only of logs that do not fit.
     for (const char* part : {"slam/path/", "slam/landmarks/"}) {
       const std::string block = part + std::string(method.name);
       ASSERT_TRUE(numbers.contains(block)) << block;
       if (block != "slam/landmarks/dead-reckoning") is_reported(block, numbers.at(block));
     }
+  }
 }
 
 TEST(AcrossProcessors, ADifferenceIsOfTheLargestNumberOfItsBlock) {
