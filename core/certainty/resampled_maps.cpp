@@ -12,6 +12,8 @@ void draw_columns(const Eigen::MatrixXd& from, Eigen::Index steps,
                   const std::vector<Eigen::Index>& drawn, Eigen::MatrixXd& to) {
   const Eigen::Index parts = from.cols() / steps;
   const auto count = std::ssize(drawn);
+  // Eigen frees a matrix before it allocates the larger one: without memory it would free it again.
+  if (to.rows() != from.rows() || to.cols() != parts * count) to = Eigen::MatrixXd();
   to.resize(from.rows(), parts * count);
   for (Eigen::Index part = 0; part < parts; ++part)
     for (std::ptrdiff_t k = 0; k < count; ++k)

@@ -95,16 +95,17 @@ LogFitOptions fit_options(const TrialContext& context, bool only_tests) {
 }
 
 /// How the landmarks of a map lie to their true positions, after a rigid fit.
-void add_coverage(const LogFit& fit, const Points& truth, Trial& trial) {
+void add_coverage(const LogFit& fit, const Points& true_landmarks_m, Trial& trial) {
   const Points& mapped = fit.estimate.landmarks_m;
-  if (mapped.rows() != truth.rows() || !mapped.allFinite() ||
+  if (mapped.rows() != true_landmarks_m.rows() || !mapped.allFinite() ||
       std::ssize(fit.estimate.landmark_cov_m2) != mapped.rows())
     return;
   // Into the frame of the map, in which the covariances are.
-  const Points there = Points(fit_similarity(truth, mapped, Alignment::kRigid)(truth));
+  const Points there =
+      Points(fit_similarity(true_landmarks_m, mapped, Alignment::kRigid)(true_landmarks_m));
   double inside = 0.0, nees = 0.0, error_m = 0.0;
-  const double count = static_cast<double>(truth.rows());
-  for (Eigen::Index n = 0; n < truth.rows(); ++n) {
+  const double count = static_cast<double>(true_landmarks_m.rows());
+  for (Eigen::Index n = 0; n < true_landmarks_m.rows(); ++n) {
     const Eigen::Vector2d error = (mapped.row(n) - there.row(n)).transpose();
     const Eigen::Matrix2d& C = fit.estimate.landmark_cov_m2[static_cast<std::size_t>(n)];
     const double squared = error.dot(C.inverse() * error);

@@ -224,8 +224,10 @@ Outcome nightly_on_a_small_disk(const fs::path& store, const fs::path& disk, int
   const std::string script =
       "mount -t tmpfs -o size=" + used +
       "k tmpfs \"$1\" || exit 77\n"
-      "cp \"$0/history.sqlite\" \"$1\" && ln -sf \"$1/history.sqlite\" \"$0\" || exit 76\n"
+      "cp \"$0/history.sqlite\" \"$1\" || exit 76\n"
+      "mount --bind \"$1/history.sqlite\" \"$0/history.sqlite\" || exit 76\n"
       "disk=$1; shift; \"$@\"; code=$?\n"
+      "umount \"$0/history.sqlite\" || exit 76\n"
       "cp \"$disk/history.sqlite\" \"$0/back\" && mv \"$0/back\" \"$0/history.sqlite\" || exit 76\n"
       "exit $code\n";
   return run_program({"unshare", "-Urm", "sh", "-c", script, store, disk, program(), "nightly",

@@ -47,7 +47,7 @@ class OutputFolder {
 std::string part_name(const std::string& name);
 
 /// Waits until the entries of a folder are on the disk. A file system that cannot do this, as some
-/// on a network, is no error.
+/// on a network, is not an error.
 /// @throws IoError.
 void sync_folder(const std::filesystem::path& folder);
 

@@ -388,7 +388,7 @@ KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
                        (all[a].given - all[b].given).norm()});
     }
   std::erase_if(found, [](const Found& f) { return f.rest > f.bound; });
-  // Nearly the same rest: it cannot be told which one it is; an exchange needs no freedom.
+  // Nearly the same rest: which one it is cannot be determined; an exchange needs no freedom.
   std::ranges::stable_sort(found, {}, [](const Found& f) {
     return f.rest / f.bound + (f.code == FitCode::kKnownLandmarkOff ? 0.5 : 0.0);
   });

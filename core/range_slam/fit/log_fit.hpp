@@ -46,7 +46,7 @@ struct LogFit {
 /// Fits path, landmarks, range scale and noise to a log, and tests whether the log fits them.
 ///
 /// The plain model is compared with one hypothesis at a time by the drop of -2 ln L, marginal over
-/// the path, the noise estimated anew under each, divided by the inflation of the residuals'
+/// the path, the noise estimated again under each, divided by the inflation of the residuals'
 /// variance through their dependence in time (docs/methods/goodness-of-fit.md).
 /// @param starts  Paths, which are carried along the odometry, with landmarks (NaN rows: not
 ///                known); the one of least cost counts. None: dead reckoning.

@@ -86,7 +86,7 @@ void take_measurements(const RangeLogOptions& options, RangeLogParts& parts, Ran
     }
   }
   if (zeros > 0)
-    log.remarks.push_back(fmt::format("Left out, since a range of 0 is no echo: {}.",
+    log.remarks.push_back(fmt::format("Left out, since a range of 0 is not an echo: {}.",
                                       counted(static_cast<long long>(zeros), "range")));
   if (repeated > 0)
     log.remarks.push_back(

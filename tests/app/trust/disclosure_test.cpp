@@ -64,8 +64,8 @@ void expect_done(const std::vector<std::string>& command, int code = 0) {
 
 TEST(Provenance, OfMapsNamesNoUserHostOrHome) {
   const Person person;
-  const std::string map = person.in("map", "examples/map"),
-                    log = person.in("slam", "examples/slam");
+  const std::string map = person.in("map", "examples/hall"),
+                    log = person.in("slam", "examples/drive");
   const std::string out = person.home / "out";
   expect_done({"map", map + "/bearings.csv", "--sensor", "bearing", "--method", "lpca", "--anchors",
                map + "/anchors.csv", "--out", out + "/map"});

@@ -21,6 +21,10 @@ const std::string kTrap = "<script>" + kFire + "</script><img src=x onerror=\"" 
                           "\"><svg onload='" + kFire + "'/>\"'></script></style></title>" +
                           "</textarea><script>" + kFire + "</script>{{{x}}}]]>-->";
 
+/// The same where a text has at most 200 bytes.
+const std::string kShortTrap = "<script>" + kFire + "</script>\"'><img src=x onerror='" + kFire +
+                               "'></style></script>{{{x}}}]]>-->";
+
 /// The page as Chromium has it after its scripts ran; empty if there is no Chromium.
 std::string opened(const fs::path& page) {
   const TemporaryFolder profile;
@@ -55,7 +59,7 @@ class HostilePage : public ::testing::Test {
         {"schema", {{"name", "mapproof.results_study"}, {"version", 1}}},
         {"title", kTrap},
         {"question", kTrap},
-        {"quantities", {{{"id", "e"}, {"label", kTrap}, {"unit", kTrap}, {"better", "lower"}}}},
+        {"quantities", {{{"id", "e"}, {"label", kShortTrap}, {"unit", kShortTrap}, {"better", "lower"}}}},
         {"setups", {{{"id", kTrap}, {"label", kTrap}}}},
         {"methods", {{{"id", kTrap}, {"label", kTrap}}, {{"id", "b"}, {"label", kTrap}}}}};
     const fs::path study = folder_ / name;

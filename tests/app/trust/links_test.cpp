@@ -13,7 +13,7 @@ namespace {
 
 const std::string kSmallOrder =
     std::string(MAPPROOF_SOURCE_DIR) + "/tests/data/experiments/small.json";
-const std::string kBearings = std::string(MAPPROOF_SOURCE_DIR) + "/examples/map/bearings.csv";
+const std::string kBearings = std::string(MAPPROOF_SOURCE_DIR) + "/examples/hall/bearings.csv";
 
 /// A file and a folder that nothing which was handed over may reach.
 class Trap {
