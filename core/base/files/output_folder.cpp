@@ -190,6 +190,8 @@ void refuse_links_out(const fs::path& folder) {
     if (!entry->is_symlink(unknown)) continue;
     const fs::path target = fs::canonical(entry->path(), unknown);
     if (unknown || lies_in(target, real)) continue;
+    // Devices and pipes are refused where they are read.
+    if (!fs::is_regular_file(target, unknown) && !fs::is_directory(target, unknown)) continue;
     throw IoError((folder / entry->path().lexically_relative(real)).string(),
                   "is a link that leads out of the folder; put the file itself there");
   }

@@ -59,7 +59,11 @@ class HostilePage : public ::testing::Test {
         {"schema", {{"name", "mapproof.results_study"}, {"version", 1}}},
         {"title", kTrap},
         {"question", kTrap},
-        {"quantities", {{{"id", "e"}, {"label", kShortTrap}, {"unit", kShortTrap}, {"better", "lower"}}}},
+        {"quantities",
+         {{{"id", "e"},
+           {"label", kShortTrap},
+           {"unit", "<svg onload='" + kFire + "'>"},
+           {"better", "lower"}}}},
         {"setups", {{{"id", kTrap}, {"label", kTrap}}}},
         {"methods", {{{"id", kTrap}, {"label", kTrap}}, {{"id", "b"}, {"label", kTrap}}}}};
     const fs::path study = folder_ / name;
