@@ -12,6 +12,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
@@ -23,19 +24,16 @@ namespace {
 /// More would hide each other; the table has all.
 constexpr std::size_t kMostLines = 12;
 
-/// Of a figure.
-constexpr std::size_t kLongestId = 120;
+/// Of a section of a report.
+constexpr std::size_t kLongestId = 100;
 
 constexpr const char* kFound = "a finding";
 
-/// [a-z0-9-]+ of any name.
+/// A part of an id.
 std::string id_of(const std::string& name) {
-  std::string id;
-  for (const char c : lower_case(name))
-    id += (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ? c : '-';
-  return id;
+  const std::string slug = slug_of(name);
+  return slug.empty() ? "other" : slug;
 }
-
 /// Over the nightly runs; infinite if none has a value.
 double level_over_nightly_runs(const std::vector<double>& values) {
   std::vector<double> known;
@@ -168,7 +166,7 @@ ErrorLinesSpec named_spec(const Reported& reported, const std::string& id,
                           const std::string& title) {
   ErrorLinesSpec spec;
   const bool named = reported.place.among_others;
-  spec.id = ("trend-" + (named ? id_of(reported.trend.name) + "-" : "") + id).substr(0, kLongestId);
+  spec.id = bounded_id("trend-" + (named ? id_of(reported.trend.name) + "-" : "") + id, kLongestId);
   spec.title = (named ? reported.trend.name + ", " : "") + title + ", by nightly run";
   return spec;
 }

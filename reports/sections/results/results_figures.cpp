@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/thinning.hpp"

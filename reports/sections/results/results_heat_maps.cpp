@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/slug.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 
 namespace mapproof {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 
@@ -114,6 +115,7 @@ void ResultsView::add_setup(const Label& setup) {
         block.id += "-without-" + slug_of(factor);
       }
     if (block.id.back() == '-') block.id += "setup";
+    block.id = bounded_id(std::move(block.id), 80);
   }
   for (auto& [others, block] : blocks) blocks_.push_back(std::move(block));
 }
@@ -325,19 +327,6 @@ std::string ResultsView::setup_slug(const std::string& setup) const {
     if (slug(other.id) == slug(setup)) ++same;
   }
   return same == 1 ? slug(setup) : fmt::format("{}-{}", slug(setup), same);
-}
-
-std::string slug_of(const std::string& text) {
-  std::string slug;
-  for (const char c : lower_case(text)) {
-    const bool is_kept = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    if (is_kept)
-      slug += c;
-    else if (!slug.empty() && slug.back() != '-')
-      slug += '-';
-  }
-  while (!slug.empty() && slug.back() == '-') slug.pop_back();
-  return slug;
 }
 
 std::string level_slug(const Level& level) {

@@ -127,9 +127,6 @@ class ResultsView {
 /// Whether a value counts as lost: no number, or too large for a sum of squares.
 bool is_lost(double value);
 
-/// [a-z0-9-]+ of any text, for ids.
-std::string slug_of(const std::string& text);
-
 /// The level's text for ids, with its sign in words: "minus-5", "0-5", "grass".
 std::string level_slug(const Level& level);
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/results/results_view.hpp"

@@ -21,9 +21,8 @@ const std::string kTrap = "<script>" + kFire + "</script><img src=x onerror=\"" 
                           "\"><svg onload='" + kFire + "'/>\"'></script></style></title>" +
                           "</textarea><script>" + kFire + "</script>{{{x}}}]]>-->";
 
-/// The same where a text has at most 200 bytes.
-const std::string kShortTrap = "<script>" + kFire + "</script>\"'><img src=x onerror='" + kFire +
-                               "'></style></script>{{{x}}}]]>-->";
+/// The same where a text is short.
+const std::string kShortTrap = "<svg onload='" + kFire + "'>";
 
 /// The page as Chromium has it after its scripts ran; empty if there is no Chromium.
 std::string opened(const fs::path& page) {
@@ -60,10 +59,7 @@ class HostilePage : public ::testing::Test {
         {"title", kTrap},
         {"question", kTrap},
         {"quantities",
-         {{{"id", "e"},
-           {"label", kShortTrap},
-           {"unit", "<svg onload='" + kFire + "'>"},
-           {"better", "lower"}}}},
+         {{{"id", "e"}, {"label", kShortTrap}, {"unit", kShortTrap}, {"better", "lower"}}}},
         {"setups", {{{"id", kTrap}, {"label", kTrap}}}},
         {"methods", {{{"id", kTrap}, {"label", kTrap}}, {{"id", "b"}, {"label", kTrap}}}}};
     const fs::path study = folder_ / name;
@@ -90,7 +86,7 @@ TEST_F(HostilePage, TextsOfAStudyStayTexts) {
     const Outcome made = mapproof({"report", one});
     ASSERT_EQ(made.exit_code, 0) << made.error;
     const Outcome recorded = mapproof({"nightly", one, "--store", store});
-    ASSERT_EQ(recorded.exit_code, one == first ? 0 : 1) << recorded.error;
+    ASSERT_EQ(recorded.exit_code, 0) << recorded.error;
   }
   const fs::path page = folder_ / "diff.html";
   EXPECT_EQ(mapproof({"diff", first, second, "--out", page}).exit_code, 1);
