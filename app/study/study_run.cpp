@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "app/build_facts.hpp"
-#include "app/progress_line.hpp"
+#include "app/console.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/results_study_json.hpp"

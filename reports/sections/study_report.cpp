@@ -17,8 +17,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/proofs.hpp"
 #include "reports/sections/study_counts.hpp"
-#include "reports/sections/tables/accuracy_tables.hpp"
-#include "reports/sections/tables/comparison_tables.hpp"
+#include "reports/sections/tables/method_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 

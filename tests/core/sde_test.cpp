@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "tests/support/samples/worlds.hpp"
 #include "tests/support/statuses.hpp"
 

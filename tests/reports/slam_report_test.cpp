@@ -1,6 +1,5 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_run_section.hpp"
-#include "reports/sections/slam/slam_summary.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -14,6 +14,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 namespace mapproof {
 namespace {

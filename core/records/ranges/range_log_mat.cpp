@@ -1,4 +1,4 @@
-#include "core/records/ranges/range_log_mat.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 #include <array>
 #include <cmath>
@@ -21,7 +21,6 @@
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_logs.hpp"
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {

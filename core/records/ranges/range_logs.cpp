@@ -10,10 +10,7 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
-#include "core/records/ranges/range_log_csv.hpp"
-#include "core/records/ranges/range_log_mat.hpp"
-#include "core/records/ranges/range_log_pyfg.hpp"
-#include "core/records/ranges/range_log_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {

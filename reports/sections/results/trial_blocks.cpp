@@ -8,8 +8,8 @@
 
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
+#include "reports/sections/provenance.hpp"
 #include "reports/sections/results/results_view.hpp"
-#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 #include "reports/sections/wording.hpp"
 

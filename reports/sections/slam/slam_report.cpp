@@ -1,8 +1,5 @@
 #include "reports/sections/slam/slam_report.hpp"
 
-#include "reports/sections/slam/slam_run_section.hpp"
-#include "reports/sections/slam/slam_summary.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -16,10 +13,11 @@
 #include "render/figures/status_text.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/provenance.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
-#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

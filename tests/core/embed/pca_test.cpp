@@ -1,11 +1,10 @@
-#include "core/embed/kernel_pca.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {

@@ -8,6 +8,11 @@
 
 namespace mapproof {
 
+/// The sections of a range-only study; each a pure function of the values.
+
+/// What the study found on each log, in short.
+Section slam_summary_section(const SlamStudy& study);
+
 /// Errors of all methods on all logs of real robots; empty without such a log.
 std::optional<Section> slam_accuracy_section(const SlamStudy& study);
 

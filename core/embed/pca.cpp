@@ -1,15 +1,20 @@
-#include "core/embed/kernel_pca.hpp"
+#include "core/embed/pca.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/base/errors.hpp"
-#include "core/embed/principal_coordinates.hpp"
 #include "core/linalg/centering.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
 
 namespace mapproof {
 namespace {
+
+/// Eigenvalues up to this share of the largest, or of the matrix, are rounding.
+constexpr double kCoordinateRounding = 1e-12;
+/// Eigenvalues nearer to each other than this share of the largest count as one.
+constexpr double kEqualEigenvalues = 1e-10;
 
 void check(const Eigen::MatrixXd& matrix) {
   if (matrix.rows() < 3 || matrix.cols() != matrix.rows())
@@ -37,6 +42,32 @@ Embedding of_kernel(Eigen::MatrixXd K) {
 }
 
 }  // namespace
+
+Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
+  const EigenPairs pairs = largest_eigenpairs(B, std::min<Eigen::Index>(B.rows(), 10));
+  Embedding result;
+  result.spectrum = pairs.values;
+  result.coordinates.setZero(B.rows(), 2);
+  const double floor = kCoordinateRounding * std::max(pairs.values(0), size);
+  int rank = 0;
+  for (; rank < 2 && pairs.values(rank) > floor; ++rank)
+    result.coordinates.col(rank) = std::sqrt(pairs.values(rank)) * pairs.vectors.col(rank);
+  if (!pairs.converged)
+    result.statuses.push_back(status_of<StatusReason::kEigenvaluesNotConverged>());
+  if (rank < 2) {
+    result.statuses.push_back(status_of<StatusReason::kDistancesFlat>(rank));
+  } else if (pairs.values(1) - pairs.values(2) <= kEqualEigenvalues * pairs.values(0)) {
+    result.statuses.push_back(status_of<StatusReason::kEqualEigenvalues>(pairs.values(1)));
+  }
+  return result;
+}
+
+Embedding lpca(const Eigen::MatrixXd& squared_distances) {
+  const Eigen::Index n = squared_distances.rows();
+  if (n < 3 || squared_distances.cols() != n)
+    throw InvalidInput("LPCA needs a square matrix of at least 3 landmarks");
+  return principal_coordinates(double_centered(squared_distances), squared_distances.maxCoeff());
+}
 
 Embedding kernel_pca(const Eigen::MatrixXd& squared_distances, const GaussianKernel& kernel) {
   check(squared_distances);

@@ -1,4 +1,3 @@
-#include "core/linalg/tile_product.hpp"
 
 #include <gtest/gtest.h>
 
