@@ -86,7 +86,7 @@ std::vector<char*> with_help(int argc, char** argv) {
 
 int run_command_of(int argc, char** argv) {
   CLI::App app(
-      "Maps from what a robot observed, without ever estimating its pose, and proof of them",
+      "Maps from what a robot observed, without ever estimating its pose, with the evidence",
       "mapproof");
   app.footer(std::string(kExitCodes) + "\n" + kFooter);
   app.set_version_flag("--version", std::function<std::string()>(version_text));

@@ -254,8 +254,7 @@ void JsonCursor::allow_only(std::initializer_list<std::string_view> keys) const 
 void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
   for (const auto& [key, value] : members()) {
     if (std::ranges::find(keys, key) != keys.end()) continue;
-    if (const std::string_view now = replacement_of(NameKind::kKey, key);
-        std::ranges::find(keys, now) != keys.end())
+    if (const std::string_view now = replacement_of(NameKind::kKey, key, keys); !now.empty())
       fail(fmt::format("{}: this key is now called \"{}\"", in_quotes(key), now));
     const std::string_view meant = likely_word(key, keys);
     fail("unknown key " + in_quotes(key) +

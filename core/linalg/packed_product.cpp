@@ -173,19 +173,18 @@ void pack(const ConstBlock& A, Index first, Index depth, std::vector<double>& pa
 }
 
 /// Where a tile goes, and which half of it if it lies on the diagonal.
-struct Place {
+struct TilePosition {
   Index row = 0;
   Index column = 0;
   bool lower_only = false;
 };
 
-void add_tile(const double* tile, const Place& place, double sign, Block& out) {
-  const Index columns = std::min(kTileColumns, out.cols() - place.column);
-  const Index to = std::min(kTileRows, out.rows() - place.row);
+void add_tile(const double* tile, const TilePosition& at, double sign, Block& out) {
+  const Index columns = std::min(kTileColumns, out.cols() - at.column);
+  const Index to = std::min(kTileRows, out.rows() - at.row);
   for (Index c = 0; c < columns; ++c) {
-    const Index from =
-        place.lower_only ? std::max<Index>(0, place.column + c - place.row) : Index{0};
-    double* entry = out.data() + (place.column + c) * out.outerStride() + place.row;
+    const Index from = at.lower_only ? std::max<Index>(0, at.column + c - at.row) : Index{0};
+    double* entry = out.data() + (at.column + c) * out.outerStride() + at.row;
     for (Index r = from; r < to; ++r) entry[r] += sign * tile[c * kTileRows + r];
   }
 }

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "render/theme/colour.hpp"
-#include "render/theme/ink.hpp"
 
 namespace mapproof {
 
@@ -27,7 +26,7 @@ struct Theme {
   Colour background, text, muted, grid, warning;
   std::array<Colour, 7> series;
 
-  Colour of(Ink ink) const;
+  Colour of(ThemeColour colour) const;
 };
 
 /// For screens: 600 x 450 pt, 1200 x 900 px.

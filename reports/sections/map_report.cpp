@@ -43,7 +43,7 @@ Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ell
       order, {}, [&](std::size_t i) { return ellipses[i] ? -ellipses[i]->a : kInfinity; });
   for (const std::size_t i : order) {
     const std::optional<Ellipse>& ellipse = ellipses[i];
-    const double turn = ellipse ? ellipse->turn_rad * 180.0 / std::numbers::pi : kNaN;
+    const double turn = ellipse ? ellipse->rotation_rad * 180.0 / std::numbers::pi : kNaN;
     Row row;
     row.cells = {TextCell{record.names[i], Emphasis::kData},
                  NumberCell{ellipse ? ellipse->a : kNaN, 3},

@@ -40,17 +40,18 @@ std::string methods_of(const SensorStudy& sensor) {
 
 KeyValues experiment_items(const Experiment& experiment) {
   KeyValues items;
-  items.items = {{"Experiment", data(experiment.name)},
-                 {"Seed", data(fmt::format("{}", experiment.seed))},
-                 {"Runs", data(fmt::format("{} \u00D7 {}", counted(experiment.layouts, "layout"),
-                                           counted(experiment.poses, "initial pose")))},
-                 {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm",
-                                           experiment.world.side_m, experiment.world.side_m,
-                                           counted(experiment.world.landmarks, "landmark"),
-                                           1e3 * experiment.world.landmark_diameter_m))},
-                 {"Walk", data(fmt::format("steps of {:g} m, heading changes up to {:.4g} rad",
-                                           experiment.walk.step_m, experiment.walk.turn_rad))},
-                 {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
+  items.items = {
+      {"Experiment", data(experiment.name)},
+      {"Seed", data(fmt::format("{}", experiment.seed))},
+      {"Runs", data(fmt::format("{} \u00D7 {}", counted(experiment.layouts, "layout"),
+                                counted(experiment.poses, "initial pose")))},
+      {"Room",
+       data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm", experiment.world.side_m,
+                        experiment.world.side_m, counted(experiment.world.landmarks, "landmark"),
+                        1e3 * experiment.world.landmark_diameter_m))},
+      {"Walk", data(fmt::format("steps of {:g} m, heading changes up to {:.4g} rad",
+                                experiment.walk.step_m, experiment.walk.heading_change_rad))},
+      {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
   for (const SensorStudy& sensor : experiment.sensors) {
     const std::string title = title_of(sensor.sensor.sensor);
     items.items.push_back({title + " checkpoints", data(join(sensor.checkpoints))});

@@ -69,10 +69,10 @@ StatusKind kind_of(const RunRecord& record) {
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
   ++item.count;
-  if (item.places.size() >= kLocationsShown) return;
+  if (item.locations.size() >= kLocationsShown) return;
   for (const Status& status : record.statuses)
     if (status.code == code)
-      item.places.push_back(
+      item.locations.push_back(
           {record_id(run, record.sensor, record.setting, record.step), status_text(status)});
 }
 

@@ -21,9 +21,9 @@ TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
   EXPECT_EQ(list.items[0].code, "failed");
   EXPECT_EQ(list.items[0].count, 4);
   EXPECT_EQ(list.items[0].of, 40);
-  EXPECT_EQ(list.items[0].places[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
+  EXPECT_EQ(list.items[0].locations[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
   for (const StatusList::Item& item : list.items) {
-    EXPECT_LE(item.places.size(), 5u);
+    EXPECT_LE(item.locations.size(), 5u);
     EXPECT_FALSE(item.meaning.empty());
   }
 }

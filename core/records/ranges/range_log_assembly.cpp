@@ -173,7 +173,7 @@ bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
   double largest = 0.0;
   double most_turn = 0.0;
   for (Eigen::Index i = 0; i < steps; ++i) {
-    const double turn = motions[static_cast<std::size_t>(i)].turn_rad;
+    const double turn = motions[static_cast<std::size_t>(i)].heading_change_rad;
     const double true_turn = ground_truth.heading_rad(i + 1) - ground_truth.heading_rad(i);
     largest = std::max(largest, std::abs(wrapped(turn - true_turn)));
     most_turn = std::max(most_turn, std::abs(turn));

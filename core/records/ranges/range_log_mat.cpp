@@ -78,7 +78,7 @@ RecoveredOdometry motions_along(const Trajectory& path, const std::vector<double
     odometry.motions.push_back(
         {.time_s = path.time_s(i + 1),
          .distance_m = signs(i) * steps_m.row(i).norm(),
-         .turn_rad = i + 1 < steps ? wrapped(headings(i + 1) - headings(i)) : 0.0});
+         .heading_change_rad = i + 1 < steps ? wrapped(headings(i + 1) - headings(i)) : 0.0});
   return odometry;
 }
 

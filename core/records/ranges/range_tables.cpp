@@ -83,7 +83,7 @@ std::vector<Motion> motions_in(const NumberTable& table) {
     if (has_sideways) check_bound(table, i, 3, kLongestRange_m, "a distance in metres");
     motions.push_back({.time_s = table.values(i, 0),
                        .distance_m = table.values(i, 1),
-                       .turn_rad = table.values(i, 2),
+                       .heading_change_rad = table.values(i, 2),
                        .sideways_m = has_sideways ? table.values(i, 3) : 0.0});
   }
   return motions;

@@ -103,7 +103,7 @@ void add_statuses(const std::string& where, const std::string& id,
       item = list.items.end() - 1;
     }
     item->count = 1;
-    item->places.push_back({id, status_text(status)});
+    item->locations.push_back({id, status_text(status)});
   }
 }
 

@@ -237,7 +237,8 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
     const int decimals = claim.difference_m && std::abs(claim.difference_m->mean) < 0.1 ? 4 : 3;
     std::string holds = "not tried";
     if (claim.difference_m)
-      holds = fmt::format("{}{}", claim.holds() ? "yes" : "no", claim.is_sure() ? "" : ", unsure");
+      holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
+                          claim.is_significant() ? "" : ", unsure");
     table.rows.push_back({{method_cell(claim.less), method_cell(claim.more), TextCell{holds},
                            mean_cell(claim.difference_m, decimals, true),
                            difference_interval_cell(claim.difference_m, decimals),

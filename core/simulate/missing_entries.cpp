@@ -1,4 +1,4 @@
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 namespace mapproof {
 
 /// The meaning of a colour; a theme defines the colour itself.
-enum class Ink {
+enum class ThemeColour {
   kText,
   kMuted,    ///< Helps the eye; still at least 3:1 against the background.
   kWarning,  ///< Text about a warning or a failure.
