@@ -105,7 +105,7 @@ std::string reason_words(const Status& status) {
                          : "");
     case StatusReason::kBoundBelowZero:
       return fmt::format(
-          "No points have the distances to be kept, as the bound proves; the squared distances to "
+          "No points have the distances to be kept, as the bound shows; the squared distances to "
           "be kept are off by up to {:.1e} of the largest.",
           v(0));
     case StatusReason::kNoBound:

@@ -18,7 +18,7 @@
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
-#include "reports/sections/proofs.hpp"
+#include "reports/sections/certificates.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {

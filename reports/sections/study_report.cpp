@@ -12,10 +12,10 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/certificates.hpp"
 #include "reports/sections/findings.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
-#include "reports/sections/proofs.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/tables/method_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
@@ -204,7 +204,8 @@ Report study_report(const StudyReportInput& input) {
   if (auto variations = variations_section(input.study))
     report.sections.push_back(*std::move(variations));
   report.sections.push_back(statuses_section(input.study));
-  if (auto proofs = proofs_section(input.study)) report.sections.push_back(*std::move(proofs));
+  if (auto certificates = certificates_section(input.study))
+    report.sections.push_back(*std::move(certificates));
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));
   report.opening = study_opening(input.study, input.figures);

@@ -158,8 +158,8 @@ Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
   figure.notes.push_back(
       {fmt::format("Mean ranks over {}; Friedman {}.", units, probability(spec.friedman_p))});
   if (spec.friedman_p > spec.alpha)
-    figure.notes.push_back(
-        {"The Friedman test finds no difference: the bars prove nothing.", ThemeColour::kWarning});
+    figure.notes.push_back({"The Friedman test finds no difference: the bars have no meaning.",
+                            ThemeColour::kWarning});
   if (!spec.methods.empty() && diagram.beyond_axis())
     figure.notes.push_back(
         {"CD is longer than the axis (arrow): with so few units no difference is significant.",

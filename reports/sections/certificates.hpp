@@ -10,9 +10,9 @@ namespace mapproof {
 
 /// How near their optima the semidefinite programs of a study came: a row for each sensor, setting
 /// and solver, with the worst of its records. Empty if the study has none.
-std::optional<Section> proofs_section(const Study& study);
+std::optional<Section> certificates_section(const Study& study);
 
-/// What proves one map, or what is missing.
+/// The certificate of one map, or what it lacks.
 Section certificate_section(const Certificate& certificate);
 
 }  // namespace mapproof
