@@ -41,7 +41,7 @@ struct NoticedMove {
   ScanKey from;         ///< The first detection at the new position.
 };
 
-/// Looks for moved landmarks in a growing log, and keeps their later detections apart.
+/// Looks for moved landmarks in a log that grows, and keeps their later detections apart.
 ///
 /// A check is find_moved() of all scans so far, made when there are a quarter more of them than at
 /// the last: by then a move right after it is visible for long enough. So that all checks together

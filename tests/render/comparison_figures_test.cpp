@@ -257,7 +257,7 @@ TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
   const auto against = layers_of<Scatter>(figure.panels[0]);
   const auto off = layers_of<Scatter>(figure.panels[1]);
   ASSERT_EQ(against.size(), 2u);
-  ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no place in the map,
+  ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no position in the map,
   ASSERT_EQ(against[1].x.size(), 2u);  // but one in the ground truth.
   EXPECT_DOUBLE_EQ(against[0].x[0], 3.1);
   EXPECT_DOUBLE_EQ(against[0].y[0], 3.3);

@@ -36,7 +36,7 @@ class Browser : public ::testing::Test {
   }
 };
 
-/// Ten comes before nine as text; the missing value and the NaN have no place in the order.
+/// Ten comes before nine as text; the missing value and the NaN come last.
 Report numbers() {
   Table table{"numbers", "Numbers", {{"Name", "", "", ""}, {"Value", "m", "", ""}}, {}, {}};
   const auto add = [&](const char* name, Cell cell) {

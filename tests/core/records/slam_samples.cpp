@@ -47,7 +47,7 @@ SlamRecord made_up_record() {
   estimate.iterations = 7;
   estimate.cost = 123.456;
   estimate.statuses = {
-      status_with_message(StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no place.")};
+      status_with_message(StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no position.")};
   record.errors = {{.alignment = Alignment::kRigid,
                     .mean_m = 0.2,
                     .rmse_m = 0.25,
