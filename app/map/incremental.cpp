@@ -12,7 +12,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "core/follow/moved_watch.hpp"
+#include "core/follow/incremental_map.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/records/detections/detection_stream.hpp"
