@@ -274,7 +274,7 @@ TEST(PairDistancesFigure, SaysThatNoPairHasAPlaceAndRefusesRowsThatAreNotThere) 
   const std::vector<MeasuredPair> none;
   const Figure figure = pair_distances_figure({"pairs", "Pairs", map, none});
   ASSERT_EQ(figure.notes.size(), 1u);
-  EXPECT_EQ(figure.notes[0].text, "No measured pair has a place.");
+  EXPECT_EQ(figure.notes[0].text, "No measured pair has a position.");
   for (const MeasuredPair& wrong : {MeasuredPair{0, 3}, MeasuredPair{1, 1}, MeasuredPair{-1, 2}}) {
     const std::vector<MeasuredPair> pairs = {wrong};
     EXPECT_THROW(pair_distances_figure({"pairs", "Pairs", map, pairs}), InvalidInput);
