@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/theme/colour.hpp"
+#include "render/theme/theme_colour.hpp"
 
 namespace mapproof {
 
