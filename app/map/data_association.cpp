@@ -170,7 +170,7 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
 ///         missing though there is no measurement for it, more measurements than free landmarks,
 ///         an ID that is not there; or for a single uncertain ID.
 EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& unsure) {
-  EstimatedIds labels;
+  EstimatedIds ids;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
@@ -179,10 +179,10 @@ EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::stri
   mark_unsure(source, unsure, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
   ids.measurements = assigned(source, dealt, found);
-  report(source, dealt.doubtful, found, labels);
+  report(source, dealt.doubtful, found, ids);
   source.history = found.history;
   source.unassociated.clear();
-  return labels;
+  return ids;
 }
 
 /// RFC 4180: step,line,given,landmark,value,clear.
@@ -199,11 +199,11 @@ MapDraft associate(MapDraft draft, const MapJob& job) {
   auto* source = std::get_if<ObservationSource>(&draft.observed);
   if (source == nullptr || (source->unassociated.empty() && job.uncertain_ids.empty()))
     return draft;
-  const EstimatedIds labels = estimate_ids(*source, job.uncertain_ids);
+  const EstimatedIds ids = estimate_ids(*source, job.uncertain_ids);
   MapResult& result = draft.result;
   result.remarks.insert(result.remarks.end(), ids.remarks.begin(), ids.remarks.end());
   result.warnings.insert(result.warnings.end(), ids.warnings.begin(), ids.warnings.end());
-  result.files.push_back({std::string(kAssociationFile), ids_csv(labels)});
+  result.files.push_back({std::string(kAssociationFile), ids_csv(ids)});
   return draft;
 }
 

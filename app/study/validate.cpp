@@ -156,6 +156,18 @@ Finding check_file(const fs::path& path, const ForeignReader& foreign) {
   }
 }
 
+/// Checks whatever mapproof reads or writes: what core knows (see validate), and the images, tables
+/// and pages that it writes and never reads again. Of a study's or a map's folder, both.
+std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
+  if (!is_folder(path)) return {check_file(path, foreign)};
+  std::vector<Finding> findings = validate(path, foreign);
+  // Nobody unpacks an image of a folder: there it has to be one as it is.
+  for (const fs::path& output : outputs_below(path))
+    findings.push_back(
+        check_output(output.string(), *output_named(output), [&] { return read_file(output); }));
+  return findings;
+}
+
 /// Reads the JSON formats that rest on more than core's records.
 bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {
   if (schema == "mapproof.figure")
@@ -189,16 +201,6 @@ int validate_files(const std::vector<std::string>& paths, const Invocation& invo
   object["valid"] = all_valid;
   invocation.console.result(text, object);
   return all_valid ? kDone : kNo;
-}
-
-std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign) {
-  if (!is_folder(path)) return {check_file(path, foreign)};
-  std::vector<Finding> findings = validate(path, foreign);
-  // Nobody unpacks an image of a folder: there it has to be one as it is.
-  for (const fs::path& output : outputs_below(path))
-    findings.push_back(
-        check_output(output.string(), *output_named(output), [&] { return read_file(output); }));
-  return findings;
 }
 
 }  // namespace

@@ -11,9 +11,11 @@
 #include <utility>
 #include <vector>
 
+extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
 #include <libavutil/opt.h>
+}
 
 #include "core/base/out_of_memory.hpp"
 

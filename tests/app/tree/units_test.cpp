@@ -30,7 +30,7 @@ const std::set<std::string> kRegisters = {"app/commands.hpp",
 using Texts = std::map<std::string, std::string>;            ///< By path below the project.
 using Users = std::map<std::string, std::set<std::string>>;  ///< Units by header, or by unit.
 
-std::string text_of(const fs::path& path) {
+std::string source_text_of(const fs::path& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -44,7 +44,7 @@ const Texts& sources() {
       for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
         const std::string extension = entry.path().extension().string();
         if (extension == ".cpp" || extension == ".hpp")
-          all[fs::relative(entry.path(), root).string()] = text_of(entry.path());
+          all[fs::relative(entry.path(), root).string()] = source_text_of(entry.path());
       }
     return all;
   }();
