@@ -9,6 +9,7 @@
 
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_scene.hpp"
 
 namespace mapproof {
@@ -82,6 +83,7 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   const std::filesystem::path folder = arguments.out.empty()
                                            ? view.folder / (paper ? "figures-paper" : "figures")
                                            : std::filesystem::path(arguments.out);
+  if (std::filesystem::exists(folder)) remove_leftovers(folder);
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
   SceneClient client;  // One program draws scenes and films.
   const Drawn drawn = write_images(images, theme, folder, arguments.jobs, client);

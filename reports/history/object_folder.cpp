@@ -33,6 +33,7 @@ void link_in_place(const fs::path& target, const fs::path& path) {
   const fs::path beside = path.string() + ".part-" + std::to_string(::getpid());
   fs::create_hard_link(target, beside, error);
   if (!error) fs::rename(beside, path, error);
+  if (error) fs::remove(beside, error);
 }
 
 }  // namespace
