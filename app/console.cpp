@@ -5,7 +5,10 @@
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include "app/help/help_text.hpp"
+#include "app/progress_line.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -30,12 +33,21 @@ Console::Console(Verbosity verbosity, bool json, std::string command)
   spdlog::set_default_logger(std::move(logger));
 }
 
-void Console::info(const std::string& message) const { spdlog::info("{}", one_line(message)); }
+void Console::info(const std::string& message) const {
+  wipe_progress_line();
+  spdlog::info("{}", one_line(message));
+}
 
-void Console::detail(const std::string& message) const { spdlog::debug("{}", one_line(message)); }
+void Console::detail(const std::string& message) const {
+  wipe_progress_line();
+  spdlog::debug("{}", one_line(message));
+}
 
 void Console::warning(const std::string& message) const {
-  spdlog::warn("warning: {}", one_line(message));
+  wipe_progress_line();
+  const bool coloured = shows_colours(STDERR_FILENO);
+  spdlog::warn("{}warning:{} {}", coloured ? "\033[33m" : "", coloured ? "\033[0m" : "",
+               one_line(message));
 }
 
 void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
@@ -45,7 +57,12 @@ void Console::result(const std::string& text, const nlohmann::ordered_json& obje
   const std::string out =
       json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
             : text;
-  const bool whole = std::fwrite(out.data(), 1, out.size(), stdout) == out.size();
+  print(out);
+}
+
+void Console::print(const std::string& text) const {
+  wipe_progress_line();
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (std::fflush(stdout) != 0 || !whole) throw IoError("standard output", "cannot be written");
 }
 

@@ -25,6 +25,8 @@ class Console {
   Console(Verbosity verbosity, bool json, std::string command);
 
   bool is_quiet() const { return verbosity_ == Verbosity::kQuiet; }
+  /// Whether the result is asked for as JSON.
+  bool is_json() const { return json_; }
 
   /// What was done; not with --quiet.
   void info(const std::string& message) const;
@@ -36,6 +38,8 @@ class Console {
   /// The result: `text`, or with --json `object` behind the schema of the command's results; it
   /// names none of its own. Text that is not UTF-8 is corrected.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
+  /// The result where it has a form of its own, as it stands. @throws IoError.
+  void print(const std::string& text) const;
 
  private:
   Verbosity verbosity_;

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "app/console.hpp"
+#include "app/progress_line.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/out_of_memory.hpp"
 #include "render/animation/animation.hpp"
@@ -16,6 +17,7 @@ namespace mapproof {
 namespace {
 
 ExitCode report_failure(const std::string& what, ExitCode code) {
+  wipe_progress_line();
   // Any layer may pass on the system's message.
   const bool is_memory = what.ends_with(std::strerror(ENOMEM));
   std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,8 +13,10 @@
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/map/reference.hpp"
+#include "app/progress_line.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/parallel.hpp"
 
 namespace mapproof {
 namespace {
@@ -78,15 +81,20 @@ FollowOrder follow_order(const MapJob& job) {
 }
 
 int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
-  job.begin = [&](const MapRecord& begun) {
-    check_may_become(location.out, begun, job.chooses_method());
-  };
-  const MapResult map = make_map(job);
+  if (!job.force)
+    job.begin = [&](const MapRecord& begun) {
+      check_may_become(location.out, begun, job.chooses_method());
+    };
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  MapResult map;
+  parallel_for(job.jobs, 1, [&](std::size_t) { map = make_map(job); });
+  working.reset();
   for (const auto& [what, value] : map.read)
     invocation.console.detail(fmt::format("{}: {}: {}", input_name(job.path), what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
-  write_map(MapFolder(location.out, map.record), location, map);
+  write_map(job.force ? MapFolder(location.out) : MapFolder(location.out, map.record), location,
+            map);
   return report_map(map, location, invocation);
 }
 

@@ -1,7 +1,10 @@
 #include "app/slam/slam.hpp"
 
-#include <array>
+#include <algorithm>
+#include <initializer_list>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -9,12 +12,15 @@
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"
+#include "app/progress_line.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
 #include "app/study/slam_outputs.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/observations/trajectories.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/slam_store.hpp"
@@ -31,13 +37,46 @@ struct SlamArguments {
   std::string known;
   std::optional<std::string> templates;
   RangeLogOptions log;
-  std::string ground_truth;
+  std::vector<std::string> truths;  ///< As typed; sort_truths() tells path and landmarks apart.
+  std::string ground_truth;         ///< The true path.
   std::string true_landmarks;
   std::string odometry;
   bool follow = false;
   std::string every = "1s";
   int jobs = 1;
 };
+
+/// Whether a file of ground truth holds positions of landmarks rather than a path: its header names
+/// them, or it has three columns without a time.
+bool holds_landmarks(const std::string& file) {
+  ByteSource source(file);
+  const std::string_view start = source.peek(4096);
+  std::string line(start.substr(0, start.find('\n')));
+  for (char& c : line)
+    if (c == ';' || c == '\t' || c == '\r') c = c == '\r' ? ' ' : ',';
+  const std::string head = "," + lower_case(line) + ",";
+  const auto has = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) {
+      return head.find("," + std::string(word)) != std::string::npos;
+    });
+  };
+  if (has({"name", "landmark", "beacon", "tag", "marker", "id,"})) return true;
+  if (has({"t,", "t ", "time", "stamp"})) return false;
+  return std::ranges::count(line, ',') == 2;
+}
+
+/// Puts each file of --ground-truth where it belongs. @throws InvalidInput for two of a kind.
+void sort_truths(SlamArguments& arguments) {
+  for (const std::string& typed : arguments.truths) {
+    const std::string file = made_file(typed);
+    const bool is_landmarks = holds_landmarks(file);
+    std::string& place = is_landmarks ? arguments.true_landmarks : arguments.ground_truth;
+    if (!place.empty())
+      throw InvalidInput(fmt::format("--ground-truth: {} and {} are both {}", printable(place),
+                                     printable(typed), is_landmarks ? "landmarks" : "paths"));
+    place = file;
+  }
+}
 
 /// A study of this one log.
 SlamStudy study_of(const SlamRun& run) {
@@ -51,7 +90,7 @@ SlamStudy study_of(const SlamRun& run) {
 }
 
 void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
-                   const Templates& page, const std::string& command) {
+                   const Templates& page, const Invocation& invocation) {
   const SlamRun& run = result.run;
   const SlamFolder folder(arguments.out, run);
   const fs::path& out = folder.path();
@@ -64,8 +103,9 @@ void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
     write_file(out / "path.tum", trajectory_tum(best->estimate.path));
   }
   write_report(slam_folder_report(out, study_of(run),
-                                  {.methods = result.timings, .factorization = {}}, {}, command),
-               page, arguments.jobs);
+                                  {.methods = result.timings, .factorization = {}}, {},
+                                  invocation.command),
+               page, arguments.jobs, count_progress(invocation.console, "drawing"));
 }
 
 nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
@@ -134,13 +174,14 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
 
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  std::vector<std::string> inputs = {arguments.data, arguments.known, arguments.odometry};
+  inputs.insert(inputs.end(), arguments.truths.begin(), arguments.truths.end());
+  refuse_shared_streams(inputs);
+  sort_truths(arguments);
   if (arguments.follow) {
-    refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.true_landmarks});
     return follow_ranges(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
-  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.ground_truth,
-                                   arguments.true_landmarks, arguments.odometry});
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
@@ -150,13 +191,15 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   invocation.console.detail(fmt::format("{}: {} landmarks, {} ranges, {} motions", log.name,
                                         log.landmarks.size(), log.ranges.size(),
                                         log.odometry.size()));
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known);
+  working.reset();
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
       invocation.console.warning(fmt::format("{}: {}: {}", info(record.method).name,
                                              name(status.code), status_text(status)));
-  write_outputs(arguments, result, page, invocation.command);
+  write_outputs(arguments, result, page, invocation);
   invocation.console.result(slam_text(result.run, arguments.out),
                             slam_result(result.run, arguments.out));
   return best_record(result.run) == nullptr ? kNo : kDone;
@@ -172,7 +215,7 @@ Action slam_command(CLI::App& app) {
       "  mapproof slam plaza/plaza1 --out out/plaza1\n"
       "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
       "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
-      "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --ground-truth gps.csv --out "
+      "  mapproof slam run7_TD.txt --anchors beacons.csv --ground-truth gps.csv --out "
       "out/run7\n\n"
       "DATA is one of\n"
       "  a folder with ranges.csv, and perhaps odometry.csv, groundtruth.csv, landmarks.csv\n"
@@ -185,14 +228,16 @@ Action slam_command(CLI::App& app) {
       "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("DATA", arguments->data, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
-  app.add_option(
-      "--known-landmarks", arguments->known,
-      "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
-  app.add_option("--ground-truth,--truth", arguments->ground_truth,
-                 "True path, to compute errors: CSV with t, x, y, heading");
-  app.add_option(
-      "--ground-truth-landmarks", arguments->true_landmarks,
-      "True positions of landmarks, to compute errors only: CSV with name, x [m], y [m]");
+  app.add_option("--anchors", arguments->known,
+                 "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
+      ->type_name("FILE");
+  app.add_option("--ground-truth,--truth", arguments->truths,
+                 "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading), "
+                 "true positions of landmarks (CSV with name, x [m], y [m]), or both, each by an "
+                 "option of its own")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
   app.add_option("--odometry", arguments->odometry,
                  "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
   app.add_flag(
@@ -208,6 +253,11 @@ Action slam_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
+  group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
+                      {"Known positions", {"--anchors", "--ground-truth"}},
+                      {"Growing files", {"--follow", "--every"}},
+                      {"Output", {"--templates"}}});
+  app.get_option("--odometry")->type_name("FILE");
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }
 

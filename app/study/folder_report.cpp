@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -128,34 +129,50 @@ Images images_of(const FolderReport& report) {
   return images;
 }
 
-Drawn write_images(const Images& images, const Theme& theme, const fs::path& folder, int jobs,
-                   SceneClient& client) {
+Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& client) {
   Drawn drawn;
+  const std::size_t total = images.figures.size() + images.scenes.size();
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto count_one = [&] {
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (job.progress) job.progress(done, total);
+  };
   for (const Figure* figure : images.figures) drawn.svg[figure->id];  // None in parallel.
   for (const Scene* scene : images.scenes) drawn.svg[scene->id];
   const auto draw_figures = [&] {
     parallel_for(images.figures.size(), [&](std::size_t i) {
       const Figure& figure = *images.figures[i];
-      drawn.svg.at(figure.id) = write_figure(figure, theme, folder);
+      drawn.svg.at(figure.id) = write_figure(figure, job.theme, job.folder, job.formats);
+      count_one();
     });
   };
   const auto draw_scenes = [&] {
     try {
-      for (const Scene* scene : images.scenes)
-        drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+      for (const Scene* scene : images.scenes) {
+        drawn.svg.at(scene->id) = write_scene(*scene, job.theme, job.folder, client, job.formats);
+        count_one();
+      }
     } catch (const SceneError& error) {
       drawn.scene_error = error.what();
     }
     drawn.renderer = client.renderer();
   };
-  parallel_for(jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
+  parallel_for(job.jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
   return drawn;
 }
 
-fs::path write_report(const FolderReport& report, const Templates& page, int jobs) {
+fs::path write_report(const FolderReport& report, const Templates& page, int jobs,
+                      const CountProgress& progress) {
   SceneClient client;
   const Drawn drawn =
-      write_images(images_of(report), report_theme(), report.folder / "figures", jobs, client);
+      write_images(images_of(report),
+                   {.folder = report.folder / "figures",
+                    .theme = report_theme(),
+                    .jobs = jobs,
+                    .progress = progress},
+                   client);
   Report shown = report.report;
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, report.folder / "tables");

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "app/progress_line.hpp"
 #include "app/study/study_outputs.hpp"
+#include "render/output/file_format.hpp"
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -54,15 +56,24 @@ struct Drawn {
   std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
 
-/// Draws the images into `folder`: figures several at a time, scenes one by one beside them.
+/// How images are drawn, and where to.
+struct DrawingJob {
+  std::filesystem::path folder;
+  Theme theme;
+  int jobs = 1;
+  FileFormats formats = usual_formats();
+  CountProgress progress = {};  ///< May be called from any thread, one call at a time.
+};
+
+/// Draws the images: figures several at a time, scenes one by one beside them.
 /// @throws IoError.
-Drawn write_images(const Images& images, const Theme& theme, const std::filesystem::path& folder,
-                   int jobs, SceneClient& client);
+Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& client);
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
 /// folder.
 /// @return The path of the report.
 /// @throws SceneError once all else is written, if a scene could not be drawn.
-std::filesystem::path write_report(const FolderReport& report, const Templates& page, int jobs);
+std::filesystem::path write_report(const FolderReport& report, const Templates& page, int jobs,
+                                   const CountProgress& progress = {});
 
 }  // namespace mapproof

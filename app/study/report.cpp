@@ -18,7 +18,8 @@ struct ReportArguments {
 int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
-  const std::filesystem::path path = write_report(view, page, arguments.jobs);
+  const std::filesystem::path path = write_report(
+      view, page, arguments.jobs, count_progress(invocation.console, "drawing"));
   invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
                                         view.runs, view.figures.size(), view.scenes.size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},
@@ -43,6 +44,7 @@ Action report_command(CLI::App& app) {
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
+  group_options(app, {{"Output", {"--templates"}}});
   add_jobs_option(app, arguments->jobs);
   return [arguments](const Invocation& invocation) { return report(*arguments, invocation); };
 }

@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -6,16 +7,20 @@
 #include <vector>
 
 #include "core/base/out_of_memory.hpp"
-#include "render/animation/apng_encoder.hpp"
+#include "core/base/parent_watch.hpp"
+#include "render/animation/animation_encoder.hpp"
 
 namespace mapproof {
 namespace {
 
 AnimationInput read_header() {
   AnimationInput input;
-  if (std::scanf("%d %d %d %d", &input.width, &input.height, &input.frames, &input.frame_ms) != 4 ||
+  std::array<char, 8> format{};
+  if (std::scanf("%d %d %d %d %7s", &input.width, &input.height, &input.frames, &input.frame_ms,
+                 format.data()) != 5 ||
       std::getchar() != '\n')
     throw std::runtime_error("no header");
+  input.format = format.data();
   constexpr int kLargest = 100'000;
   for (const int number : {input.width, input.height, input.frames, input.frame_ms})
     if (number < 1 || number > kLargest) throw std::runtime_error("a header out of range");
@@ -24,7 +29,7 @@ AnimationInput read_header() {
 
 void run() {
   const AnimationInput input = read_header();
-  ApngEncoder encoder(input);
+  AnimationEncoder encoder(input);
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(input.width) *
                                     static_cast<std::size_t>(input.height));
   for (int i = 0; i < input.frames; ++i) {
@@ -40,9 +45,10 @@ void run() {
 }  // namespace
 }  // namespace mapproof
 
-/// Reads an AnimationInput with its frames and writes an animated PNG. mapproof starts it; it is
+/// Reads an AnimationInput with its frames and writes an animation. mapproof starts it; it is
 /// not meant for direct use.
 int main() {
+  mapproof::end_with_parent();
   try {
     mapproof::run();
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,8 @@
 
 #include "core/base/files/files.hpp"
 #include "render/cairo/cairo_backend.hpp"
+#include "render/export/figure_csv.hpp"
+#include "render/export/figure_script.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/plot/layout.hpp"
@@ -22,13 +24,36 @@ std::string figure_pdf(const Figure& figure, const Theme& theme) {
 }
 
 std::string write_figure(const Figure& figure, const Theme& theme,
-                         const std::filesystem::path& folder) {
+                         const std::filesystem::path& folder, const FileFormats& formats) {
   const Drawing drawing = lay_out(figure, theme);
-  std::string svg = to_svg(drawing);
-  write_file(folder / (figure.id + ".svg"), svg);
-  write_drawn(folder / (figure.id + ".png"), [&] { return to_png(drawing); });
-  write_drawn(folder / (figure.id + ".pdf"), [&] { return to_pdf(drawing); });
-  write_file(folder / (figure.id + ".figure.json"), figure_to_json(figure));
+  std::string svg;
+  for (const FileFormat format : formats) {
+    const auto file = [&](const char* ending) { return folder / (figure.id + ending); };
+    switch (format) {
+      case FileFormat::kSvg:
+        svg = to_svg(drawing);
+        write_file(file(".svg"), svg);
+        break;
+      case FileFormat::kPng:
+        write_drawn(file(".png"), [&] { return to_png(drawing); });
+        break;
+      case FileFormat::kPdf:
+        write_drawn(file(".pdf"), [&] { return to_pdf(drawing); });
+        break;
+      case FileFormat::kEps:
+        write_drawn(file(".eps"), [&] { return to_eps(drawing); });
+        break;
+      case FileFormat::kJson:
+        write_file(file(".figure.json"), figure_to_json(figure));
+        break;
+      case FileFormat::kCsv:
+        write_file(file(".csv"), figure_csv(figure));
+        break;
+      case FileFormat::kMatplotlib:
+        write_file(file(".py"), figure_script(figure, theme));
+        break;
+    }
+  }
   return svg;
 }
 

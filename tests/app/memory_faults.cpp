@@ -134,8 +134,8 @@ const std::vector<MemoryCase>& memory_cases() {
       {"diff", make_two_studies,
        [](const std::string& folder) {
          return std::vector<std::string>{
-             "diff",   folder + "/before",   folder + "/after", "--out", folder + "/diff.html",
-             "--json", folder + "/diff.json"};
+             "diff",   folder + "/before",   folder + "/after", "--page", folder + "/diff.html",
+             "--junit", folder + "/diff.xml"};
        },
        1},
       {"approve", make_two_studies,
