@@ -83,7 +83,7 @@ struct WorkingLine::State {
 
 WorkingLine::WorkingLine(const Console& console, std::string doing)
     : state_(std::make_unique<State>()) {
-  if (console.is_quiet()) return;
+  if (console.is_quiet() || ::isatty(STDERR_FILENO) != 1) return;
   state_->thread = std::thread([state = state_.get(), doing = std::move(doing)] {
     ProgressLine line(true);
     std::unique_lock lock(state->mutex);

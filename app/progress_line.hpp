@@ -45,7 +45,7 @@ using CountProgress = std::function<void(std::size_t done, std::size_t total)>;
 /// Shows "drawing 7 of 23" until it is destroyed.
 CountProgress count_progress(const Console& console, std::string doing);
 
-/// Shows "judging methods, 12 s" from the first second on, until it is destroyed.
+/// Shows "mapping, 12 s" on a terminal from the first second on, until it is destroyed.
 class WorkingLine {
  public:
   WorkingLine(const Console& console, std::string doing);

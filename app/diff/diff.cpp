@@ -3,10 +3,12 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/diff/diff_options.hpp"
 #include "app/input_streams.hpp"
 #include "app/output_paths.hpp"
+#include "app/progress_line.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -27,7 +29,9 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
                                                        arguments.options.settings};
   check_output_paths(arguments.options, inputs);
   const DiffSettings settings = diff_settings(arguments.options, arguments.baseline, invocation.console);
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "comparing");
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
+  working.reset();
   return hand_out(result, settings, arguments.options, invocation.console);
 }
 

@@ -356,6 +356,7 @@ Action render_command(CLI::App& app) {
       ->group("Input");
   app.add_option("--figure", arguments->ids, "Only the figures of these ids, see --list")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group("Input");
   app.add_option("--panel", arguments->panels,
                  "Draw several figures as panels of one, with the same limits: folders of maps, "
@@ -366,6 +367,7 @@ Action render_command(CLI::App& app) {
                  "Animate the scenes of these ids, e.g. scene-forming-bearing; without --figure "
                  "nothing else is drawn")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group("Input");
   app.add_flag("--list", arguments->list, "List the ids of what can be drawn")->group("Input");
   add_style_options(app, arguments->style);
@@ -374,6 +376,7 @@ Action render_command(CLI::App& app) {
                  "(a figure to \\input); of animations apng, mp4, gif. By default svg, png, pdf and "
                  "json; apng")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->transform(one_of(format_words()))
       ->group("Output");
   add_out_option(app, arguments->out,

@@ -35,10 +35,12 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
                  "Landmarks that are named in maps: a list a,b,..., or all, or none. By default "
                  "those with the largest errors")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(group);
   app.add_option("--only-landmarks", arguments.only_landmarks,
                  "Show these landmarks of maps and no others: a list a,b,...")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(group);
   app.add_option("--font", arguments.font, "TrueType or OpenType file, instead of DejaVu Sans")
       ->group(group);

@@ -1,6 +1,7 @@
 #include "app/study/report.hpp"
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,9 @@ struct ReportArguments {
 
 int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "reading");
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
+  working.reset();
   const std::filesystem::path path = write_report(
       view, page, arguments.jobs, count_progress(invocation.console, "drawing"));
   invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,

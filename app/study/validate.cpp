@@ -6,6 +6,7 @@
 
 #include "app/input_streams.hpp"
 #include "app/output_files.hpp"
+#include "app/progress_line.hpp"
 #include "core/base/errors.hpp"
 #include "core/topics/validate.hpp"
 #include "render/plot/figure_json.hpp"
@@ -30,6 +31,7 @@ int validate_files(const std::vector<std::string>& paths, const Invocation& invo
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
+  const WorkingLine working(invocation.console, "reading");
   for (const std::string& path : paths)
     for (const Finding& finding : validate_all(path, read_foreign)) {
       const bool valid = finding.problem.empty();

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+struct AVFrame;
+
 namespace mapproof {
 
 /// The input of the program that encodes animations: one line of these four numbers and the name of
@@ -36,7 +38,7 @@ class AnimationEncoder {
  private:
   struct State;
   /// Encodes a frame; null ends the file.
-  void encode(struct AVFrame* frame);
+  void encode(AVFrame* frame);
   std::unique_ptr<State> state_;
 };
 

@@ -10,6 +10,8 @@
 #include "core/base/resource.hpp"
 #include "render/base/geometry.hpp"
 
+struct hb_font_t;
+
 namespace mapproof {
 
 /// Measures of the embedded font, DejaVu Sans, by which lines are set whatever the font. All lengths
@@ -36,11 +38,11 @@ class Font {
 
   std::string_view bytes() const { return bytes_; }
   /// As HarfBuzz sees it.
-  struct hb_font_t* handle() const { return handle_; }
+  hb_font_t* handle() const { return handle_; }
 
  private:
   std::string bytes_;
-  struct hb_font_t* handle_ = nullptr;
+  hb_font_t* handle_ = nullptr;
 };
 
 /// What a theme and a drawing hold; none: the embedded font.

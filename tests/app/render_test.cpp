@@ -1,10 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/files/files.hpp"
-#include "render/image/png_read.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {

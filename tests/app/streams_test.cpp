@@ -339,7 +339,7 @@ TEST(Streams, AFolderIsNotReadFromStandardInput) {
   const TemporaryFolder folder;
   folder.file("seen.csv", wide_table(50));
   for (const char* rest :
-       {"report -", "render -", "history - --list", "nightly yairi2007 --store -",
+       {"report -", "render -", "history -", "nightly yairi2007 --store -",
         "check yairi2007 --baseline -", "approve - out", "approve base -",
         "map seen.csv --sensor bearing --out -", "run yairi2007 --out -"}) {
     const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {} < seen.csv", rest), 5.0);
