@@ -126,7 +126,7 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
 
 /// What the parser has against the words, in one sentence.
 std::string objection(const CLI::ParseError& error, const CLI::App& command) {
-  if (error.get_name() != "ExtrasError") return printable(error.what(), 2000);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return printable(error.what(), 2000);
   std::vector<std::string> extras = command.remaining();
   for (std::string& word : extras) word = "\"" + printable(word) + "\"";
   return fmt::format("{} takes no {}", command.get_name(), listed(extras, 4));

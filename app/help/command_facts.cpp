@@ -62,7 +62,7 @@ OptionFacts option_facts(const CLI::Option& option) {
   facts.is_required = option.get_required();
   facts.group = facts.is_argument && option.get_group() == "Options" ? "Input" : group_of(option);
   facts.takes_several = option.get_expected_max() > 1;
-  if (option.get_type_size() == 0) return facts;
+  if (option.get_items_expected_max() == 0) return facts;  // A flag.
   const std::string type = option.get_type_name();
   facts.choices = choices_of(type);
   facts.value = value_of(type);
@@ -136,7 +136,10 @@ std::string spelled(const OptionFacts& option) {
 std::string explained(const OptionFacts& option) {
   std::string text = option.description;
   const bool shows_choices = spelled(option).find('|') != std::string::npos;
-  if (!option.choices.empty() && !shows_choices)
+  const bool says_choices = std::ranges::all_of(option.choices, [&](const std::string& choice) {
+    return text.find(choice) != std::string::npos;
+  });
+  if (!option.choices.empty() && !shows_choices && !says_choices)
     text += fmt::format(". One of {}", fmt::join(option.choices, ", "));
   if (!option.default_value.empty())
     text += fmt::format(". The default is {}", option.default_value);

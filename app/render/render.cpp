@@ -357,17 +357,20 @@ Action render_command(CLI::App& app) {
   app.add_option("--figure", arguments->ids, "Only the figures of these ids, see --list")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->type_name("IDS")
       ->group("Input");
   app.add_option("--panel", arguments->panels,
                  "Draw several figures as panels of one, with the same limits: folders of maps, "
                  "files, or ids of figures in INPUT")
       ->expected(2, 100)
+      ->type_name("INPUT")
       ->group("Input");
   app.add_option("--animate", arguments->animations,
                  "Animate the scenes of these ids, e.g. scene-forming-bearing; without --figure "
                  "nothing else is drawn")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->type_name("IDS")
       ->group("Input");
   app.add_flag("--list", arguments->list, "List the ids of what can be drawn")->group("Input");
   add_style_options(app, arguments->style);
@@ -377,6 +380,7 @@ Action render_command(CLI::App& app) {
                  "json; apng")
       ->delimiter(',')
       ->allow_extra_args(false)
+      ->type_name("FORMATS")
       ->transform(one_of(format_words()))
       ->group("Output");
   add_out_option(app, arguments->out,

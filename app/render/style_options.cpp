@@ -35,24 +35,28 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
                  "Landmarks that are named in maps: a list a,b,..., or all, or none. By default "
                  "those with the largest errors")
       ->delimiter(',')
+      ->type_name("NAMES")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--only-landmarks", arguments.only_landmarks,
                  "Show these landmarks of maps and no others: a list a,b,...")
       ->delimiter(',')
+      ->type_name("NAMES")
       ->allow_extra_args(false)
       ->group(group);
   app.add_option("--font", arguments.font, "TrueType or OpenType file, instead of DejaVu Sans")
+      ->type_name("FILE")
       ->group(group);
   std::vector<std::string> known;
   for (const std::string_view language : languages()) known.emplace_back(language);
   app.add_option("--language", arguments.language,
-                 "Language of the words in figures: " + CLI::detail::join(known, ", "))
+                 "Language of the words in figures")
       ->transform(one_of(known))
       ->group(group);
   app.add_option("--style", arguments.file,
                  "File of colours, sizes, font, language and words (docs/figures.md); what is "
                  "typed replaces what is in it")
+      ->type_name("FILE")
       ->group(group);
 }
 

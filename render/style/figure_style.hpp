@@ -16,21 +16,21 @@ enum class BaseTheme { kReport, kPaper };
 
 /// Colours that replace those of the theme, as "#rrggbb"; empty: the theme's.
 struct StyleColours {
-  std::string background, text, muted, grid, warning;
-  std::vector<std::string> series;  ///< The first ones of seven.
+  std::string background = {}, text = {}, muted = {}, grid = {}, warning = {};
+  std::vector<std::string> series = {};  ///< The first ones of seven.
 };
 
 /// How a person wants figures drawn; what is left out is the theme's. Lengths in inches or points.
 struct FigureStyle {
   BaseTheme theme = BaseTheme::kReport;
-  std::optional<double> width_in, height_in, dpi;
-  std::optional<bool> draws_title;  ///< The report's theme draws it, the paper's does not.
-  std::string font;                 ///< File; empty: the embedded font.
-  std::optional<double> font_pt, tick_font_pt, title_font_pt;
-  std::optional<double> line_pt, hairline_pt, marker_pt, space_pt;
-  StyleColours colours;
-  std::string language;                      ///< Of the words, see languages(); empty: English.
-  std::map<std::string, std::string> words;  ///< Phrases and what replaces them in all texts.
+  std::optional<double> width_in = {}, height_in = {}, dpi = {};
+  std::optional<bool> draws_title = {};  ///< The report's theme draws it, the paper's does not.
+  std::string font = {};                 ///< File; empty: the embedded font.
+  std::optional<double> font_pt = {}, tick_font_pt = {}, title_font_pt = {};
+  std::optional<double> line_pt = {}, hairline_pt = {}, marker_pt = {}, space_pt = {};
+  StyleColours colours = {};
+  std::string language = {};                      ///< Of the words, see languages(); empty: English.
+  std::map<std::string, std::string> words = {};  ///< Phrases and what replaces them in all texts.
 };
 
 /// The style that a file holds (docs/schemas/style.schema.json). A font in it is relative to the

@@ -24,7 +24,9 @@ std::size_t lines_of(const std::string& text) {
 }
 
 TEST(FigureCsv, HasEveryPointWithItsLayerAndLandmark) {
-  Figure figure{.id = "f", .panels = {Panel{}}};
+  Figure figure;
+  figure.id = "f";
+  figure.panels.resize(1);
   figure.panels[0].layers.emplace_back(
       Scatter{.label = "estimate",
               .x = {1.5, 2.0},
@@ -39,7 +41,9 @@ TEST(FigureCsv, HasEveryPointWithItsLayerAndLandmark) {
 }
 
 TEST(FigureCsv, GivesCellsTheirMiddleFromTheUppermostRowOn) {
-  Figure figure{.id = "f", .panels = {Panel{}}};
+  Figure figure;
+  figure.id = "f";
+  figure.panels.resize(1);
   figure.panels[0].layers.emplace_back(
       Cells{.x = {0, 2}, .y = {0, 4}, .columns = 2, .values = {1, 2, 3, 4}, .limits = {0, 4}});
   EXPECT_EQ(figure_csv(figure),
@@ -56,11 +60,14 @@ TEST(FigureCsv, HasRowsForEverySample) {
   for (const Scene& scene : sample_scenes()) EXPECT_GT(lines_of(scene_csv(scene)), 1U) << scene.id;
 }
 
+/// Debian's, which its package of matplotlib is for.
+constexpr const char* kPython = "/usr/bin/python3";
+
 bool has_matplotlib() {
-  return ChildProcess({"/usr/bin/env", {"python3", "-c", "import matplotlib, mpl_toolkits.mplot3d"}},
-                      {})
-      .wait()
-      .is_success();
+  return fs::exists(kPython) &&
+         ChildProcess({kPython, {"-c", "import matplotlib, mpl_toolkits.mplot3d"}}, {})
+             .wait()
+             .is_success();
 }
 
 /// Runs all scripts in one interpreter: its start takes longer than most figures.
@@ -96,7 +103,7 @@ TEST(FigureScript, DrawsEveryTypeOfFigureAndSceneByMatplotlib) {
   if (!has_matplotlib()) GTEST_SKIP() << "python3-matplotlib is not installed: not run";
   const fs::path runner = folder.path() / "run";
   write_file(runner, kRunner);
-  EXPECT_TRUE(ChildProcess({"/usr/bin/env", {"python3", runner.string(), folder.path().string()}}, {})
+  EXPECT_TRUE(ChildProcess({kPython, {runner.string(), folder.path().string()}}, {})
                   .wait()
                   .is_success());
   for (const std::string& id : ids)
