@@ -46,13 +46,16 @@ std::string whole_label(const Cells& cells, const Ticks& ticks) {
 }
 
 constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are shorter.
-constexpr double kLabelLine = 1.55;  // From the foot of tick labels to the axis label's, em.
+// Of a row's label: wider in a frame that has the room.
+constexpr double kWidestRowName = 16.0;
+constexpr double kRowNameShare = 0.38;  // Of the frame's width.
+constexpr double kLabelLine = 1.55;    // From the foot of tick labels to the axis label's, em.
 
 /// Shortens names, which may come from anywhere.
-TickLabels shaped(Ticks ticks) {
+TickLabels shaped(Ticks ticks, double widest_em = kWidestName) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(shape_text_within(text, kWidestName));
+    labels.texts.push_back(shape_text_within(text, widest_em));
     labels.widest = std::max(labels.widest, labels.texts.back().advance);
   }
   return labels;
@@ -224,7 +227,9 @@ void AxesLayout::choose_ticks(Axes& axes) const {
     const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
                      : is_named ? std::max(2, static_cast<int>(axes.frame.height() / (1.6 * em)))
                                 : most_y;
-    axes.y = shaped(ticks_for(panel_.y, limits_.y, most));
+    const double row_em =
+        std::clamp(kRowNameShare * axes.frame.width() / em, kWidestName, kWidestRowName);
+    axes.y = shaped(ticks_for(panel_.y, limits_.y, most), is_named ? row_em : kWidestName);
   }
   while (most_x > 2 && labels_touch(axes)) {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x));

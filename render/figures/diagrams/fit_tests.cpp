@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostTestRows = 24;
+constexpr std::size_t kMostTestRows = 16;
 constexpr std::size_t kLongestTestLabel = 40;  ///< Characters; the rest of a name is cut.
 constexpr double kLeastRatio = 0.03;           ///< Smaller ratios are drawn here.
 
@@ -24,13 +26,13 @@ std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
   for (const FitTestRow& row : spec.rows)
     if (std::isfinite(row.ratio)) rows.push_back(row);
   if (rows.size() <= kMostTestRows) return rows;
-  std::vector<double> ratios;
-  for (const FitTestRow& row : rows) ratios.push_back(row.ratio);
-  std::ranges::sort(ratios, std::greater<>());
-  const double least = ratios[kMostTestRows - 1];
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return rows[i].ratio; });
+  order.resize(kMostTestRows);
+  std::ranges::sort(order);
   std::vector<FitTestRow> greatest;
-  for (const FitTestRow& row : rows)
-    if (row.ratio >= least && greatest.size() < kMostTestRows) greatest.push_back(row);
+  for (const std::size_t i : order) greatest.push_back(rows[i]);
   return greatest;
 }
 
@@ -83,15 +85,15 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
   std::erase_if(panel.layers, is_empty);
   std::ranges::reverse(above);
   if (rows.size() < spec.rows.size())
-    figure.notes.push_back({fmt::format("The {} greatest of {} tests.", rows.size(),
-                                        spec.rows.size())});
+    figure.notes.push_back(
+        {fmt::format("The {} greatest of {} tests.", rows.size(), spec.rows.size())});
   figure.caption = fmt::format(
       "Tests of the fit of the map to its data: the statistic of each over its bound, which sound "
       "data exceed rarely. {}",
       spec.verdict);
-  figure.alt = fmt::format("{} of the fit. Above the bound: {}.",
-                           counted(std::ssize(spec.rows), "test"),
-                           above.empty() ? "none" : listed(above, 6));
+  figure.alt =
+      fmt::format("{} of the fit. Above the bound: {}.", counted(std::ssize(spec.rows), "test"),
+                  above.empty() ? "none" : listed(above, 6));
   require_valid(figure);
   return figure;
 }
