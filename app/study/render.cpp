@@ -87,6 +87,7 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   const Theme theme = paper ? paper_theme(arguments.width_in) : report_theme();
   make_folder(folder);
   const FolderLock lock(folder);
+  remove_leftovers(folder);
   SceneClient client;  // One program draws scenes and films.
   const Drawn drawn = write_images(images, theme, folder, arguments.jobs, client);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);

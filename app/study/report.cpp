@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/study/folder_report.hpp"
+#include "core/records/studies/folder_lock.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,6 +19,7 @@ struct ReportArguments {
 int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderLock lock(arguments.study);
+  remove_leftovers(arguments.study);
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
   const std::filesystem::path path =
       write_report(view, {page, arguments.jobs, invocation.disclosure}, lock);

@@ -67,6 +67,11 @@ struct Outline {
   }
 };
 
+/// The path as far as it lies in the box, which may be of any size; none of its coordinates is
+/// NaN, they may be infinite. An open path of straight lines is cut at the sides; of any other the
+/// points outside are moved to the nearest side.
+Outline cut_to(const Box& box, Outline path);
+
 /// The least box that holds all points of the path, control points too.
 Box bounds(const Outline& path);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 #include "core/base/not_finite.hpp"
 #include "render/plot/markers.hpp"
@@ -11,6 +13,9 @@ namespace mapproof {
 namespace {
 
 constexpr double kMarkerSpacing = 4.0;  // Between markers of a line, in units of their size.
+/// How far from its frame a line is drawn, in points: it cannot be seen there, and dashes that are
+/// drawn all the way take any time and memory.
+constexpr double kFarthest = 10'000.0;
 
 bool known(Point p) { return !std::isnan(p.x) && !std::isnan(p.y); }
 
@@ -170,6 +175,8 @@ class Painter {
 
   template <typename What>
   void add(Role role, What&& what, std::optional<std::size_t> mark) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<What>, Shape>)
+      what.path = cut_to(drawing_.frames[panel_].grown(kFarthest), std::move(what.path));
     Item& item = drawing_.add(role, panel_, std::forward<What>(what));
     item.clipped = true;
     item.mark = mark;

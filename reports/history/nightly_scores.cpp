@@ -58,7 +58,9 @@ Scores scores_of(const Results& results, const std::vector<Result>& seconds) {
 }
 
 std::string order_digest(const std::string& study_json, const std::string& source) {
-  nlohmann::json root = parse_json(study_json, source).tree();
+  const JsonDocument document = parse_json(study_json, source);
+  schema_of(document.cursor());  // An object, and of a form.
+  nlohmann::json root = document.tree();
   root.erase("provenance");
   return sha256_hex(json_text(nlohmann::ordered_json(root)));
 }

@@ -32,6 +32,7 @@ void link_in_place(const fs::path& target, const fs::path& path) {
   const fs::path beside = path.parent_path() / part_name(path.filename());
   fs::create_hard_link(target, beside, error);
   if (!error) fs::rename(beside, path, error);
+  if (error) fs::remove(beside, error);
 }
 
 }  // namespace

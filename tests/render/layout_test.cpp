@@ -1,10 +1,13 @@
 #include "render/plot/layout.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "render/base/geometry.hpp"
+#include "render/cairo/cairo_backend.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/plot/axis_map.hpp"
 #include "tests/support/images/figure_checks.hpp"
@@ -75,6 +78,52 @@ TEST(Layout, EqualAspectMakesUnitsEquallyLong) {
   const double x_scale = (at[1].x - at[0].x) / (true_m(rows[1], 0) - true_m(rows[0], 0));
   const double y_scale = (at[1].y - at[0].y) / (true_m(rows[1], 1) - true_m(rows[0], 1));
   EXPECT_NEAR(x_scale, -y_scale, 1e-9 * x_scale);  // y grows downward on the page.
+}
+
+/// The greatest coordinate of a panel's layers.
+double farthest(const Drawing& drawing) {
+  double most = 0.0;
+  for (const Item& item : drawing.items)
+    if (const Shape* shape = std::get_if<Shape>(&item.what))
+      for (const Point p : shape->path.points)
+        most = std::max({most, std::abs(p.x), std::abs(p.y)});
+  return most;
+}
+
+TEST(Layout, CutsLinesThatLeadFarAwayWhereTheyCannotBeSeen) {
+  const std::vector<double> far = {0.0, 1e3, 1e112, -1e300, 1e308, -1e308, 0.5};
+  Figure figure = with_panels(1);
+  figure.panels[0].x.limits = figure.panels[0].y.limits = Range{0.0, 1.0};
+  figure.panels[0].layers = {Polyline{.x = far, .y = far, .dash = Dash::kDashed},
+                             Segments{.x0 = {0.0}, .y0 = {0.5}, .x1 = {1e250}, .y1 = {0.5}},
+                             Band{.x = {0.0, 1.0}, .low = {-1e200, 0.0}, .high = {1e200, 1.0}},
+                             Area{.x = {0.0, 1e200, 1e200, 0.0}, .y = {0.0, 0.0, 1e200, 1e200}}};
+  const Drawing drawing = lay_out(figure, report_theme());
+  EXPECT_LT(farthest(drawing), 11'000.0);
+  EXPECT_LT(to_pdf(drawing).size(), 100'000U);
+}
+
+TEST(Outline, IsCutAtTheSidesOfABoxWithoutATurn) {
+  const Box box{0.0, 0.0, 10.0, 10.0};
+  Outline lines;
+  lines.move_to({5.0, 5.0});
+  lines.line_to({25.0, 15.0});
+  lines.line_to({25.0, 4.0});
+  lines.line_to({-15.0, 4.0});
+  lines.line_to({5.0, 5.0});
+  const Outline cut = cut_to(box, lines);
+  const std::vector<Point> expected = {{5.0, 5.0}, {10.0, 7.5}, {10.0, 4.0},
+                                       {0.0, 4.0}, {0.0, 4.75}, {5.0, 5.0}};
+  ASSERT_EQ(cut.points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_NEAR(cut.points[i].x, expected[i].x, 1e-12) << i;
+    EXPECT_NEAR(cut.points[i].y, expected[i].y, 1e-12) << i;
+  }
+  EXPECT_EQ(std::ranges::count(cut.commands, PathCommand::kMove), 3);
+  Outline inside;
+  inside.move_to({1.0, 1.0});
+  inside.line_to({2.0, 2.0});
+  EXPECT_EQ(cut_to(box, inside).points, inside.points);
 }
 
 /// The lines of a label with what they say, joined.

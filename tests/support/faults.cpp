@@ -1,16 +1,18 @@
 // A library for LD_PRELOAD that lets calls of a program fail, or ends the program at them.
 //
 //   MAPPROOF_FAULT        rules, comma between: KIND:FIRST-LAST:WHAT. The calls FIRST to LAST of
-//   the
-//                         kind, counted from 1 over all threads, fail or kill. LAST may be left
-//                         out.
+//                         the kind, counted from 1 over all threads, fail or kill. LAST may be
+//                         left out. A call may be of several kinds, see `Kind`.
 //   MAPPROOF_FAULT_IN     the name of the program that it is for; missing: of all.
 //   MAPPROOF_FAULT_COUNT  a file that gets the number of calls of each kind at the end.
 
+#include <dlfcn.h>
 #include <fcntl.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <array>
@@ -31,6 +33,14 @@ enum class Kind : std::size_t {
   kDisk,      ///< What changes a file system.
   kExchange,  ///< renameat2, which some file systems do not know.
   kLink,      ///< linkat, likewise.
+  kOpen,      ///< Files and folders, to read or to write.
+  kWrite,     ///< All but the standard streams.
+  kSync,
+  kRename,
+  kClose,  ///< It closes the file, and fails.
+  kMap,    ///< Memory or a file, of any size.
+  kFork,   ///< A process of any kind.
+  kExec,   ///< Another program.
 };
 
 struct Rule {
@@ -41,8 +51,18 @@ struct Rule {
   std::atomic<long> calls = 0;
 };
 
-std::array<Rule, 4> rules{
-    {{"alloc", ENOMEM}, {"disk", EIO}, {"exchange", EINVAL}, {"link", EPERM}}};
+std::array<Rule, 12> rules{{{"alloc", ENOMEM},
+                            {"disk", EIO},
+                            {"exchange", EINVAL},
+                            {"link", EPERM},
+                            {"open", EMFILE},
+                            {"write", ENOSPC},
+                            {"fsync", EIO},
+                            {"rename", EACCES},
+                            {"close", EIO},
+                            {"mmap", ENOMEM},
+                            {"fork", EAGAIN},
+                            {"exec", EACCES}}};
 std::atomic<bool> is_on = false;
 const char* counts = nullptr;  // Programs may clear their environment.
 
@@ -55,6 +75,13 @@ bool fails(Kind kind) {
   if (rule.kills) ::syscall(SYS_kill, ::getpid(), SIGKILL);
   errno = rule.error;
   return true;
+}
+
+/// The same of a call of several kinds, of which each counts it.
+template <typename... Kinds>
+bool fails(Kind kind, Kinds... more) {
+  const bool does = fails(kind);
+  return fails(more...) || does;
 }
 
 bool fails(std::size_t bytes) { return bytes >= std::size_t{1} << 16 && fails(Kind::kAlloc); }
@@ -100,11 +127,23 @@ long changing(long number, long a, long b, long c, long d = 0, long e = 0) {
 
 long at(const char* path) { return reinterpret_cast<long>(path); }
 
+/// Whether an open fails. @param changes  It makes or empties a file.
+bool open_fails(bool changes) {
+  return changes ? fails(Kind::kOpen, Kind::kDisk) : fails(Kind::kOpen);
+}
+
 int opened(int folder, const char* path, int flags, mode_t mode) {
-  const bool changes = (flags & (O_CREAT | O_TRUNC)) != 0;
-  if (changes && fails(Kind::kDisk)) return -1;
+  if (open_fails((flags & (O_CREAT | O_TRUNC)) != 0)) return -1;
   return static_cast<int>(::syscall(SYS_openat, folder, path, flags, mode));
 }
+
+/// The function of that name which this one stands before.
+template <typename Function>
+Function real(const char* name) {
+  return reinterpret_cast<Function>(::dlsym(RTLD_NEXT, name));
+}
+
+using Spawn = decltype(&::posix_spawn);
 
 mode_t mode_in(int flags, std::va_list more) {
   return (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(more, mode_t) : 0;
@@ -135,7 +174,8 @@ int posix_memalign(void** out, std::size_t alignment, std::size_t bytes) {
   return *out == nullptr ? ENOMEM : 0;
 }
 void* mmap(void* address, std::size_t bytes, int access, int flags, int file, off_t from) {
-  if (fails(bytes)) return MAP_FAILED;
+  const bool does = fails(Kind::kMap);
+  if (fails(bytes) || does) return MAP_FAILED;
   return reinterpret_cast<void*>(::syscall(SYS_mmap, address, bytes, access, flags, file, from));
 }
 void* mmap64(void* address, std::size_t bytes, int access, int flags, int file, off_t from) {
@@ -160,15 +200,57 @@ int open64(const char*, int, ...) __attribute__((alias("open")));
 int openat64(int, const char*, int, ...) __attribute__((alias("openat")));
 
 ssize_t write(int file, const void* bytes, std::size_t count) {
-  if (file > STDERR_FILENO && fails(Kind::kDisk)) return -1;
+  if (file > STDERR_FILENO && fails(Kind::kWrite, Kind::kDisk)) return -1;
   return ::syscall(SYS_write, file, bytes, count);
 }
+ssize_t pwrite(int file, const void* bytes, std::size_t count, off_t to) {
+  if (fails(Kind::kWrite, Kind::kDisk)) return -1;
+  return ::syscall(SYS_pwrite64, file, bytes, count, to);
+}
+ssize_t pwrite64(int, const void*, std::size_t, off_t) __attribute__((alias("pwrite")));
+ssize_t writev(int file, const iovec* parts, int count) {
+  if (file > STDERR_FILENO && fails(Kind::kWrite, Kind::kDisk)) return -1;
+  return ::syscall(SYS_writev, file, parts, count);
+}
+int fsync(int file) {
+  return fails(Kind::kSync) ? -1 : static_cast<int>(::syscall(SYS_fsync, file));
+}
+int fdatasync(int file) {
+  return fails(Kind::kSync) ? -1 : static_cast<int>(::syscall(SYS_fdatasync, file));
+}
+int close(int file) {
+  const int code = static_cast<int>(::syscall(SYS_close, file));
+  return fails(Kind::kClose) ? -1 : code;
+}
+FILE* fopen(const char* path, const char* mode) {
+  if (open_fails(mode[0] != 'r')) return nullptr;
+  return real<decltype(&::fopen)>("fopen")(path, mode);
+}
+FILE* fopen64(const char*, const char*) __attribute__((alias("fopen")));
+
+pid_t fork() noexcept { return fails(Kind::kFork) ? -1 : real<pid_t (*)()>("fork")(); }
+int posix_spawn(pid_t* process, const char* path, const posix_spawn_file_actions_t* actions,
+                const posix_spawnattr_t* attributes, char* const words[], char* const names[]) {
+  if (fails(Kind::kFork, Kind::kExec)) return errno;
+  return real<Spawn>("posix_spawn")(process, path, actions, attributes, words, names);
+}
+int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
+                 const posix_spawnattr_t* attributes, char* const words[], char* const names[]) {
+  if (fails(Kind::kFork, Kind::kExec)) return errno;
+  return real<Spawn>("posix_spawnp")(process, file, actions, attributes, words, names);
+}
+
 int rename(const char* from, const char* to) {
+  if (fails(Kind::kRename)) return -1;
   return static_cast<int>(changing(SYS_renameat2, AT_FDCWD, at(from), AT_FDCWD, at(to)));
+}
+int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
+  if (fails(Kind::kRename)) return -1;
+  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to)));
 }
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned flags) noexcept {
-  if (fails(Kind::kExchange)) return -1;
+  if (fails(Kind::kRename, Kind::kExchange)) return -1;
   return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
 }
 int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
@@ -186,6 +268,9 @@ int unlink(const char* path) noexcept {
 }
 int unlinkat(int folder, const char* path, int flags) noexcept {
   return static_cast<int>(changing(SYS_unlinkat, folder, at(path), flags));
+}
+int mkdirat(int folder, const char* path, mode_t mode) noexcept {
+  return static_cast<int>(changing(SYS_mkdirat, folder, at(path), mode));
 }
 int mkdir(const char* path, mode_t mode) noexcept {
   return static_cast<int>(changing(SYS_mkdirat, AT_FDCWD, at(path), mode));

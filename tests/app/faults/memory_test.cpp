@@ -3,19 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/files/files.hpp"
-#include "tests/app/memory_faults.hpp"
+#include "tests/app/faults/fault_cases.hpp"
 #include "tests/app/two_studies.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
 namespace {
-
-class OutOfMemory : public ::testing::TestWithParam<MemoryCase> {};
-
-TEST_P(OutOfMemory, IsOneLineAndLeavesNoWrongFile) { expect_memory_faults_reported(GetParam(), 3); }
-
-INSTANTIATE_TEST_SUITE_P(SomeAllocations, OutOfMemory, ::testing::ValuesIn(memory_cases()),
-                         [](const auto& one) { return one.param.name; });
 
 /// Runs the program in a small address space; exit code 137: it did not end within a minute.
 Outcome within(std::size_t kib, std::vector<std::string> arguments) {

@@ -1,0 +1,57 @@
+// Tables of results, their study.json, and maps.
+#include <string>
+
+#include "core/json/text_input.hpp"
+#include "core/records/maps/map_csv.hpp"
+#include "core/records/maps/map_json.hpp"
+#include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "tests/fuzz/properties.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace mapproof::fuzz {
+namespace {
+
+/// A table under the quantities of the dictionary.
+void read_results_table(std::string_view bytes) {
+  const Quantities quantities;
+  round_trip(
+      bytes, [&](auto text, auto& source) { return parse_results_csv(text, source, quantities); },
+      results_csv);
+}
+
+const Added kResultsCsv({.name = "results-csv",
+                         .run = read_results_table,
+                         .seeds = {"study/results.csv", "slam_study/results.csv"}});
+const Added kResultsHead({.name = "results-study",
+                          .run = [](auto bytes) { parse_results_study(bytes, kSource); }});
+
+/// A map with its certainty.
+struct CertainMap {
+  MapRecord map;
+  std::optional<MapCertainty> certainty;
+};
+
+const Added kMap(
+    {.name = "map",
+     .run =
+         [](auto bytes) {
+           round_trip(
+               bytes,
+               [](auto text, auto& source) {
+                 return CertainMap{parse_map(text, source), parse_map_certainty(text, source)};
+               },
+               [](const CertainMap& read) { return map_json(read.map, read.certainty); });
+         },
+     .seeds = {"maps"}});
+const Added kMapCsv({.name = "map-csv", .run = [](auto bytes) {
+                       round_trip(
+                           bytes,
+                           [](auto text, auto& source) {
+                             return parse_map_csv(checked_text(text, source), source);
+                           },
+                           [](const MapRecord& map) { return map_csv(map); });
+                     }});
+
+}  // namespace
+}  // namespace mapproof::fuzz

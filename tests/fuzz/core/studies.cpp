@@ -1,0 +1,89 @@
+// Experiments, and the records of studies.
+#include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/profiles.hpp"
+#include "core/records/experiments/slam_experiment_json.hpp"
+#include "core/records/studies/run_json.hpp"
+#include "core/records/studies/slam_store.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
+#include "core/records/studies/trial_json.hpp"
+#include "tests/fuzz/properties.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace mapproof::fuzz {
+namespace {
+
+/// A target whose records are read by `parse` and written by `write`.
+template <typename Parse, typename Write>
+Target of_records(std::string name, Parse parse, Write write, std::vector<std::string> seeds = {}) {
+  return {.name = std::move(name),
+          .run = [=](std::string_view bytes) { round_trip(bytes, parse, write); },
+          .seeds = std::move(seeds)};
+}
+
+/// An experiment, and each of its profiles.
+template <typename Parse, typename Write>
+Target of_experiments(std::string name, std::string_view schema, Parse parse, Write write,
+                      std::vector<std::string> seeds = {}) {
+  return {.name = std::move(name),
+          .run =
+              [=](std::string_view bytes) {
+                round_trip(
+                    bytes, [=](auto text, auto& source) { return parse(text, source, ""); }, write);
+                for (const std::string& profile : profile_names(bytes, kSource, schema))
+                  parse(bytes, kSource, profile);
+              },
+          .seeds = std::move(seeds)};
+}
+
+const Added kExperiment(of_experiments("experiment", "mapproof.experiment", parse_experiment,
+                                       experiment_json, {"experiments"}));
+const Added kSlamExperiment(of_experiments("experiment-slam", "mapproof.slam_experiment",
+                                           parse_slam_experiment, slam_experiment_json));
+
+const Added kStudy(of_records("study", parse_study,
+                              [](const Study& study) {
+                                return study_json(study.experiment, study.provenance);
+                              },
+                              {"study/study.json"}));
+const Added kRun(of_records("study-run", parse_run, run_json, {"study/runs"}));
+const Added kMaps(of_records("study-maps", parse_maps, maps_json, {"study/maps"}));
+const Added kDetails(of_records("study-details", parse_details, details_json, {"study/details"}));
+
+const Added kSlamStudy(of_records("slam-study", parse_slam_study,
+                                  [](const SlamOrder& order) {
+                                    return slam_study_json(order.experiment, order.provenance);
+                                  },
+                                  {"slam_study/study.json"}));
+const Added kSlamRun(of_records("slam-run", parse_slam_run, slam_run_json));
+const Added kConvergence(of_records("slam-convergence", parse_convergence, convergence_json,
+                                    {"slam_study/convergence"}));
+const Added kHistories(of_records("slam-histories", parse_range_histories, range_histories_json,
+                                  {"slam_study/histories.json"}));
+const Added kSpace(of_records("slam-space", parse_space_run, space_run_json,
+                              {"slam_study/space.json"}));
+
+const Added kTrialStudy(of_records("trial-study", parse_trial_study, trial_study_json,
+                                   {"trial_study/study.json"}));
+const Added kTrialPart(of_records(
+    "trial-part",
+    [](std::string_view text, const std::string& source) {
+      return parse_trial_part(text, source, nullptr);
+    },
+    [](const ReadTrialPart& read) { return trial_part_json(read.part, read.digest); }));
+
+std::string lines_of(const Timings& timings) {
+  std::string text = timings_header();
+  for (const auto& one : timings.maps) text += timing_line(one);
+  for (const auto& one : timings.slam.methods) text += timing_line(one);
+  for (const auto& one : timings.slam.factorization) text += timing_line(one);
+  for (const auto& one : timings.trials) text += timing_line(one);
+  for (const auto& one : timings.sessions) text += session_line(one);
+  return text;
+}
+
+const Added kTimings(of_records("timings", parse_timings, lines_of,
+                                {"study/timings.jsonl", "slam_study/timings.jsonl",
+                                 "trial_study/timings.jsonl"}));
+
+}  // namespace
+}  // namespace mapproof::fuzz
