@@ -14,21 +14,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/build_facts.hpp"
-#include "app/diff/approve.hpp"
-#include "app/diff/check.hpp"
-#include "app/diff/diff.hpp"
+#include "app/commands.hpp"
 #include "app/failures.hpp"
-#include "app/map/map.hpp"
-#include "app/nightly/history.hpp"
-#include "app/nightly/nightly.hpp"
-#include "app/slam/slam.hpp"
-#include "app/study/example.hpp"
-#include "app/study/methods.hpp"
-#include "app/study/render.hpp"
-#include "app/study/report.hpp"
-#include "app/study/reproduce.hpp"
-#include "app/study/run.hpp"
-#include "app/study/validate.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
@@ -118,7 +105,7 @@ bool asks_for_version_json(std::span<char* const> words) {
 
 int run_command_of(int argc, char** argv) {
   CLI::App app(
-      "Maps from what a robot observed, without ever estimating its pose, and proof of them",
+      "Maps from what a robot observed, without ever estimating its pose, with the evidence",
       "mapproof");
   app.footer(std::string(kExitCodes) + "\n" + kFooter);
   app.set_version_flag("--version", std::function<std::string()>(version_text),

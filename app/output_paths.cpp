@@ -20,34 +20,34 @@ namespace fs = std::filesystem;
 /// An output and what an earlier one of its type holds near its beginning.
 struct Output {
   const char* option;
-  fs::path place;
+  fs::path path;
   std::string_view mark;
 };
 
 bool is_earlier_output(const Output& output) {
-  return ByteSource(output.place).peek(4096).find(output.mark) != std::string_view::npos;
+  return ByteSource(output.path).peek(4096).find(output.mark) != std::string_view::npos;
 }
 
 void check_path(const Output& output, const fs::path& input) {
-  const fs::path place = real_path(output.place), compared = real_path(input);
+  const fs::path path = real_path(output.path), compared = real_path(input);
   const auto refuse = [&](const char* why) {
     throw InvalidInput(
-        fmt::format("{} {}: {}", output.option, printable(output.place.string()), why));
+        fmt::format("{} {}: {}", output.option, printable(output.path.string()), why));
   };
   std::error_code error;
-  if (place == compared) refuse("is what is compared");
-  if (!lies_in(place, compared) || !fs::is_directory(compared, error)) return;
-  if (!item_name(place, compared).kind.empty())
+  if (path == compared) refuse("is what is compared");
+  if (!lies_in(path, compared) || !fs::is_directory(compared, error)) return;
+  if (!item_name(path, compared).kind.empty())
     refuse("is the path of a figure, image, table or page that is compared");
-  if (fs::is_regular_file(place, error) && !is_earlier_output(output))
+  if (fs::is_regular_file(path, error) && !is_earlier_output(output))
     refuse("is a file of a folder that is compared");
 }
 
-void require_replaceable(const fs::path& place) {
+void require_replaceable(const fs::path& path) {
   std::error_code error;
-  const fs::file_status status = fs::status(place, error);
+  const fs::file_status status = fs::status(path, error);
   if (fs::exists(status) && !fs::is_regular_file(status))
-    throw IoError(place.string(), "is not a regular file, and cannot be replaced");
+    throw IoError(path.string(), "is not a regular file, and cannot be replaced");
 }
 
 }  // namespace
@@ -59,16 +59,16 @@ void check_output_paths(const DiffOptions& options, std::span<const fs::path> in
       Output{"--junit", options.junit, "<testsuites"},
       Output{"--markdown", options.markdown, "### mapproof diff"},
   };
-  const auto is_file = [](const Output& o) { return !o.place.empty() && o.place != "-"; };
+  const auto is_file = [](const Output& o) { return !o.path.empty() && o.path != "-"; };
   for (const Output& output : outputs) {
     if (!is_file(output)) continue;
     for (const fs::path& input : inputs)
       if (!input.empty()) check_path(output, input);
-    require_replaceable(output.place);
+    require_replaceable(output.path);
     for (const Output& other : outputs)
-      if (&other != &output && is_file(other) && real_path(other.place) == real_path(output.place))
+      if (&other != &output && is_file(other) && real_path(other.path) == real_path(output.path))
         throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,
-                                       printable(output.place.string())));
+                                       printable(output.path.string())));
   }
 }
 

@@ -21,7 +21,7 @@ function copyOf(holder, table, format) {
   return `${data.latexHead}${rows.map((row) => `${row}\n`).join("")}${data.latexTail}`;
 }
 
-function lowered(text) {
+function lower_case(text) {
   return /^[A-Z][a-z]/.test(text) ? text[0].toLowerCase() + text.slice(1) : text;
 }
 
@@ -45,7 +45,7 @@ function addFilter(parent, holder, table) {
     if (details && field.value !== "") details.open = true;
   });
   const column = heading?.textContent.trim().replace(/\s+/g, " ") || "Name";
-  label.append(`Filter by ${lowered(column)} `, field);
+  label.append(`Filter by ${lower_case(column)} `, field);
   parent.append(label, list, found);
 }
 

@@ -1,4 +1,4 @@
-#include "app/diff/approve.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <filesystem>

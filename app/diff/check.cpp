@@ -1,4 +1,4 @@
-#include "app/diff/check.hpp"
+#include "app/commands.hpp"
 
 #include <array>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "app/diff/diff.hpp"
+#include "app/commands.hpp"
 
 #include <array>
 #include <filesystem>

@@ -116,7 +116,7 @@ std::vector<std::string> frame_warnings(const MapRecord& record) {
     trivial_m /= known;
     if (record.score->mpe_m < trivial_m) return {};
     return {fmt::format(
-        "The map is worth nothing in metres: its MPE is {:.3g} m; a map with all landmarks "
+        "The map cannot be used in metres: its MPE is {:.3g} m; a map with all landmarks "
         "at the mean of the anchors would have an MPE of {:.3g} m.",
         record.score->mpe_m, trivial_m)};
   }
@@ -126,7 +126,7 @@ std::vector<std::string> frame_warnings(const MapRecord& record) {
   if (*middle < kFarOut * reach_m) return {};
   return {fmt::format(
       "Half of the landmarks lie {:.3g} m or more from the mean of the anchors, but no anchor "
-      "beyond {:.3g} m: the map, or its fit to the anchors, is likely to be worth nothing.",
+      "beyond {:.3g} m: the map, or its fit to the anchors, is likely to be wrong.",
       *middle, reach_m)};
 }
 

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kLabelsFile = "labels.csv";
+constexpr std::string_view kAssociationFile = "association.csv";
 
 /// The landmark that a measurement was assigned to.
 struct AssignedMeasurement {
@@ -138,26 +138,26 @@ std::vector<std::string> never_certain(const ObservationSource& source, const Ma
 }
 
 void report(const ObservationSource& source, const Mask& doubtful, const Correspondence& found,
-            EstimatedIds& labels) {
+            EstimatedIds& ids) {
   const auto all = doubtful.count();
   const auto clear = (found.clear && doubtful).count();
   const double unclear = 1.0 - static_cast<double>(clear) / static_cast<double>(all);
-  labels.remarks.push_back(fmt::format(
+  ids.remarks.push_back(fmt::format(
       "Data association estimated together with the map: {} uncertain, {:.1f} % of them resolved "
-      "clearly; {} without a landmark ID, or assigned to another landmark than given (labels.csv). "
+      "clearly; {} without a landmark ID, or assigned to another landmark than given "
+      "(association.csv). "
       "The share of the variance that LPCA leaves unexplained fell from {:.4f} to {:.4f}.",
       counted(all, "measurement"), 100.0 * (1.0 - unclear),
-      counted(std::ssize(labels.measurements), "measurement"), found.loss_before,
-      found.loss_after));
+      counted(std::ssize(ids.measurements), "measurement"), found.loss_before, found.loss_after));
   if (!found.converged)
-    labels.warnings.push_back(fmt::format(
+    ids.warnings.push_back(fmt::format(
         "Data association still changed after {} rounds: it has not converged.", found.rounds));
   if (unclear > kManyUnclear)
-    labels.warnings.push_back(fmt::format(
+    ids.warnings.push_back(fmt::format(
         "{:.0f} % of the uncertain measurements would fit another landmark nearly as well.",
         100.0 * unclear));
   if (const std::vector<std::string> names = never_certain(source, doubtful); names.size() > 1)
-    labels.warnings.push_back(fmt::format(
+    ids.warnings.push_back(fmt::format(
         "{} have no certain measurement: their data association follows the landmark IDs as given, "
         "and is undetermined where those are wrong about as often as right.",
         listed(names, 10)));
@@ -170,7 +170,7 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
 ///         missing though there is no measurement for it, more measurements than free landmarks,
 ///         an ID that is not there; or for a single uncertain ID.
 EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& unsure) {
-  EstimatedIds labels;
+  EstimatedIds ids;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
@@ -178,17 +178,17 @@ EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::stri
                   "data association needs three landmarks whose IDs some measurements have");
   mark_unsure(source, unsure, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
-  labels.measurements = assigned(source, dealt, found);
-  report(source, dealt.doubtful, found, labels);
+  ids.measurements = assigned(source, dealt, found);
+  report(source, dealt.doubtful, found, ids);
   source.history = found.history;
   source.unassociated.clear();
-  return labels;
+  return ids;
 }
 
 /// RFC 4180: step,line,given,landmark,value,clear.
-std::string ids_csv(const EstimatedIds& labels) {
+std::string ids_csv(const EstimatedIds& ids) {
   std::string csv = "step,line,given,landmark,value,clear\r\n";
-  for (const AssignedMeasurement& one : labels.measurements)
+  for (const AssignedMeasurement& one : ids.measurements)
     csv += fmt::format("{:.0f},{},{},{},{},{}\r\n", one.step,
                        one.line > 0 ? std::to_string(one.line) : "", csv_field(one.given),
                        csv_field(one.found), csv_number(one.value), one.clear ? 1 : 0);
@@ -199,16 +199,16 @@ MapDraft associate(MapDraft draft, const MapJob& job) {
   auto* source = std::get_if<ObservationSource>(&draft.observed);
   if (source == nullptr || (source->unassociated.empty() && job.uncertain_ids.empty()))
     return draft;
-  const EstimatedIds labels = estimate_ids(*source, job.uncertain_ids);
+  const EstimatedIds ids = estimate_ids(*source, job.uncertain_ids);
   MapResult& result = draft.result;
-  result.remarks.insert(result.remarks.end(), labels.remarks.begin(), labels.remarks.end());
-  result.warnings.insert(result.warnings.end(), labels.warnings.begin(), labels.warnings.end());
-  result.files.push_back({std::string(kLabelsFile), ids_csv(labels)});
+  result.remarks.insert(result.remarks.end(), ids.remarks.begin(), ids.remarks.end());
+  result.warnings.insert(result.warnings.end(), ids.warnings.begin(), ids.warnings.end());
+  result.files.push_back({std::string(kAssociationFile), ids_csv(ids)});
   return draft;
 }
 
 }  // namespace
 
-const MapStep kDataAssociation{.take = associate, .file = kLabelsFile};
+const MapStep kDataAssociation{.take = associate, .file = kAssociationFile};
 
 }  // namespace mapproof

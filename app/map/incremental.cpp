@@ -13,7 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "core/follow/moved_watch.hpp"
+#include "core/follow/incremental_map.hpp"
 #include "core/map_fit/map_fit.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"

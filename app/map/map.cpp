@@ -1,4 +1,4 @@
-#include "app/map/map.hpp"
+#include "app/commands.hpp"
 
 #include <cmath>
 #include <memory>

@@ -91,8 +91,9 @@ nlohmann::ordered_json landmark_json(const MapResult& map, Eigen::Index i) {
   if (!map.certainty) return landmark;
   landmark["ellipse"] = nullptr;
   if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.certainty, i))
-    landmark["ellipse"] = {
-        {"a" + unit, ellipse->a}, {"b" + unit, ellipse->b}, {"turn_rad", ellipse->turn_rad}};
+    landmark["ellipse"] = {{"a" + unit, ellipse->a},
+                           {"b" + unit, ellipse->b},
+                           {"rotation_rad", ellipse->rotation_rad}};
   return landmark;
 }
 

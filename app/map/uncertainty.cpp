@@ -6,7 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/certainty/history_certainty.hpp"
 #include "core/certainty/pair_certainty.hpp"
-#include "reports/sections/certainty_section.hpp"
+#include "reports/sections/map_report.hpp"
 
 namespace mapproof {
 namespace {

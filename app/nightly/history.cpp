@@ -1,4 +1,4 @@
-#include "app/nightly/history.hpp"
+#include "app/commands.hpp"
 
 #include <iostream>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "app/nightly/nightly.hpp"
+#include "app/commands.hpp"
 
 #include <sys/utsname.h>
 #include <unistd.h>

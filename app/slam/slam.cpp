@@ -1,4 +1,4 @@
-#include "app/slam/slam.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
-#include "app/study/slam_outputs.hpp"
+#include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"

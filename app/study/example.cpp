@@ -1,4 +1,4 @@
-#include "app/study/example.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <filesystem>

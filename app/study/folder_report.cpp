@@ -18,6 +18,8 @@
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/sections/slam/slam_figures.hpp"
+#include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/wording.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -175,6 +177,24 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
                outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)));
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   return report.folder / kReportFile;
+}
+
+FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
+                                const SlamTimings& timings, std::span<const Session> sessions,
+                                const std::string& command) {
+  const StudyFigures figures = slam_figures(study, timings);
+  const SlamReportInput input{.study = study,
+                              .sessions = sessions,
+                              .timings = timings,
+                              .figures = figures,
+                              .command = command};
+  FolderReport result{.folder = folder,
+                      .report = slam_report(input),
+                      .in_company = slam_sections(input),
+                      .runs = study.runs.size(),
+                      .missing = study.missing};
+  add_images(figures, result);
+  return result;
 }
 
 }  // namespace mapproof

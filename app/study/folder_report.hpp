@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/disclosure.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/model/slam_study.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
@@ -37,6 +39,12 @@ std::vector<std::filesystem::path> study_folders(const std::filesystem::path& fo
 /// Reports of several studies in one, with what is missing at its head.
 /// @throws InvalidInput if an id stands in two of them.
 FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
+
+/// The report of a range-only study that is at hand, with its figures.
+/// @param command  The one that makes the study again.
+FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamStudy& study,
+                                const SlamTimings& timings, std::span<const Session> sessions,
+                                const std::string& command);
 
 /// Adds all figures, scenes and films of a study.
 void add_images(const StudyFigures& figures, FolderReport& report);

@@ -1,4 +1,4 @@
-#include "app/study/methods.hpp"
+#include "app/commands.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/study/render.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "app/study/report.hpp"
+#include "app/commands.hpp"
 
 #include <memory>
 

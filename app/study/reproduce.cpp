@@ -1,4 +1,4 @@
-#include "app/study/reproduce.hpp"
+#include "app/commands.hpp"
 
 #include <algorithm>
 #include <memory>

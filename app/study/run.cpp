@@ -1,4 +1,4 @@
-#include "app/study/run.hpp"
+#include "app/commands.hpp"
 
 #include <memory>
 

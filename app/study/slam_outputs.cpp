@@ -1,13 +1,11 @@
-#include "app/study/slam_outputs.hpp"
+#include "app/study/study_outputs.hpp"
 
 #include <fmt/format.h>
 
 #include "app/slam/slam_json.hpp"
-#include "app/study/study_outputs.hpp"
+#include "app/study/folder_report.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/study_store.hpp"
-#include "reports/sections/slam/slam_figures.hpp"
-#include "reports/sections/slam/slam_report.hpp"
 
 namespace mapproof {
 namespace {
@@ -51,23 +49,5 @@ StudyNumbers range_numbers(const fs::path& folder) {
 
 const StudyOutputs kRangeOutputs = {
     .study = "mapproof.slam_study", .report = range_report, .numbers = range_numbers};
-
-FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
-                                const SlamTimings& timings, std::span<const Session> sessions,
-                                const std::string& command) {
-  const StudyFigures figures = slam_figures(study, timings);
-  const SlamReportInput input{.study = study,
-                              .sessions = sessions,
-                              .timings = timings,
-                              .figures = figures,
-                              .command = command};
-  FolderReport result{.folder = folder,
-                      .report = slam_report(input),
-                      .in_company = slam_sections(input),
-                      .runs = study.runs.size(),
-                      .missing = study.missing};
-  add_images(figures, result);
-  return result;
-}
 
 }  // namespace mapproof

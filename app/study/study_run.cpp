@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 
 #include "app/build_facts.hpp"
-#include "app/progress_line.hpp"
+#include "app/console.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
+#include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/trial_store.hpp"
 #include "reports/sections/results/results_report.hpp"
-#include "reports/sections/results/trial_blocks.hpp"
 #include "reports/sections/trials/topic_text.hpp"
-#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {

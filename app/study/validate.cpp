@@ -1,20 +1,176 @@
-#include "app/study/validate.hpp"
+#include "app/commands.hpp"
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "app/input_streams.hpp"
-#include "app/output_files.hpp"
 #include "app/table_options.hpp"
 #include "app/understood.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/records/tables/table_reader.hpp"
 #include "core/topics/validate.hpp"
+#include "render/image/png_check.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
 namespace {
+
+namespace fs = std::filesystem;
+
+void check_svg(const std::string& bytes, const std::string& source) {
+  try {
+    parse_svg(bytes);
+  } catch (const InvalidInput& error) {
+    throw IoError(source, error.what());
+  }
+}
+
+void check_png(const std::string& bytes, const std::string& source) {
+  const std::string problem = png_problem(bytes);
+  if (!problem.empty()) throw IoError(source, problem);
+}
+
+/// Files whose beginning and end show that they are whole.
+void check_ends(const std::string& bytes, const std::string& source, std::string_view begin,
+                std::string_view end) {
+  if (!bytes.starts_with(begin))
+    throw IoError(source, "line 1", fmt::format("expected \"{}\"", begin));
+  const std::size_t last = bytes.find_last_not_of(" \r\n");
+  if (!std::string_view(bytes).substr(0, last + 1).ends_with(end))
+    throw IoError(source, fmt::format("is truncated: it does not end with \"{}\"", end));
+}
+
+void check_pdf(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "%PDF-", "%%EOF");
+}
+
+void check_page(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "<!DOCTYPE html>", "</html>");
+}
+
+void check_latex(const std::string& bytes, const std::string& source) {
+  for (const char* part : {"\\toprule", "\\bottomrule"})
+    if (bytes.find(part) == std::string::npos)
+      throw IoError(source, fmt::format("is not a table of mapproof: {} is missing", part));
+}
+
+void check_markdown(const std::string& bytes, const std::string& source) {
+  if (bytes.find("\n|") == std::string::npos)
+    throw IoError(source, "is not a table of mapproof: it has no row");
+}
+
+void check_csv(const std::string& bytes, const std::string& source) {
+  TableReader reader(bytes, source, ',');
+  TableRow row;
+  std::size_t width = 0;
+  while (reader.next(row)) {
+    if (width == 0) width = row.cells.size();
+    if (row.cells.size() != width)
+      throw IoError(source, fmt::format("line {}", row.line),
+                    fmt::format("has {} cells, expected {}", row.cells.size(), width));
+  }
+  if (width == 0) throw IoError(source, "is empty");
+}
+
+/// A type of file that is written and never read again.
+struct StagedOutput {
+  std::string_view extension;
+  std::array<std::string_view, 2> starts;  ///< Of no other files; empty: none.
+  std::string_view kind;
+  void (*check)(const std::string& bytes, const std::string& source);
+};
+
+constexpr std::array kOutputs = {
+    StagedOutput{".svg", {"<svg", "<?xml"}, "figure, SVG", check_svg},
+    StagedOutput{".png", {"\x89PNG"}, "figure, PNG", check_png},
+    StagedOutput{".pdf", {"%PDF-"}, "figure, PDF", check_pdf},
+    StagedOutput{".html", {"<!DOCTYPE html>"}, "report", check_page},
+    StagedOutput{".tex", {"\\begin{table}"}, "table, LaTeX", check_latex},
+    StagedOutput{".md", {}, "table, Markdown", check_markdown},
+    StagedOutput{".csv", {}, "table, CSV", check_csv},
+};
+
+/// The type of an output file by its name; null for files that core reads. Its folder distinguishes
+/// a table's CSV from observations.
+const StagedOutput* output_named(const fs::path& path) {
+  const auto* found =
+      std::ranges::find(kOutputs, path.extension().string(), &StagedOutput::extension);
+  if (found == kOutputs.end()) return nullptr;
+  if (found->extension == ".csv" && path.parent_path().filename() != "tables") return nullptr;
+  return found;
+}
+
+/// By its name; if the name is of no use, as that of a stream, by its first bytes.
+const StagedOutput* output_of(ByteSource& source) {
+  const fs::path name = unpacked_name(source.path());
+  if (name.has_extension()) return output_named(name);
+  const std::string_view bytes = source.peek();
+  const auto begins = [&](std::string_view start) {
+    return !start.empty() && bytes.starts_with(start);
+  };
+  const auto* found = std::ranges::find_if(kOutputs, [&](const StagedOutput& output) {
+    return std::ranges::any_of(output.starts, begins);
+  });
+  return found == kOutputs.end() ? nullptr : found;
+}
+
+Finding check_output(const std::string& name, const StagedOutput& output,
+                     const std::function<std::string()>& read) {
+  Finding finding{.path = name, .kind = std::string(output.kind), .problem = ""};
+  try {
+    output.check(read(), finding.path);
+  } catch (const IoError& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+/// The output files below a folder, in the order of their paths.
+std::vector<fs::path> outputs_below(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (output_named(entry->path()) != nullptr) paths.push_back(entry->path());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+Finding check_file(const fs::path& path, const ForeignReader& foreign,
+                   const ValidateOptions& options) {
+  try {
+    ByteSource source(path);
+    if (const StagedOutput* output = output_of(source))
+      return check_output(source.name(), *output, [&] { return source.rest(); });
+    return validate(source, foreign, options);
+  } catch (const IoError& error) {
+    return {.path = input_name(path), .kind = "", .problem = error.what()};
+  }
+}
+
+/// Checks whatever mapproof reads or writes: what core knows (see validate), and the images, tables
+/// and pages that it writes and never reads again. Of a study's or a map's folder, both.
+std::vector<Finding> validate_all(const fs::path& path, const ForeignReader& foreign,
+                                  const ValidateOptions& options) {
+  if (!is_folder(path)) return {check_file(path, foreign, options)};
+  std::vector<Finding> findings = validate(path, foreign, options);
+  // Nobody unpacks an image of a folder: there it has to be one as it is.
+  for (const fs::path& output : outputs_below(path))
+    findings.push_back(
+        check_output(output.string(), *output_named(output), [&] { return read_file(output); }));
+  return findings;
+}
 
 /// Reads the JSON formats that rest on more than core's records.
 bool read_foreign(std::string_view schema, std::string_view text, const std::string& source) {

@@ -160,7 +160,7 @@ bool seen_in_scan(const DetectionLog& log, const std::vector<int>& ids, std::siz
   return false;
 }
 
-/// What each detection costs in a map under each ID in place of its own, while the others in its
+/// What each detection costs in a map under each ID instead of its own, while the others in its
 /// scan keep theirs: detections x landmarks, zero but for those with the ID `label`.
 Eigen::MatrixXd id_costs(const IdentifiedScans& scans, const std::vector<int>& ids,
                          const RobustMap& map, int id) {

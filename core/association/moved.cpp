@@ -99,7 +99,7 @@ Eigen::Vector2d shift_by(const ShiftSlice& sum) {
 
 double fall(const ShiftSlice& sum) { return 0.5 * sum.g.dot(shift_by(sum)); }
 
-/// The position near `place` where the pulls of the slices [first, last) cost least.
+/// The position near `start` where the pulls of the slices [first, last) cost least.
 Eigen::RowVector2d converged(const std::vector<Pull>& pulls, Eigen::RowVector2d position,
                              std::size_t first, std::size_t last, double width_m) {
   constexpr int kRounds = 20;

@@ -7,7 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/graph/components.hpp"
 #include "core/graph/shortest_paths.hpp"

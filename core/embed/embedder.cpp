@@ -10,9 +10,8 @@
 #include "core/embed/bottom_eigenmap.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/embed/isomap.hpp"
-#include "core/embed/kernel_pca.hpp"
 #include "core/embed/lle.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/graph/shortest_paths.hpp"
 

@@ -2,7 +2,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/embed/connected_graph.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "core/graph/shortest_paths.hpp"
 
 namespace mapproof {

@@ -264,7 +264,7 @@ RangeWorldOptions range_world_options(const SlamWorldOptions& world, const Range
           .steps = steps,
           .half_width_m = world.half_width_m,
           .step_m = world.step_m,
-          .turn_sigma_rad = world.turn_sigma_rad,
+          .heading_change_sigma_rad = world.heading_change_sigma_rad,
           .noise_m = noise.noise_m,
           .noise_share = noise.share,
           .noise_correlation = noise.correlation};
@@ -367,7 +367,7 @@ SpaceRun make_space_run(const SlamExperiment& experiment) {
                              .half_width_m = options.half_width_m,
                              .height_m = options.height_m,
                              .step_m = options.step_m,
-                             .turn_sigma_rad = options.turn_sigma_rad,
+                             .heading_change_sigma_rad = options.heading_change_sigma_rad,
                              .noise = {.sigma_m = options.noise.noise_m,
                                        .share = options.noise.share,
                                        .correlation = options.noise.correlation}},

@@ -16,7 +16,7 @@ namespace mapproof {
 ///   void fields(Visitor& v, Note& note) {
 ///     v.type("note");
 ///     v.field("text", note.text);
-///     v.field("ink", note.ink, {.description = "Of the theme."});
+///     v.field("colour", note.colour, {.description = "Of the theme."});
 ///   }
 ///
 /// From it record_writer.hpp makes the writer, record_reader.hpp the strict reader, and
@@ -79,7 +79,7 @@ struct TextForm {
 
 /// What the values of an enumeration are called in files, in the order of the enumerators from 0.
 struct EnumNames {
-  std::string_view type;  ///< "ink": of the enumeration in the schema and in messages.
+  std::string_view type;  ///< "colour": of the enumeration in the schema and in messages.
   std::span<const std::string_view> names;
 };
 

@@ -159,8 +159,7 @@ void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
     if (std::ranges::any_of(keys, [&](std::string_view key) { return item.has_key(key); }))
       continue;
     const std::string key = item.key();
-    if (const std::string_view now = replacement_of(NameKind::kKey, key);
-        std::ranges::find(keys, now) != keys.end())
+    if (const std::string_view now = replacement_of(NameKind::kKey, key, keys); !now.empty())
       fail(fmt::format("{}: this key is now called \"{}\"", in_quotes(key), now));
     const std::string_view meant = likely_word(key, keys);
     fail("unknown key " + in_quotes(key) +

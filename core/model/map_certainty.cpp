@@ -11,7 +11,7 @@ Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius) {
   const double half = std::hypot((C(0, 0) - C(1, 1)) / 2.0, C(0, 1));
   return {.a = radius * std::sqrt(std::max(middle + half, 0.0)),
           .b = radius * std::sqrt(std::max(middle - half, 0.0)),
-          .turn_rad = 0.5 * std::atan2(2.0 * C(0, 1), C(0, 0) - C(1, 1))};
+          .rotation_rad = 0.5 * std::atan2(2.0 * C(0, 1), C(0, 0) - C(1, 1))};
 }
 
 std::optional<Ellipse> confidence_ellipse(const MapCertainty& certainty, Eigen::Index landmark) {

@@ -23,9 +23,9 @@ struct MapCertainty {
 
 /// An ellipse about a landmark's position, in the map's unit.
 struct Ellipse {
-  double a = 0.0;         ///< The longer half axis.
-  double b = 0.0;         ///< The shorter.
-  double turn_rad = 0.0;  ///< Of `a` from the x axis, counter-clockwise, in (-pi/2, pi/2].
+  double a = 0.0;             ///< The longer half axis.
+  double b = 0.0;             ///< The shorter.
+  double rotation_rad = 0.0;  ///< Of `a` from the x axis, counter-clockwise, in (-pi/2, pi/2].
 };
 
 /// The ellipse of the points whose distance by that covariance is `radius`.

@@ -23,7 +23,7 @@ struct RangeMeasurement {
 struct Motion {
   double time_s = 0.0;
   double distance_m = 0.0;
-  double turn_rad = 0.0;
+  double heading_change_rad = 0.0;
   double sideways_m = 0.0;  ///< To the left; 0 for what has wheels.
   /// Standard deviations forward [m], sideways [m], of the heading [rad], as the log gives them.
   std::optional<Eigen::Vector3d> sigmas = std::nullopt;

@@ -33,9 +33,9 @@ std::optional<SdpSolver> sdp_solver_named(std::string_view name_in_files) {
   return std::nullopt;
 }
 
-bool is_proved(const Certificate& certificate) {
-  return certificate.relative_gap <= kProvedGap &&
-         certificate.constraint_residual <= kProvedResidual;
+bool is_certified(const Certificate& certificate) {
+  return certificate.relative_gap <= kCertifiedGap &&
+         certificate.constraint_residual <= kCertifiedResidual;
 }
 
 std::string_view name(Alignment alignment) {

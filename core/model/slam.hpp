@@ -27,8 +27,8 @@ std::string_view name(SdpSolver solver);
 std::optional<SdpSolver> sdp_solver_named(std::string_view name);
 
 /// Up to here a relative gap and a constraint residual count as none.
-inline constexpr double kProvedGap = 1e-6;
-inline constexpr double kProvedResidual = 1e-6;
+inline constexpr double kCertifiedGap = 1e-6;
+inline constexpr double kCertifiedResidual = 1e-6;
 
 /// How near the optimum a maximisation by semidefinite programming came, certified by its dual.
 struct Certificate {
@@ -43,7 +43,7 @@ struct Certificate {
 };
 
 /// Whether the answer is feasible and optimal within the bounds above.
-bool is_proved(const Certificate& certificate);
+bool is_certified(const Certificate& certificate);
 
 /// How an estimated path was aligned to the true one before its error was taken. An error without
 /// it has no meaning.

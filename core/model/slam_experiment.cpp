@@ -15,7 +15,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& 
       {"Simulated landmarks", fmt::format("{}, {} of them known", world.landmarks, world.known)},
       {"Simulated walk",
        fmt::format("steps of {:g} m, the heading changes by {:g} rad (1 \u03C3) per step",
-                   world.step_m, world.turn_sigma_rad)}};
+                   world.step_m, world.heading_change_sigma_rad)}};
   if (const auto& example = experiment.example)
     facts.emplace_back("Example",
                        fmt::format("{} steps, {}", example->steps, example->noise.title));

@@ -28,7 +28,7 @@ struct SlamWorldOptions {
   int known = 4;               ///< The first so many have a known position.
   double half_width_m = 10.0;  ///< Landmarks and path lie in [-half_width, half_width]^2.
   double step_m = 1.0;
-  double turn_sigma_rad = 0.5;  ///< Of the heading from step to step.
+  double heading_change_sigma_rad = 0.5;  ///< Of the heading from step to step.
 };
 
 /// One world and walk that are shown.
@@ -75,7 +75,7 @@ struct SpaceFlightOptions {
   double half_width_m = 10.0;  ///< Landmarks and flight lie in [-half_width, half_width]^2,
   double height_m = 8.0;       ///< from the ground to this height.
   double step_m = 1.0;
-  double turn_sigma_rad = 0.3;  ///< Of the direction from step to step.
+  double heading_change_sigma_rad = 0.3;  ///< Of the direction from step to step.
   RangeNoiseModel noise;
 };
 

@@ -9,7 +9,7 @@ namespace {
 constexpr std::array kStatusNames = {
     std::string_view("bridged"),
     std::string_view("not_converged"),
-    std::string_view("unproved"),
+    std::string_view("uncertified"),
     std::string_view("rank_deficient"),
     std::string_view("undetermined"),
     std::string_view("arbitrary_neighbours"),

@@ -19,7 +19,7 @@ namespace mapproof {
 enum class StatusCode {
   kBridged,              ///< The neighbour graph was in pieces; joined by the shortest bridges.
   kNotConverged,         ///< The iteration limit came before the stop rule.
-  kUnproved,             ///< The answer of a semidefinite program was not certified as the optimum.
+  kUncertified,          ///< The answer of a semidefinite program was not certified as the optimum.
   kRankDeficient,        ///< Fewer than two dimensions in the data: the map is flat or a point.
   kUndetermined,         ///< Other maps fit equally well; which of them came out is arbitrary.
   kArbitraryNeighbours,  ///< Landmarks with fewer than K others ever seen together with them.
@@ -169,13 +169,14 @@ inline constexpr std::array kStatusReasons = {
                      "few_seen_together", "landmarks, neighbours, pieces"},
     StatusReasonInfo{StatusReason::kBoundBelowZero, StatusCode::kNotEuclidean, "bound_below_zero",
                      "constraint_residual"},
-    StatusReasonInfo{StatusReason::kNoBound, StatusCode::kUnproved, "no_bound", "excess_residual"},
-    StatusReasonInfo{StatusReason::kVarianceTooGreat, StatusCode::kUnproved, "variance_too_great",
-                     "bound_percent, excess_residual"},
-    StatusReasonInfo{StatusReason::kLooseBound, StatusCode::kUnproved, "loose_bound",
-                     "gap_percent, excess_residual"},
-    StatusReasonInfo{StatusReason::kDistancesNotKept, StatusCode::kUnproved, "distances_not_kept",
+    StatusReasonInfo{StatusReason::kNoBound, StatusCode::kUncertified, "no_bound",
                      "excess_residual"},
+    StatusReasonInfo{StatusReason::kVarianceTooGreat, StatusCode::kUncertified,
+                     "variance_too_great", "bound_percent, excess_residual"},
+    StatusReasonInfo{StatusReason::kLooseBound, StatusCode::kUncertified, "loose_bound",
+                     "gap_percent, excess_residual"},
+    StatusReasonInfo{StatusReason::kDistancesNotKept, StatusCode::kUncertified,
+                     "distances_not_kept", "excess_residual"},
     StatusReasonInfo{StatusReason::kDistancesFlat, StatusCode::kRankDeficient, "distances_flat",
                      "directions"},
     StatusReasonInfo{StatusReason::kUnfoldedFlat, StatusCode::kRankDeficient, "unfolded_flat",
@@ -323,10 +324,10 @@ struct Status {
 template <StatusReason kReason, typename... Values>
 Status status_of(std::vector<std::string> names, Values... values) {
   static_assert(sizeof...(Values) == info(kReason).value_count());
-  return {.code = info(kReason).code,
-          .reason = kReason,
-          .values = {static_cast<double>(values)...},
-          .names = std::move(names)};
+  Status status{
+      .code = info(kReason).code, .reason = kReason, .values = {static_cast<double>(values)...}};
+  status.names = std::move(names);
+  return status;
 }
 
 template <StatusReason kReason, typename... Values>

@@ -47,8 +47,8 @@ std::vector<MeasuredPair> trusted(const std::vector<MeasuredPair>& pairs, std::s
 }
 
 /// What the pairs do not determine, by landmark.
-std::vector<Status> gaps(const Graph& graph, const std::vector<Eigen::Index>& group,
-                         const std::vector<std::string>& names) {
+std::vector<Status> separate_groups(const Graph& graph, const std::vector<Eigen::Index>& group,
+                                    const std::vector<std::string>& names) {
   std::vector<std::string> alone;
   std::vector<std::string> elsewhere;
   std::vector<std::string> loose;
@@ -148,7 +148,7 @@ PairMap pair_map(const std::vector<MeasuredPair>& pairs, const std::vector<std::
   result.embedding.coordinates(group, Eigen::all) = map.coordinates;
   result.embedding.iterations = map.iterations;
   result.embedding.stress = map.stress;
-  result.embedding.statuses = gaps(graph, group, names);
+  result.embedding.statuses = separate_groups(graph, group, names);
   for (const Status& status : map.statuses) result.embedding.statuses.push_back(status);
   for (MeasuredPair pair : problem.pairs) {
     pair.first = group[static_cast<std::size_t>(pair.first)];

@@ -26,7 +26,7 @@ Trajectory dead_reckoned(const RangeLog& log) {
         path.positions_m(i - 1, 0) + motion.distance_m * cosine - motion.sideways_m * sine;
     path.positions_m(i, 1) =
         path.positions_m(i - 1, 1) + motion.distance_m * sine + motion.sideways_m * cosine;
-    path.heading_rad(i) = path.heading_rad(i - 1) + motion.turn_rad;
+    path.heading_rad(i) = path.heading_rad(i - 1) + motion.heading_change_rad;
   }
   if (!path.positions_m.allFinite() || !path.heading_rad.allFinite())
     throw InvalidInput("dead reckoning needs finite odometry");

@@ -67,9 +67,9 @@ class Filter {
     G.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
     const OdometryNoise& noise = options_.odometry;
     const Eigen::Vector3d Q(noise.forward_m * noise.forward_m, noise.sideways_m * noise.sideways_m,
-                            noise.turn_rad * noise.turn_rad);
+                            noise.heading_change_rad * noise.heading_change_rad);
     x_.head<3>() += Eigen::Vector3d(forward * cosine - left * sine, forward * sine + left * cosine,
-                                    share * motion.turn_rad);
+                                    share * motion.heading_change_rad);
     P_.topRows<3>() = (F * P_.topRows<3>()).eval();
     P_.leftCols<3>() = (P_.leftCols<3>() * F.transpose()).eval();
     P_.topLeftCorner<3, 3>() += share * G * Q.asDiagonal() * G.transpose();

@@ -56,7 +56,7 @@ std::vector<Quantity> dictionary() {
       {"fit_known_misfit_m", "misfit to given positions", "m", kLower, kLength, kRatio},
       {"fit_range_sigma_m", "noise of a range", "m", kNeither, kLength, kKept},
       {"fit_forward_sigma_m", "noise of odometry after 1 m", "m", kNeither, kLength, kKept},
-      {"fit_turn_sigma_rad", "noise of the heading after 1 m", "rad", kNeither, kNumber, kKept},
+      {"fit_heading_sigma_rad", "noise of the heading after 1 m", "rad", kNeither, kNumber, kKept},
       {"seconds", "seconds", "s", kLower, kNumber, kDuration},
   };
 }

@@ -61,12 +61,12 @@ std::optional<double> landmark_error(const Similarity& map, const Points& estima
                                      const Points& ground_truth_m) {
   if (estimate_m.rows() != ground_truth_m.rows())
     throw InvalidInput("the landmarks of estimate and ground truth differ in number");
-  const Eigen::VectorXd gaps_m = (map(estimate_m) - ground_truth_m).rowwise().norm();
+  const Eigen::VectorXd errors_m = (map(estimate_m) - ground_truth_m).rowwise().norm();
   double sum = 0.0;
   int count = 0;
-  for (const double gap_m : gaps_m) {
-    if (!std::isfinite(gap_m)) continue;
-    sum += gap_m;
+  for (const double error_m : errors_m) {
+    if (!std::isfinite(error_m)) continue;
+    sum += error_m;
     ++count;
   }
   if (count == 0) return std::nullopt;

@@ -19,7 +19,8 @@ void check(const RangeFlightOptions& o) {
     throw InvalidInput("a world's height must be above 0 and at most its width");
   if (!(o.step_m > 0.0 && o.step_m <= 0.5 * o.height_m))
     throw InvalidInput("a step must be above 0 and at most half the height");
-  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("heading changes must not be negative");
+  if (!(o.heading_change_sigma_rad >= 0.0))
+    throw InvalidInput("heading changes must not be negative");
 }
 
 Eigen::RowVector3d uniform_position(const RangeFlightOptions& options, Random& random) {
@@ -33,9 +34,9 @@ Eigen::RowVector3d normal_vector(Random& random) {
   return {x, y, random.normal()};
 }
 
-bool is_inside(const Eigen::RowVector3d& place, const RangeFlightOptions& options) {
-  return place.head<2>().cwiseAbs().maxCoeff() <= options.half_width_m && place.z() >= 0.0 &&
-         place.z() <= options.height_m;
+bool is_inside(const Eigen::RowVector3d& position, const RangeFlightOptions& options) {
+  return position.head<2>().cwiseAbs().maxCoeff() <= options.half_width_m && position.z() >= 0.0 &&
+         position.z() <= options.height_m;
 }
 
 SpacePoints fly(const RangeFlightOptions& options, Random& random) {
@@ -44,7 +45,8 @@ SpacePoints fly(const RangeFlightOptions& options, Random& random) {
   Eigen::RowVector3d direction = normal_vector(random).normalized();
   for (Eigen::Index t = 0; t < options.steps; ++t) {
     positions_m.row(t) = position;
-    const Eigen::RowVector3d wavering = direction + options.turn_sigma_rad * normal_vector(random);
+    const Eigen::RowVector3d wavering =
+        direction + options.heading_change_sigma_rad * normal_vector(random);
     if (wavering.squaredNorm() > 0.0) direction = wavering.normalized();
     Eigen::RowVector3d next;
     // A step of at most half the height stays inside in an eighth of all directions or more.
@@ -64,7 +66,8 @@ void check(const RangeWorldOptions& o) {
     throw InvalidInput("a world's half width must be above 0");
   if (!(o.step_m > 0.0 && o.step_m <= o.half_width_m))
     throw InvalidInput("a step must be above 0 and at most the half width");
-  if (!(o.turn_sigma_rad >= 0.0)) throw InvalidInput("heading changes must not be negative");
+  if (!(o.heading_change_sigma_rad >= 0.0))
+    throw InvalidInput("heading changes must not be negative");
 }
 
 Eigen::RowVector2d uniform_point(double half_width, Random& random) {
@@ -79,7 +82,7 @@ void walk(RangeWorld& world, const RangeWorldOptions& options, Random& random) {
   double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
   for (Eigen::Index t = 0; t < options.steps; ++t) {
     world.positions_m.row(t) = position;
-    heading = wrapped(heading + options.turn_sigma_rad * random.normal());
+    heading = wrapped(heading + options.heading_change_sigma_rad * random.normal());
     Eigen::RowVector2d next;
     // A step of at most the half width stays inside in a quarter of all directions or more.
     while (true) {

@@ -32,7 +32,7 @@ struct RangeFlightOptions {
   double half_width_m = 10.0;   ///< Landmarks and flight lie in [-half_width, half_width]^2; > 0.
   double height_m = 8.0;        ///< They lie at [0, height]; > 0, at most 2 half_width.
   double step_m = 1.0;          ///< From one position to the next, > 0, at most height_m / 2.
-  double turn_sigma_rad = 0.3;  ///< Of the direction, about each axis, a step; >= 0.
+  double heading_change_sigma_rad = 0.3;  ///< Of the direction, about each axis, a step; >= 0.
   SimulatedRangeNoise noise = {};
 };
 
@@ -50,13 +50,13 @@ RangeFlight simulate_range_flight(const RangeFlightOptions& options, std::uint64
 
 /// A random world for range-only SLAM [boots2013, figure 1]. What the paper does not give is ours.
 struct RangeWorldOptions {
-  Eigen::Index landmarks = 6;   ///< >= 1.
-  Eigen::Index steps = 500;     ///< >= 1.
-  double half_width_m = 10.0;   ///< Landmarks and path lie in [-half_width, half_width]^2; > 0.
-  double step_m = 1.0;          ///< From one position to the next, > 0, at most half_width_m.
-  double turn_sigma_rad = 0.5;  ///< Of the heading from step to step, >= 0.
-  double noise_m = 0.0;         ///< Standard deviation of a range, m, >= 0.
-  double noise_share = 0.01;    ///< The same as a share of the range, >= 0; both add as variances.
+  Eigen::Index landmarks = 6;  ///< >= 1.
+  Eigen::Index steps = 500;    ///< >= 1.
+  double half_width_m = 10.0;  ///< Landmarks and path lie in [-half_width, half_width]^2; > 0.
+  double step_m = 1.0;         ///< From one position to the next, > 0, at most half_width_m.
+  double heading_change_sigma_rad = 0.5;  ///< Of the heading from step to step, >= 0.
+  double noise_m = 0.0;                   ///< Standard deviation of a range, m, >= 0.
+  double noise_share = 0.01;  ///< The same as a share of the range, >= 0; both add as variances.
   double noise_correlation = 0.0;  ///< Of errors to one landmark one step apart, in [0, 1).
 };
 

@@ -81,7 +81,7 @@ Path random_walk(const World& world, const WalkOptions& options, int observation
   for (Eigen::Index t = 0; t < observations; ++t) {
     path.positions_m.row(t) << pose.x, pose.y;
     path.headings_rad(t) = wrapped(pose.heading);
-    pose.heading += random.uniform(-options.turn_rad, options.turn_rad);
+    pose.heading += random.uniform(-options.heading_change_rad, options.heading_change_rad);
     for (int i = 0; i < substeps; ++i) {
       const std::optional<Pose> next = next_substep(space, pose, length);
       if (!next) {

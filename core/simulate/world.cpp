@@ -73,8 +73,9 @@ std::vector<Eigen::Index> drawn(Eigen::Index landmarks, int count, Random& rando
   return deck;
 }
 
-std::vector<Eigen::Index> nearest(const World& world, const Eigen::RowVector2d& place, int count) {
-  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - place).rowwise().norm();
+std::vector<Eigen::Index> nearest(const World& world, const Eigen::RowVector2d& position,
+                                  int count) {
+  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
   std::vector<Eigen::Index> order(static_cast<std::size_t>(distances.size()));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return distances(i); });

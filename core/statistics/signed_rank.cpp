@@ -77,9 +77,9 @@ std::vector<double> holm(std::span<const double> p) {
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p[i]; });
   std::vector<double> corrected(p.size());
   double most = 0.0;
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    most = std::max(most, static_cast<double>(p.size() - place) * p[order[place]]);
-    corrected[order[place]] = std::min(1.0, most);
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    most = std::max(most, static_cast<double>(p.size() - rank) * p[order[rank]]);
+    corrected[order[rank]] = std::min(1.0, most);
   }
   return corrected;
 }

@@ -164,12 +164,12 @@ Affine after(const Affine& second, const Affine& first) {
 }
 
 /// The transformation of each map; empty: it is in no tree with the root.
-using Places = std::vector<std::optional<Affine>>;
+using Positions = std::vector<std::optional<Affine>>;
 
 /// From one map outward along the tree.
-Places placed_from(int root, const std::vector<Overlap>& overlaps,
-                   const std::vector<std::size_t>& tree, std::size_t maps) {
-  Places positions(maps);
+Positions placed_from(int root, const std::vector<Overlap>& overlaps,
+                      const std::vector<std::size_t>& tree, std::size_t maps) {
+  Positions positions(maps);
   positions[static_cast<std::size_t>(root)] = Affine{};
   for (bool grew = true; grew;) {
     grew = false;
@@ -188,14 +188,14 @@ Places placed_from(int root, const std::vector<Overlap>& overlaps,
 }
 
 /// The tree that holds most landmarks, from its largest map.
-Places largest_tree(const std::vector<Submap>& maps, const std::vector<Overlap>& overlaps,
-                    const std::vector<std::size_t>& tree) {
-  Places best;
+Positions largest_tree(const std::vector<Submap>& maps, const std::vector<Overlap>& overlaps,
+                       const std::vector<std::size_t>& tree) {
+  Positions best;
   std::size_t most = 0;
   std::vector<bool> tried(maps.size(), false);
   for (std::size_t g = 0; g < maps.size(); ++g) {
     if (tried[g]) continue;
-    Places positions = placed_from(static_cast<int>(g), overlaps, tree, maps.size());
+    Positions positions = placed_from(static_cast<int>(g), overlaps, tree, maps.size());
     std::size_t landmarks = 0;
     for (std::size_t h = 0; h < maps.size(); ++h)
       if (positions[h]) {
@@ -405,7 +405,7 @@ JoinResult join_submaps(std::vector<Submap> maps, JoinKind kind, Eigen::Index la
   const JoinKind left = kind == JoinKind::kAffine ? kind : JoinKind::kRigid;
   const std::vector<Overlap> overlaps = overlaps_of(maps, left);
   const std::vector<std::size_t> tree = spanning_tree(overlaps, maps.size());
-  const Places positions = largest_tree(maps, overlaps, tree);
+  const Positions positions = largest_tree(maps, overlaps, tree);
 
   JoinResult result;
   int left_out = 0;

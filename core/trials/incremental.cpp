@@ -59,7 +59,7 @@ std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t
 }
 
 /// The results of the updates so far.
-struct Gaps {
+struct Differences {
   double last = 0.0;
   double greatest = 0.0;
   int updates = 0;
@@ -81,7 +81,7 @@ void follow(const TrialContext& context, const MethodSetting& setting,
   const std::string setup{name(history.sensor)};
   IncrementalMap map(history.sensor, {.setting = setting, .embedder = {}});
   map.grow(history.landmarks());
-  Gaps gaps;
+  Differences differences;
   Eigen::Index before = 0;
   double carried_on_s = 0.0, resampled_s = 0.0;
   for (Eigen::Index t = 1; t <= history.steps(); ++t) {
@@ -96,7 +96,7 @@ void follow(const TrialContext& context, const MethodSetting& setting,
     start = Clock::now();
     const Embedding whole = HistoryEmbedder(history, t).embed(setting);
     resampled_s += seconds_since(start);
-    gaps.add(relative_gap(update.coordinates, whole.coordinates));
+    differences.add(relative_gap(update.coordinates, whole.coordinates));
     const auto trial = [&](const std::string& series, std::map<std::string, double> values) {
       part.trials.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),
                                                       .value = static_cast<double>(t)}}),
@@ -105,11 +105,11 @@ void follow(const TrialContext& context, const MethodSetting& setting,
                              .statuses = {}});
     };
     if (asked) {
-      trial(slug(setting),
-            {{"gap_ppm", 1e6 * gaps.last},
-             {"greatest_gap_ppm", 1e6 * gaps.greatest},
-             {"beyond_percent", 100.0 * gaps.beyond / static_cast<double>(gaps.updates)},
-             {"steps_gone_through", static_cast<double>(t - before)}});
+      trial(slug(setting), {{"gap_ppm", 1e6 * differences.last},
+                            {"greatest_gap_ppm", 1e6 * differences.greatest},
+                            {"beyond_percent",
+                             100.0 * differences.beyond / static_cast<double>(differences.updates)},
+                            {"steps_gone_through", static_cast<double>(t - before)}});
       trial(resampled_series(setting), {{"gap_ppm", 0.0},
                                         {"greatest_gap_ppm", 0.0},
                                         {"beyond_percent", 0.0},

@@ -11,7 +11,7 @@
 #include "core/missing/covisible.hpp"
 #include "core/missing/filled.hpp"
 #include "core/missing/missing_pattern.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/trials/topics.hpp"
 

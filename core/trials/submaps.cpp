@@ -8,7 +8,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/filled.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/submaps/submap_embedding.hpp"
 #include "core/trials/topics.hpp"

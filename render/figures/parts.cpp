@@ -21,7 +21,7 @@ void add_disc(Ellipses& discs, Point centre, double radius) {
   discs.y.push_back(centre.y);
   discs.a.push_back(radius);
   discs.b.push_back(radius);
-  discs.turn_rad.push_back(0.0);
+  discs.rotation_rad.push_back(0.0);
 }
 
 void add_label(PointLabels& labels, Point at, const std::string& text) {

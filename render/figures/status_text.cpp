@@ -105,7 +105,7 @@ std::string reason_words(const Status& status) {
                          : "");
     case StatusReason::kBoundBelowZero:
       return fmt::format(
-          "No points have the distances to be kept, as the bound proves; the squared distances to "
+          "No points have the distances to be kept, as the bound shows; the squared distances to "
           "be kept are off by up to {:.1e} of the largest.",
           v(0));
     case StatusReason::kNoBound:
@@ -154,7 +154,7 @@ std::string reason_words(const Status& status) {
     case StatusReason::kStressFalling:
       return fmt::format("The stress still fell after {} iterations.", v(0));
     case StatusReason::kFlatMap:
-      return "The map is flat: its landmarks lie on one line or in one place.";
+      return "The map is flat: its landmarks lie on one line or at one position.";
     case StatusReason::kEqualKernel:
       return fmt::format(
           "The kernel is nearly that of landmarks equally far from each other: its second "
@@ -199,7 +199,7 @@ std::string reason_words(const Status& status) {
                          v(0), listed_names(status));
     case StatusReason::kFewPairs:
       return fmt::format(
-          "Measured against fewer than three others, which leaves more than one place: {}.",
+          "Measured against fewer than three others, which leaves more than one position: {}.",
           listed_names(status));
     case StatusReason::kTooFewPairs:
       return fmt::format("{} measured, which hold no three landmarks together: nothing to map.",
@@ -217,7 +217,8 @@ std::string reason_words(const Status& status) {
                          v(2), v(3));
     case StatusReason::kFrameNotTied:
       return fmt::format(
-          "Known landmarks with ranges: {} of {}, and not two in different places. They do not tie "
+          "Known landmarks with ranges: {} of {}, and not two at different positions. They do not "
+          "tie "
           "the frame, which is that of the first pose.",
           v(0), v(1));
     case StatusReason::kFlatInSpace:
@@ -234,7 +235,7 @@ std::string reason_words(const Status& status) {
     case StatusReason::kPathNearlyOnALine:
       return nearly_on_a_line("The path lies", "a landmark stands", v(0));
     case StatusReason::kTooFewRanges:
-      return fmt::format("Too few ranges for a place of {}.",
+      return fmt::format("Too few ranges for a position of {}.",
                          listed(status.names, kMostLandmarksNamed));
     case StatusReason::kNoQuadric:
       return fmt::format("No quadric of a path in {} fits the states: {}.", extent(v(0)),
@@ -256,7 +257,7 @@ std::string reason_words(const Status& status) {
       return "The ranges leave a landmark or the path free to move: there are no covariances.";
     case StatusReason::kCovariancesOfFirstPose:
       return "The covariances are relative to the first pose: it takes two landmarks in different "
-             "places to free them of the frame.";
+             "positions to free them of the frame.";
     case StatusReason::kLeastSquaresNotConverged:
       return fmt::format("The least squares had not converged after {} iterations.", v(0));
     case StatusReason::kNoStepLowered:
@@ -296,7 +297,7 @@ std::string reason_words(const Status& status) {
           "leaves them out. Landmark {} is observed at the fewest: {}.",
           v(0), v(1), status.names.at(0), v(2));
     case StatusReason::kNoKnownLandmark:
-      return "No landmark's place is known.";
+      return "No landmark's position is known.";
     case StatusReason::kNoOdometry:
       return "The log has no odometry.";
     case StatusReason::kNoOdometryForHeadings:
@@ -323,10 +324,10 @@ std::string status_text(const Status& status) {
 void add_status_notes(const std::vector<std::string>& lines, std::vector<Note>& notes) {
   constexpr std::size_t kMost = 4;
   for (std::size_t i = 0; i < std::min(lines.size(), kMost); ++i)
-    notes.push_back({"\u26A0 " + lines[i], Ink::kWarning});
+    notes.push_back({"\u26A0 " + lines[i], ThemeColour::kWarning});
   if (lines.size() > kMost)
-    notes.push_back(
-        {fmt::format("\u26A0 {} more, see the record.", lines.size() - kMost), Ink::kWarning});
+    notes.push_back({fmt::format("\u26A0 {} more, see the record.", lines.size() - kMost),
+                     ThemeColour::kWarning});
 }
 
 }  // namespace mapproof

@@ -108,7 +108,7 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
   const Box box{frame.x1 + bar.gap_pt, frame.y0, frame.x1 + bar.gap_pt + kBarWidth * theme.font_pt,
                 frame.y1};
   const auto add = [&](Shape shape) {
-    drawing.add(Role::kLegendSample, panel_index, std::move(shape));
+    drawing.add(ItemClass::kLegendSample, panel_index, std::move(shape));
   };
   for (int i = 0; i < kBarSteps; ++i) {
     // Each piece reaches to the top, so that no background shows between two.
@@ -128,7 +128,7 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
   rim.stroke = Stroke{theme.text, theme.hairline_pt, {}};
   add(std::move(rim));
   for (std::size_t i = 0; i < bar.texts.size(); ++i)
-    drawing.add_text(Role::kLegendText, panel_index,
+    drawing.add_text(ItemClass::kLegendText, panel_index,
                      {.shaped = bar.texts[i],
                       .whole = bar.texts[i].text,
                       .at = {box.x1 + 2.0 * bar.tick_pt,
@@ -139,7 +139,7 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
   const std::string whole = whole_label(*cells, bar.ticks);
   double x = box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em;
   for (const ShapedText& line : upward_lines(whole, frame.height(), em)) {
-    drawing.add_text(Role::kLegendText, panel_index,
+    drawing.add_text(ItemClass::kLegendText, panel_index,
                      {.shaped = line,
                       .whole = whole,
                       .at = {x, frame.centre().y + line.advance * em / 2.0},
@@ -293,11 +293,11 @@ Margins AxesLayout::overhang(const Box& frame) const {
     for (std::size_t i = 0; i < texts->x.size(); ++i) {
       const auto line = placed_text(*texts, i, positions, theme_);
       if (!line) continue;
-      const Box ink = ink_box(*line).grown(theme_.hairline_pt);
-      m.left = std::max(m.left, frame.x0 - ink.x0);
-      m.top = std::max(m.top, frame.y0 - ink.y0);
-      m.right = std::max(m.right, ink.x1 - frame.x1);
-      m.bottom = std::max(m.bottom, ink.y1 - frame.y1);
+      const Box bounds = text_box(*line).grown(theme_.hairline_pt);
+      m.left = std::max(m.left, frame.x0 - bounds.x0);
+      m.top = std::max(m.top, frame.y0 - bounds.y0);
+      m.right = std::max(m.right, bounds.x1 - frame.x1);
+      m.bottom = std::max(m.bottom, bounds.y1 - frame.y1);
     }
   }
   return m;

@@ -37,7 +37,7 @@ struct Spans {
   }
   void operator()(const Ellipses& ellipses) {
     for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-      const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+      const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
       const double across = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
       const double up = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
       see(ellipses.x[i] - across, ellipses.y[i] - up);

@@ -5,7 +5,7 @@
 
 namespace mapproof {
 
-/// From values on an axis to places on the page.
+/// From values on an axis to points of the page.
 class AxisMap {
  public:
   AxisMap() = default;

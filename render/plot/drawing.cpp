@@ -4,67 +4,67 @@
 
 namespace mapproof {
 
-std::string_view name(Role role) {
-  switch (role) {
-    case Role::kGrid:
+std::string_view name(ItemClass item_class) {
+  switch (item_class) {
+    case ItemClass::kGrid:
       return "grid";
-    case Role::kFrame:
+    case ItemClass::kFrame:
       return "frame";
-    case Role::kTick:
+    case ItemClass::kTick:
       return "tick";
-    case Role::kTickLabel:
+    case ItemClass::kTickLabel:
       return "tick-label";
-    case Role::kAxisLabel:
+    case ItemClass::kAxisLabel:
       return "axis-label";
-    case Role::kTitle:
+    case ItemClass::kTitle:
       return "title";
-    case Role::kPanelTitle:
+    case ItemClass::kPanelTitle:
       return "panel-title";
-    case Role::kNote:
+    case ItemClass::kNote:
       return "note";
-    case Role::kPanelArrow:
+    case ItemClass::kPanelArrow:
       return "panel-arrow";
-    case Role::kPanelArrowLabel:
+    case ItemClass::kPanelArrowLabel:
       return "panel-arrow-label";
-    case Role::kBand:
+    case ItemClass::kBand:
       return "band";
-    case Role::kCells:
+    case ItemClass::kCells:
       return "cells";
-    case Role::kLine:
+    case ItemClass::kLine:
       return "line";
-    case Role::kMarker:
+    case ItemClass::kMarker:
       return "marker";
-    case Role::kMarkLabel:
+    case ItemClass::kMarkLabel:
       return "mark-label";
-    case Role::kCellText:
+    case ItemClass::kCellText:
       return "cell-text";
-    case Role::kImage:
+    case ItemClass::kImage:
       return "image";
-    case Role::kLeader:
+    case ItemClass::kLeader:
       return "leader";
-    case Role::kLegendBox:
+    case ItemClass::kLegendBox:
       return "legend-box";
-    case Role::kLegendText:
+    case ItemClass::kLegendText:
       return "legend-text";
-    case Role::kLegendSample:
+    case ItemClass::kLegendSample:
       return "legend-sample";
   }
   return "";
 }
 
-Box ink_box(const TextLine& line) {
-  const Box& ink = line.shaped.ink;
+Box text_box(const TextLine& line) {
+  const Box& bounds = line.shaped.bounds;
   const double em = line.size;
   if (line.upward)
-    return {line.at.x + ink.y0 * em, line.at.y - ink.x1 * em, line.at.x + ink.y1 * em,
-            line.at.y - ink.x0 * em};
-  return {line.at.x + ink.x0 * em, line.at.y + ink.y0 * em, line.at.x + ink.x1 * em,
-          line.at.y + ink.y1 * em};
+    return {line.at.x + bounds.y0 * em, line.at.y - bounds.x1 * em, line.at.x + bounds.y1 * em,
+            line.at.y - bounds.x0 * em};
+  return {line.at.x + bounds.x0 * em, line.at.y + bounds.y0 * em, line.at.x + bounds.x1 * em,
+          line.at.y + bounds.y1 * em};
 }
 
-Item& Drawing::add_text(Role role, std::size_t panel, TextLine line) {
+Item& Drawing::add_text(ItemClass item_class, std::size_t panel, TextLine line) {
   if (line.whole == line.shaped.text) line.whole.clear();
-  return add(role, panel, std::move(line));
+  return add(item_class, panel, std::move(line));
 }
 
 }  // namespace mapproof

@@ -15,7 +15,7 @@
 namespace mapproof {
 
 /// What a drawn thing is for; tests and style sheets go by it.
-enum class Role {
+enum class ItemClass {
   kGrid,
   kFrame,
   kTick,
@@ -40,7 +40,7 @@ enum class Role {
 };
 
 /// "tick-label": for class names.
-std::string_view name(Role role);
+std::string_view name(ItemClass item_class);
 
 struct Stroke {
   Colour colour;
@@ -57,7 +57,7 @@ struct Shape {
   double circle_radius = 0.0;  ///< If above 0, `path` is a circle of this radius about the origin.
 };
 
-/// A symbol of the drawing, moved to a place.
+/// A symbol of the drawing, moved to a point.
 struct Stamp {
   std::size_t symbol = 0;
   Point at;
@@ -81,13 +81,13 @@ struct Raster {
 };
 
 /// The part of the drawing that a line covers.
-Box ink_box(const TextLine& line);
+Box text_box(const TextLine& line);
 
 struct Item {
-  Role role = Role::kMarker;
+  ItemClass item_class = ItemClass::kMarker;
   bool clipped = false;  ///< To the frame of its panel.
   std::size_t panel = 0;
-  std::optional<std::size_t> mark;  ///< Place in Drawing::marks.
+  std::optional<std::size_t> mark;  ///< Index in Drawing::marks.
   std::variant<Shape, Stamp, TextLine, Raster> what;
 };
 
@@ -108,9 +108,9 @@ struct Drawing {
 
   /// Adds an item on top of the others.
   template <typename What>
-  Item& add(Role role, std::size_t panel, What&& what) {
+  Item& add(ItemClass item_class, std::size_t panel, What&& what) {
     Item& item = items.emplace_back();
-    item.role = role;
+    item.item_class = item_class;
     item.panel = panel;
     item.what = std::forward<What>(what);
     return item;
@@ -118,7 +118,7 @@ struct Drawing {
 
   /// Adds a line of text on top of the others. Its `whole` is what was asked for, also if that is
   /// what is drawn.
-  Item& add_text(Role role, std::size_t panel, TextLine line);
+  Item& add_text(ItemClass item_class, std::size_t panel, TextLine line);
 };
 
 }  // namespace mapproof

@@ -132,14 +132,14 @@ class Inspector {
   std::string layer(const Ellipses& ellipses, const Panel& panel) {
     if (!is_linear(panel)) return "needs linear axes";
     if (!same_size(ellipses.x.size(), {ellipses.y.size(), ellipses.a.size(), ellipses.b.size(),
-                                       ellipses.turn_rad.size()}))
-      return "y, a, b, turn_rad: not as long as x";
+                                       ellipses.rotation_rad.size()}))
+      return "y, a, b, rotation_rad: not as long as x";
     const std::array<std::pair<std::string_view, const std::vector<double>*>, 5> parts = {
         {{"x", &ellipses.x},
          {"y", &ellipses.y},
          {"a", &ellipses.a},
          {"b", &ellipses.b},
-         {"turn_rad", &ellipses.turn_rad}}};
+         {"rotation_rad", &ellipses.rotation_rad}}};
     for (const auto& [name, part] : parts)
       if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
     for (const auto* part : {&ellipses.a, &ellipses.b})
@@ -234,8 +234,8 @@ class Inspector {
 
 }  // namespace
 
-Ink series_ink(std::size_t i) {
-  return static_cast<Ink>(static_cast<std::size_t>(Ink::kSeries1) + i % 7);
+ThemeColour series_colour(std::size_t i) {
+  return static_cast<ThemeColour>(static_cast<std::size_t>(ThemeColour::kSeries1) + i % 7);
 }
 
 bool is_figure_id(std::string_view id) { return is_slug(id) && id[0] >= 'a' && id.size() <= 120; }

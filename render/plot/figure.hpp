@@ -7,12 +7,12 @@
 #include <variant>
 #include <vector>
 
-#include "render/theme/ink.hpp"
+#include "render/theme/theme_colour.hpp"
 
 namespace mapproof {
 
 /// The colour of the i-th curve of a figure, counted from 0; repeats after seven.
-Ink series_ink(std::size_t i);
+ThemeColour series_colour(std::size_t i);
 
 enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLongDash };
 
@@ -26,7 +26,7 @@ enum class Fill {
 
 /// The colours of a field, from its least to its greatest value.
 enum class Ramp {
-  kInk,      ///< From the background to the colour.
+  kColour,   ///< From the background to the colour.
   kViridis,  ///< From dark to light.
 };
 
@@ -55,7 +55,7 @@ struct Polyline {
   std::string label = {};  ///< In the legend; empty: not there.
   std::vector<double> x = {};
   std::vector<double> y = {};
-  Ink ink = Ink::kSeries1;
+  ThemeColour colour = ThemeColour::kSeries1;
   Dash dash = Dash::kSolid;
   double width = 1.0;  ///< In units of the theme's line width.
   Marker marker = Marker::kNone;
@@ -70,7 +70,7 @@ struct Band {
   std::vector<double> x = {};
   std::vector<double> low = {};
   std::vector<double> high = {};
-  Ink ink = Ink::kSeries1;
+  ThemeColour colour = ThemeColour::kSeries1;
   Mark mark = {};
 
   bool operator==(const Band&) const = default;
@@ -81,7 +81,7 @@ struct Scatter {
   std::string label = {};
   std::vector<double> x = {};
   std::vector<double> y = {};
-  Ink ink = Ink::kSeries1;
+  ThemeColour colour = ThemeColour::kSeries1;
   Marker marker = Marker::kCircle;
   bool filled = true;
   double size = 1.0;             ///< In units of the theme's marker size.
@@ -97,7 +97,7 @@ struct Segments {
   std::vector<double> y0 = {};
   std::vector<double> x1 = {};
   std::vector<double> y1 = {};
-  Ink ink = Ink::kMuted;
+  ThemeColour colour = ThemeColour::kMuted;
   Dash dash = Dash::kSolid;
   double width = 1.0;
   bool arrow = false;  ///< With a head at (x1, y1).
@@ -111,7 +111,7 @@ struct PointLabels {
   std::vector<double> x = {};
   std::vector<double> y = {};
   std::vector<std::string> text = {};
-  Ink ink = Ink::kText;
+  ThemeColour colour = ThemeColour::kText;
 
   bool operator==(const PointLabels&) const = default;
 };
@@ -121,7 +121,7 @@ struct Area {
   std::string label = {};
   std::vector<double> x = {};
   std::vector<double> y = {};
-  Ink ink = Ink::kMuted;
+  ThemeColour colour = ThemeColour::kMuted;
   Fill fill = Fill::kTint;
   bool outlined = false;
   Dash dash = Dash::kSolid;
@@ -136,10 +136,10 @@ struct Ellipses {
   std::string label = {};
   std::vector<double> x = {};  ///< Of the centres.
   std::vector<double> y = {};
-  std::vector<double> a = {};         ///< Half axes, >= 0.
-  std::vector<double> b = {};         ///< As many; the same as `a` for discs.
-  std::vector<double> turn_rad = {};  ///< Of `a` from the x axis, counter-clockwise.
-  Ink ink = Ink::kSeries1;
+  std::vector<double> a = {};             ///< Half axes, >= 0.
+  std::vector<double> b = {};             ///< As many; the same as `a` for discs.
+  std::vector<double> rotation_rad = {};  ///< Of `a` from the x axis, counter-clockwise.
+  ThemeColour colour = ThemeColour::kSeries1;
   Fill fill = Fill::kNone;
   Dash dash = Dash::kSolid;
   double width = 1.0;
@@ -158,8 +158,8 @@ struct Cells {
   std::size_t columns = 0;
   std::vector<double> values = {};  ///< Row by row, the uppermost row first.
   Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
-  Ramp ramp = Ramp::kInk;
-  Ink ink = Ink::kText;  ///< For Ramp::kInk.
+  Ramp ramp = Ramp::kColour;
+  ThemeColour colour = ThemeColour::kText;  ///< For Ramp::kColour.
   Mark mark = {};
   Scale scale = Scale::kLinear;        ///< Of the values along the ramp.
   std::string bar_label = {};          ///< With its unit: of a colour bar beside the frame, if any.
@@ -175,7 +175,7 @@ struct Texts {
   std::vector<double> y = {};
   std::vector<std::string> text = {};
   Align align = Align::kMiddle;
-  Ink ink = Ink::kText;
+  ThemeColour colour = ThemeColour::kText;
 
   bool operator==(const Texts&) const = default;
 };
@@ -200,7 +200,7 @@ struct Axis {
   Scale scale = Scale::kLinear;
   std::optional<Range> limits = {};     ///< Empty: what the layers need, and a little more.
   bool whole = false;                   ///< Linear: ticks at whole numbers alone.
-  std::vector<std::string> names = {};  ///< Linear: of the numbers 0, 1, ..., in their place.
+  std::vector<std::string> names = {};  ///< Linear: of the numbers 0, 1, ..., instead of them.
 
   bool operator==(const Axis&) const = default;
 };
@@ -219,7 +219,7 @@ struct Panel {
 /// A line of text under the title.
 struct Note {
   std::string text;
-  Ink ink = Ink::kText;
+  ThemeColour colour = ThemeColour::kText;
 
   bool operator==(const Note&) const = default;
 };
@@ -256,8 +256,8 @@ bool is_figure_id(std::string_view id);
 /// Whether the layer has nothing to draw.
 bool is_empty(const Layer& layer);
 
-/// What keeps the figure from being drawn, as one line that names the place; empty if nothing does:
-/// ids, sizes that do not match, limits that are not range, values <= 0 on a log axis.
+/// What keeps the figure from being drawn, as one line that names the location; empty if nothing
+/// does: ids, sizes that do not match, limits that are not range, values <= 0 on a log axis.
 std::string problem(const Figure& figure);
 
 /// @throws InvalidInput with `problem(figure)` if there is one.

@@ -11,11 +11,11 @@ namespace mapproof {
 // The fields of a figure in files (core/json/fields.hpp), and what its enumerators are called
 // there.
 
-inline EnumNames enum_names(Ink) {
+inline EnumNames enum_names(ThemeColour) {
   static constexpr std::array<std::string_view, 10> kNames = {
       "text",    "muted",   "warning", "series1", "series2",
       "series3", "series4", "series5", "series6", "series7"};
-  return {"ink", kNames};
+  return {"colour", kNames};
 }
 
 inline EnumNames enum_names(Dash) {
@@ -36,7 +36,7 @@ inline EnumNames enum_names(Fill) {
 }
 
 inline EnumNames enum_names(Ramp) {
-  static constexpr std::array<std::string_view, 2> kNames = {"ink", "viridis"};
+  static constexpr std::array<std::string_view, 2> kNames = {"colour", "viridis"};
   return {"ramp", kNames};
 }
 
@@ -92,7 +92,7 @@ void fields(Visitor& v, Polyline& line) {
   v.field("label", line.label, kText);
   v.field("x", line.x, kNumbers);
   v.field("y", line.y, kNumbers);
-  v.field("ink", line.ink);
+  v.field("colour", line.colour);
   v.field("dash", line.dash);
   v.field("width", line.width, kSize);
   v.field("marker", line.marker);
@@ -107,7 +107,7 @@ void fields(Visitor& v, Band& band) {
   v.field("x", band.x, kNumbers);
   v.field("low", band.low, kNumbers);
   v.field("high", band.high, kNumbers);
-  v.field("ink", band.ink);
+  v.field("colour", band.colour);
   v.field("mark", band.mark);
 }
 
@@ -118,7 +118,7 @@ void fields(Visitor& v, Scatter& points) {
   v.field("label", points.label, kText);
   v.field("x", points.x, kNumbers);
   v.field("y", points.y, kNumbers);
-  v.field("ink", points.ink);
+  v.field("colour", points.colour);
   v.field("marker", points.marker);
   v.field("filled", points.filled);
   v.field("size", points.size, kSize);
@@ -134,7 +134,7 @@ void fields(Visitor& v, Segments& lines) {
   v.field("y0", lines.y0, kNumbers);
   v.field("x1", lines.x1, kNumbers);
   v.field("y1", lines.y1, kNumbers);
-  v.field("ink", lines.ink);
+  v.field("colour", lines.colour);
   v.field("dash", lines.dash);
   v.field("width", lines.width, kSize);
   v.field("arrow", lines.arrow);
@@ -148,7 +148,7 @@ void fields(Visitor& v, PointLabels& labels) {
   v.field("x", labels.x, kNumbers);
   v.field("y", labels.y, kNumbers);
   v.field("text", labels.text, kText);
-  v.field("ink", labels.ink);
+  v.field("colour", labels.colour);
 }
 
 template <typename Visitor>
@@ -159,7 +159,7 @@ void fields(Visitor& v, Area& area) {
   v.field("label", area.label, kText);
   v.field("x", area.x, kNumbers);
   v.field("y", area.y, kNumbers);
-  v.field("ink", area.ink);
+  v.field("colour", area.colour);
   v.field("fill", area.fill);
   v.field("outlined", area.outlined);
   v.field("dash", area.dash);
@@ -177,8 +177,8 @@ void fields(Visitor& v, Ellipses& ellipses) {
   v.field("y", ellipses.y, kNumbers);
   v.field("a", ellipses.a, {.minimum = 0.0, .nullable = true});
   v.field("b", ellipses.b, {.minimum = 0.0, .nullable = true});
-  v.field("turn_rad", ellipses.turn_rad, kNumbers);
-  v.field("ink", ellipses.ink);
+  v.field("rotation_rad", ellipses.rotation_rad, kNumbers);
+  v.field("colour", ellipses.colour);
   v.field("fill", ellipses.fill);
   v.field("dash", ellipses.dash);
   v.field("width", ellipses.width, kSize);
@@ -197,7 +197,7 @@ void fields(Visitor& v, Cells& cells) {
   v.field("values", cells.values, kNumbers);
   v.field("limits", cells.limits);
   v.field("ramp", cells.ramp);
-  v.field("ink", cells.ink);
+  v.field("colour", cells.colour);
   v.field("mark", cells.mark);
   v.field("scale", cells.scale,
           {.description = "Of the values along the ramp. Missing: linear.",
@@ -221,7 +221,7 @@ void fields(Visitor& v, Texts& texts) {
   v.field("y", texts.y, kNumbers);
   v.field("text", texts.text, kText);
   v.field("align", texts.align);
-  v.field("ink", texts.ink);
+  v.field("colour", texts.colour);
 }
 
 template <typename Visitor>
@@ -248,7 +248,7 @@ void fields(Visitor& v, Axis& axis) {
   v.field("whole", axis.whole,
           {.description = "Ticks at whole numbers alone. Missing: false.", .key = Key::kOptional});
   v.field("names", axis.names,
-          {.description = "Of the numbers 0, 1, ..., in their place. Missing: none.",
+          {.description = "Of the numbers 0, 1, ..., instead of them. Missing: none.",
            .max_bytes = kLongestText,
            .key = Key::kIfAny});
 }
@@ -270,7 +270,7 @@ template <typename Visitor>
 void fields(Visitor& v, Note& note) {
   v.type("note");
   v.field("text", note.text, figure_rules::kText);
-  v.field("ink", note.ink);
+  v.field("colour", note.colour);
 }
 
 template <typename Visitor>

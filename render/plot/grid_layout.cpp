@@ -80,7 +80,7 @@ class SharedGrid {
       const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em);
       const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
       top += 0.5 * em;
-      drawing_.add_text(Role::kAxisLabel, 0,
+      drawing_.add_text(ItemClass::kAxisLabel, 0,
                         {.shaped = text,
                          .whole = panels_.front().x.label,
                          .at = {start, top + FontFacts::kAscent * em},
@@ -177,7 +177,7 @@ class SharedGrid {
     const std::string& label = panels_.front().y.label;
     double x = room_.x0 + FontFacts::kAscent * em;
     for (const ShapedText& line : upward_lines(label, bottom - top, em)) {
-      drawing_.add_text(Role::kAxisLabel, 0,
+      drawing_.add_text(ItemClass::kAxisLabel, 0,
                         {.shaped = line,
                          .whole = label,
                          .at = {x, (top + bottom + line.advance * em) / 2.0},
@@ -280,9 +280,11 @@ class CellGrid {
   double bottom_of_row(std::size_t first) const {
     double bottom = room_.y0;
     for (const Item& item : drawing_.items) {
-      if (item.panel < first || item.role == Role::kTitle || item.role == Role::kNote) continue;
+      if (item.panel < first || item.item_class == ItemClass::kTitle ||
+          item.item_class == ItemClass::kNote)
+        continue;
       if (const auto* line = std::get_if<TextLine>(&item.what))
-        bottom = std::max(bottom, ink_box(*line).y1);
+        bottom = std::max(bottom, text_box(*line).y1);
       if (const auto* shape = std::get_if<Shape>(&item.what); shape != nullptr && !item.clipped)
         bottom = std::max(bottom, bounds(shape->path).y1);
     }
@@ -313,17 +315,17 @@ class CellGrid {
     line.path.move_to(a);
     line.path.line_to(b);
     line.stroke = Stroke{theme_.text, theme_.line_pt, {}};
-    drawing_.add(Role::kPanelArrow, arrow.from, std::move(line));
-    drawing_.add(Role::kPanelArrow, arrow.from, arrow_head(a, b, theme_.text, theme_));
+    drawing_.add(ItemClass::kPanelArrow, arrow.from, std::move(line));
+    drawing_.add(ItemClass::kPanelArrow, arrow.from, arrow_head(a, b, theme_.text, theme_));
     drawing_.add_text(
-        Role::kPanelArrowLabel, arrow.from,
+        ItemClass::kPanelArrowLabel, arrow.from,
         {.shaped = text, .whole = arrow.label, .at = at, .size = em, .colour = theme_.text});
   }
 
   double title_top(std::size_t panel) const {
     double top = drawing_.frames[panel].y0;
     for (const Item& item : drawing_.items)
-      if (item.panel == panel && item.role == Role::kPanelTitle)
+      if (item.panel == panel && item.item_class == ItemClass::kPanelTitle)
         top =
             std::min(top, std::get<TextLine>(item.what).at.y - FontFacts::kAscent * theme_.font_pt);
     return top;

@@ -26,7 +26,7 @@ class Painter {
 
   void operator()(const Polyline& line) {
     Shape shape;
-    shape.stroke = stroke_of(line.ink, line.dash, line.width, theme_);
+    shape.stroke = stroke_of(line.colour, line.dash, line.width, theme_);
     bool pen_down = false;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       const Point p = map_(line.x[i], line.y[i]);
@@ -34,13 +34,13 @@ class Painter {
       pen_down = known(p);
     }
     const auto mark = add_mark(line.mark);
-    if (!shape.path.points.empty()) add(Role::kLine, std::move(shape), mark);
+    if (!shape.path.points.empty()) add(ItemClass::kLine, std::move(shape), mark);
     draw_markers(line, mark);
   }
 
   void operator()(const Band& band) {
     Shape shape;
-    shape.fill = theme_.of(band.ink);
+    shape.fill = theme_.of(band.colour);
     shape.fill_opacity = kBandOpacity;
     for (std::size_t i = 0; i < band.x.size();) {
       std::size_t end = i;
@@ -48,12 +48,12 @@ class Painter {
       if (end > i) add_band_piece(band, i, end, shape.path);
       i = std::max(end, i + 1);
     }
-    if (!shape.path.points.empty()) add(Role::kBand, std::move(shape), add_mark(band.mark));
+    if (!shape.path.points.empty()) add(ItemClass::kBand, std::move(shape), add_mark(band.mark));
   }
 
   void operator()(const Scatter& points) {
     if (points.marker == Marker::kNone) return;
-    const std::size_t symbol = symbol_of(points.marker, points.filled, points.size, points.ink);
+    const std::size_t symbol = symbol_of(points.marker, points.filled, points.size, points.colour);
     for (std::size_t i = 0; i < points.x.size(); ++i) {
       const Point at = map_(points.x[i], points.y[i]);
       if (in_frame(at)) stamp(symbol, at, mark_at(points.marks, i));
@@ -61,7 +61,7 @@ class Painter {
   }
 
   void operator()(const Segments& lines) {
-    const Stroke stroke = stroke_of(lines.ink, lines.dash, lines.width, theme_);
+    const Stroke stroke = stroke_of(lines.colour, lines.dash, lines.width, theme_);
     for (std::size_t i = 0; i < lines.x0.size(); ++i) {
       const Point from = map_(lines.x0[i], lines.y0[i]);
       const Point to = map_(lines.x1[i], lines.y1[i]);
@@ -71,43 +71,44 @@ class Painter {
       shape.path.move_to(from);
       shape.path.line_to(to);
       const auto mark = mark_at(lines.marks, i);
-      add(Role::kLine, std::move(shape), mark);
+      add(ItemClass::kLine, std::move(shape), mark);
       if (lines.arrow)
-        drawing_.add(Role::kMarker, panel_, arrow_head(from, to, stroke.colour, theme_));
+        drawing_.add(ItemClass::kMarker, panel_, arrow_head(from, to, stroke.colour, theme_));
     }
   }
 
   void operator()(const PointLabels&) {}
 
   void operator()(const Area& area) {
-    Shape shape = filled_shape(area.fill, area.ink, theme_);
-    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);
+    Shape shape = filled_shape(area.fill, area.colour, theme_);
+    if (area.outlined) shape.stroke = stroke_of(area.colour, area.dash, area.width, theme_);
     shape.path = area_path(area, map_);
     if (!shape.path.points.empty())
-      add(area.fill == Fill::kSolid ? Role::kMarker : Role::kBand, std::move(shape),
+      add(area.fill == Fill::kSolid ? ItemClass::kMarker : ItemClass::kBand, std::move(shape),
           add_mark(area.mark));
   }
 
   void operator()(const Ellipses& ellipses) {
-    const Stroke stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width, theme_);
+    const Stroke stroke = stroke_of(ellipses.colour, ellipses.dash, ellipses.width, theme_);
     for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-      Shape shape = filled_shape(ellipses.fill, ellipses.ink, theme_);
+      Shape shape = filled_shape(ellipses.fill, ellipses.colour, theme_);
       shape.stroke = stroke;
       shape.path = ellipse_path(ellipses, i, map_);
       if (!shape.path.points.empty())
-        add(Role::kMarker, std::move(shape), mark_at(ellipses.marks, i));
+        add(ItemClass::kMarker, std::move(shape), mark_at(ellipses.marks, i));
     }
   }
 
   void operator()(const Cells& cells) {
     const auto mark = add_mark(cells.mark);
-    for (Shape& shape : cell_shapes(cells, map_, theme_)) add(Role::kCells, std::move(shape), mark);
+    for (Shape& shape : cell_shapes(cells, map_, theme_))
+      add(ItemClass::kCells, std::move(shape), mark);
     for (TextLine& line : cell_texts(cells, map_, theme_))
-      drawing_.add(Role::kCellText, panel_, std::move(line));
+      drawing_.add(ItemClass::kCellText, panel_, std::move(line));
   }
 
   void operator()(const ImageLayer& image) {
-    drawing_.add(Role::kImage, panel_,
+    drawing_.add(ItemClass::kImage, panel_,
                  Raster{{map_.x(image.x.low), map_.y(image.y.high), map_.x(image.x.high),
                          map_.y(image.y.low)},
                         image.source,
@@ -117,14 +118,14 @@ class Painter {
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i)
       if (auto line = placed_text(texts, i, map_, theme_))
-        drawing_.add(Role::kMarkLabel, panel_, std::move(*line));
+        drawing_.add(ItemClass::kMarkLabel, panel_, std::move(*line));
   }
 
  private:
   /// Markers far enough apart to be distinguished, the first point always with one.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;
-    const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.ink);
+    const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.colour);
     const double least = kMarkerSpacing * theme_.marker_pt;
     double last = -kInfinity;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
@@ -149,9 +150,9 @@ class Painter {
     path.close();
   }
 
-  std::size_t symbol_of(Marker marker, bool filled, double size, Ink ink) {
-    return symbol_index(
-        drawing_, marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(ink), theme_));
+  std::size_t symbol_of(Marker marker, bool filled, double size, ThemeColour colour) {
+    return symbol_index(drawing_, marker_symbol(marker, filled, size * theme_.marker_pt,
+                                                theme_.of(colour), theme_));
   }
 
   std::optional<std::size_t> mark_at(const std::vector<Mark>& marks, std::size_t i) {
@@ -170,14 +171,14 @@ class Painter {
 
   /// Markers are drawn whole, also at the frame.
   void stamp(std::size_t symbol, Point at, std::optional<std::size_t> mark) {
-    drawing_.add(Role::kMarker, panel_, Stamp{symbol, at}).mark = mark;
+    drawing_.add(ItemClass::kMarker, panel_, Stamp{symbol, at}).mark = mark;
   }
 
   template <typename What>
-  void add(Role role, What&& what, std::optional<std::size_t> mark) {
+  void add(ItemClass item_class, What&& what, std::optional<std::size_t> mark) {
     if constexpr (std::is_same_v<std::remove_cvref_t<What>, Shape>)
       what.path = cut_to(drawing_.frames[panel_].grown(kFarthest), std::move(what.path));
-    Item& item = drawing_.add(role, panel_, std::forward<What>(what));
+    Item& item = drawing_.add(item_class, panel_, std::forward<What>(what));
     item.clipped = true;
     item.mark = mark;
   }
@@ -190,14 +191,14 @@ class Painter {
 
 }  // namespace
 
-Stroke stroke_of(Ink ink, Dash dash, double width, const Theme& theme) {
+Stroke stroke_of(ThemeColour colour, Dash dash, double width, const Theme& theme) {
   const double width_pt = width * theme.line_pt;
-  return {theme.of(ink), width_pt, dash_lengths(dash, width_pt)};
+  return {theme.of(colour), width_pt, dash_lengths(dash, width_pt)};
 }
 
-Shape filled_shape(Fill fill, Ink ink, const Theme& theme) {
+Shape filled_shape(Fill fill, ThemeColour colour, const Theme& theme) {
   Shape shape;
-  if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme.background : theme.of(ink);
+  if (fill != Fill::kNone) shape.fill = fill == Fill::kPaper ? theme.background : theme.of(colour);
   if (fill == Fill::kTint) shape.fill_opacity = kBandOpacity;
   return shape;
 }

@@ -16,10 +16,10 @@ bool has_image(const Panel& panel);
 std::vector<double> dash_lengths(Dash dash, double width_pt);
 
 /// A line of that colour class, its width in the theme's lines.
-Stroke stroke_of(Ink ink, Dash dash, double width, const Theme& theme);
+Stroke stroke_of(ThemeColour colour, Dash dash, double width, const Theme& theme);
 
 /// A shape without a path, filled so.
-Shape filled_shape(Fill fill, Ink ink, const Theme& theme);
+Shape filled_shape(Fill fill, ThemeColour colour, const Theme& theme);
 
 /// How much of a band covers what is below.
 inline constexpr double kBandOpacity = 0.2;

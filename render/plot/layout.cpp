@@ -19,26 +19,27 @@ class Head {
 
   /// The room that is left.
   Box draw() {
-    if (theme_.draws_title) add(figure_.title, Role::kTitle, theme_.title_font_pt, theme_.text);
+    if (theme_.draws_title)
+      add(figure_.title, ItemClass::kTitle, theme_.title_font_pt, theme_.text);
     const double em = theme_.tick_font_pt;
     for (std::size_t i = 0; i < figure_.notes.size(); ++i) {
       const double end = page_.y0 + kMostOfHead * page_.height() - 3.0 * FontFacts::kLine * em;
       if (y_ > end && i + 1 < figure_.notes.size()) {
-        add(fmt::format("… and {} more notes", figure_.notes.size() - i), Role::kNote, em,
+        add(fmt::format("… and {} more notes", figure_.notes.size() - i), ItemClass::kNote, em,
             theme_.text);
         break;
       }
-      add(figure_.notes[i].text, Role::kNote, em, theme_.of(figure_.notes[i].ink));
+      add(figure_.notes[i].text, ItemClass::kNote, em, theme_.of(figure_.notes[i].colour));
     }
     if (y_ > page_.y0) y_ += theme_.space_pt;
     return {page_.x0, y_, page_.x1, page_.y1};
   }
 
  private:
-  void add(const std::string& text, Role role, double em, Colour colour) {
+  void add(const std::string& text, ItemClass item_class, double em, Colour colour) {
     constexpr std::size_t kMostLines = 2;
     for (const ShapedText& line : wrap_text(text, page_.width() / em, kMostLines)) {
-      drawing_.add_text(role, 0,
+      drawing_.add_text(item_class, 0,
                         {.shaped = line,
                          .whole = text,
                          .at = {page_.x0, y_ + FontFacts::kAscent * em},

@@ -6,7 +6,7 @@
 
 namespace mapproof {
 
-/// Everything about the figure's geometry: limits, ticks, margins, and places for the legend and
+/// Everything about the figure's geometry: limits, ticks, margins, and room for the legend and
 /// for labels where they cover nothing.
 /// @throws InvalidInput if the figure cannot be drawn (see `problem`).
 Drawing lay_out(const Figure& figure, const Theme& theme);

@@ -32,35 +32,35 @@ class SamplePainter {
       : theme_(theme), place_(position), panel_(panel), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
-    draw_line(line.ink, line.dash, line.width);
-    if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.ink);
+    draw_line(line.colour, line.dash, line.width);
+    if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.colour);
   }
   void operator()(const Band& band) {
-    Shape shape = filled_shape(Fill::kTint, band.ink, theme_);
+    Shape shape = filled_shape(Fill::kTint, band.colour, theme_);
     shape.path.add_box(inset());
     add(std::move(shape));
   }
   void operator()(const Scatter& points) {
-    draw_marker(points.marker, points.filled, points.size, points.ink);
+    draw_marker(points.marker, points.filled, points.size, points.colour);
   }
   void operator()(const Segments& lines) {
-    draw_line(lines.ink, lines.dash, lines.width);
+    draw_line(lines.colour, lines.dash, lines.width);
     if (!lines.arrow) return;
     const double y = place_.centre().y;
-    add(arrow_head({place_.x0, y}, {place_.x1, y}, theme_.of(lines.ink), theme_));
+    add(arrow_head({place_.x0, y}, {place_.x1, y}, theme_.of(lines.colour), theme_));
   }
   void operator()(const PointLabels&) {}
   void operator()(const Texts&) {}
   void operator()(const ImageLayer&) {}
   void operator()(const Area& area) {
-    Shape shape = filled_shape(area.fill, area.ink, theme_);
-    if (area.outlined) shape.stroke = stroke_of(area.ink, area.dash, area.width, theme_);
+    Shape shape = filled_shape(area.fill, area.colour, theme_);
+    if (area.outlined) shape.stroke = stroke_of(area.colour, area.dash, area.width, theme_);
     shape.path.add_box(inset());
     add(std::move(shape));
   }
   void operator()(const Ellipses& ellipses) {
-    Shape shape = filled_shape(ellipses.fill, ellipses.ink, theme_);
-    shape.stroke = stroke_of(ellipses.ink, ellipses.dash, ellipses.width, theme_);
+    Shape shape = filled_shape(ellipses.fill, ellipses.colour, theme_);
+    shape.stroke = stroke_of(ellipses.colour, ellipses.dash, ellipses.width, theme_);
     shape.path.add_circle(place_.centre(), 0.4 * place_.height());
     add(std::move(shape));
   }
@@ -87,24 +87,24 @@ class SamplePainter {
     return {place_.x0, place_.y0 + by, place_.x1, place_.y1 - by};
   }
 
-  void draw_line(Ink ink, Dash dash, double width) {
+  void draw_line(ThemeColour colour, Dash dash, double width) {
     Shape shape;
     const double y = place_.centre().y;
     shape.path.move_to({place_.x0, y});
     shape.path.line_to({place_.x1, y});
-    shape.stroke = stroke_of(ink, dash, width, theme_);
+    shape.stroke = stroke_of(colour, dash, width, theme_);
     add(std::move(shape));
   }
 
-  void draw_marker(Marker marker, bool filled, double size, Ink ink) {
+  void draw_marker(Marker marker, bool filled, double size, ThemeColour colour) {
     const Shape symbol =
-        marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(ink), theme_);
+        marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(colour), theme_);
     add(Stamp{symbol_index(drawing_, symbol), place_.centre()});
   }
 
   template <typename What>
   void add(What&& what) {
-    drawing_.add(Role::kLegendSample, panel_, std::forward<What>(what));
+    drawing_.add(ItemClass::kLegendSample, panel_, std::forward<What>(what));
   }
 
   const Theme& theme_;
@@ -176,7 +176,7 @@ void Legend::draw_box(const Box& position, std::size_t panel_index, Drawing& dra
   box.path.add_box(position.grown(0.5 * theme_.space_pt));
   box.fill = theme_.background;
   box.stroke = Stroke{mix(theme_.text, theme_.background, 0.3), theme_.hairline_pt, {}};
-  drawing.add(Role::kLegendBox, panel_index, std::move(box));
+  drawing.add(ItemClass::kLegendBox, panel_index, std::move(box));
 }
 
 void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const {
@@ -196,7 +196,7 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
                          middle + FontFacts::kXHeight / 2.0 * em + 0.06 * em},
                   .size = em,
                   .colour = theme_.text};
-    drawing.add(Role::kLegendText, panel_index, std::move(line));
+    drawing.add(ItemClass::kLegendText, panel_index, std::move(line));
   }
 }
 

@@ -15,7 +15,7 @@ struct LegendEntry {
   std::vector<const Layer*> layers;
 };
 
-/// A panel's legend before it has a place.
+/// A panel's legend before it has a position.
 class Legend {
  public:
   /// @param most_width_pt  Of one entry; longer labels are elided.

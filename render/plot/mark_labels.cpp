@@ -12,7 +12,7 @@ namespace {
 constexpr int kDirections = 16;
 constexpr int kRings = 14;
 
-struct Place {
+struct LabelBox {
   Box box;
   bool far = false;  ///< Needs a leader.
 };
@@ -61,12 +61,12 @@ struct Surroundings {
   std::vector<Box> texts = {};
 };
 
-/// A free place: in the innermost ring that has one the first from the right; farther out the one
+/// A free box: in the innermost ring that has one the first from the right; farther out the one
 /// whose leader is short and crosses few marks.
-std::optional<Place> find_place(Point at, Point size, const Surroundings& around,
-                                const Theme& theme) {
+std::optional<LabelBox> find_free_box(Point at, Point size, const Surroundings& around,
+                                      const Theme& theme) {
   const double near = 0.5 * theme.marker_pt + 0.4 * theme.space_pt;
-  std::optional<Place> best;
+  std::optional<LabelBox> best;
   double best_cost = kInfinity;
   for (int ring = 0; ring < kRings && ring < best_cost; ++ring) {
     const double radius = near + ring * 0.8 * theme.font_pt;
@@ -75,11 +75,11 @@ std::optional<Place> find_place(Point at, Point size, const Surroundings& around
       const int step = turn % 2 == 0 ? turn / 2 : -(turn + 1) / 2;
       const Box box = beside(at, radius, step * 2.0 * std::numbers::pi / kDirections, size);
       if (!around.frame.holds(box) || around.taken.hit(box)) continue;
-      if (ring == 0) return Place{box, false};
+      if (ring == 0) return LabelBox{box, false};
       const auto crossed = leader_cost(box, at, around.taken, around.texts);
       if (!crossed || ring + 1.5 * *crossed >= best_cost) continue;
       best_cost = ring + 1.5 * *crossed;
-      best = Place{box, true};
+      best = LabelBox{box, true};
     }
   }
   return best;
@@ -103,23 +103,23 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
       TextLine line{
           .shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em, Elide::kMiddle),
           .size = em,
-          .colour = theme.of(labels->ink)};
+          .colour = theme.of(labels->colour)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
-      const Box ink = line.shaped.ink;
-      const Point size{ink.width() * em + 2 * gap, ink.height() * em + 2 * gap};
-      const auto position = find_place(at, size, around, theme);
+      const Box bounds = line.shaped.bounds;
+      const Point size{bounds.width() * em + 2 * gap, bounds.height() * em + 2 * gap};
+      const auto position = find_free_box(at, size, around, theme);
       if (!position) continue;
-      line.at = {position->box.x0 + gap - ink.x0 * em, position->box.y0 + gap - ink.y0 * em};
+      line.at = {position->box.x0 + gap - bounds.x0 * em, position->box.y0 + gap - bounds.y0 * em};
       if (position->far) {
         Shape leader = leader_line(at, nearest_in(position->box.grown(-0.5 * gap), at), theme);
-        leader.stroke->colour = theme.of(labels->ink);
+        leader.stroke->colour = theme.of(labels->colour);
         around.taken.lines.push_back(
             {leader.path.points[0], leader.path.points[1], theme.hairline_pt});
-        drawing.add(Role::kLeader, panel_index, std::move(leader)).clipped = true;
+        drawing.add(ItemClass::kLeader, panel_index, std::move(leader)).clipped = true;
       }
       around.taken.boxes.push_back(position->box);
       around.texts.push_back(position->box);
-      drawing.add(Role::kMarkLabel, panel_index, std::move(line));
+      drawing.add(ItemClass::kMarkLabel, panel_index, std::move(line));
     }
   }
 }

@@ -61,22 +61,22 @@ bool equal(const Shape& a, const Shape& b) {
 
 }  // namespace
 
-Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour ink, const Theme& theme) {
+Shape marker_symbol(Marker marker, bool filled, double size_pt, Colour colour, const Theme& theme) {
   Shape symbol;
   const bool of_lines = marker == Marker::kCross || marker == Marker::kPlus;
   symbol.path = outline(marker, size_pt);
   if (marker == Marker::kCircle) symbol.circle_radius = size_pt / 2.0;
-  if (!of_lines) symbol.fill = filled ? ink : theme.background;
-  if (!filled || of_lines) symbol.stroke = Stroke{ink, 0.8 * theme.line_pt, {}};
+  if (!of_lines) symbol.fill = filled ? colour : theme.background;
+  if (!filled || of_lines) symbol.stroke = Stroke{colour, 0.8 * theme.line_pt, {}};
   return symbol;
 }
 
-Shape arrow_head(Point from, Point to, Colour ink, const Theme& theme) {
+Shape arrow_head(Point from, Point to, Colour colour, const Theme& theme) {
   const double length = std::hypot(to.x - from.x, to.y - from.y);
   const double size = length > 0.0 ? 1.2 * theme.marker_pt / length : 0.0;
   const Point along{(to.x - from.x) * size, (to.y - from.y) * size};
   Shape head;
-  head.fill = ink;
+  head.fill = colour;
   head.path.move_to(to);
   head.path.line_to({to.x - along.x - 0.4 * along.y, to.y - along.y + 0.4 * along.x});
   head.path.line_to({to.x - along.x + 0.4 * along.y, to.y - along.y - 0.4 * along.x});

@@ -21,7 +21,7 @@ struct Obstacles {
   bool hit(const Box& box) const;
 };
 
-/// The places that the panel's layers take.
+/// What the panel's layers take.
 Obstacles data_obstacles(const Panel& panel, const PanelMap& map, const Theme& theme);
 
 }  // namespace mapproof

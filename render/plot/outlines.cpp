@@ -75,7 +75,7 @@ Outline area_path(const Area& area, const PanelMap& map) {
 }
 
 Outline ellipse_path(const Ellipses& ellipses, std::size_t i, const PanelMap& map) {
-  const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+  const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
   const double a = ellipses.a[i], b = ellipses.b[i];
   if (std::isnan(ellipses.x[i] + ellipses.y[i] + a + b + c)) return {};
   Outline path;
@@ -126,7 +126,7 @@ std::vector<Box> covering_slices(const std::vector<Point>& ring) {
 
 Colour ramp_colour(const Cells& cells, double share, const Theme& theme) {
   if (cells.ramp == Ramp::kViridis) return viridis(share);
-  return mix(theme.of(cells.ink), theme.background, share);
+  return mix(theme.of(cells.colour), theme.background, share);
 }
 
 std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Theme& theme) {
@@ -186,7 +186,7 @@ std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const Pan
   TextLine line{.shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em,
                                             Elide::kMiddle),
                 .size = em,
-                .colour = theme.of(texts.ink)};
+                .colour = theme.of(texts.colour)};
   if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];
   const double width = line.shaped.advance * em;
   const double left = texts.align == Align::kStart ? 0.0

@@ -28,7 +28,7 @@ class AxesPainter {
       add_line(grid, {map_.x(value), f.y0}, {map_.x(value), f.y1});
     for (const double value : axes_.y.ticks.at)
       add_line(grid, {f.x0, map_.y(value)}, {f.x1, map_.y(value)});
-    stroke(Role::kGrid, std::move(grid), theme_.grid);
+    stroke(ItemClass::kGrid, std::move(grid), theme_.grid);
   }
 
   /// Draws frame, ticks and their labels, and the axes' own labels.
@@ -43,7 +43,7 @@ class AxesPainter {
     const Box& f = axes_.frame;
     Outline frame;
     frame.add_box(f);
-    stroke(Role::kFrame, std::move(frame), theme_.text);
+    stroke(ItemClass::kFrame, std::move(frame), theme_.text);
     Outline ticks;
     const double length = layout_.tick_length();
     for (const double value : axes_.x.ticks.at)
@@ -54,7 +54,7 @@ class AxesPainter {
       add_line(ticks, {f.x0 - length, map_.y(value)}, {f.x0, map_.y(value)});
     for (const double value : axes_.y.ticks.minor)
       add_line(ticks, {f.x0 - 0.5 * length, map_.y(value)}, {f.x0, map_.y(value)});
-    stroke(Role::kTick, std::move(ticks), theme_.text);
+    stroke(ItemClass::kTick, std::move(ticks), theme_.text);
   }
 
   void draw_tick_labels() {
@@ -66,7 +66,7 @@ class AxesPainter {
       const Point at{map_.x(axes_.x.ticks.at[i]) - text.advance * em / 2.0,
                      f.y1 + away + FontFacts::kCapHeight * em};
       drawing_.add_text(
-          Role::kTickLabel, index_,
+          ItemClass::kTickLabel, index_,
           {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
     }
     for (std::size_t i = 0; i < axes_.y.texts.size(); ++i) {
@@ -74,7 +74,7 @@ class AxesPainter {
       const Point at{f.x0 - away - text.advance * em,
                      map_.y(axes_.y.ticks.at[i]) + FontFacts::kCapHeight * em / 2.0};
       drawing_.add_text(
-          Role::kTickLabel, index_,
+          ItemClass::kTickLabel, index_,
           {.shaped = text, .whole = text.text, .at = at, .size = em, .colour = theme_.text});
     }
   }
@@ -86,7 +86,7 @@ class AxesPainter {
     if (layout_.has_x_label()) {
       const std::string whole = axis_title(panel.x, axes_.x.ticks);
       const ShapedText text = shape_text_within(whole, f.width() / em);
-      drawing_.add_text(Role::kAxisLabel, index_,
+      drawing_.add_text(ItemClass::kAxisLabel, index_,
                         {.shaped = text,
                          .whole = whole,
                          .at = {f.centre().x - text.advance * em / 2.0,
@@ -100,7 +100,7 @@ class AxesPainter {
       double x =
           f.x0 - away - axes_.y.widest * theme_.tick_font_pt - 0.6 * em - further_lines(lines, em);
       for (const ShapedText& line : lines) {
-        drawing_.add_text(Role::kAxisLabel, index_,
+        drawing_.add_text(ItemClass::kAxisLabel, index_,
                           {.shaped = line,
                            .whole = whole,
                            .at = {x, f.centre().y + line.advance * em / 2.0},
@@ -117,12 +117,12 @@ class AxesPainter {
     path.line_to(b);
   }
 
-  void stroke(Role role, Outline path, Colour colour) {
+  void stroke(ItemClass item_class, Outline path, Colour colour) {
     if (path.points.empty()) return;
     Shape shape;
     shape.path = std::move(path);
     shape.stroke = Stroke{colour, theme_.hairline_pt, {}};
-    drawing_.add(role, index_, std::move(shape));
+    drawing_.add(item_class, index_, std::move(shape));
   }
 
   const Axes& axes_;
@@ -239,7 +239,7 @@ Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, con
   const double em = theme.font_pt;
   double y = cell.y0;
   for (const TitleLine& line : title_lines(panel.title, cell.width() / em)) {
-    drawing.add_text(Role::kPanelTitle, index,
+    drawing.add_text(ItemClass::kPanelTitle, index,
                      {.shaped = line.shaped,
                       .whole = line.whole,
                       .at = {cell.x0, y + FontFacts::kAscent * em},

@@ -31,7 +31,8 @@ std::array<Point3, 8> CloudBox::corners() const {
 }
 
 Rods CloudBox::edges() const {
-  Rods rods{.radius = 0.0012 * size(), .style = {.ink = Ink::kMuted, .share = 0.6, .lit = false}};
+  Rods rods{.radius = 0.0012 * size(),
+            .style = {.colour = ThemeColour::kMuted, .share = 0.6, .lit = false}};
   const std::array<Point3, 8> at = corners();
   for (std::size_t i = 0; i < at.size(); ++i)
     for (const std::size_t bit : {1U, 2U, 4U})

@@ -20,7 +20,7 @@ struct Displacements {
 /// [0, side] x [0, side] are counted instead.
 Displacements displacements(const Points& ground_truth_m, const Points& estimate_m, double side_m);
 
-/// "3 estimates are far outside the room and 2 landmarks have no place.", or nothing.
+/// "3 estimates are far outside the room and 2 landmarks have no position.", or nothing.
 std::string words_of_missing(const Displacements& found);
 
 }  // namespace mapproof

@@ -89,7 +89,7 @@ class Forming {
       if ((std::ranges::find(given, i) != given.end()) == anchors) rows.push_back(i);
     Rods rods = pillars(world.landmarks_m, rows, pillar_radius_m(world), landmark_height(side_));
     rods.label = rods.from.empty() ? "" : anchors ? "anchor" : "landmark";
-    rods.style.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
+    rods.style.colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kSeries1;
     return rods;
   }
 
@@ -97,7 +97,7 @@ class Forming {
     Rods arrows = found_[map].arrows;
     if (in_legend)
       arrows.label = fmt::format("true to estimated position, 0 to {} m", significant(most_m_));
-    arrows.style.ink = Ink::kText;
+    arrows.style.colour = ThemeColour::kText;
     arrows.tones.values = found_[map].errors_m;
     arrows.tones.limits = {0.0, most_m_};
     return arrows;
@@ -107,11 +107,11 @@ class Forming {
   void tell(const Displacements& lost, Scene& scene) const {
     if (const std::string wide = words_of_pillars(spec_.world);
         !wide.empty() && scene.views.size() > 1)
-      scene.notes.push_back({wide, Ink::kWarning});
+      scene.notes.push_back({wide, ThemeColour::kWarning});
     const std::string words = words_of_missing(lost);
     if (words.empty()) return;
     if (scene.views.size() > 1)
-      scene.notes.push_back({"Over all views: " + words, Ink::kWarning});
+      scene.notes.push_back({"Over all views: " + words, ThemeColour::kWarning});
     else
       scene.views[0].title += ". " + words;
   }
@@ -130,7 +130,8 @@ class Forming {
   void describe(Scene& scene, const std::vector<std::size_t>& shown) const {
     scene.caption = fmt::format(
         "{}: the map after so many steps, with its mean position error. Pillars stand at true "
-        "places; arrows lead to where the map has them, and their colours are their lengths, cut "
+        "positions; arrows lead to where the map has them, and their colours are their lengths, "
+        "cut "
         "at {} m, the 95th percentile over all steps.",
         method_label(spec_.maps.front()), significant(most_m_));
     scene.alt =

@@ -20,16 +20,16 @@ struct FormingSceneSpec {
 
 /// How a map forms as observations come in, as a film strip: one room, one camera, one ramp of
 /// errors from 0 to the 95th percentile, and a view for each map, or for `most` of them, evenly
-/// spread, the first and the last among them. Landmarks stand at their true places; an arrow leads
-/// to where the map has each, coloured by its length. Estimates far outside the room have no arrow;
-/// a note counts them.
+/// spread, the first and the last among them. Landmarks stand at their true positions; an arrow
+/// leads to where the map has each, coloured by its length. Estimates far outside the room have no
+/// arrow; a note counts them.
 /// @throws InvalidInput if there is no map, the steps do not ascend, a map is not in the frame of
 ///         the ground truth or not of the world's landmarks, or lengths are not positive and
 ///         finite.
 Scene forming_scene(const FormingSceneSpec& spec);
 
 /// The same as an animation: a frame for each map, all of one layout; what has no arrow is counted
-/// in the frames' titles. The frames' ids end with their place, from 1.
+/// in the frames' titles. The frames' ids end with their number, from 1.
 Film forming_film(const FormingSceneSpec& spec);
 
 }  // namespace mapproof

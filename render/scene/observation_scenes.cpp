@@ -50,7 +50,7 @@ Spheres landmarks(const ManifoldSceneSpec& spec, Eigen::Index axis, double radiu
 Rods graph(const ManifoldSceneSpec& spec, double radius) {
   Rods rods{.label = fmt::format("{} nearest neighbours", spec.manifold.neighbours),
             .radius = radius,
-            .style = {.ink = Ink::kMuted}};
+            .style = {.colour = ThemeColour::kMuted}};
   for (const auto& [a, b] : spec.manifold.edges) {
     if (!spec.manifold.coordinates.row(a).allFinite() ||
         !spec.manifold.coordinates.row(b).allFinite())
@@ -177,13 +177,13 @@ class MeasurementScene {
 
   Surface disc() const {
     Surface surface{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
-                    .style = {.ink = Ink::kSeries7, .share = kTintShare, .lit = false}};
+                    .style = {.colour = ThemeColour::kSeries7, .share = kTintShare, .lit = false}};
     add_fan(surface, arc_points(robot_, m_.reach_m, 0.0, 2.0 * std::numbers::pi), lift(1));
     return surface;
   }
 
   Surface shadows() const {
-    Surface surface{.style = {.ink = Ink::kText, .share = kTintShare, .lit = false}};
+    Surface surface{.style = {.colour = ThemeColour::kText, .share = kTintShare, .lit = false}};
     for (const std::vector<Point>& outline : shadow_outlines(m_))
       add_fan(surface, outline, lift(2));
     if (!surface.triangles.empty()) surface.label = "shadow";
@@ -199,16 +199,17 @@ class MeasurementScene {
     Rods rods = pillars(m_.world.landmarks_m, rows, m_.world.landmark_diameter_m / 2.0,
                         landmark_height(seen_m_));
     rods.label = "landmark";
-    rods.style.ink = Ink::kSeries1;
+    rods.style.colour = ThemeColour::kSeries1;
     if (view == View::kVisible) rods.label = "visible";
-    if (view == View::kHidden) rods.label = "hidden", rods.style.ink = Ink::kSeries2;
-    if (view == View::kOutOfReach) rods.label = "out of reach", rods.style.ink = Ink::kMuted;
+    if (view == View::kHidden) rods.label = "hidden", rods.style.colour = ThemeColour::kSeries2;
+    if (view == View::kOutOfReach)
+      rods.label = "out of reach", rods.style.colour = ThemeColour::kMuted;
     if (rows.empty()) rods.label.clear();
     return rods;
   }
 
   Rods rays(const std::vector<Eigen::Index>& named) const {
-    Rods rods{.label = "ray", .radius = 0.0012 * seen_m_, .style = {.ink = Ink::kMuted}};
+    Rods rods{.label = "ray", .radius = 0.0012 * seen_m_, .style = {.colour = ThemeColour::kMuted}};
     for (Eigen::Index i = 0; i < m_.world.landmarks_m.rows(); ++i) {
       if (!std::isfinite(m_.bearings_rad(i)) || std::ranges::find(named, i) != named.end())
         continue;
@@ -221,7 +222,7 @@ class MeasurementScene {
 
   /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
   void add_angle(Eigen::Index row, std::size_t n) {
-    const Style style{.ink = series_ink(n + 1)};
+    const Style style{.colour = series_colour(n + 1)};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * seen_m_;
     Tube arc{.radius = 0.003 * seen_m_, .style = style};
     for (const Point p :
@@ -235,7 +236,8 @@ class MeasurementScene {
   }
 
   Tube trail() const {
-    Tube tube{.label = "path so far", .radius = 0.002 * seen_m_, .style = {.ink = Ink::kText}};
+    Tube tube{
+        .label = "path so far", .radius = 0.002 * seen_m_, .style = {.colour = ThemeColour::kText}};
     const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
     for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
       tube.points.push_back(on_floor(m_.path_m.row(i), tube.radius));
@@ -247,14 +249,14 @@ class MeasurementScene {
     scene_.parts.emplace_back(Spheres{.label = "robot",
                                       .at = {lifted(robot_, eye())},
                                       .radius = 0.014 * seen_m_,
-                                      .style = {.ink = Ink::kText}});
+                                      .style = {.colour = ThemeColour::kText}});
     scene_.parts.emplace_back(
         Rods{.label = "heading",
              .from = {lifted(robot_, eye())},
              .to = {lifted(beside(robot_, 0.1 * seen_m_, m_.heading_rad), eye())},
              .radius = 0.005 * seen_m_,
              .arrow = true,
-             .style = {.ink = Ink::kText}});
+             .style = {.colour = ThemeColour::kText}});
   }
 
   /// Layers on the floor, one above the other.

@@ -15,7 +15,7 @@ class Projection {
 
   /// NaN for what is at or behind the eye of a perspective camera.
   Point operator()(const Point3& position) const;
-  /// How large a length at `place`, across the line of sight, is in the image; NaN as above.
+  /// How large a length at `at`, across the line of sight, is in the image; NaN as above.
   double size_at(const Point3& position, double length) const;
   /// Along the line of sight from the eye.
   double depth(const Point3& position) const { return (position - eye_).dot(forward_); }

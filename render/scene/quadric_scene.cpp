@@ -189,10 +189,10 @@ class QuadricScene {
     if (!quadric.sheet.triangles.empty()) {
       const bool is_first = scene_.views.empty();
       quadric.lines.radius = 0.0011 * box.size();
-      quadric.lines.style = {.ink = Ink::kSeries1, .share = 0.7, .lit = false};
+      quadric.lines.style = {.colour = ThemeColour::kSeries1, .share = 0.7, .lit = false};
       add(std::move(quadric.lines));
       quadric.sheet.label = is_first ? "fitted quadric" : "";
-      quadric.sheet.style = {.ink = Ink::kSeries1, .share = 0.55, .opacity = 0.4};
+      quadric.sheet.style = {.colour = ThemeColour::kSeries1, .share = 0.55, .opacity = 0.4};
       add(std::move(quadric.sheet));
     }
     scene_.views.push_back(std::move(view));
@@ -222,7 +222,7 @@ class QuadricScene {
     scene_.notes.push_back({fmt::format("From the surface: {} % of the cloud's extent before, {} "
                                         "m\u00B2 in height after (root mean square).",
                                         significant(100.0 * before, 2), significant(after, 2)),
-                            Ink::kMuted});
+                            ThemeColour::kMuted});
     scene_.caption = fmt::format(
         "{}: states of {} of the path. Of their four entries the scale is divided out. Left, the "
         "whitened factor in orthonormal coordinates of the plane of scale 1, and the quadric "

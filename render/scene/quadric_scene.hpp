@@ -33,7 +33,7 @@ struct QuadricSceneSpec {
 };
 
 /// Whether there is a scene of the clouds: two points or more of each that are finite, within 1e6,
-/// and neither in one place nor, after the upgrade, at one height.
+/// and neither at one position nor, after the upgrade, at one height.
 bool has_quadric_scene(const UpgradeClouds& clouds);
 
 /// What the metric upgrade does [boots2013, section 2], side by side: states of the path, of four

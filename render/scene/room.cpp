@@ -62,14 +62,14 @@ void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Poi
 }
 
 Surface floor_of(double side_m) {
-  Surface floor{.style = {.ink = Ink::kMuted, .share = 0.12, .lit = false}};
+  Surface floor{.style = {.colour = ThemeColour::kMuted, .share = 0.12, .lit = false}};
   add_rectangle(floor, {0.0, 0.0, 0.0}, {side_m, 0.0, 0.0}, {side_m, side_m, 0.0},
                 {0.0, side_m, 0.0});
   return floor;
 }
 
 Surface walls_of(double side_m) {
-  Surface walls{.style = {.ink = Ink::kMuted, .share = kTintShare}};
+  Surface walls{.style = {.colour = ThemeColour::kMuted, .share = kTintShare}};
   const double top = kWallShare * side_m, s = side_m;
   const std::array<Point3, 5> foot = {
       {{0.0, 0.0, 0.0}, {s, 0.0, 0.0}, {s, s, 0.0}, {0.0, s, 0.0}, {0.0, 0.0, 0.0}}};

@@ -38,7 +38,7 @@ Surface walls_of(double side_m);
 /// How high landmarks are drawn; only their plan is known.
 double landmark_height(double side_m);
 
-/// Upright rods on the floor, for those rows of `points_m` that have finite places.
+/// Upright rods on the floor, for those rows of `points_m` that have finite positions.
 Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius,
              double height);
 

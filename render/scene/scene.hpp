@@ -13,22 +13,22 @@
 
 namespace mapproof {
 
-/// A place in space: x and y along the floor, z upward, metres where the scene is of a room.
+/// A point in space: x and y along the floor, z upward, metres where the scene is of a room.
 using Point3 = Eigen::Vector3d;
 
 /// How a surface looks.
 struct Style {
-  Ink ink = Ink::kMuted;
-  double share = 1.0;    ///< Of the ink, the rest being background, in [0, 1].
+  ThemeColour colour = ThemeColour::kMuted;
+  double share = 1.0;    ///< Of the colour, the rest being background, in [0, 1].
   double opacity = 1.0;  ///< In (0, 1]; parts that are not opaque are drawn in their order.
   bool lit = true;       ///< Shaded by the lights; else in one flat colour.
 
   bool operator==(const Style&) const = default;
 };
 
-/// Values that take the place of a style's ink, in viridis; none: the ink.
+/// Values that replace a style's colour, in viridis; none: the colour.
 struct Tones {
-  std::vector<double> values = {};  ///< One a point, rod or sphere; NaN takes the ink.
+  std::vector<double> values = {};  ///< One a point, rod or sphere; NaN takes the colour.
   Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
 
   bool operator==(const Tones&) const = default;
@@ -122,7 +122,7 @@ struct Light {
 struct SceneLabels {
   std::vector<Point3> at = {};
   std::vector<std::string> text = {};
-  Ink ink = Ink::kText;
+  ThemeColour colour = ThemeColour::kText;
 
   bool operator==(const SceneLabels&) const = default;
 };
@@ -167,8 +167,9 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// What keeps the scene from being drawn, as one line that names the place; empty if nothing does:
-/// ids, sizes that do not match, places that are not finite, a camera that looks along `up`.
+/// What keeps the scene from being drawn, as one line that names the location; empty if nothing
+/// does: ids, sizes that do not match, positions that are not finite, a camera that looks along
+/// `up`.
 std::string problem(const Scene& scene);
 
 /// @throws InvalidInput with `problem(scene)` if there is one.

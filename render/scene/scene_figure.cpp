@@ -117,8 +117,9 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
   const Point from = project_(rule.from), to = project_(rule.to);
   const Point outward = direction(rule, project_);
   if (!is_finite(from) || !is_finite(to) || !is_finite(outward)) return {};
-  Polyline line{.x = {from.x, to.x}, .y = {from.y, to.y}, .ink = Ink::kText, .width = 0.5};
-  Segments marks{.ink = Ink::kText, .width = 0.5};
+  Polyline line{
+      .x = {from.x, to.x}, .y = {from.y, to.y}, .colour = ThemeColour::kText, .width = 0.5};
+  Segments marks{.colour = ThemeColour::kText, .width = 0.5};
   Texts texts{.align = align_of(outward)};
   const auto write = [&](const Text& one) {
     if (!is_free(one.box)) return false;
@@ -156,25 +157,26 @@ class LegendLayer {
  public:
   Layer operator()(const Surface& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Area{.label = part.label, .ink = part.style.ink, .fill = fill_of(part.style)};
+    return Area{.label = part.label, .colour = part.style.colour, .fill = fill_of(part.style)};
   }
   Layer operator()(const Tube& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Polyline{.label = part.label, .ink = part.style.ink, .width = 2.0};
+    return Polyline{.label = part.label, .colour = part.style.colour, .width = 2.0};
   }
   Layer operator()(const Rods& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    if (part.arrow) return Segments{.label = part.label, .ink = part.style.ink, .arrow = true};
+    if (part.arrow)
+      return Segments{.label = part.label, .colour = part.style.colour, .arrow = true};
     const bool thin = part.style.share < 0.6;
     return Area{.label = part.label,
-                .ink = part.style.ink,
+                .colour = part.style.colour,
                 .fill = thin ? Fill::kTint : Fill::kSolid,
                 .outlined = thin,
                 .width = 0.6};
   }
   Layer operator()(const Spheres& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Scatter{.label = part.label, .ink = part.style.ink, .size = 1.3};
+    return Scatter{.label = part.label, .colour = part.style.colour, .size = 1.3};
   }
   Layer operator()(const Field& part) const { return ramp(part.label); }
 
@@ -243,7 +245,7 @@ class ViewPanel {
   }
 
   void add_labels(const SceneLabels& labels) {
-    PointLabels layer{.ink = labels.ink};
+    PointLabels layer{.colour = labels.colour};
     for (std::size_t i = 0; i < labels.at.size(); ++i) {
       const Point p = project_(labels.at[i]);
       if (!is_finite(p)) continue;

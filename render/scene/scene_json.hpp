@@ -20,7 +20,7 @@ inline constexpr FieldRule kLength = {.minimum = 0.0, .maximum = 1e9, .above_min
 template <typename Visitor>
 void fields(Visitor& v, Style& style) {
   v.type("style");
-  v.field("ink", style.ink);
+  v.field("colour", style.colour);
   v.field("share", style.share, {.minimum = 0.0, .maximum = 1.0});
   v.field("opacity", style.opacity, {.minimum = 0.0, .maximum = 1.0, .above_minimum = true});
   v.field("lit", style.lit);
@@ -30,7 +30,7 @@ template <typename Visitor>
 void fields(Visitor& v, Tones& tones) {
   v.type("tones");
   v.field("values", tones.values,
-          {.description = "One per point, rod or sphere, or none; null: the style's ink.",
+          {.description = "One per point, rod or sphere, or none; null: the style's colour.",
            .nullable = true});
   v.field("limits", tones.limits);
 }
@@ -106,7 +106,7 @@ template <typename Visitor>
 void fields(Visitor& v, SceneLabels& labels) {
   v.field("at", labels.at);
   v.field("text", labels.text, figure_rules::kText);
-  v.field("ink", labels.ink);
+  v.field("colour", labels.colour);
 }
 
 template <typename Visitor>

@@ -31,21 +31,21 @@ Colour read_colour(const JsonCursor& json) {
 SceneRequest scene_request(std::size_t view, int width, int height, int samples,
                            const Theme& theme) {
   SceneRequest request{view, width, height, samples, theme.background, {}};
-  for (std::size_t i = 0; i < request.inks.size(); ++i)
-    request.inks[i] = theme.of(static_cast<Ink>(i));
+  for (std::size_t i = 0; i < request.colours.size(); ++i)
+    request.colours[i] = theme.of(static_cast<ThemeColour>(i));
   return request;
 }
 
 std::string request_to_line(const SceneRequest& request) {
-  nlohmann::ordered_json inks = nlohmann::ordered_json::array();
-  for (const Colour ink : request.inks) inks.push_back(hex(ink));
+  nlohmann::ordered_json colours = nlohmann::ordered_json::array();
+  for (const Colour colour : request.colours) colours.push_back(hex(colour));
   return json_line({{"schema", schema_value("mapproof.scene-request")},
                     {"view", request.view},
                     {"width", request.width},
                     {"height", request.height},
                     {"samples", request.samples},
                     {"background", hex(request.background)},
-                    {"inks", std::move(inks)}});
+                    {"colours", std::move(colours)}});
 }
 
 SceneRequest request_from_line(std::string_view text, const std::string& path) {
@@ -59,8 +59,8 @@ SceneRequest request_from_line(std::string_view text, const std::string& path) {
   request.samples = json.at("samples").integer32(0, kMostSamples);
   request.background = read_colour(json.at("background"));
   std::size_t i = 0;
-  for (const JsonCursor& ink : json.at("inks").elements(10, 10))
-    request.inks[i++] = read_colour(ink);
+  for (const JsonCursor& colour : json.at("colours").elements(10, 10))
+    request.colours[i++] = read_colour(colour);
   return request;
 }
 

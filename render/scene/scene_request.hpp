@@ -16,7 +16,7 @@ struct SceneRequest {
   int height = 0;   ///< 1 to 8192.
   int samples = 0;  ///< A pixel, up to 16, next square of it; 0: no antialiasing.
   Colour background = {};
-  std::array<Colour, 10> inks = {};  ///< In the order of Ink.
+  std::array<Colour, 10> colours = {};  ///< In the order of ThemeColour.
 
   bool operator==(const SceneRequest&) const = default;
 };

@@ -81,7 +81,8 @@ class SpaceScene {
  private:
   void add_ground_truth() {
     scene_.parts.emplace_back(box_.edges());
-    Rods stalks{.radius = 0.0018 * box_.size(), .style = {.ink = Ink::kMuted, .share = 0.6}};
+    Rods stalks{.radius = 0.0018 * box_.size(),
+                .style = {.colour = ThemeColour::kMuted, .share = 0.6}};
     for (const Point3& p : as_points(run_.landmarks_m)) {
       stalks.from.emplace_back(p.x(), p.y(), box_.low.z());
       stalks.to.push_back(p);
@@ -91,7 +92,7 @@ class SpaceScene {
     scene_.parts.emplace_back(Spheres{.label = "true landmark",
                                       .at = as_points(run_.landmarks_m),
                                       .radius = 0.01 * box_.size(),
-                                      .style = {.ink = Ink::kSeries1}});
+                                      .style = {.colour = ThemeColour::kSeries1}});
   }
 
   Tube path() const {
@@ -121,14 +122,14 @@ class SpaceScene {
     };
     if (record.estimate.empty()) {
       scene_.notes.push_back(
-          {view.title + ": no map came out." + words_of(record.estimate), Ink::kWarning});
+          {view.title + ": no map came out." + words_of(record.estimate), ThemeColour::kWarning});
     } else {
       add_estimated_path(record.estimate, view.title, is_first, add);
       Rods rods = errors_of(record.estimate);
       Spheres ends{.label = is_first ? "estimated landmark" : "",
                    .at = rods.to,
                    .radius = 0.007 * box_.size(),
-                   .style = {.ink = Ink::kSeries2}};
+                   .style = {.colour = ThemeColour::kSeries2}};
       rods.label = is_first ? rods_label() : "";
       if (!rods.from.empty()) {
         add(std::move(rods));
@@ -144,7 +145,7 @@ class SpaceScene {
     const Point3 middle = 0.5 * (box_.low + box_.high);
     Tube tube{.label = is_first ? "estimated path" : "",
               .radius = 0.0016 * box_.size(),
-              .style = {.ink = Ink::kText, .share = 0.75}};
+              .style = {.colour = ThemeColour::kText, .share = 0.75}};
     for (const Point3& p : as_points(estimate.positions_m))
       if ((p - middle).norm() < box_.size()) tube.points.push_back(p);
     const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
@@ -153,7 +154,7 @@ class SpaceScene {
           {fmt::format("{}: {} far outside.", title,
                        far == 1 ? "1 estimated position is"
                                 : fmt::format("{} estimated positions are", far)),
-           Ink::kWarning});
+           ThemeColour::kWarning});
     if (tube.points.size() > 1) add(std::move(tube));
   }
 
@@ -164,7 +165,7 @@ class SpaceScene {
 
   /// To the estimates, which then stand where lengthened errors put them.
   Rods errors_of(const SpaceEstimate& estimate) const {
-    Rods rods{.radius = 0.0035 * box_.size(), .style = {.ink = Ink::kSeries2}};
+    Rods rods{.radius = 0.0035 * box_.size(), .style = {.colour = ThemeColour::kSeries2}};
     for (Eigen::Index n = 0; n < run_.landmarks_m.rows(); ++n) {
       const Point3 ground_truth = run_.landmarks_m.row(n).transpose();
       const Point3 error = estimate.landmarks_m.row(n).transpose() - ground_truth;

@@ -43,7 +43,7 @@ std::vector<Sample> samples_of(const MapRecord& map) {
   return samples;
 }
 
-/// Whether some three of the places span an area.
+/// Whether some three of the positions span an area.
 bool spans_area(const std::vector<Sample>& samples, double side_m) {
   for (std::size_t i = 1; i < samples.size(); ++i)
     for (std::size_t j = i + 1; j < samples.size(); ++j) {
@@ -128,7 +128,7 @@ class WorldScene {
     if (spec_.path_m.rows() > 1) scene_.parts.emplace_back(path());
     Rods arrows = found_.arrows;
     arrows.label = "true to estimated position";
-    arrows.style.ink = Ink::kText;
+    arrows.style.colour = ThemeColour::kText;
     scene_.parts.emplace_back(std::move(arrows));
   }
 
@@ -138,7 +138,7 @@ class WorldScene {
       if (is_anchor(i) == anchors) rows.push_back(i);
     Rods rods = pillars(world_.landmarks_m, rows, pillar_radius_m(world_), landmark_height(side_));
     rods.label = anchors ? "anchor" : "landmark";
-    rods.style.ink = anchors ? Ink::kSeries2 : Ink::kSeries1;
+    rods.style.colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kSeries1;
     if (rods.from.empty()) rods.label.clear();
     return rods;
   }
@@ -166,7 +166,7 @@ class WorldScene {
   }
 
   void add_labels() {
-    SceneLabels anchors{.ink = Ink::kText};
+    SceneLabels anchors{.colour = ThemeColour::kText};
     for (const Eigen::Index row : spec_.map.anchors) add_label(anchors, row);
     for (const std::size_t i : worst()) add_label(anchors, found_.drawn[i]);
     scene_.views[0].labels.push_back(std::move(anchors));
@@ -178,7 +178,7 @@ class WorldScene {
     labels.text.push_back(spec_.map.names[static_cast<std::size_t>(row)]);
   }
 
-  /// Places in `found_` of the largest errors of landmarks that are not anchors.
+  /// Indices in `found_` of the largest errors of landmarks that are not anchors.
   std::vector<std::size_t> worst() const {
     std::vector<std::size_t> order(found_.drawn.size());
     std::iota(order.begin(), order.end(), 0);
@@ -191,7 +191,7 @@ class WorldScene {
 
   void describe() {
     for (const std::string& words : {words_of_missing(found_), words_of_pillars(world_)})
-      if (!words.empty()) scene_.notes.push_back({words, Ink::kWarning});
+      if (!words.empty()) scene_.notes.push_back({words, ThemeColour::kWarning});
     const auto landmarks = static_cast<std::size_t>(world_.landmarks_m.rows());
     scene_.caption = fmt::format(
         "Layout {}, pose {}: {} of {} mm in diameter{}, the robot's path "

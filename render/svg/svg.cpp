@@ -194,7 +194,7 @@ class SvgWriter {
   /// What neighbouring items share stands once, on a group around them: their style, or their mark.
   void write_item(std::size_t index) {
     const Item& item = drawing_.items[index];
-    std::string style = fmt::format(" class=\"{}\"", name(item.role));
+    std::string style = fmt::format(" class=\"{}\"", name(item.item_class));
     if (item.clipped) style += fmt::format(" clip-path=\"url(#{}-c{})\"", drawing_.id, item.panel);
     if (const auto* shape = std::get_if<Shape>(&item.what)) style += paint_of(*shape);
     if (const auto* line = std::get_if<TextLine>(&item.what))

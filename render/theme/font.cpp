@@ -38,12 +38,12 @@ hb_font_t* shared_font() {
     hb_font_make_immutable(made);
     // What HarfBuzz finds no memory for is empty for good, in silence. These make its tables.
     hb_codepoint_t glyph = 0;
-    hb_glyph_extents_t ink{};
-    const bool is_whole = hb_ot_layout_has_substitution(face) &&
-                          hb_ot_layout_has_positioning(face) &&
-                          hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
-                          hb_font_get_glyph_h_advance(made, glyph) > 0 &&
-                          hb_font_get_glyph_extents(made, glyph, &ink) != 0 && ink.width > 0;
+    hb_glyph_extents_t extents{};
+    const bool is_whole =
+        hb_ot_layout_has_substitution(face) && hb_ot_layout_has_positioning(face) &&
+        hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
+        hb_font_get_glyph_h_advance(made, glyph) > 0 &&
+        hb_font_get_glyph_extents(made, glyph, &extents) != 0 && extents.width > 0;
     hb_face_destroy(face);
     if (is_whole) return made;
     hb_font_destroy(made);
@@ -129,7 +129,7 @@ std::vector<Stretch> stretches(const std::string& text) {
   return found;
 }
 
-Box glyph_ink(std::uint32_t glyph) {
+Box glyph_bounds(std::uint32_t glyph) {
   hb_glyph_extents_t e{};
   if (!hb_font_get_glyph_extents(shared_font(), glyph, &e) || e.width == 0 || e.height == 0)
     return {};
@@ -179,10 +179,10 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
     const Glyph glyph{infos[i].codepoint,
                       shaped.advance + positions[i].x_offset / FontFacts::kUnitsPerEm,
                       -positions[i].y_offset / FontFacts::kUnitsPerEm};
-    const Box ink = glyph_ink(glyph.index);
-    if (ink.width() > 0.0) {
-      const Box placed = ink.moved(glyph.x, glyph.y);
-      shaped.ink = shaped.ink.width() > 0.0 ? shaped.ink.united(placed) : placed;
+    const Box bounds = glyph_bounds(glyph.index);
+    if (bounds.width() > 0.0) {
+      const Box placed = bounds.moved(glyph.x, glyph.y);
+      shaped.bounds = shaped.bounds.width() > 0.0 ? shaped.bounds.united(placed) : placed;
     }
     shaped.glyphs.push_back(glyph);
     shaped.advance += positions[i].x_advance / FontFacts::kUnitsPerEm;

@@ -47,7 +47,7 @@ struct ShapedText {
   std::vector<Glyph> glyphs;
   std::vector<TextRun> runs;
   double advance = 0.0;
-  Box ink;
+  Box bounds;
 };
 
 /// What is drawn for `text`: code points that the font lacks, that are invisible or that would

@@ -23,16 +23,17 @@ Theme on_white() {
 
 }  // namespace
 
-Colour Theme::of(Ink ink) const {
-  switch (ink) {
-    case Ink::kText:
+Colour Theme::of(ThemeColour colour) const {
+  switch (colour) {
+    case ThemeColour::kText:
       return text;
-    case Ink::kMuted:
+    case ThemeColour::kMuted:
       return muted;
-    case Ink::kWarning:
+    case ThemeColour::kWarning:
       return warning;
     default:
-      return series[static_cast<std::size_t>(ink) - static_cast<std::size_t>(Ink::kSeries1)];
+      return series[static_cast<std::size_t>(colour) -
+                    static_cast<std::size_t>(ThemeColour::kSeries1)];
   }
 }
 

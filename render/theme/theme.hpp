@@ -4,7 +4,7 @@
 #include <string>
 
 #include "render/theme/colour.hpp"
-#include "render/theme/ink.hpp"
+#include "render/theme/theme_colour.hpp"
 
 namespace mapproof {
 
@@ -27,7 +27,7 @@ struct Theme {
   Colour background, text, muted, grid, warning;
   std::array<Colour, 7> series;
 
-  Colour of(Ink ink) const;
+  Colour of(ThemeColour colour) const;
 };
 
 /// For screens: 600 x 450 pt, 1200 x 900 px.

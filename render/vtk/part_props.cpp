@@ -34,7 +34,8 @@ constexpr double kAmbient = 0.42;  // White stays near white where no light fall
 constexpr double kDiffuse = 0.58;
 
 Colour plain_colour(const Style& style, const SceneRequest& request) {
-  return mix(request.inks[static_cast<std::size_t>(style.ink)], request.background, style.share);
+  return mix(request.colours[static_cast<std::size_t>(style.colour)], request.background,
+             style.share);
 }
 
 /// The colour of the i-th value; the plain colour where there is none.
@@ -218,7 +219,7 @@ vtkSmartPointer<vtkProp> contour_prop(const Field& field, vtkPolyData* surface,
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(tubes->GetOutput());
   mapper->ScalarVisibilityOff();
-  return actor_of(mapper, {.ink = Ink::kText, .lit = false}, request);
+  return actor_of(mapper, {.colour = ThemeColour::kText, .lit = false}, request);
 }
 
 /// Values are interpolated before they are coloured, so that a triangle shows the colours of the

@@ -25,10 +25,10 @@ double median_of(const std::vector<double>& values) {
 }
 
 std::vector<double> picked(const std::vector<double>& values,
-                           const std::vector<std::size_t>& places) {
+                           const std::vector<std::size_t>& indices) {
   std::vector<double> out;
-  for (const std::size_t place : places)
-    if (!std::isnan(values[place])) out.push_back(values[place]);
+  for (const std::size_t index : indices)
+    if (!std::isnan(values[index])) out.push_back(values[index]);
   return out;
 }
 

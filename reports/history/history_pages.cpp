@@ -173,20 +173,20 @@ Phrase NightlyLinks::link(const std::string& path, const std::string& words) {
   return {path, Emphasis::kFile};
 }
 
-Phrase NightlyLinks::index() { return link(places_.pages + "index.html", "all nightly runs"); }
+Phrase NightlyLinks::index() { return link(folders_.pages + "index.html", "all nightly runs"); }
 
 Phrase NightlyLinks::trends(const std::string& study) {
-  return link(fmt::format("{}trends/{}/report.html", places_.pages, study), "trends of " + study);
+  return link(fmt::format("{}trends/{}/report.html", folders_.pages, study), "trends of " + study);
 }
 
 Phrase NightlyLinks::report(int nightly_run, const std::string& study) {
   return link(
-      fmt::format("{}nightly_runs/{:04}/{}/report.html", places_.nightly_runs, nightly_run, study),
+      fmt::format("{}nightly_runs/{:04}/{}/report.html", folders_.nightly_runs, nightly_run, study),
       fmt::format("report of nightly run {}", nightly_run));
 }
 
 Phrase NightlyLinks::folder(int nightly_run) {
-  return link(fmt::format("{}nightly_runs/{:04}/", places_.nightly_runs, nightly_run),
+  return link(fmt::format("{}nightly_runs/{:04}/", folders_.nightly_runs, nightly_run),
               fmt::format("folder of nightly run {}", nightly_run));
 }
 
@@ -279,9 +279,9 @@ Table accuracy_table(const StudyTrend& trend) {
 }
 
 HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
-                       const HistoryFolders& places) {
+                       const HistoryFolders& folders) {
   HistoryPage page;
-  NightlyLinks links(places);
+  NightlyLinks links(folders);
   page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", by nightly run";
   page.report.subtitle = fmt::format("Nightly runs {} to {}", trend.nightly_runs.front().number,
@@ -302,7 +302,7 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   return page;
 }
 
-HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places) {
+HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   HistoryPage page;
   Report& report = page.report;
   report.title = "Nightly runs";
@@ -311,7 +311,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places) {
         {"last", "The last nightly run", {Paragraph{{{"No nightly run was recorded yet."}}}}});
     return page;
   }
-  NightlyLinks links(places);
+  NightlyLinks links(folders);
   const NightlyFacts& this_run = facts.nightly_runs.back();
   report.subtitle =
       fmt::format("{}, the last begun {} UTC",

@@ -23,7 +23,7 @@ struct HistoryFolders {
 /// Links from one page of a history to the others, and what they are called.
 class NightlyLinks {
  public:
-  explicit NightlyLinks(HistoryFolders places) : places_(std::move(places)) {}
+  explicit NightlyLinks(HistoryFolders folders) : folders_(std::move(folders)) {}
 
   Phrase index();
   Phrase trends(const std::string& study);
@@ -37,7 +37,7 @@ class NightlyLinks {
  private:
   Phrase link(const std::string& path, const std::string& words);
 
-  HistoryFolders places_;
+  HistoryFolders folders_;
   std::map<std::string, std::string> words_;
 };
 
@@ -90,11 +90,11 @@ struct IndexFacts {
 /// @param is_compared  Whether the last one's reference run has the study, ordered in the same
 ///                     way.
 HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
-                       const HistoryFolders& places);
+                       const HistoryFolders& folders);
 
 /// The verdict on the last nightly run, a figure or two of the trends, and all nightly runs, the
 /// last one first.
-HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& places);
+HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders);
 
 /// A study of one nightly run.
 struct StudyOfNightlyRun {

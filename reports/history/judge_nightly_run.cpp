@@ -7,6 +7,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "reports/history/accuracy_rule.hpp"
+#include "reports/history/cost_rule.hpp"
+#include "reports/history/drift_rule.hpp"
 
 namespace mapproof {
 namespace {

@@ -48,7 +48,7 @@ std::vector<FigureFile> ObjectFolder::keep(const fs::path& figures) const {
     const std::string digest = sha256_hex(bytes);
     const fs::path object = path(digest);
     std::error_code error;
-    // A file that a fault of the disk cut short is put right.
+    // A file that a fault of the disk cut short is repaired.
     if (fs::file_size(object, error) != bytes.size() || error)
       OutputFolder(folder_).write(object.lexically_relative(folder_), bytes);
     link_in_place(object, file);

@@ -47,12 +47,12 @@ struct Reported {
   const StudyTrend& trend;
   std::vector<std::pair<std::size_t, const NightlyFinding*>>
       findings;  ///< By the index of the nightly run.
-  const TrendLocation& place;
+  const TrendLocation& location;
 };
 
 Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
-                     const TrendLocation& place) {
-  Reported reported{trend, {}, place};
+                     const TrendLocation& location) {
+  Reported reported{trend, {}, location};
   for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
     if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
         nightly_run != findings.end())
@@ -165,7 +165,7 @@ void mark_findings(const Reported& reported, const std::string& label,
 ErrorLinesSpec named_spec(const Reported& reported, const std::string& id,
                           const std::string& title) {
   ErrorLinesSpec spec;
-  const bool named = reported.place.among_others;
+  const bool named = reported.location.among_others;
   spec.id = bounded_id("trend-" + (named ? id_of(reported.trend.name) + "-" : "") + id, kLongestId);
   spec.title = (named ? reported.trend.name + ", " : "") + title + ", by nightly run";
   return spec;
@@ -257,11 +257,11 @@ std::set<Subject> subjects_of(const Reported& reported, bool worst_first) {
 }  // namespace
 
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
-                                  const TrendLocation& place) {
-  const Reported reported = reported_of(trend, findings, place);
+                                  const TrendLocation& location) {
+  const Reported reported = reported_of(trend, findings, location);
   std::vector<Figure> figures;
-  const auto is_full = [&] { return place.most > 0 && figures.size() >= place.most; };
-  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported, place.most > 0)) {
+  const auto is_full = [&] { return location.most > 0 && figures.size() >= location.most; };
+  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported, location.most > 0)) {
     if (is_full()) break;
     if (auto figure = lines_figure(reported, sensor, quantity))
       figures.push_back(std::move(*figure));

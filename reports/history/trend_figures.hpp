@@ -25,6 +25,6 @@ struct TrendLocation {
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
-                                  const TrendLocation& place = {});
+                                  const TrendLocation& location = {});
 
 }  // namespace mapproof

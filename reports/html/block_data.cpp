@@ -348,17 +348,17 @@ class BlockVisitor {
     const double share = item.of > 0 ? 100.0 * item.count / item.of : 0.0;
     out.set("count", fmt::format("{} of {} ({} %)", item.count, counted(item.of, "map"),
                                  format_number(share, share < 1.0 ? 1 : 0)));
-    list places;
-    for (const StatusList::Place& place : item.places) {
+    list locations;
+    for (const StatusList::Location& location : item.locations) {
       data entry;
-      entry.set("record", place.record_id);
-      entry.set("detail", place.detail);
-      entry.set("long", place.detail.size() > kLong);
-      places.push_back(std::move(entry));
+      entry.set("record", location.record_id);
+      entry.set("detail", location.detail);
+      entry.set("long", location.detail.size() > kLong);
+      locations.push_back(std::move(entry));
     }
-    out.set("any_locations", !item.places.empty());
-    out.set("locations", places);
-    const int more = item.count - static_cast<int>(item.places.size());
+    out.set("any_locations", !item.locations.empty());
+    out.set("locations", locations);
+    const int more = item.count - static_cast<int>(item.locations.size());
     out.set("more", more > 0 ? data(fmt::format("and {} more", more)) : data(false));
     return out;
   }

@@ -26,7 +26,7 @@ struct Tag {
   std::size_t end;
 };
 
-std::string place(std::size_t line) { return fmt::format("line {}", line); }
+std::string line_text(std::size_t line) { return fmt::format("line {}", line); }
 
 std::vector<Tag> tags(const std::string& source, const std::string& text) {
   std::vector<Tag> found;
@@ -35,7 +35,7 @@ std::vector<Tag> tags(const std::string& source, const std::string& text) {
   for (std::size_t at = text.find("{{"); at != std::string::npos; at = text.find("{{", at)) {
     for (; counted < at; ++counted) line += text[counted] == '\n' ? 1 : 0;
     const std::size_t end = text.find("}}", at);
-    if (end == std::string::npos) throw IoError(source, place(line), "the tag is not closed");
+    if (end == std::string::npos) throw IoError(source, line_text(line), "the tag is not closed");
     const std::string_view content =
         trimmed(std::string_view(text).substr(at + 2, end - at - 2), kWhiteSpace);
     const char kind = content.empty() ? ' ' : content[0];
@@ -50,19 +50,20 @@ void check_sections(const std::string& source, const std::vector<Tag>& tags) {
   std::vector<const Tag*> open;
   for (const Tag& tag : tags) {
     if (tag.kind == '=')
-      throw IoError(source, place(tag.line), "templates keep the delimiters {{ and }}");
+      throw IoError(source, line_text(tag.line), "templates keep the delimiters {{ and }}");
     if (tag.kind == '#' || tag.kind == '^') open.push_back(&tag);
     if (open.size() > kDeepest)
-      throw IoError(source, place(tag.line), fmt::format("more than {} sections deep", kDeepest));
+      throw IoError(source, line_text(tag.line),
+                    fmt::format("more than {} sections deep", kDeepest));
     if (tag.kind != '/') continue;
     if (open.empty() || open.back()->name != tag.name)
       throw IoError(
-          source, place(tag.line),
+          source, line_text(tag.line),
           "the section \"" + printable(tag.name) + "\" ends here but is not the open one");
     open.pop_back();
   }
   if (!open.empty())
-    throw IoError(source, place(open.back()->line),
+    throw IoError(source, line_text(open.back()->line),
                   "the section \"" + printable(open.back()->name) + "\" is not closed");
 }
 
@@ -71,7 +72,8 @@ void refuse(const std::string& source, const std::string& text, std::string_view
   if (at == std::string::npos) return;
   const auto line = static_cast<std::size_t>(
       1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
-  throw IoError(source, place(line), fmt::format("\"{}\" would end its element in the page", what));
+  throw IoError(source, line_text(line),
+                fmt::format("\"{}\" would end its element in the page", what));
 }
 
 /// Puts a template together with those that it includes.
@@ -90,10 +92,10 @@ class Assembler {
       if (tag.kind != '>') continue;
       const std::string included = tag.name + ".mustache";
       if (!files_.contains(included))
-        throw IoError(source, place(tag.line),
+        throw IoError(source, line_text(tag.line),
                       "there is no template \"" + printable(tag.name) + "\" to include");
       if (std::ranges::find(open_, included) != open_.end())
-        throw IoError(source, place(tag.line),
+        throw IoError(source, line_text(tag.line),
                       "\"" + tag.name + "\" would include itself without end");
       page_.append(text, done, tag.begin - done);
       if (++count_ > kMostIncludes || page_.size() > kLargestPage)

@@ -126,18 +126,18 @@ struct KeyValues {
 
 /// Warnings and failures, one item a kind.
 struct StatusList {
-  struct Place {
+  struct Location {
     std::string record_id;
     std::string detail;
   };
   struct Item {
-    std::string code;           ///< As in the files: "not_converged".
-    std::string meaning;        ///< One sentence.
-    std::string where;          ///< "bearing, ISOMAP, K = 9".
-    int count = 0;              ///< Maps that carry it.
-    int of = 0;                 ///< Maps of that kind in all.
-    bool failed = false;        ///< No map came out.
-    std::vector<Place> places;  ///< The first few.
+    std::string code;                 ///< As in the files: "not_converged".
+    std::string meaning;              ///< One sentence.
+    std::string where;                ///< "bearing, ISOMAP, K = 9".
+    int count = 0;                    ///< Maps that carry it.
+    int of = 0;                       ///< Maps of that kind in all.
+    bool failed = false;              ///< No map came out.
+    std::vector<Location> locations;  ///< The first few.
   };
   std::vector<Item> items;
 };

@@ -150,19 +150,19 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
 /// "3 of 4 orderings hold: not SDE < SMACOF."
 Paragraph ordering_finding(Sensor sensor, std::span<const OrderingClaim> claims) {
   int tried = 0;
-  int sure = 0;
+  int significant_orderings = 0;
   std::vector<std::string> broken;
   for (const OrderingClaim& claim : claims) {
     if (!claim.difference_m) continue;
     ++tried;
-    if (claim.holds() && claim.is_sure()) ++sure;
+    if (claim.holds() && claim.is_significant()) ++significant_orderings;
     if (!claim.holds())
       broken.push_back(fmt::format("{} < {}", method_label(claim.less), method_label(claim.more)));
   }
   std::string text = fmt::format(
       ": {} of the paper\u2019s {} hold, {} of them with an interval of the difference that leaves "
       "0 out.",
-      tried - std::ssize(broken), counted(tried, "ordering"), sure);
+      tried - std::ssize(broken), counted(tried, "ordering"), significant_orderings);
   if (!broken.empty()) text += " Not: " + in_series(broken) + ".";
   return {{strong(title_of(sensor)), phrase(text)}};
 }

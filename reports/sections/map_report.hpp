@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
 #include "reports/model/report.hpp"
@@ -30,5 +31,9 @@ struct MapReportInput {
 /// Summary, figure, landmarks (with errors where the ground truth is known), remarks, statuses,
 /// provenance.
 Report map_report(const MapReportInput& input);
+
+/// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.
+/// @throws InvalidInput unless there is a covariance a landmark.
+Section certainty_section(const MapRecord& record, const MapCertainty& certainty);
 
 }  // namespace mapproof

@@ -98,7 +98,7 @@ MethodRanks method_ranks(const Study& study, const SensorStudy& sensor, double a
   return ranks;
 }
 
-bool OrderingClaim::is_sure() const {
+bool OrderingClaim::is_significant() const {
   return difference_m && difference_m->half_width &&
          std::abs(difference_m->mean) > *difference_m->half_width;
 }

@@ -40,7 +40,7 @@ struct OrderingClaim {
 
   bool holds() const { return difference_m && difference_m->mean > 0.0; }
   /// Whether the interval of the difference leaves 0 out.
-  bool is_sure() const;
+  bool is_significant() const;
 };
 
 /// Each neighbouring pair of the orderings that were published on `sensor`, once.

@@ -4,13 +4,13 @@
 #include <map>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
-#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -40,17 +40,18 @@ std::string methods_of(const SensorStudy& sensor) {
 
 KeyValues experiment_items(const Experiment& experiment) {
   KeyValues items;
-  items.items = {{"Experiment", data(experiment.name)},
-                 {"Seed", data(fmt::format("{}", experiment.seed))},
-                 {"Runs", data(fmt::format("{} \u00D7 {}", counted(experiment.layouts, "layout"),
-                                           counted(experiment.poses, "initial pose")))},
-                 {"Room", data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm",
-                                           experiment.world.side_m, experiment.world.side_m,
-                                           counted(experiment.world.landmarks, "landmark"),
-                                           1e3 * experiment.world.landmark_diameter_m))},
-                 {"Walk", data(fmt::format("steps of {:g} m, heading changes up to {:.4g} rad",
-                                           experiment.walk.step_m, experiment.walk.turn_rad))},
-                 {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
+  items.items = {
+      {"Experiment", data(experiment.name)},
+      {"Seed", data(fmt::format("{}", experiment.seed))},
+      {"Runs", data(fmt::format("{} \u00D7 {}", counted(experiment.layouts, "layout"),
+                                counted(experiment.poses, "initial pose")))},
+      {"Room",
+       data(fmt::format("{:g} m \u00D7 {:g} m, {} of {:g} mm", experiment.world.side_m,
+                        experiment.world.side_m, counted(experiment.world.landmarks, "landmark"),
+                        1e3 * experiment.world.landmark_diameter_m))},
+      {"Walk", data(fmt::format("steps of {:g} m, heading changes up to {:.4g} rad",
+                                experiment.walk.step_m, experiment.walk.heading_change_rad))},
+      {"Anchors", data(fmt::format("{}, nearest the corners", experiment.anchors))}};
   for (const SensorStudy& sensor : experiment.sensors) {
     const std::string title = title_of(sensor.sensor.sensor);
     items.items.push_back({title + " checkpoints", data(join(sensor.checkpoints))});
@@ -121,6 +122,28 @@ Table durations_table(const Durations& durations) {
 }
 
 }  // namespace
+
+Table sessions_table(std::string id, std::span<const Session> sessions) {
+  Table table;
+  table.id = std::move(id);
+  table.caption = "Starts of the program on this study";
+  table.columns = {{"Started (UTC)", "", "", ""},
+                   {"Command", "", "", ""},
+                   {"Host", "", "", ""},
+                   {"Jobs", "", "", ""},
+                   {"Duration", "s", "", "Wall clock; the records alone, without figures."},
+                   {"Peak memory", "MiB", "", "Of the process, until its records were made."}};
+  for (const Session& session : sessions)
+    table.rows.push_back(
+        {{TextCell{session.started_utc, Emphasis::kData},
+          TextCell{session.command, Emphasis::kCode}, TextCell{session.host, Emphasis::kData},
+          NumberCell{static_cast<double>(session.jobs), 0}, NumberCell{session.seconds, 1},
+          session.peak_memory_mib ? Cell{NumberCell{*session.peak_memory_mib, 0}}
+                                  : Cell{MissingCell{}}},
+         "",
+         false});
+  return table;
+}
 
 Section provenance_section(const Study& study, std::span<const Session> sessions,
                            std::span<const Timing> timings, const std::string& command) {

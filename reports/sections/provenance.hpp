@@ -12,4 +12,7 @@ namespace mapproof {
 Section provenance_section(const Study& study, std::span<const Session> sessions,
                            std::span<const Timing> timings, const std::string& command);
 
+/// The starts of the program on a study, a row each.
+Table sessions_table(std::string id, std::span<const Session> sessions);
+
 }  // namespace mapproof

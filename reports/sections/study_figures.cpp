@@ -8,13 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
-#include "reports/sections/figures/comparison_figures.hpp"
-#include "reports/sections/figures/condition_figures.hpp"
-#include "reports/sections/figures/curve_figures.hpp"
-#include "reports/sections/figures/map_figures.hpp"
-#include "reports/sections/figures/measurement_figures.hpp"
-#include "reports/sections/figures/parameter_figures.hpp"
-#include "reports/sections/figures/scene_figures.hpp"
+#include "reports/sections/figures/figure_builders.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 

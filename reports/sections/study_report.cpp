@@ -12,13 +12,12 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/certificates.hpp"
 #include "reports/sections/findings.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
-#include "reports/sections/proofs.hpp"
 #include "reports/sections/study_counts.hpp"
-#include "reports/sections/tables/accuracy_tables.hpp"
-#include "reports/sections/tables/comparison_tables.hpp"
+#include "reports/sections/tables/method_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -70,10 +69,10 @@ StatusKind kind_of(const RunRecord& record) {
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
   ++item.count;
-  if (item.places.size() >= kLocationsShown) return;
+  if (item.locations.size() >= kLocationsShown) return;
   for (const Status& status : record.statuses)
     if (status.code == code)
-      item.places.push_back(
+      item.locations.push_back(
           {record_id(run, record.sensor, record.setting, record.step), status_text(status)});
 }
 
@@ -205,7 +204,8 @@ Report study_report(const StudyReportInput& input) {
   if (auto variations = variations_section(input.study))
     report.sections.push_back(*std::move(variations));
   report.sections.push_back(statuses_section(input.study));
-  if (auto proofs = proofs_section(input.study)) report.sections.push_back(*std::move(proofs));
+  if (auto certificates = certificates_section(input.study))
+    report.sections.push_back(*std::move(certificates));
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));
   report.opening = study_opening(input.study, input.figures);

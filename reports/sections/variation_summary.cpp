@@ -46,7 +46,7 @@ Shown shown(const Variation& variation) {
   return {};
 }
 
-/// "SDE, K = 7: unproved in 11 of 25 runs at 10, in 25 of 25 at 20.", one sentence per status.
+/// "SDE, K = 7: uncertified in 11 of 25 runs at 10, in 25 of 25 at 20.", one sentence per status.
 std::vector<std::string> status_notes(const Variation& variation, const VariedSetting& setting) {
   std::map<StatusCode, std::string> places;
   for (std::size_t level = 0; level < variation.levels.size(); ++level)

@@ -18,7 +18,7 @@ std::string_view meaning(StatusCode code) {
       return "The neighbour graph was in pieces; the shortest bridges joined them.";
     case StatusCode::kNotConverged:
       return "The limit of iterations came before the stop rule.";
-    case StatusCode::kUnproved:
+    case StatusCode::kUncertified:
       return "The optimality of the solution of a semidefinite program was not certified.";
     case StatusCode::kRankDeficient:
       return "The data have fewer than two dimensions: the map is flat or a point.";

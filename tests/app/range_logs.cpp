@@ -19,7 +19,7 @@ RangeLog drive_log() {
         {.time_s = ground_truth.time_s(t),
          .distance_m =
              (ground_truth.positions_m.row(t) - ground_truth.positions_m.row(t - 1)).norm(),
-         .turn_rad = ground_truth.heading_rad(t) - ground_truth.heading_rad(t - 1),
+         .heading_change_rad = ground_truth.heading_rad(t) - ground_truth.heading_rad(t - 1),
          .sideways_m = 0.0});
   return log;
 }

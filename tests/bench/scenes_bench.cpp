@@ -26,7 +26,7 @@ using namespace mapproof;
 namespace fs = std::filesystem;
 
 constexpr int kWidth = 1200, kHeight = 900;
-constexpr double kTurn_rad = 0.05;
+constexpr double kStep_rad = 0.05;
 
 /// Of a time in seconds of the epoch.
 double seconds_since(double since) {
@@ -42,7 +42,7 @@ Scene bench_scene() {
 
 void turn(Camera& camera) {
   const Point3 arm = camera.eye - camera.target;
-  camera.eye = camera.target + Eigen::AngleAxisd(kTurn_rad, Point3::UnitZ()) * arm;
+  camera.eye = camera.target + Eigen::AngleAxisd(kStep_rad, Point3::UnitZ()) * arm;
 }
 
 void draw(const fs::path& folder, int samples, int count, double since) {

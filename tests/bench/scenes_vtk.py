@@ -21,7 +21,7 @@ from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkLight, vtkPolyDataMapper, vtkRenderWindow, vtkRenderer, vtkWindowToImageFilter)
 
-INKS = {"series1": (0.0, 0.45, 0.70), "series2": (0.84, 0.37, 0.0), "text": (0.1, 0.1, 0.1),
+COLOURS = {"series1": (0.0, 0.45, 0.70), "series2": (0.84, 0.37, 0.0), "text": (0.1, 0.1, 0.1),
         "muted": (0.5, 0.5, 0.5)}
 
 
@@ -115,7 +115,7 @@ def renderer_of(scene):
             mapper.SetInputConnection(source.GetOutputPort())
         actor = vtkActor()
         actor.SetMapper(mapper)
-        actor.GetProperty().SetColor(INKS.get(part["style"]["ink"], (0.5, 0.5, 0.5)))
+        actor.GetProperty().SetColor(COLOURS.get(part["style"]["colour"], (0.5, 0.5, 0.5)))
         renderer.AddActor(actor)
     renderer.AutomaticLightCreationOff()
     for one in scene["lights"]:

@@ -32,15 +32,16 @@ void row(int landmarks, Sensor sensor, int neighbours) {
   const Eigen::MatrixXd D =
       test::observed_distances(landmarks, sensor, kSteps, static_cast<std::uint64_t>(landmarks));
   const Timed own = timed(D, neighbours, SdpSolver::kInteriorPoint);
-  const Certificate& proof = own.map.certificate.value();
+  const Certificate& certificate = own.map.certificate.value();
   fmt::print("{:5} {:10} {:3} {:14} {:9.4f} {:8.1e} {:8.1e}", landmarks, name(sensor), neighbours,
-             name(proof.solver), own.seconds, proof.relative_gap, proof.constraint_residual);
+             name(certificate.solver), own.seconds, certificate.relative_gap,
+             certificate.constraint_residual);
   if (landmarks <= kMostLandmarksForCsdp) {
     const Timed other = timed(D, neighbours, SdpSolver::kCsdp);
     const double objective = other.map.certificate.value().primal;
     const double size = other.map.coordinates.rowwise().norm().maxCoeff();
     fmt::print(" {:9.4f} {:6.1f} {:9.1e} {:9.1e}", other.seconds, other.seconds / own.seconds,
-               std::abs(proof.primal - objective) / objective,
+               std::abs(certificate.primal - objective) / objective,
                test::procrustes_gap(other.map.coordinates, own.map.coordinates) / size);
   }
   fmt::print("\n");

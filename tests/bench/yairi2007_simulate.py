@@ -30,7 +30,7 @@ def walk(world, options, steps, random):
     path = numpy.empty((steps, 3))
     for step in range(steps):
         path[step] = x, y, heading
-        heading += random.uniform(-options["turn_rad"], options["turn_rad"])
+        heading += random.uniform(-options["heading_change_rad"], options["heading_change_rad"])
         left = substeps
         while left > 0:
             # As far as the way is free, then the smallest turn that frees it.

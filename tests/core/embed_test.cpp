@@ -6,7 +6,7 @@
 #include "core/base/errors.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/embed/isomap.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/linalg/planarity.hpp"
 #include "tests/support/samples/worlds.hpp"

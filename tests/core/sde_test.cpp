@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "core/embed/lpca.hpp"
+#include "core/embed/pca.hpp"
 #include "tests/support/samples/worlds.hpp"
 #include "tests/support/statuses.hpp"
 
@@ -87,7 +87,7 @@ TEST_P(EverySolver, CertifiesItsSolution) {
     EXPECT_LT(map.certificate->relative_gap, 1e-6);
     EXPECT_LT(map.certificate->constraint_residual, 1e-6);
     EXPECT_NEAR(map.certificate->primal, map.certificate->dual, 1e-6 * map.certificate->dual);
-    EXPECT_FALSE(has(map, StatusCode::kUnproved) || has(map, StatusCode::kNotEuclidean));
+    EXPECT_FALSE(has(map, StatusCode::kUncertified) || has(map, StatusCode::kNotEuclidean));
   }
 }
 
@@ -116,8 +116,8 @@ TEST_P(EverySolver, ReportsWhenNoPointsHaveSuchDistances) {
   Eigen::MatrixXd D = distances_of(scattered(10, 4));
   D(2, 5) = D(5, 2) = 9.0;  // Longer than any way round.
   const Embedding map = unfolded(D, 9);
-  EXPECT_TRUE(has(map, StatusCode::kNotEuclidean) || has(map, StatusCode::kUnproved));
-  EXPECT_FALSE(is_proved(*map.certificate));
+  EXPECT_TRUE(has(map, StatusCode::kNotEuclidean) || has(map, StatusCode::kUncertified));
+  EXPECT_FALSE(is_certified(*map.certificate));
   EXPECT_TRUE(map.coordinates.allFinite());
   EXPECT_GT(map.certificate->constraint_residual, 1e-3);
   EXPECT_GT(map.certificate->relative_gap, 1e-3);  // Of no sign: a bound below 0 certifies nothing.

@@ -66,7 +66,7 @@ TEST(ImageComparison, SeesAShiftOfOnePixel) {
 
 TEST(ImageComparison, SeesAMissingMarker) {
   const Image missing = changed_map([](Drawing& drawing) {
-    const auto marker = std::ranges::find(drawing.items, Role::kMarker, &Item::role);
+    const auto marker = std::ranges::find(drawing.items, ItemClass::kMarker, &Item::item_class);
     drawing.items.erase(marker);
   });
   EXPECT_FALSE(alike(drawn(map_to_compare()), missing));
@@ -78,14 +78,16 @@ TEST(ImageComparison, SeesSwappedColours) {
   Figure swapped = error_curve_figure(spec);
   for (Layer& layer : swapped.panels[0].layers)
     if (auto* line = std::get_if<Polyline>(&layer))
-      line->ink = line->ink == Ink::kSeries1 ? Ink::kSeries2 : Ink::kSeries1;
+      line->colour =
+          line->colour == ThemeColour::kSeries1 ? ThemeColour::kSeries2 : ThemeColour::kSeries1;
   EXPECT_FALSE(alike(image, drawn(swapped)));
 }
 
 TEST(ImageComparison, SeesOneMarkerOfAnotherColour) {
   const Image recoloured = changed_map([](Drawing& drawing) {
     for (auto item = drawing.items.rbegin(); item != drawing.items.rend(); ++item)
-      if (auto* stamp = std::get_if<Stamp>(&item->what); stamp && item->role == Role::kMarker) {
+      if (auto* stamp = std::get_if<Stamp>(&item->what);
+          stamp && item->item_class == ItemClass::kMarker) {
         Shape symbol = drawing.symbols[stamp->symbol];
         symbol.fill = colour(0x009E73);
         drawing.symbols.push_back(symbol);
@@ -98,7 +100,7 @@ TEST(ImageComparison, SeesOneMarkerOfAnotherColour) {
 
 TEST(ImageComparison, SeesADroppedLegendEntry) {
   const Image dropped = changed_map([](Drawing& drawing) {
-    const auto text = std::ranges::find(drawing.items, Role::kLegendText, &Item::role);
+    const auto text = std::ranges::find(drawing.items, ItemClass::kLegendText, &Item::item_class);
     drawing.items.erase(text);
   });
   EXPECT_FALSE(alike(drawn(map_to_compare()), dropped));

@@ -81,7 +81,7 @@ TEST(ScatterEllipse, OfARectanglesCornersHasItsAxes) {
   EXPECT_EQ(ellipse.runs, 4);
   EXPECT_NEAR(ellipse.a_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(36.0 / 3.0), 1e-12);
   EXPECT_NEAR(ellipse.b_m, std::sqrt(-2.0 * std::log(0.05)) * std::sqrt(4.0 / 3.0), 1e-12);
-  EXPECT_NEAR(ellipse.turn_rad, 0.0, 1e-12);
+  EXPECT_NEAR(ellipse.rotation_rad, 0.0, 1e-12);
 }
 
 TEST(ScatterEllipse, TurnsWithItsPoints) {
@@ -89,7 +89,7 @@ TEST(ScatterEllipse, TurnsWithItsPoints) {
   runs[0] << 1.0, 1.0;
   runs[1] << 0.0, 0.0;
   runs[2] << -1.0, -1.0;
-  EXPECT_NEAR(scatter_ellipse(runs, 0).turn_rad, std::acos(-1.0) / 4.0, 1e-12);
+  EXPECT_NEAR(scatter_ellipse(runs, 0).rotation_rad, std::acos(-1.0) / 4.0, 1e-12);
   EXPECT_NEAR(scatter_ellipse(runs, 0).b_m, 0.0, 1e-7);
   runs.resize(2);
   EXPECT_TRUE(std::isnan(scatter_ellipse(runs, 0).a_m));
@@ -257,7 +257,7 @@ TEST(PairDistancesFigure, ShowsEachPairThatHasPlacesAndWhatItIsOff) {
   const auto against = layers_of<Scatter>(figure.panels[0]);
   const auto off = layers_of<Scatter>(figure.panels[1]);
   ASSERT_EQ(against.size(), 2u);
-  ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no place in the map,
+  ASSERT_EQ(against[0].x.size(), 1u);  // The third landmark has no position in the map,
   ASSERT_EQ(against[1].x.size(), 2u);  // but one in the ground truth.
   EXPECT_DOUBLE_EQ(against[0].x[0], 3.1);
   EXPECT_DOUBLE_EQ(against[0].y[0], 3.3);
@@ -274,7 +274,7 @@ TEST(PairDistancesFigure, SaysThatNoPairHasAPlaceAndRefusesRowsThatAreNotThere) 
   const std::vector<MeasuredPair> none;
   const Figure figure = pair_distances_figure({"pairs", "Pairs", map, none});
   ASSERT_EQ(figure.notes.size(), 1u);
-  EXPECT_EQ(figure.notes[0].text, "No measured pair has a place.");
+  EXPECT_EQ(figure.notes[0].text, "No measured pair has a position.");
   for (const MeasuredPair& wrong : {MeasuredPair{0, 3}, MeasuredPair{1, 1}, MeasuredPair{-1, 2}}) {
     const std::vector<MeasuredPair> pairs = {wrong};
     EXPECT_THROW(pair_distances_figure({"pairs", "Pairs", map, pairs}), InvalidInput);
@@ -399,8 +399,8 @@ TEST(HeatMapFigure, RefusesWhatIsNoMatrix) {
 TEST(HeatMapFigure, WritesNumbersOnlyWhereAllOfThemFit) {
   const auto numbers_in = [](const HeatMapSpec& spec) {
     const Drawing drawing = lay_out(heat_map_figure(spec), report_theme());
-    return std::ranges::count_if(drawing.items,
-                                 [](const Item& item) { return item.role == Role::kCellText; });
+    return std::ranges::count_if(
+        drawing.items, [](const Item& item) { return item.item_class == ItemClass::kCellText; });
   };
   EXPECT_EQ(numbers_in(sample_heat(5, 4)), 20);
   EXPECT_EQ(numbers_in(sample_heat(30, 24)), 0);
@@ -428,7 +428,7 @@ TEST(HeatMapFigure, HasABarOfTheHeightOfItsFrameRightOfIt) {
   Box bar{1e9, 1e9, -1e9, -1e9};
   for (const Item& item : drawing.items)
     if (const auto* shape = std::get_if<Shape>(&item.what);
-        shape != nullptr && item.role == Role::kLegendSample && shape->fill) {
+        shape != nullptr && item.item_class == ItemClass::kLegendSample && shape->fill) {
       const Box box = bounds(shape->path);
       bar = {std::min(bar.x0, box.x0), std::min(bar.y0, box.y0), std::max(bar.x1, box.x1),
              std::max(bar.y1, box.y1)};

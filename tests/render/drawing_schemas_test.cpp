@@ -83,7 +83,7 @@ TEST(DrawingSchemas, RefuseWhatTheReaderRefuses) {
                                                  {"/views/0/camera/aspect", 9},
                                                  {"/views/0/camera/eye", {1, 2}},
                                                  {"/parts/0/style/opacity", 0},
-                                                 {"/parts/0/style/ink", "gold"},
+                                                 {"/parts/0/style/colour", "gold"},
                                                  {"/parts/0/tones", nullptr}})
     expect_both_refuse("scene", damaged(scene, pointer, by));
 }

@@ -12,11 +12,11 @@ namespace mapproof::test {
 namespace {
 
 TEST(SeriesStyle, NoTwoOfTheFirstTwentyOneAreAlike) {
-  std::set<std::tuple<Ink, Dash, Marker>> styles;
+  std::set<std::tuple<ThemeColour, Dash, Marker>> styles;
   std::set<std::pair<Dash, Marker>> grey;
   for (std::size_t i = 0; i < 21; ++i) {
     const SeriesStyle style = series_style(i);
-    EXPECT_TRUE(styles.insert({style.ink, style.dash, style.marker}).second) << i;
+    EXPECT_TRUE(styles.insert({style.colour, style.dash, style.marker}).second) << i;
     grey.insert({style.dash, style.marker});
     if (i == 9) {
       EXPECT_EQ(grey.size(), 10u);  // In grey.

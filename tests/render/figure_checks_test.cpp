@@ -58,11 +58,13 @@ class FigureChecks : public ::testing::Test {
 
   void add(const std::string& text, Point at, Colour colour = mapproof::colour(0x000000)) {
     drawing_.add_text(
-        Role::kMarkLabel, 0,
+        ItemClass::kMarkLabel, 0,
         {.shaped = shape_text(text), .whole = text, .at = at, .size = 12.0, .colour = colour});
   }
 
-  Item& item_of(Role role) { return *std::ranges::find(drawing_.items, role, &Item::role); }
+  Item& item_of(ItemClass item_class) {
+    return *std::ranges::find(drawing_.items, item_class, &Item::item_class);
+  }
 
   std::string found() { return joined(flaws(drawing_)); }
 
@@ -72,13 +74,13 @@ class FigureChecks : public ::testing::Test {
 TEST_F(FigureChecks, FindNothingInACleanFigure) { EXPECT_EQ(found(), ""); }
 
 TEST_F(FigureChecks, FindTextOnALine) {
-  const Point peak = std::get<Shape>(item_of(Role::kLine).what).path.points[1];
+  const Point peak = std::get<Shape>(item_of(ItemClass::kLine).what).path.points[1];
   add("peak", {peak.x - 12.0, peak.y + 4.0});
   EXPECT_NE(found().find("'peak' covers a line"), std::string::npos);
 }
 
 TEST_F(FigureChecks, FindTextOnAMarker) {
-  const Point at = std::get<Stamp>(item_of(Role::kMarker).what).at;
+  const Point at = std::get<Stamp>(item_of(ItemClass::kMarker).what).at;
   add("dot", {at.x - 8.0, at.y + 4.0});
   EXPECT_NE(found().find("'dot' covers"), std::string::npos);
 }
@@ -102,18 +104,18 @@ TEST_F(FigureChecks, FindTextOnTheFrame) {
 }
 
 TEST_F(FigureChecks, FindALegendOnData) {
-  const Point peak = std::get<Shape>(item_of(Role::kLine).what).path.points[1];
+  const Point peak = std::get<Shape>(item_of(ItemClass::kLine).what).path.points[1];
   Shape box;
   box.path.add_box(Box{peak.x, peak.y, peak.x, peak.y}.grown(10.0));
   box.fill = drawing_.background;
-  drawing_.add(Role::kLegendBox, 0, std::move(box));
+  drawing_.add(ItemClass::kLegendBox, 0, std::move(box));
   EXPECT_NE(found().find("legend-box covers data"), std::string::npos);
 }
 
 TEST_F(FigureChecks, FindPaleTextAndPaleLines) {
   const Box frame = drawing_.frames[0];
   add("pale", {frame.x0 + 20.0, frame.y0 + 30.0}, colour(0x999999));
-  std::get<Shape>(item_of(Role::kLine).what).stroke->colour = colour(0xF0E442);
+  std::get<Shape>(item_of(ItemClass::kLine).what).stroke->colour = colour(0xF0E442);
   EXPECT_NE(found().find("'pale' has too little contrast"), std::string::npos);
   EXPECT_NE(found().find("a line has too little contrast"), std::string::npos);
 }
@@ -125,7 +127,7 @@ TEST_F(FigureChecks, FindAGlyphThatTheFontLacks) {
 }
 
 TEST_F(FigureChecks, FindAMarkerOutsideThePage) {
-  std::get<Stamp>(item_of(Role::kMarker).what).at = {1.0, 200.0};
+  std::get<Stamp>(item_of(ItemClass::kMarker).what).at = {1.0, 200.0};
   EXPECT_NE(found().find("marker is cut"), std::string::npos);
 }
 

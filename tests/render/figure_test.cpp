@@ -144,10 +144,11 @@ TEST(FigureJson, NamesThePlaceOfWhatItCannotRead) {
       "f.json: /schema/version: version 2 is not known to this program, which reads version 1");
   EXPECT_EQ(message_of(replaced(text, "\"polyline\"", "\"pie\"")),
             "f.json: /panels/0/layers/0/kind: the kind \"pie\" is unknown");
-  EXPECT_EQ(message_of(replaced(text, "\"ink\": \"series1\"", "\"ink\": 3")),
-            "f.json: /panels/0/layers/0/ink: expected a string, got 3");
-  EXPECT_EQ(message_of(replaced(text, "\"ink\": \"series1\"", "\"ink\": \"serie1\"")),
-            "f.json: /panels/0/layers/0/ink: unknown ink \"serie1\": did you mean \"series1\"?");
+  EXPECT_EQ(message_of(replaced(text, "\"colour\": \"series1\"", "\"colour\": 3")),
+            "f.json: /panels/0/layers/0/colour: expected a string, got 3");
+  EXPECT_EQ(
+      message_of(replaced(text, "\"colour\": \"series1\"", "\"colour\": \"serie1\"")),
+      "f.json: /panels/0/layers/0/colour: unknown colour \"serie1\": did you mean \"series1\"?");
   EXPECT_EQ(message_of(replaced(text, "\"id\": \"small\"", "\"id\": \"../x\"")),
             "f.json: /id: expected a letter a-z and then up to 119 of a-z, 0-9 and '-', got "
             "\"../x\"");

@@ -23,15 +23,16 @@ Figure with_panels(std::size_t count) {
   return figure;
 }
 
-std::vector<TextLine> texts_of(const Drawing& drawing, Role role) {
+std::vector<TextLine> texts_of(const Drawing& drawing, ItemClass item_class) {
   std::vector<TextLine> lines;
   for (const Item& item : drawing.items)
-    if (item.role == role) lines.push_back(std::get<TextLine>(item.what));
+    if (item.item_class == item_class) lines.push_back(std::get<TextLine>(item.what));
   return lines;
 }
 
 bool legend_is_inside(const Drawing& drawing) {
-  return std::ranges::find(drawing.items, Role::kLegendBox, &Item::role) != drawing.items.end();
+  return std::ranges::find(drawing.items, ItemClass::kLegendBox, &Item::item_class) !=
+         drawing.items.end();
 }
 
 TEST(AxisMap, PutsLimitsAtTheEnds) {
@@ -142,7 +143,7 @@ TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
     figure.panels[0].equal_aspect = is_equal;
     figure.panels[0].layers.push_back(Polyline{.x = {0, 3}, .y = {0, 1}});
     const Drawing drawing = lay_out(figure, report_theme());
-    const std::vector<TextLine> lines = texts_of(drawing, Role::kAxisLabel);
+    const std::vector<TextLine> lines = texts_of(drawing, ItemClass::kAxisLabel);
     EXPECT_GT(lines.size(), 1U);
     EXPECT_EQ(joined_text(lines), label);
     for (const TextLine& line : lines) EXPECT_EQ(line.whole, label);
@@ -159,7 +160,7 @@ TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
     panel.layers.push_back(Polyline{.x = {0, 3}, .y = {0, 1}});
   }
   const Drawing drawing = lay_out(figure, report_theme());
-  EXPECT_EQ(joined_text(texts_of(drawing, Role::kAxisLabel)), label);
+  EXPECT_EQ(joined_text(texts_of(drawing, ItemClass::kAxisLabel)), label);
   EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
 }
 
@@ -174,7 +175,7 @@ TEST(Layout, ALongLabelOfAColourBarIsWrapped) {
                                           .limits = {1, 4},
                                           .bar_label = label});
   const Drawing drawing = lay_out(figure, report_theme());
-  std::vector<TextLine> lines = texts_of(drawing, Role::kLegendText);
+  std::vector<TextLine> lines = texts_of(drawing, ItemClass::kLegendText);
   std::erase_if(lines, [](const TextLine& line) { return !line.upward; });
   EXPECT_EQ(joined_text(lines), label);
   EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
@@ -186,7 +187,7 @@ TEST(Layout, PutsTheLegendInACornerThatIsFree) {
   const Drawing drawing = lay_out(figure, report_theme());
   ASSERT_TRUE(legend_is_inside(drawing));
   const Box frame = drawing.frames[0];
-  const TextLine text = texts_of(drawing, Role::kLegendText)[0];
+  const TextLine text = texts_of(drawing, ItemClass::kLegendText)[0];
   EXPECT_LT(text.at.x, frame.centre().x);  // The line ends at the upper right.
   EXPECT_LT(text.at.y, frame.centre().y);
 }
@@ -202,7 +203,7 @@ TEST(Layout, PutsTheLegendOutsideWhenDataAreEverywhere) {
   figure.panels[0].layers.push_back(dots);
   const Drawing drawing = lay_out(figure, report_theme());
   EXPECT_FALSE(legend_is_inside(drawing));
-  const Box text = ink_box(texts_of(drawing, Role::kLegendText)[0]);
+  const Box text = text_box(texts_of(drawing, ItemClass::kLegendText)[0]);
   EXPECT_FALSE(drawing.frames[0].overlaps(text));
 }
 
@@ -211,7 +212,7 @@ TEST(Layout, LayersOfOneLabelShareAnEntry) {
   figure.panels[0].layers = {Band{.label = "a", .x = {0, 1}, .low = {0, 0}, .high = {1, 1}},
                              Polyline{.label = "a", .x = {0, 1}, .y = {0, 1}},
                              Polyline{.label = "", .x = {0, 1}, .y = {1, 0}}};
-  EXPECT_EQ(texts_of(lay_out(figure, report_theme()), Role::kLegendText).size(), 1u);
+  EXPECT_EQ(texts_of(lay_out(figure, report_theme()), ItemClass::kLegendText).size(), 1u);
 }
 
 TEST(Layout, LabelsOfCrowdedPointsCoverNeitherMarksNorEachOther) {
@@ -227,7 +228,7 @@ TEST(Layout, LabelsOfCrowdedPointsCoverNeitherMarksNorEachOther) {
   dots.y = labels.y;
   figure.panels[0].layers = {dots, labels};
   const Drawing drawing = lay_out(figure, report_theme());
-  EXPECT_EQ(texts_of(drawing, Role::kMarkLabel).size(), 12u);
+  EXPECT_EQ(texts_of(drawing, ItemClass::kMarkLabel).size(), 12u);
   EXPECT_TRUE(flaws(drawing).empty());
 }
 

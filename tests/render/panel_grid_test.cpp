@@ -28,8 +28,8 @@ Figure grid(std::size_t count, bool shared) {
   return figure;
 }
 
-std::size_t count_of(const Drawing& drawing, Role role) {
-  return static_cast<std::size_t>(std::ranges::count(drawing.items, role, &Item::role));
+std::size_t count_of(const Drawing& drawing, ItemClass item_class) {
+  return static_cast<std::size_t>(std::ranges::count(drawing.items, item_class, &Item::item_class));
 }
 
 /// A figure with one layer of each kind of area.
@@ -40,7 +40,8 @@ Figure of_areas() {
   panel.layers = {
       Cells{.label = "cells", .x = {0, 2}, .y = {0, 2}, .columns = 2, .values = {0, 1, 1, NAN}},
       Area{.label = "area", .x = {3, 4, 4, NAN}, .y = {0, 0, 1, NAN}, .outlined = true},
-      Ellipses{.x = {3}, .y = {2}, .a = {1}, .b = {0.5}, .turn_rad = {0.5}, .fill = Fill::kTint},
+      Ellipses{
+          .x = {3}, .y = {2}, .a = {1}, .b = {0.5}, .rotation_rad = {0.5}, .fill = Fill::kTint},
       Texts{.x = {0}, .y = {3}, .text = {"a text that is quite long"}, .align = Align::kEnd}};
   return figure;
 }
@@ -55,15 +56,16 @@ TEST(PanelGrid, FramesOfSharedAxesHaveOneSizeAndStandInLine) {
     EXPECT_NEAR(drawing.frames[i].x0, drawing.frames[i % 5].x0, 1e-9);
   }
   EXPECT_GT(drawing.frames[5].y0, first.y1);
-  EXPECT_EQ(count_of(drawing, Role::kAxisLabel), 2u);
-  EXPECT_EQ(count_of(drawing, Role::kLegendText), 1u);
+  EXPECT_EQ(count_of(drawing, ItemClass::kAxisLabel), 2u);
+  EXPECT_EQ(count_of(drawing, ItemClass::kLegendText), 1u);
 }
 
 TEST(PanelGrid, SharedAxesHaveTheSameLimits) {
   const Drawing drawing = lay_out(grid(2, true), report_theme());
   std::vector<Point> ends;
   for (const Item& item : drawing.items)
-    if (item.role == Role::kLine) ends.push_back(std::get<Shape>(item.what).path.points[1]);
+    if (item.item_class == ItemClass::kLine)
+      ends.push_back(std::get<Shape>(item.what).path.points[1]);
   ASSERT_EQ(ends.size(), 2u);
   const double first = (ends[0].x - drawing.frames[0].x0) / drawing.frames[0].width();
   const double second = (ends[1].x - drawing.frames[1].x0) / drawing.frames[1].width();
@@ -91,8 +93,8 @@ TEST(PanelGrid, ArrowsStandBetweenTheirPanels) {
   figure.arrows = {{0, "observe"}, {1, "embed"}};
   for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
     const Drawing drawing = lay_out(figure, theme);
-    EXPECT_EQ(count_of(drawing, Role::kPanelArrowLabel), 2u);
-    EXPECT_EQ(count_of(drawing, Role::kPanelArrow), 4u);
+    EXPECT_EQ(count_of(drawing, ItemClass::kPanelArrowLabel), 2u);
+    EXPECT_EQ(count_of(drawing, ItemClass::kPanelArrow), 4u);
     for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << theme.name << ": " << flaw;
   }
 }
@@ -124,7 +126,7 @@ TEST(Areas, RefuseWhatCannotBeDrawn) {
   refuses([](Panel& p) { std::get<Cells>(p.layers[0]).x = {1.0, 1.0}; });
   refuses([](Panel& p) { std::get<Area>(p.layers[1]).y.pop_back(); });
   refuses([](Panel& p) { std::get<Ellipses>(p.layers[2]).a[0] = -1.0; });
-  refuses([](Panel& p) { std::get<Ellipses>(p.layers[2]).turn_rad.clear(); });
+  refuses([](Panel& p) { std::get<Ellipses>(p.layers[2]).rotation_rad.clear(); });
   refuses([](Panel& p) { std::get<Texts>(p.layers[3]).text.clear(); });
   refuses([](Panel& p) { p.x.scale = Scale::kLog; });
 }

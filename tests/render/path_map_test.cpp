@@ -28,7 +28,7 @@ TEST(PathMap, HasTheMapAboveAndTheErrorsBelow) {
   EXPECT_EQ(figure.panels[1].y.scale, Scale::kLog);
 }
 
-TEST(PathMap, DrawsTheGroundTruthBelowAndEachMethodInItsOwnInk) {
+TEST(PathMap, DrawsTheGroundTruthBelowAndEachMethodInItsOwnColour) {
   const Panel map = figure_of(sample_drive("plaza-1", 2000, 1)).panels[0];
   const auto paths = layers_of<Polyline>(map);
   ASSERT_EQ(paths.size(), 4u);
@@ -36,7 +36,7 @@ TEST(PathMap, DrawsTheGroundTruthBelowAndEachMethodInItsOwnInk) {
   EXPECT_GT(paths[0].width, 2.0 * paths[2].width);
   for (std::size_t i = 0; i < kShown.size(); ++i) {
     EXPECT_EQ(paths[i + 1].label, info(kShown[i]).label);
-    EXPECT_EQ(paths[i + 1].ink, path_style(kShown[i]).ink);
+    EXPECT_EQ(paths[i + 1].colour, path_style(kShown[i]).colour);
   }
 }
 
@@ -135,7 +135,7 @@ TEST(CovarianceEllipse, HasTheEigenvaluesAsHalfAxes) {
   const Ellipse ellipse = covariance_ellipse(C);
   EXPECT_NEAR(ellipse.a / ellipse.b, 2.0, 1e-12);
   EXPECT_NEAR(ellipse.b, std::sqrt(-2.0 * std::log(0.05)), 1e-12);
-  EXPECT_NEAR(ellipse.turn_rad, std::atan(1.0), 1e-12);
+  EXPECT_NEAR(ellipse.rotation_rad, std::atan(1.0), 1e-12);
   EXPECT_EQ(covariance_ellipse(-C).a, 0.0);
 }
 

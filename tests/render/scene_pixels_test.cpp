@@ -90,7 +90,7 @@ TEST_P(ScenePixelsByEachWay, DoNotDependOnWhatWasDrawnBefore) {
 }
 
 /// The middle of all pixels that are not white.
-Point ink_middle(const Image& image) {
+Point middle_of_marks(const Image& image) {
   double x = 0.0, y = 0.0, count = 0.0;
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column)
@@ -105,13 +105,13 @@ TEST(ScenePixels, StandWhereTheProjectionSays) {
     for (const Point3& at :
          {Point3{0.9, 0.2, 0.4}, Point3{-0.8, 0.5, -0.3}, Point3{0.0, -0.9, 0.6}}) {
       Scene scene = small_scene();
-      scene.parts = {
-          Spheres{.at = {at}, .radius = 0.03, .style = {.ink = Ink::kText, .lit = false}}};
+      scene.parts = {Spheres{
+          .at = {at}, .radius = 0.03, .style = {.colour = ThemeColour::kText, .lit = false}}};
       const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
       scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
       const Point p = Projection(scene.views[0].camera)(at);
       const Image image = one.draw(scene, 0, 960, 600, 0, report_theme());
-      const Point middle = ink_middle(image);
+      const Point middle = middle_of_marks(image);
       EXPECT_NEAR(middle.x, 300.0 * (1.6 + p.x), 0.6);
       EXPECT_NEAR(middle.y, 300.0 * (1.0 - p.y), 0.6);
     }

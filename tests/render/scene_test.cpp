@@ -31,7 +31,7 @@ TEST(Scene, LosesNothingThatIsNotAsItUsuallyIs) {
   Scene scene = small_scene();
   scene.varies = true;
   scene.columns = 2;
-  scene.notes = {{"a note", Ink::kWarning}};
+  scene.notes = {{"a note", ThemeColour::kWarning}};
   Surface& sheet = std::get<Surface>(scene.parts[5]);
   sheet.smooth = true;
   sheet.tones = {{0.5, 1.0, 1.5, 2.0}, {0.25, 3.0}};
@@ -44,7 +44,7 @@ TEST(Scene, LosesNothingThatIsNotAsItUsuallyIs) {
   view.parts = {0, 2, 5};
   view.camera.parallel = true;
   view.camera.height = 3.5;
-  view.labels[0].ink = Ink::kWarning;
+  view.labels[0].colour = ThemeColour::kWarning;
   view.rules[0].away = {0.5, -0.5, 0.25};
   scene.lights[0].strength = 0.625;
   EXPECT_EQ(scene_from_json(scene_to_json(scene), "scene"), scene);
@@ -186,8 +186,8 @@ TEST(SceneFigure, LabelsStandInTheImageAndOffTheSolids) {
     const auto* line = std::get_if<TextLine>(&item.what);
     if (line == nullptr || (line->shaped.text != "σ² = ½" && line->shaped.text != "λ")) continue;
     ++labels;
-    EXPECT_TRUE(frame.holds(ink_box(*line)));
-    EXPECT_FALSE(is_on_a_solid(ink_box(*line))) << line->shaped.text;
+    EXPECT_TRUE(frame.holds(text_box(*line)));
+    EXPECT_FALSE(is_on_a_solid(text_box(*line))) << line->shaped.text;
   }
   EXPECT_EQ(labels, 2);
 }

@@ -142,7 +142,7 @@ TEST(ShapedText, HasOneGlyphForEachLetterAndNoneMissing) {
   EXPECT_EQ(shaped.glyphs.size(), 6u);
   for (const Glyph& glyph : shaped.glyphs) EXPECT_NE(glyph.index, 0u);
   EXPECT_GT(shaped.advance, shape_text("ofic").advance);
-  EXPECT_LE(shaped.ink.x1, shaped.advance + 0.1);
+  EXPECT_LE(shaped.bounds.x1, shaped.advance + 0.1);
 }
 
 TEST(ShapedText, ClustersCoverAllBytesAndGlyphs) {

@@ -36,7 +36,7 @@ class Browser : public ::testing::Test {
   }
 };
 
-/// Ten comes before nine as text; the missing value and the NaN have no place in the order.
+/// Ten comes before nine as text; the missing value and the NaN come last.
 Report numbers() {
   Table table{"numbers", "Numbers", {{"Name", "", "", ""}, {"Value", "m", "", ""}}, {}, {}};
   const auto add = [&](const char* name, Cell cell) {
@@ -95,7 +95,7 @@ TEST_F(Browser, PrintsEveryRowOfATableWithItsScriptAndWithout) {
     const std::string text = test::printed_text(page);
     for (const char* row : {"row0", "row39"})
       EXPECT_NE(text.find(row), std::string::npos) << row << " script: " << with_script;
-    // A closed list of places is opened by the script.
+    // A closed list of locations is opened by the script.
     EXPECT_EQ(text.find("detail seven") != std::string::npos, with_script);
   }
 }

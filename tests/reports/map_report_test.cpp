@@ -103,7 +103,7 @@ TEST(MapReport, ListsWhatWasDroppedAndWhatWentWrong) {
             "line 7: row dropped");
   const auto& list = std::get<StatusList>(report.sections[4].blocks[0]);
   EXPECT_EQ(list.items[0].code, "landmark_unseen");
-  EXPECT_EQ(list.items[0].places[0].detail, "1 landmark: c.");
+  EXPECT_EQ(list.items[0].locations[0].detail, "1 landmark: c.");
 }
 
 TEST(MapReport, RefusesARecordWhosePartsDisagree) {

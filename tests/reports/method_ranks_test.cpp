@@ -79,7 +79,7 @@ TEST(OrderingClaims, CompareRunByRunWithLayoutsAsUnits) {
   EXPECT_EQ(claims[0].difference_m->clusters, 5);
   EXPECT_EQ(claims[0].layouts_where, 5);
   EXPECT_TRUE(claims[0].holds());
-  EXPECT_TRUE(claims[0].is_sure());
+  EXPECT_TRUE(claims[0].is_significant());
   EXPECT_FALSE(claims[1].holds());
   EXPECT_EQ(claims[1].layouts_where, 0);
 }
@@ -92,7 +92,7 @@ TEST(OrderingClaims, SayNothingOfMethodsThatWereNotTried) {
   const auto claims = ordering_claims(study, sensor);
   EXPECT_FALSE(claims[0].difference_m);
   EXPECT_FALSE(claims[0].holds());
-  EXPECT_FALSE(claims[0].is_sure());
+  EXPECT_FALSE(claims[0].is_significant());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/sections/proofs.hpp"
+#include "reports/sections/certificates.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/section_text.hpp"
@@ -21,9 +21,9 @@ TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
   EXPECT_EQ(list.items[0].code, "failed");
   EXPECT_EQ(list.items[0].count, 4);
   EXPECT_EQ(list.items[0].of, 40);
-  EXPECT_EQ(list.items[0].places[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
+  EXPECT_EQ(list.items[0].locations[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
   for (const StatusList::Item& item : list.items) {
-    EXPECT_LE(item.places.size(), 5u);
+    EXPECT_LE(item.locations.size(), 5u);
     EXPECT_FALSE(item.meaning.empty());
   }
 }
@@ -74,13 +74,13 @@ TEST(ProvenanceSection, SaysWhichMethodTakesMostOfTheTime) {
   EXPECT_FALSE(says(provenance_section(study, {}, timings, ""), "largest share"));
 }
 
-TEST(ProofsSection, IsLeftOutWithoutASemidefiniteProgram) {
-  EXPECT_FALSE(proofs_section(synthetic_study()));
+TEST(CertificatesSection, IsLeftOutWithoutASemidefiniteProgram) {
+  EXPECT_FALSE(certificates_section(synthetic_study()));
 }
 
-TEST(ProofsSection, CountsWhatIsProvedAndNamesTheWorstRecord) {
+TEST(CertificatesSection, CountsWhatIsCertifiedAndNamesTheWorstRecord) {
   Study study = synthetic_study(2, 1);
-  const auto proved = [](double gap) {
+  const auto certified = [](double gap) {
     return Certificate{SdpSolver::kInteriorPoint, 10.0, 10.0 * (1.0 + gap), gap, 1e-9};
   };
   auto& records = study.runs[1].records;
@@ -89,32 +89,32 @@ TEST(ProofsSection, CountsWhatIsProvedAndNamesTheWorstRecord) {
     records[i].setting = sde;
     records[i].sensor = Sensor::kVisibility;
   }
-  records[0].certificate = proved(1e-9);
-  records[1].certificate = proved(3e-4);
+  records[0].certificate = certified(1e-9);
+  records[1].certificate = certified(3e-4);
   records[2].certificate =
       Certificate{SdpSolver::kLowRank, 10.0, std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity(), 0.0};
   // At the bound, but by distances that are not kept.
-  records[3].certificate = proved(1e-9);
+  records[3].certificate = certified(1e-9);
   records[3].certificate->constraint_residual = 0.78;
-  const auto section = proofs_section(study);
+  const auto section = certificates_section(study);
   ASSERT_TRUE(section);
   EXPECT_TRUE(says(*section,
                    "4 programs solved, 3 by interior point (ours) and 1 by low rank "
                    "(ours)"))
       << test::words(*section);
   EXPECT_TRUE(says(*section, "within 1e-06: 1 of them")) << test::words(*section);
-  const Table& table = table_named(*section, "proofs");
+  const Table& table = table_named(*section, "certificates");
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "3.0e-04");
   EXPECT_EQ(table.rows[0].source, record_id({2, 1}, Sensor::kVisibility, sde, records[1].step));
   EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[5]).text, "no bound");
 }
 
-TEST(CertificateSection, SaysWhetherTheMapIsProvedAndWhenNoPointsHaveTheDistances) {
-  const Certificate proved{SdpSolver::kInteriorPoint, 10.0, 10.0, 0.0, 0.0};
-  EXPECT_TRUE(says(certificate_section(proved), "No other map"));
-  Certificate bad = proved;
+TEST(CertificateSection, SaysWhetherTheMapIsCertifiedAndWhenNoPointsHaveTheDistances) {
+  const Certificate certified{SdpSolver::kInteriorPoint, 10.0, 10.0, 0.0, 0.0};
+  EXPECT_TRUE(says(certificate_section(certified), "No other map"));
+  Certificate bad = certified;
   bad.constraint_residual = 0.1;
   EXPECT_TRUE(says(certificate_section(bad), "not certified"));
   bad.dual = -5e16;

@@ -1,6 +1,5 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_run_section.hpp"
-#include "reports/sections/slam/slam_summary.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -284,7 +283,7 @@ TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
   ASSERT_EQ(list.items.size(), 3u);
   EXPECT_TRUE(list.items[0].failed);
   EXPECT_EQ(list.items[1].where, "Plaza 1, extended Kalman filter");
-  EXPECT_EQ(list.items[1].places[0].record_id, "plaza-1/ekf");
+  EXPECT_EQ(list.items[1].locations[0].record_id, "plaza-1/ekf");
 }
 
 TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {

@@ -156,11 +156,11 @@ TEST(StudyFigures, LeaveASettingWhoseStartWasNotTimedOutOfTheCosts) {
 
 TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
   for (const bool graph : {false, true}) {
-    std::set<Ink> inks;
+    std::set<ThemeColour> colours;
     for (const MethodInfo& method : all_methods())
       if (on_graph(method.method) == graph) {
-        const Ink ink = series_style(series_of_method(method.method)).ink;
-        EXPECT_TRUE(inks.insert(ink).second) << method.name;
+        const ThemeColour colour = series_style(series_of_method(method.method)).colour;
+        EXPECT_TRUE(colours.insert(colour).second) << method.name;
       }
   }
   std::set<std::size_t> series;

@@ -5,8 +5,6 @@
 
 #include <expat.h>
 
-#include "reports/diff/svg/xml_place.hpp"
-
 namespace mapproof::test {
 namespace {
 
@@ -40,8 +38,7 @@ std::vector<XmlElement> parse_xml(std::string_view xml) {
   XML_SetElementHandler(parser.get(), start, end);
   XML_SetCharacterDataHandler(parser.get(), text);
   if (XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), 1) != XML_STATUS_OK)
-    throw std::runtime_error("line " + std::to_string(line_of(parser.get())) + ": " +
-                             XML_ErrorString(XML_GetErrorCode(parser.get())));
+    throw std::runtime_error(XML_ErrorString(XML_GetErrorCode(parser.get())));
   return std::move(state.elements);
 }
 

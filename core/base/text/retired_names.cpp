@@ -23,6 +23,10 @@ constexpr std::array kRetired = {
     RetiredName{kKey, "night", "nightly_run"},
     RetiredName{kKey, "nights", "nightly_runs"},
     RetiredName{kKey, "place", "location"},
+    RetiredName{kKey, "ink", "colour"},
+    RetiredName{kKey, "turn_rad", "rotation_rad"},
+    RetiredName{kKey, "turn_rad", "heading_change_rad"},
+    RetiredName{kKey, "turn_sigma_rad", "heading_change_sigma_rad"},
     RetiredName{kExperiment, "labels", "association"},
     RetiredName{kExperiment, "online", "incremental"},
 };
@@ -31,9 +35,11 @@ constexpr std::array kRetired = {
 
 std::span<const RetiredName> retired_names() { return kRetired; }
 
-std::string_view replacement_of(NameKind kind, std::string_view name) {
+std::string_view replacement_of(NameKind kind, std::string_view name,
+                                std::span<const std::string_view> among) {
   const auto found = std::ranges::find_if(kRetired, [&](const RetiredName& retired) {
-    return retired.kind == kind && retired.name == name;
+    return retired.kind == kind && retired.name == name &&
+           (among.empty() || std::ranges::find(among, retired.now) != among.end());
   });
   return found == kRetired.end() ? std::string_view{} : found->now;
 }

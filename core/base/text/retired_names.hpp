@@ -24,6 +24,8 @@ struct RetiredName {
 std::span<const RetiredName> retired_names();
 
 /// The name that replaced `name`; empty if it is not a retired name of that kind.
-std::string_view replacement_of(NameKind kind, std::string_view name);
+/// @param among  The new name is one of these; empty: any.
+std::string_view replacement_of(NameKind kind, std::string_view name,
+                                std::span<const std::string_view> among = {});
 
 }  // namespace mapproof

@@ -385,25 +385,25 @@ std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
   return step;
 }
 
-ProvedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& gram,
-                                       const InteriorPointOptions& options) {
+CertifiedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& gram,
+                                          const InteriorPointOptions& options) {
   InteriorPoint method(problem, gram, options);
   method.run(kGapToPolish);
   method.forget_schur();  // Refining makes a matrix of that size.
   const auto candidate = polished(problem, method.solution(method.dividing_eigenvalue()));
   if (candidate) {
-    const Certificate proof = certify(problem, *candidate);
-    if (proof.relative_gap <= options.relative_gap &&
-        proof.constraint_residual <= options.constraint_residual)
-      return {.solution = *candidate, .certificate = proof};
+    const Certificate certificate = certify(problem, *candidate);
+    if (certificate.relative_gap <= options.relative_gap &&
+        certificate.constraint_residual <= options.constraint_residual)
+      return {.solution = *candidate, .certificate = certificate};
   }
   method.run(options.relative_gap);
   Solution solution = method.solution(0.0);
   Rows Y = solution.Y;
   centre(problem, Y);
   solution.Y = Y;
-  const Certificate proof = certify(problem, solution);
-  return {.solution = std::move(solution), .certificate = proof};
+  const Certificate certificate = certify(problem, solution);
+  return {.solution = std::move(solution), .certificate = certificate};
 }
 
 }  // namespace mapproof::unfolding

@@ -93,7 +93,7 @@ struct InteriorPointOptions {
 /// @param gram  points x points: inner products the pairs' distances nearly follow from.
 /// @return The last iterate, whether or not it meets the options.
 /// @note O(m^3 / 3 + n^3) time an iteration, O(m^2) memory for m pairs. Deterministic.
-ProvedSolution solve_by_interior_point(const Problem& problem, const Eigen::MatrixXd& gram,
-                                       const InteriorPointOptions& options = {});
+CertifiedSolution solve_by_interior_point(const Problem& problem, const Eigen::MatrixXd& gram,
+                                          const InteriorPointOptions& options = {});
 
 }  // namespace mapproof::unfolding

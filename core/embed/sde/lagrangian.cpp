@@ -34,8 +34,8 @@ class Ascent {
     centre(problem_, Y_);
   }
 
-  ProvedSolution run() {
-    for (int round = 0; round < options_.max_rounds && !proved(); ++round) {
+  CertifiedSolution run() {
+    for (int round = 0; round < options_.max_rounds && !certified(); ++round) {
       lagrangian_.descend(Y_, w_, round < 3 || round % 5 == 0);
       const bool last = round + 1 == options_.max_rounds;
       if ((round + 1) % kRoundsToJudgement != 0 && !last) continue;
@@ -48,7 +48,7 @@ class Ascent {
   }
 
  private:
-  bool proved() const {
+  bool certified() const {
     return best_.solution.Y.size() > 0 && best_.certificate.relative_gap <= options_.relative_gap &&
            best_.certificate.constraint_residual <= options_.constraint_residual;
   }
@@ -89,7 +89,7 @@ class Ascent {
   AugmentedLagrangian lagrangian_;
   Rows Y_;
   Eigen::VectorXd w_;
-  ProvedSolution best_;
+  CertifiedSolution best_;
 };
 
 constexpr double kPenalty = 10.0;
@@ -113,8 +113,8 @@ void take_mass(const Problem& problem, const Rows& Y, Rows& out) {
 
 }  // namespace
 
-ProvedSolution solve_low_rank(const Problem& problem, const Eigen::MatrixXd& start,
-                              const LowRankOptions& options) {
+CertifiedSolution solve_low_rank(const Problem& problem, const Eigen::MatrixXd& start,
+                                 const LowRankOptions& options) {
   return Ascent(problem, start, options).run();
 }
 

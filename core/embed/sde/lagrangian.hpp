@@ -21,8 +21,8 @@ struct LowRankOptions {
 /// @param start  points x any number of columns; the nearer to feasible the better.
 /// @return The best certified solution, whether or not it meets the options.
 /// @note Deterministic. O(pairs rank) time per product, O(points^3) per certificate.
-ProvedSolution solve_low_rank(const Problem& problem, const Eigen::MatrixXd& start,
-                              const LowRankOptions& options = {});
+CertifiedSolution solve_low_rank(const Problem& problem, const Eigen::MatrixXd& start,
+                                 const LowRankOptions& options = {});
 
 /// One row per point, contiguous: everything here reads pairs of rows.
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

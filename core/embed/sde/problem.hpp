@@ -53,7 +53,7 @@ struct Solution {
 };
 
 /// A solution with its dual certificate.
-struct ProvedSolution {
+struct CertifiedSolution {
   Solution solution;
   Certificate certificate;
 };

@@ -59,16 +59,17 @@ bool meets(const Certificate& certificate, const SdeOptions& options) {
          certificate.constraint_residual <= options.constraint_residual;
 }
 
-unfolding::ProvedSolution proved(const unfolding::Problem& problem, unfolding::Solution solution) {
+unfolding::CertifiedSolution certified(const unfolding::Problem& problem,
+                                       unfolding::Solution solution) {
   const Certificate certificate = unfolding::certify(problem, solution);
   return {.solution = std::move(solution), .certificate = certificate};
 }
 
 /// By the requested solver; where ours certifies too little, CSDP runs too if that is cheap.
-unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::MatrixXd& distances,
-                                const SdeOptions& options) {
+unfolding::CertifiedSolution solve(const unfolding::Problem& problem,
+                                   const Eigen::MatrixXd& distances, const SdeOptions& options) {
   if (options.solver == SdpSolver::kCsdp)
-    return proved(problem, unfolding::solve_with_csdp(problem).solution);
+    return certified(problem, unfolding::solve_with_csdp(problem).solution);
   const Eigen::MatrixXd gram = data_gram(problem, distances);
   if (options.solver == SdpSolver::kLowRank ||
       problem.squared.size() > unfolding::kMostInteriorPairs)
@@ -76,12 +77,13 @@ unfolding::ProvedSolution solve(const unfolding::Problem& problem, const Eigen::
         problem, low_rank_start(problem, gram),
         {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
   const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : kSomeDigits;
-  unfolding::ProvedSolution own = unfolding::solve_by_interior_point(
+  unfolding::CertifiedSolution own = unfolding::solve_by_interior_point(
       problem, gram,
       {.relative_gap = part * options.relative_gap,
        .constraint_residual = part * options.constraint_residual});
   if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain) return own;
-  unfolding::ProvedSolution other = proved(problem, unfolding::solve_with_csdp(problem).solution);
+  unfolding::CertifiedSolution other =
+      certified(problem, unfolding::solve_with_csdp(problem).solution);
   return meets(other.certificate, options) ? other : own;
 }
 
@@ -136,7 +138,7 @@ Embedding sde(const Eigen::MatrixXd& distances, const SdeOptions& options) {
     put_coordinates(problem, Eigen::MatrixXd::Zero(1, 1), 0.0, result);
     return result;
   }
-  const unfolding::ProvedSolution answer = solve(problem, distances, options);
+  const unfolding::CertifiedSolution answer = solve(problem, distances, options);
   result.iterations = answer.solution.iterations;
   result.certificate = answer.certificate;
   // What is below the accuracy of the solve is not a spread.

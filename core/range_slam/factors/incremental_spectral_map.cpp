@@ -68,7 +68,7 @@ Eigen::MatrixXd of_first_four(const Eigen::MatrixXd& moments, Eigen::Index q) {
 }  // namespace
 
 IncrementalSpectralMap::IncrementalSpectralMap(Eigen::Index landmarks) {
-  if (landmarks < 1) throw InvalidInput("an online map needs landmarks");
+  if (landmarks < 1) throw InvalidInput("an incremental map needs landmarks");
   gram_ = Eigen::MatrixXd::Zero(landmarks, landmarks);
   sum_ = Eigen::VectorXd::Zero(landmarks);
   pending_.resize(landmarks, std::max(kBlockALandmark * landmarks, kLeastBlock));

@@ -34,7 +34,7 @@ Eigen::Vector3d reached_from(const Eigen::Vector3d& origin, const Eigen::Vector3
 }  // namespace
 
 std::string OdometryNoise::problem() const {
-  const bool is_positive = forward_m > 0.0 && sideways_m > 0.0 && turn_rad > 0.0;
+  const bool is_positive = forward_m > 0.0 && sideways_m > 0.0 && heading_change_rad > 0.0;
   return is_positive ? "" : "the noise of odometry must be positive";
 }
 
@@ -72,7 +72,7 @@ KeyMotion KeyPoses::motion_between(Eigen::Index first, Eigen::Index last,
   const Eigen::Vector3d origin = pose_of(path_, first);
   const Eigen::Vector3d variances(noise.forward_m * noise.forward_m,
                                   noise.sideways_m * noise.sideways_m,
-                                  noise.turn_rad * noise.turn_rad);
+                                  noise.heading_change_rad * noise.heading_change_rad);
   // The error of what was put together so far turns with its heading's error at each step.
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();
   Eigen::Vector3d before = Eigen::Vector3d::Zero();

@@ -13,7 +13,7 @@ namespace mapproof {
 struct OdometryNoise {
   double forward_m = 0.02;
   double sideways_m = 0.02;
-  double turn_rad = 0.005;
+  double heading_change_rad = 0.005;
 
   /// The problem if one is not positive; empty otherwise.
   std::string problem() const;

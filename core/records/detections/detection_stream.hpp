@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-/// All that one scan of a growing file showed.
+/// All that one scan of a file that grows showed.
 struct StreamedScan {
   ScanKey scan;
   std::vector<Detection> detections;  ///< Ascending by landmark; their step is 0.

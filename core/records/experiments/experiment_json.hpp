@@ -112,7 +112,7 @@ template <typename Visitor>
 void fields(Visitor& v, WalkOptions& walk) {
   using namespace record_rules;
   v.field("step_m", walk.step_m, kStepLength);
-  v.field("turn_rad", walk.turn_rad,
+  v.field("heading_change_rad", walk.heading_change_rad,
           {.minimum = 0.0, .maximum = std::numbers::pi, .key = Key::kOptional});
   v.field("substep_m", walk.substep_m, kStepLength);
   v.field("clearance_m", walk.clearance_m, kLengthOf);
@@ -170,7 +170,7 @@ void fields(Visitor& v, Published& published) {
   v.about("Numbers that a paper printed, compared with ours.");
   v.field("source", published.source, {.not_empty = true, .max_bytes = 200});
   v.field("table", published.table,
-          {.description = "Id of the table that has ours beside them; others go with it.",
+          {.description = "Id of the table that compares ours with them; others go with it.",
            .max_bytes = 40,
            .form = &kTableId,
            .key = Key::kIfAny});

@@ -68,7 +68,7 @@ void fields(Visitor& v, SlamWorldOptions& world) {
   v.field("half_width_m", world.half_width_m, kHalfWidth);
   v.field("step_m", world.step_m, at_least(1e-6));
   check_at_most(v, "step_m", world.step_m, 1e-6, world.half_width_m);
-  v.field("turn_sigma_rad", world.turn_sigma_rad, kTurn);
+  v.field("heading_change_sigma_rad", world.heading_change_sigma_rad, kTurn);
 }
 
 template <typename Visitor>
@@ -133,7 +133,7 @@ void fields(Visitor& v, SpaceFlightOptions& space) {
   if constexpr (Visitor::kReads) space.step_m = std::min(space.step_m, 0.5 * space.height_m);
   v.field("step_m", space.step_m, at_least(1e-6));
   check_at_most(v, "step_m", space.step_m, 1e-6, 0.5 * space.height_m);
-  v.field("turn_sigma_rad", space.turn_sigma_rad, kTurn);
+  v.field("heading_change_sigma_rad", space.heading_change_sigma_rad, kTurn);
   v.field("noise", space.noise);
 }
 

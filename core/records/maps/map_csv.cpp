@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 14> kMapColumns = {"name",        "x_m",
                                                           "true_y_m",    "error_m",
                                                           "anchor",      "ellipse_a_m",
                                                           "ellipse_b_m", "ellipse_a",
-                                                          "ellipse_b",   "ellipse_turn_deg"};
+                                                          "ellipse_b",   "ellipse_rotation_deg"};
 
 class MapReader {
  public:

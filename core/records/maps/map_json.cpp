@@ -15,7 +15,7 @@ std::string ellipse_fields(const MapCertainty& certainty, Eigen::Index i) {
   const std::optional<Ellipse> ellipse = confidence_ellipse(certainty, i);
   if (!ellipse) return ",,,";
   return ',' + csv_number(ellipse->a) + ',' + csv_number(ellipse->b) + ',' +
-         csv_number(ellipse->turn_rad * 180.0 / std::numbers::pi);
+         csv_number(ellipse->rotation_rad * 180.0 / std::numbers::pi);
 }
 
 std::string csv_row(const MapRecord& map, Eigen::Index i) {
@@ -57,8 +57,8 @@ std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& cer
   std::string csv = metric ? "name,x_m,y_m,true_x_m,true_y_m,error_m,anchor"
                            : "name,x,y,true_x_m,true_y_m,anchor";
   if (certainty)
-    csv += metric ? ",ellipse_a_m,ellipse_b_m,ellipse_turn_deg"
-                  : ",ellipse_a,ellipse_b,ellipse_turn_deg";
+    csv += metric ? ",ellipse_a_m,ellipse_b_m,ellipse_rotation_deg"
+                  : ",ellipse_a,ellipse_b,ellipse_rotation_deg";
   csv += "\r\n";
   for (Eigen::Index i = 0; i < map.estimate.rows(); ++i)
     csv += csv_row(map, i) + (certainty ? ellipse_fields(*certainty, i) : "") + "\r\n";

@@ -18,7 +18,7 @@
 
 namespace mapproof {
 
-/// All that one step of a growing file listed.
+/// All that one step of a file that grows listed.
 struct StreamedStep {
   double step = 0.0;                                    ///< Or time.
   std::vector<std::pair<Eigen::Index, double>> values;  ///< Landmark and value; missing ones not.

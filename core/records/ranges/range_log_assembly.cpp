@@ -14,6 +14,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 namespace mapproof {
 namespace {
@@ -21,9 +22,9 @@ namespace {
 /// Mean cosine of heading and travel below which headings are off by half a turn.
 constexpr double kTurnedAbout = -0.5;
 /// Heading changes that differ by less are the same to the last digit.
-constexpr double kSameTurn_rad = 1e-9;
+constexpr double kSameHeadingChange_rad = 1e-9;
 /// A log without a heading change above this does not turn.
-constexpr double kSomeTurn_rad = 1e-3;
+constexpr double kSomeHeadingChange_rad = 1e-3;
 
 /// A name as letters and the number behind them; empty if it is none such.
 std::optional<std::pair<std::string_view, long long>> numbered(std::string_view name) {
@@ -191,14 +192,14 @@ bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
   const auto steps = static_cast<Eigen::Index>(motions.size());
   if (ground_truth.heading_rad.size() != steps + 1) return false;
   double largest = 0.0;
-  double most_turn = 0.0;
+  double most_change = 0.0;
   for (Eigen::Index i = 0; i < steps; ++i) {
-    const double turn = motions[static_cast<std::size_t>(i)].turn_rad;
-    const double true_turn = ground_truth.heading_rad(i + 1) - ground_truth.heading_rad(i);
-    largest = std::max(largest, std::abs(wrapped(turn - true_turn)));
-    most_turn = std::max(most_turn, std::abs(turn));
+    const double change = motions[static_cast<std::size_t>(i)].heading_change_rad;
+    const double true_change = ground_truth.heading_rad(i + 1) - ground_truth.heading_rad(i);
+    largest = std::max(largest, std::abs(wrapped(change - true_change)));
+    most_change = std::max(most_change, std::abs(change));
   }
-  return largest < kSameTurn_rad && most_turn > kSomeTurn_rad;
+  return largest < kSameHeadingChange_rad && most_change > kSomeHeadingChange_rad;
 }
 
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {

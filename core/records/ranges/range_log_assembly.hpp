@@ -37,7 +37,4 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options);
 bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
                                  const Trajectory& ground_truth);
 
-/// Reads the files that the options name in place of what was gathered. @throws IoError.
-void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
-
 }  // namespace mapproof

@@ -1,4 +1,4 @@
-#include "core/records/ranges/range_log_csv.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -134,7 +134,8 @@ const CsvColumn kX{.label = "x", .words = {"x", "x_m"}};
 const CsvColumn kY{.label = "y", .words = {"y", "y_m"}};
 const CsvColumn kHeading{.label = "headings", .words = {"heading", "heading_rad", "theta"}};
 const CsvColumn kDistance{.label = "distances", .words = {"ddist", "distance", "distance_m"}};
-const CsvColumn kTurn{.label = "turns", .words = {"dheading", "turn", "turn_rad"}};
+const CsvColumn kHeadingChange{.label = "heading changes",
+                               .words = {"dheading", "turn", "turn_rad"}};
 const CsvColumn kSideways{
     .label = "ways sideways", .words = {"dside", "sideways", "sideways_m"}, .is_needed = false};
 const CsvColumn kLandmark{.label = "landmarks",
@@ -166,7 +167,7 @@ StartPose read_start(const fs::path& path) {
 }
 
 std::vector<Motion> read_motions(const fs::path& path) {
-  return motions_in(read_table(path, {kTime, kDistance, kTurn, kSideways}));
+  return motions_in(read_table(path, {kTime, kDistance, kHeadingChange, kSideways}));
 }
 
 /// Whether the rows are records of a pose graph, as of g2o.

@@ -1,4 +1,4 @@
-#include "core/records/ranges/range_log_mat.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 #include <array>
 #include <cmath>
@@ -21,7 +21,6 @@
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/ranges/range_logs.hpp"
 #include "core/records/ranges/range_tables.hpp"
 
 namespace mapproof {
@@ -79,7 +78,7 @@ RecoveredOdometry motions_along(const Trajectory& path, const std::vector<double
     odometry.motions.push_back(
         {.time_s = path.time_s(i + 1),
          .distance_m = signs(i) * steps_m.row(i).norm(),
-         .turn_rad = i + 1 < steps ? wrapped(headings(i + 1) - headings(i)) : 0.0});
+         .heading_change_rad = i + 1 < steps ? wrapped(headings(i + 1) - headings(i)) : 0.0});
   return odometry;
 }
 

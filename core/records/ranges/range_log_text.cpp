@@ -1,4 +1,4 @@
-#include "core/records/ranges/range_log_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 #include <array>
 #include <string_view>

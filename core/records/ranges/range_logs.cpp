@@ -10,11 +10,8 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
-#include "core/records/ranges/range_log_csv.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
-#include "core/records/ranges/range_log_mat.hpp"
-#include "core/records/ranges/range_log_pyfg.hpp"
-#include "core/records/ranges/range_log_text.hpp"
 #include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_stream.hpp"
 

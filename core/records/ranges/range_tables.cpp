@@ -15,7 +15,7 @@ namespace mapproof {
 namespace {
 
 constexpr double kLatest_s = 1e12;
-constexpr double kMostTurn_rad = 1e6;
+constexpr double kMostHeading_rad = 1e6;
 
 void check_bound(const NumberTable& table, Eigen::Index row, Eigen::Index column, double bound,
                  std::string_view what) {
@@ -63,7 +63,7 @@ Trajectory trajectory_in(const NumberTable& table) {
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
     check_bound(table, i, 1, kFarthest_m, "a coordinate in metres");
     check_bound(table, i, 2, kFarthest_m, "a coordinate in metres");
-    if (has_heading) check_bound(table, i, 3, kMostTurn_rad, "a heading in radians");
+    if (has_heading) check_bound(table, i, 3, kMostHeading_rad, "a heading in radians");
   }
   Trajectory path{.time_s = table.values.col(0),
                   .positions_m = table.values.middleCols(1, 2),
@@ -79,11 +79,11 @@ std::vector<Motion> motions_in(const NumberTable& table) {
   motions.reserve(static_cast<std::size_t>(table.values.rows()));
   for (Eigen::Index i = 0; i < table.values.rows(); ++i) {
     check_bound(table, i, 1, kLongestRange_m, "a distance in metres");
-    check_bound(table, i, 2, kMostTurn_rad, "a heading change in radians");
+    check_bound(table, i, 2, kMostHeading_rad, "a heading change in radians");
     if (has_sideways) check_bound(table, i, 3, kLongestRange_m, "a distance in metres");
     motions.push_back({.time_s = table.values(i, 0),
                        .distance_m = table.values(i, 1),
-                       .turn_rad = table.values(i, 2),
+                       .heading_change_rad = table.values(i, 2),
                        .sideways_m = has_sideways ? table.values(i, 3) : 0.0});
   }
   return motions;

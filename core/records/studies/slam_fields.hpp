@@ -118,7 +118,7 @@ template <typename Visitor>
 void fields(Visitor& v, Motion& motion) {
   v.field("time_s", motion.time_s, record_rules::kWhole);
   v.field("distance_m", motion.distance_m, record_rules::kWhole);
-  v.field("turn_rad", motion.turn_rad, record_rules::kWhole);
+  v.field("heading_change_rad", motion.heading_change_rad, record_rules::kWhole);
   v.field("sideways_m", motion.sideways_m, record_rules::kWhole);
 }
 

@@ -122,8 +122,9 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   const WindowCurve& windows = spec.windows;
   const ErrorAxis axis = error_axis(windows.held_out_m, {}, 6.0);
   Polyline curve{.label = "held-out ranges", .marker = Marker::kCircle, .mark = {"held-out", {}}};
-  Scatter failed{.label = "predicts nothing", .ink = Ink::kWarning, .marker = Marker::kCross};
-  Scatter chosen{.label = "chosen", .ink = Ink::kSeries2, .filled = false, .size = 2.0};
+  Scatter failed{
+      .label = "predicts nothing", .colour = ThemeColour::kWarning, .marker = Marker::kCross};
+  Scatter chosen{.label = "chosen", .colour = ThemeColour::kSeries2, .filled = false, .size = 2.0};
   const double top = near_top(axis);
   Figure figure;
   figure.alt = "Typical error of held-out ranges by window length:";
@@ -156,7 +157,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   panel.y = {.label = "held-out range error [m]", .scale = axis.scale, .limits = axis.limits};
   panel.layers = {curve, failed, chosen};
   std::erase_if(panel.layers, is_empty);
-  if (panel.layers.empty()) figure.notes.push_back({"No length was tried.", Ink::kWarning});
+  if (panel.layers.empty()) figure.notes.push_back({"No length was tried.", ThemeColour::kWarning});
   require_valid(figure);
   return figure;
 }

@@ -64,7 +64,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
   return {.label = label_with_error(record),
           .x = std::move(thin.x),
           .y = axis.raised(std::move(thin.y)),
-          .ink = style.ink,
+          .colour = style.colour,
           .dash = style.dash,
           .width = 0.8,
           .marker = marker,
@@ -76,7 +76,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
 Polyline expected_line(const SlamRecord& record, const ErrorAxis& axis, double start_s) {
   const PathStyle style = path_style(record.method);
   Polyline line{.label = "expected by the covariance",
-                .ink = style.ink,
+                .colour = style.colour,
                 .dash = Dash::kDotted,
                 .width = 0.9,
                 .mark = {fmt::format("expected-{}", info(record.method).name), {}}};
@@ -168,7 +168,7 @@ Figure anchor_count_figure(const AnchorCountSpec& spec) {
   lines.quantity = spec.quantity;
   lines.record_ids = spec.record_ids;
   lines.caption = fmt::format(
-      "Lines: {} over the number of anchors, mean over runs, one line per way to place them; "
+      "Lines: {} over the number of anchors, mean over runs, one line per layout of the anchors; "
       "bands: "
       "its 95 % interval.",
       spec.quantity);

@@ -18,7 +18,7 @@ namespace mapproof {
 /// @return Empty if no record has errors.
 std::optional<Panel> path_error_panel(std::span<const SlamRecord* const> records);
 
-/// One sensor's or method's part: one line per way to place the anchors, `x` their number.
+/// One sensor's or method's part: one line per layout of the anchors, `x` their number.
 struct AnchorPanel {
   std::string title;
   std::vector<ErrorLine> placements;

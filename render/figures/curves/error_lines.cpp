@@ -83,7 +83,7 @@ void note_ceiling(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& fig
   if (above > 0)
     figure.notes.push_back({fmt::format("{} {} above the frame.", counted(above, "value"),
                                         above == 1 ? "lies" : "lie"),
-                            Ink::kMuted});
+                            ThemeColour::kMuted});
 }
 
 std::string words_of(const ErrorLine& line) {
@@ -128,14 +128,14 @@ class Builder {
     for (const ErrorLine& line : from.lines)
       if (!line.low.empty())
         panel.layers.push_back(Band{line.label, line.x, axis_.raised(line.low),
-                                    axis_.raised(line.high), style(line.label).ink,
+                                    axis_.raised(line.high), style(line.label).colour,
                                     Mark{prefix + line.key + "-band", {{"curve", line.label}}}});
     // Below the lines, which then show through.
     for (const ErrorPoint& point : from.points) {
       Scatter one{.label = point.label,
                   .x = {point.x},
                   .y = axis_.raised({point.y}),
-                  .ink = style(point.line).ink,
+                  .colour = style(point.line).colour,
                   .marker = point.marker,
                   .filled = false,
                   .size = 2.0};
@@ -148,7 +148,7 @@ class Builder {
     }
     for (const ErrorLine& line : from.lines) {
       const SeriesStyle style = this->style(line.label);
-      panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(line.mean), style.ink,
+      panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(line.mean), style.colour,
                                       style.dash, 1.0, style.marker,
                                       Mark{prefix + line.key + "-mean", {{"curve", line.label}}}});
     }
@@ -170,7 +170,7 @@ class Builder {
 
 SeriesStyle series_style(std::size_t i) {
   // After seven the colours come again, with other markers and dashes.
-  return {series_ink(i), kDashes[i % kDashes.size()],
+  return {series_colour(i), kDashes[i % kDashes.size()],
           kMarkers[(i + 3 * (i / kMarkers.size())) % kMarkers.size()]};
 }
 
@@ -225,7 +225,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   const Builder builder(spec, axis);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())
-    figure.notes.push_back({"There are no curves.", Ink::kWarning});
+    figure.notes.push_back({"There are no curves.", ThemeColour::kWarning});
   if (figure.panels.empty()) {
     figure.panels.resize(1);
     figure.panels[0].y.label = spec.y_label;

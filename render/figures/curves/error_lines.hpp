@@ -12,7 +12,7 @@ namespace mapproof {
 /// The style of the i-th curve of a figure: colour, dash and marker; no two of the first 21 are
 /// alike.
 struct SeriesStyle {
-  Ink ink = Ink::kSeries1;
+  ThemeColour colour = ThemeColour::kSeries1;
   Dash dash = Dash::kSolid;
   Marker marker = Marker::kCircle;
 };

@@ -58,7 +58,7 @@ class PanelBuilder {
     low_end_ = 0.5 * panel.y.limits->low;
     panel.layers.push_back(guide);
     for (const ErrorLine& bound : from_.bounds)
-      panel.layers.push_back(line(bound, {Ink::kText, Dash::kDashed, Marker::kNone}));
+      panel.layers.push_back(line(bound, {ThemeColour::kText, Dash::kDashed, Marker::kNone}));
     for (std::size_t i = 0; i < from_.lines.size(); ++i) {
       const SeriesStyle style = series_style(from_.lines[i].series.value_or(i));
       panel.layers.push_back(bars(from_.lines[i], style));
@@ -80,7 +80,7 @@ class PanelBuilder {
 
   static Polyline line(const ErrorLine& from, const SeriesStyle& style) {
     Polyline line{.label = from.label,
-                  .ink = style.ink,
+                  .colour = style.colour,
                   .dash = style.dash,
                   .marker = style.marker,
                   .mark = {from.key + "-mean", {{"curve", from.label}}}};
@@ -90,7 +90,7 @@ class PanelBuilder {
   }
 
   Segments bars(const ErrorLine& from, const SeriesStyle& style) const {
-    Segments bars{.ink = style.ink, .width = 1.6};
+    Segments bars{.colour = style.colour, .width = 1.6};
     for (std::size_t i = 0; i < from.low.size(); ++i) {
       if (!is_shown(from.x[i]) || !is_shown(from.mean[i]) || !is_shown(from.high[i])) continue;
       const double low = is_shown(from.low[i]) ? std::max(from.low[i], low_end_) : low_end_;
@@ -101,7 +101,7 @@ class PanelBuilder {
 
   /// Over the whole span, above all of the lines at their first point.
   Polyline guide() const {
-    Polyline guide{.label = "", .ink = Ink::kMuted, .dash = Dash::kLongDash};
+    Polyline guide{.label = "", .colour = ThemeColour::kMuted, .dash = Dash::kLongDash};
     if (!from_.guide || !(x_.low < x_.high)) return guide;
     double above = 0.0;
     for (const ErrorLine& line : from_.lines)
@@ -184,7 +184,7 @@ Figure log_log_figure(const LogLogSpec& spec) {
     any = any || !figure.panels.back().layers.empty();
   }
   if (figure.panels.empty()) figure.panels.resize(1);
-  if (!any) figure.notes.push_back({"There are no curves.", Ink::kWarning});
+  if (!any) figure.notes.push_back({"There are no curves.", ThemeColour::kWarning});
   require_valid(figure);
   return figure;
 }

@@ -29,10 +29,13 @@ std::string duration(double seconds) {
 
 /// The points of a Pareto figure and the words on them.
 struct ParetoLayers {
-  Polyline steps{
-      .label = "Pareto front", .ink = Ink::kSeries2, .dash = Dash::kDashed, .mark = {"front", {}}};
-  Scatter best{.label = "on the front", .ink = Ink::kSeries2, .marker = Marker::kDiamond};
-  Scatter beaten{.label = "dominated", .ink = Ink::kSeries1, .filled = false};
+  Polyline steps{.label = "Pareto front",
+                 .colour = ThemeColour::kSeries2,
+                 .dash = Dash::kDashed,
+                 .mark = {"front", {}}};
+  Scatter best{
+      .label = "on the front", .colour = ThemeColour::kSeries2, .marker = Marker::kDiamond};
+  Scatter beaten{.label = "dominated", .colour = ThemeColour::kSeries1, .filled = false};
   PointLabels names;
   std::vector<std::string> words;  ///< Of those on the front.
 };
@@ -118,7 +121,7 @@ Figure pareto_figure(const ParetoSpec& spec) {
                            counted(static_cast<long long>(errors.size()), "setting"));
   if (!layers.words.empty())
     figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";
-  if (errors.empty()) figure.notes.push_back({"There are no settings.", Ink::kWarning});
+  if (errors.empty()) figure.notes.push_back({"There are no settings.", ThemeColour::kWarning});
   require_valid(figure);
   return figure;
 }

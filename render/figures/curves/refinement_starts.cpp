@@ -74,7 +74,7 @@ Figure refinement_starts_figure(const RefinementStartsSpec& spec) {
     const SlamMethod kind = kKinds[i];
     const PathStyle style = path_style(kind);
     Scatter points{.label = label_of(kind),
-                   .ink = style.ink,
+                   .colour = style.colour,
                    .marker = kind == SlamMethod::kRefined ? Marker::kCircle : style.marker,
                    .filled = kind == SlamMethod::kRefinedFromRandom,
                    .size = kSizes[i]};
@@ -98,7 +98,7 @@ Figure refinement_starts_figure(const RefinementStartsSpec& spec) {
   figure.notes.push_back({"Within 1 % of the least cost: " + reached + "."});
   if (without > 0)
     figure.notes.push_back(
-        {counted(without, "start") + " without a result to show.", Ink::kWarning});
+        {counted(without, "start") + " without a result to show.", ThemeColour::kWarning});
   figure.caption = fmt::format(
       "Final cost (half the sum of robust squared residuals) and {} of every start of the "
       "refinement. Within 1 % of the least cost: {}.",

@@ -58,9 +58,9 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
   panel.title = one.title;
   if (const double ratio = ratio_of(one); std::isfinite(ratio))
     panel.title += fmt::format("\ns{} over floor: {}", one.rank, significant(ratio, 2));
-  Segments stems{.ink = Ink::kMuted, .width = 0.7};
-  Scatter kept{.label = "kept", .ink = Ink::kSeries1};
-  Scatter dropped{.label = "dropped", .ink = Ink::kText, .filled = false};
+  Segments stems{.colour = ThemeColour::kMuted, .width = 0.7};
+  Scatter kept{.label = "kept", .colour = ThemeColour::kSeries1};
+  Scatter dropped{.label = "dropped", .colour = ThemeColour::kText, .filled = false};
   for (std::size_t i = 0; i < std::min(one.values.size(), kMostSingularValues); ++i) {
     if (std::isnan(one.values[i])) continue;
     const Point at{static_cast<double>(i + 1), std::max(one.values[i], y.low)};
@@ -71,7 +71,7 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
                             {{"value", data_number(one.values[i])}}});
   }
   Segments floor{.label = one.noise_level ? "noise floor" : "greatest dropped",
-                 .ink = one.noise_level ? Ink::kSeries2 : Ink::kMuted,
+                 .colour = one.noise_level ? ThemeColour::kSeries2 : ThemeColour::kMuted,
                  .dash = one.noise_level ? Dash::kDashed : Dash::kDotted};
   if (const auto level = floor_of(one))
     add_line(floor, {0.4, std::max(*level, y.low)}, {last + 0.6, std::max(*level, y.low)});
@@ -91,9 +91,10 @@ Panel panel_of(const SpectrumPanel& method, std::size_t index) {
   const std::size_t count = std::min(method.eigenvalues.size(), kMostShown);
   double most = 0.0;
   for (std::size_t i = 0; i < count; ++i) most = std::max(most, method.eigenvalues[i]);
-  Segments stems{.ink = Ink::kMuted, .width = 0.7};
-  Scatter used{.label = "axis of the map", .ink = Ink::kSeries2};
-  Scatter rest{.label = "other eigenvalue", .ink = Ink::kText, .filled = false, .size = 0.8};
+  Segments stems{.colour = ThemeColour::kMuted, .width = 0.7};
+  Scatter used{.label = "axis of the map", .colour = ThemeColour::kSeries2};
+  Scatter rest{
+      .label = "other eigenvalue", .colour = ThemeColour::kText, .filled = false, .size = 0.8};
   for (std::size_t i = 0; i < count; ++i) {
     const double value = method.eigenvalues[i];
     if (std::isnan(value) || most <= 0.0) continue;
@@ -139,7 +140,7 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
   }
   if (figure.panels.empty()) {
     figure.panels.resize(1);
-    figure.notes.push_back({"There are no singular values.", Ink::kWarning});
+    figure.notes.push_back({"There are no singular values.", ThemeColour::kWarning});
   }
   for (Panel& panel : figure.panels) {
     panel.x = {.label = "singular value", .limits = Range{0.4, last + 0.6}, .whole = true};
@@ -183,7 +184,7 @@ Figure spectrum_figure(const SpectrumSpec& spec) {
   }
   if (figure.panels.empty()) {
     figure.panels.resize(1);
-    figure.notes.push_back({"No method has eigenvalues.", Ink::kWarning});
+    figure.notes.push_back({"No method has eigenvalues.", ThemeColour::kWarning});
   }
   for (Panel& panel : figure.panels) {
     panel.x = {.label = "eigenvalue", .limits = Range{0.4, last + 0.6}, .whole = true};

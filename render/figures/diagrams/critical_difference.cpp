@@ -119,11 +119,11 @@ class Diagram {
   std::vector<RankedMethod> methods_;
   std::vector<std::vector<int>> groups_;
   double highest_ = 2.0;
-  Segments lines_{.ink = Ink::kText, .width = 0.6};
-  Segments bars_{.ink = Ink::kSeries2, .width = 3.0};
-  Segments difference_{.ink = Ink::kText};
-  Segments open_difference_{.ink = Ink::kText, .arrow = true};
-  Scatter dots_{.ink = Ink::kText, .size = 0.7};
+  Segments lines_{.colour = ThemeColour::kText, .width = 0.6};
+  Segments bars_{.colour = ThemeColour::kSeries2, .width = 3.0};
+  Segments difference_{.colour = ThemeColour::kText};
+  Segments open_difference_{.colour = ThemeColour::kText, .arrow = true};
+  Scatter dots_{.colour = ThemeColour::kText, .size = 0.7};
   Texts numbers_;
   Texts left_{.align = Align::kEnd};
   Texts right_{.align = Align::kStart};
@@ -158,13 +158,14 @@ Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
   figure.notes.push_back(
       {fmt::format("Mean ranks over {}; Friedman {}.", units, probability(spec.friedman_p))});
   if (spec.friedman_p > spec.alpha)
-    figure.notes.push_back(
-        {"The Friedman test finds no difference: the bars prove nothing.", Ink::kWarning});
+    figure.notes.push_back({"The Friedman test finds no difference: the bars have no meaning.",
+                            ThemeColour::kWarning});
   if (!spec.methods.empty() && diagram.beyond_axis())
     figure.notes.push_back(
         {"CD is longer than the axis (arrow): with so few units no difference is significant.",
-         Ink::kWarning});
-  if (spec.methods.empty()) figure.notes.push_back({"There are no methods.", Ink::kWarning});
+         ThemeColour::kWarning});
+  if (spec.methods.empty())
+    figure.notes.push_back({"There are no methods.", ThemeColour::kWarning});
   figure.caption = fmt::format(
       "Mean ranks of {} over {}, the best to the left. Bars join methods that do not differ: their "
       "ranks are less than the critical difference {} apart (Nemenyi, α = {}). Friedman test: {}.",

@@ -38,7 +38,7 @@ std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
 
 Scatter test_marks(const std::vector<FitTestRow>& rows, bool above) {
   Scatter points{.label = above ? "above its bound" : "within its bound",
-                 .ink = above ? Ink::kSeries2 : Ink::kSeries1,
+                 .colour = above ? ThemeColour::kSeries2 : ThemeColour::kSeries1,
                  .marker = above ? Marker::kDiamond : Marker::kCircle,
                  .filled = above};
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -61,7 +61,8 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = spec.record_ids;
-  figure.notes.push_back({spec.verdict, spec.is_alarm ? Ink::kWarning : Ink::kText});
+  figure.notes.push_back(
+      {spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
   Panel& panel = figure.panels.emplace_back();
   panel.x = {.label = "statistic / bound", .scale = Scale::kLog};
   panel.y = {.label = ""};
@@ -69,7 +70,7 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
   panel.y.limits = Range{-0.6, last};
   double most = 3.0;
   std::vector<std::string> above;
-  Segments from_bound{.ink = Ink::kMuted, .width = 0.6};
+  Segments from_bound{.colour = ThemeColour::kMuted, .width = 0.6};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     panel.y.names.push_back(printable(rows[i].label, kLongestTestLabel));
     most = std::max(most, 1.5 * rows[i].ratio);
@@ -79,7 +80,7 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
       above.push_back(fmt::format("{} {}", rows[i].label, significant(rows[i].ratio, 2)));
   }
   panel.x.limits = Range{kLeastRatio / 1.3, most};
-  Segments bound{.label = "bound", .ink = Ink::kText, .dash = Dash::kDashed};
+  Segments bound{.label = "bound", .colour = ThemeColour::kText, .dash = Dash::kDashed};
   add_line(bound, {1.0, -0.6}, {1.0, last});
   panel.layers = {from_bound, bound, test_marks(rows, false), test_marks(rows, true)};
   std::erase_if(panel.layers, is_empty);

@@ -107,8 +107,8 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
   panel.x = {.label = spec.x_label, .limits = cells.x, .names = spec.x_names};
   panel.y = {.label = spec.y_label, .limits = cells.y, .names = spec.y_names};
 
-  Area missing{.ink = Ink::kMuted, .fill = Fill::kTint};
-  Segments hatching{.ink = Ink::kMuted};
+  Area missing{.colour = ThemeColour::kMuted, .fill = Fill::kTint};
+  Segments hatching{.colour = ThemeColour::kMuted};
   int count = 0;
   for (std::size_t i = 0; i < spec.values.size(); ++i) {
     if (std::isfinite(spec.values[i])) continue;
@@ -122,7 +122,7 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
       fmt::format("Colours: {} over {} and {}, mean over runs{}.", spec.quantity, spec.x_label,
                   spec.y_label, cells.scale == Scale::kLog ? ", on a logarithmic scale" : "");
   if (count > 0) {
-    figure.notes.push_back({"Hatched: " + spec.missing + ".", Ink::kText});
+    figure.notes.push_back({"Hatched: " + spec.missing + ".", ThemeColour::kText});
     figure.caption += fmt::format(" Hatched, {}: {}.", counted(count, "cell"), spec.missing);
     panel.layers.emplace_back(std::move(missing));
     panel.layers.emplace_back(std::move(hatching));

@@ -34,7 +34,7 @@ void require_consistent(const IdeaSpec& spec) {
       !(spec.world.landmark_diameter_m > 0.0) || !std::isfinite(spec.world.landmark_diameter_m))
     refuse("the room's side or the landmarks' diameter is not positive");
   if (!spec.world.landmarks_m.allFinite() || !spec.path_m.allFinite())
-    refuse("a place is not finite");
+    refuse("a position is not finite");
   if (spec.history.values.array().isInf().any()) refuse("an infinite observation");
 }
 
@@ -42,16 +42,16 @@ Panel room_of(const IdeaSpec& spec) {
   Panel panel;
   panel.title = "Room and walk";
   panel.bare = panel.equal_aspect = true;
-  Area walls{.ink = Ink::kText, .fill = Fill::kNone, .outlined = true, .width = 1.3};
+  Area walls{.colour = ThemeColour::kText, .fill = Fill::kNone, .outlined = true, .width = 1.3};
   add_box(walls, {0.0, spec.world.side_m}, {0.0, spec.world.side_m});
-  Ellipses landmarks{.ink = Ink::kText, .fill = Fill::kSolid, .width = 0.6};
+  Ellipses landmarks{.colour = ThemeColour::kText, .fill = Fill::kSolid, .width = 0.6};
   for (Eigen::Index i = 0; i < spec.world.landmarks_m.rows(); ++i)
     add_disc(landmarks, point_of(spec.world.landmarks_m.row(i)),
              spec.world.landmark_diameter_m / 2.0);
-  Polyline walk{.ink = Ink::kSeries1, .width = 0.7, .mark = {"walk", {}}};
+  Polyline walk{.colour = ThemeColour::kSeries1, .width = 0.7, .mark = {"walk", {}}};
   const Eigen::Index steps = std::min<Eigen::Index>(spec.steps, spec.path_m.rows());
   for (Eigen::Index i = 0; i < steps; ++i) add_point(walk, point_of(spec.path_m.row(i)));
-  Scatter robot{.ink = Ink::kSeries2, .marker = Marker::kDiamond, .size = 1.4};
+  Scatter robot{.colour = ThemeColour::kSeries2, .marker = Marker::kDiamond, .size = 1.4};
   if (steps > 0) add_point(robot, point_of(spec.path_m.row(steps - 1)));
   panel.layers = {walls, walk, landmarks, robot};
   return panel;
@@ -79,9 +79,9 @@ Panel history_of(const IdeaSpec& spec) {
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index t = 0; t < columns; ++t) cells.values.push_back(spec.history.values(i, t));
   cells.limits = limits_of(spec.history);
-  cells.ramp = spec.history.sensor == Sensor::kVisibility ? Ramp::kInk : Ramp::kViridis;
+  cells.ramp = spec.history.sensor == Sensor::kVisibility ? Ramp::kColour : Ramp::kViridis;
   cells.mark = {"history", {{"sensor", std::string(name(spec.history.sensor))}}};
-  Area border{.ink = Ink::kText, .fill = Fill::kNone, .outlined = true, .width = 0.8};
+  Area border{.colour = ThemeColour::kText, .fill = Fill::kNone, .outlined = true, .width = 0.8};
   add_box(border, {0.0, 1.0}, {0.0, 1.0});
   panel.layers = {cells, border};
   return panel;
@@ -134,7 +134,7 @@ class MeasurementFigure {
     panel_.x.limits = Range{robot_.x - half, robot_.x + half};
     panel_.y.limits = Range{robot_.y - half, robot_.y + half};
     Ellipses reach{.label = fmt::format("reach, {} mm", std::lround(1000.0 * m_.reach_m)),
-                   .ink = Ink::kText,
+                   .colour = ThemeColour::kText,
                    .dash = Dash::kDashed,
                    .width = 0.8};
     add_disc(reach, robot_, m_.reach_m);
@@ -192,13 +192,17 @@ class MeasurementFigure {
   }
 
   Area walls() const {
-    Area room{.label = "", .ink = Ink::kText, .fill = Fill::kNone, .outlined = true, .width = 1.6};
+    Area room{.label = "",
+              .colour = ThemeColour::kText,
+              .fill = Fill::kNone,
+              .outlined = true,
+              .width = 1.6};
     add_box(room, {0.0, m_.world.side_m}, {0.0, m_.world.side_m});
     return room;
   }
 
   Area shadows() const {
-    Area area{.label = "shadow", .ink = Ink::kText, .fill = Fill::kTint};
+    Area area{.label = "shadow", .colour = ThemeColour::kText, .fill = Fill::kTint};
     for (const std::vector<Point>& shadow : shadow_outlines(m_)) {
       for (const Point corner : shadow) add_corner(area, corner);
       end_outline(area);
@@ -208,12 +212,14 @@ class MeasurementFigure {
 
   /// Those of one view; all of them without one.
   Ellipses landmarks(std::optional<View> view) const {
-    Ellipses discs{.label = "landmark", .ink = Ink::kText, .fill = Fill::kPaper, .width = 0.8};
+    Ellipses discs{
+        .label = "landmark", .colour = ThemeColour::kText, .fill = Fill::kPaper, .width = 0.8};
     if (view == View::kVisible) discs.label = "visible", discs.fill = Fill::kSolid;
-    if (view == View::kVisible) discs.ink = Ink::kSeries1;
-    if (view == View::kHidden) discs.label = "hidden", discs.width = 1.3, discs.ink = Ink::kSeries2;
+    if (view == View::kVisible) discs.colour = ThemeColour::kSeries1;
+    if (view == View::kHidden)
+      discs.label = "hidden", discs.width = 1.3, discs.colour = ThemeColour::kSeries2;
     if (view == View::kOutOfReach) discs.label = "out of reach", discs.fill = Fill::kTint;
-    if (view == View::kOutOfReach) discs.ink = Ink::kMuted, discs.width = 0.6;
+    if (view == View::kOutOfReach) discs.colour = ThemeColour::kMuted, discs.width = 0.6;
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (view && m_.views[i] != *view) continue;
       if (!is_shown(position(i))) continue;
@@ -233,7 +239,7 @@ class MeasurementFigure {
   }
 
   Segments rays(const std::vector<Eigen::Index>& named) const {
-    Segments lines{.label = "ray", .ink = Ink::kMuted, .width = 0.4};
+    Segments lines{.label = "ray", .colour = ThemeColour::kMuted, .width = 0.4};
     for (Eigen::Index i = 0; i < rows(); ++i)
       if (std::isfinite(m_.bearings_rad(i)) && std::ranges::find(named, i) == named.end())
         add_line(lines, robot_, position(i));
@@ -242,12 +248,12 @@ class MeasurementFigure {
 
   /// The ray to a landmark and the arc from the heading to it, the n-th farther out.
   void add_angle(Eigen::Index row, std::size_t n) {
-    const Ink ink = series_ink(n);
+    const ThemeColour colour = series_colour(n);
     const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
-    Polyline ray{.ink = ink, .dash = dash};
+    Polyline ray{.colour = colour, .dash = dash};
     add_point(ray, robot_);
     add_point(ray, position(row));
-    Polyline arc{.ink = ink, .dash = dash};
+    Polyline arc{.colour = colour, .dash = dash};
     const double radius = (0.05 + 0.03 * static_cast<double>(n)) * m_.world.side_m;
     for (const Point p :
          arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
@@ -257,7 +263,8 @@ class MeasurementFigure {
   }
 
   Polyline trail() const {
-    Polyline line{.label = "path so far", .ink = Ink::kMuted, .dash = Dash::kDotted, .width = 0.7};
+    Polyline line{
+        .label = "path so far", .colour = ThemeColour::kMuted, .dash = Dash::kDotted, .width = 0.7};
     const Eigen::Index first = std::max<Eigen::Index>(0, m_.path_m.rows() - kTrail);
     for (Eigen::Index i = first; i < m_.path_m.rows(); ++i)
       add_point(line, point_of(m_.path_m.row(i)));
@@ -265,13 +272,14 @@ class MeasurementFigure {
   }
 
   Segments heading(double length) const {
-    Segments arrow{.label = "heading", .ink = Ink::kText, .arrow = true};
+    Segments arrow{.label = "heading", .colour = ThemeColour::kText, .arrow = true};
     add_line(arrow, robot_, beside(robot_, length, m_.heading_rad));
     return arrow;
   }
 
   Scatter robot() const {
-    Scatter at{.label = "robot", .ink = Ink::kText, .marker = Marker::kDiamond, .size = 1.4};
+    Scatter at{
+        .label = "robot", .colour = ThemeColour::kText, .marker = Marker::kDiamond, .size = 1.4};
     add_point(at, robot_);
     at.marks.push_back({"robot", {{"kind", "robot"}}});
     return at;

@@ -23,7 +23,8 @@ struct IdeaSpec {
 
 /// The idea in three panels [yairi2007, fig. 1]: the room with the robot's path, the observation
 /// history that it gives, landmark by step, and the map made of it.
-/// @throws InvalidInput if parts disagree in size, steps < 1 or > 2000, or a place is not finite.
+/// @throws InvalidInput if parts disagree in size, steps < 1 or > 2000, or a position is not
+/// finite.
 Figure idea_figure(const IdeaSpec& spec);
 
 /// One measurement in the room, landmarks at their true size [yairi2007, figs. 2 and 3].
@@ -33,7 +34,8 @@ Figure idea_figure(const IdeaSpec& spec);
 /// landmarks, three of their angles to the heading drawn and named.
 ///
 /// @param id  Of the figure, [a-z][a-z0-9-]*.
-/// @throws InvalidInput if parts disagree in size, lengths are not positive, places are not finite,
+/// @throws InvalidInput if parts disagree in size, lengths are not positive, positions are not
+/// finite,
 ///         or the sensor is neither.
 Figure measurement_figure(const Measurement& measurement, const std::string& id);
 

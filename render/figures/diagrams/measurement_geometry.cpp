@@ -28,7 +28,7 @@ void require_consistent(const Measurement& m) {
     refuse("the room's side or the landmarks' diameter is not positive");
   if (!m.world.landmarks_m.allFinite() || !m.path_m.allFinite() || !m.robot_m.allFinite() ||
       !std::isfinite(m.heading_rad))
-    refuse("a place or the heading is not finite");
+    refuse("a position or the heading is not finite");
   if (m.sensor == Sensor::kVisibility) {
     if (m.views.size() != count)
       refuse(fmt::format("{} views of {} landmarks", m.views.size(), count));

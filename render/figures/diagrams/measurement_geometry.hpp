@@ -10,11 +10,12 @@ namespace mapproof {
 
 /// The parts of figures of a measurement, in the plane and in space.
 
-/// @throws InvalidInput if parts disagree in size, lengths are not positive, places are not finite,
+/// @throws InvalidInput if parts disagree in size, lengths are not positive, positions are not
+/// finite,
 ///         or the sensor is neither visibility nor bearing.
 void require_consistent(const Measurement& measurement);
 
-/// The place at that distance and angle from `at`, counter-clockwise from the x axis.
+/// The point at that distance and angle from `at`, counter-clockwise from the x axis.
 Point beside(Point at, double distance, double angle_rad);
 
 /// Points of an arc, every 3 degrees, both ends among them.

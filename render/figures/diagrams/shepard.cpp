@@ -67,12 +67,12 @@ Cells density(const ShepardPanel& panel, const PanelLimits& limits) {
   cells.values = std::move(counts);
   // Even a single pair is visible on the background.
   cells.limits = {0.4 * std::log1p(1.0), std::log1p(most)};
-  cells.ink = Ink::kSeries1;
+  cells.colour = ThemeColour::kSeries1;
   return cells;
 }
 
 Scatter dots(const ShepardPanel& panel) {
-  Scatter points{.label = "pair of landmarks", .ink = Ink::kSeries1, .size = 0.4};
+  Scatter points{.label = "pair of landmarks", .colour = ThemeColour::kSeries1, .size = 0.4};
   for (std::size_t i = 0; i < panel.observed.size(); ++i)
     if (known(panel, i)) add_point(points, {panel.observed[i], panel.mapped_m[i]});
   return points;
@@ -128,7 +128,7 @@ Figure shepard_figure(const ShepardSpec& spec) {
       panel.layers.push_back(Polyline{.label = "best proportion",
                                       .x = {0.0, limits.x.high},
                                       .y = {0.0, fits[i].slope * limits.x.high},
-                                      .ink = Ink::kSeries2,
+                                      .colour = ThemeColour::kSeries2,
                                       .dash = Dash::kDashed});
     figure.alt +=
         fmt::format(" {}: r {}, stress {}, {}.", method.title, significant(fits[i].correlation),
@@ -137,7 +137,7 @@ Figure shepard_figure(const ShepardSpec& spec) {
       figure.notes.push_back(
           {fmt::format("{}: distances up to {} m are outside the image.", method.title,
                        significant(greatest(method, method.mapped_m))),
-           Ink::kWarning});
+           ThemeColour::kWarning});
   }
   figure.caption =
       "Each pair of landmarks: its distance in the observations and on the map, darker where there "
@@ -145,7 +145,7 @@ Figure shepard_figure(const ShepardSpec& spec) {
       "root mean square over that of the map distances.";
   if (figure.panels.empty()) {
     figure.panels.resize(1);
-    figure.notes.push_back({"There are no methods.", Ink::kWarning});
+    figure.notes.push_back({"There are no methods.", ThemeColour::kWarning});
   }
   require_valid(figure);
   return figure;

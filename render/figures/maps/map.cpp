@@ -165,14 +165,14 @@ class MapFigure {
  private:
   void add_notes() {
     std::vector<Note>& notes = figure_.notes;
-    if (record_.names.empty()) notes.push_back({"There are no landmarks.", Ink::kWarning});
+    if (record_.names.empty()) notes.push_back({"There are no landmarks.", ThemeColour::kWarning});
     if (const std::string score = score_text(record_); !score.empty()) notes.push_back({score});
     if (record_.frame == Frame::kSimilarity)
       notes.push_back({"Shape alone: translation, rotation, scale and reflection are arbitrary."});
-    if (!view_.outside.empty()) notes.push_back({outside_text(), Ink::kWarning});
+    if (!view_.outside.empty()) notes.push_back({outside_text(), ThemeColour::kWarning});
     if (!view_.unmapped.empty())
       notes.push_back(
-          {"Not on the map: " + names_of(record_, view_.unmapped) + ".", Ink::kWarning});
+          {"Not on the map: " + names_of(record_, view_.unmapped) + ".", ThemeColour::kWarning});
     std::vector<std::string> statuses;
     for (const Status& status : record_.statuses) statuses.push_back(status_text(status));
     add_status_notes(statuses, notes);
@@ -233,7 +233,7 @@ class MapFigure {
   }
 
   Segments errors() const {
-    Segments lines{.label = "error", .ink = Ink::kMuted, .width = 0.8};
+    Segments lines{.label = "error", .colour = ThemeColour::kMuted, .width = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (std::isnan(view_.error_m[i]) || is_outside(i)) continue;
       add_line(lines, true_position(i), position(i));
@@ -245,7 +245,8 @@ class MapFigure {
 
   /// From the true position toward the estimate, up to the edge of the image.
   Segments arrows() const {
-    Segments lines{.label = "estimate outside", .ink = Ink::kSeries1, .width = 0.8, .arrow = true};
+    Segments lines{
+        .label = "estimate outside", .colour = ThemeColour::kSeries1, .width = 0.8, .arrow = true};
     for (const Eigen::Index i : view_.outside) {
       const Box inner = image(0.012);
       const Point from = view_.has_ground_truth[i] ? true_position(i) : inner.centre();
@@ -266,7 +267,7 @@ class MapFigure {
 
   Scatter ground_truth(bool anchors) const {
     Scatter points{.label = anchors ? "anchor" : "true position",
-                   .ink = anchors ? Ink::kSeries2 : Ink::kText,
+                   .colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kText,
                    .marker = anchors ? Marker::kSquare : Marker::kCircle,
                    .filled = false,
                    .size = anchors ? 1.5 : 1.0};
@@ -282,7 +283,7 @@ class MapFigure {
   Scatter estimates() const {
     // A single entry needs no legend, and would resemble one more landmark.
     const bool alone = record_.frame == Frame::kSimilarity && view_.outside.empty();
-    Scatter points{.label = alone ? "" : "estimate", .ink = Ink::kSeries1, .size = 0.8};
+    Scatter points{.label = alone ? "" : "estimate", .colour = ThemeColour::kSeries1, .size = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
       if (!view_.has_estimate[i] || is_outside(i)) continue;
       add_point(points, position(i));
@@ -301,7 +302,7 @@ class MapFigure {
       for (Eigen::Index i = 0; i < rows(); ++i)
         if (view_.has_estimate[i]) named.push_back(i);
     for (const Eigen::Index i : named) {
-      // At the true place, which is the same on the maps of all methods.
+      // At the true position, which is the same on the maps of all methods.
       if (is_outside(i) && !view_.has_ground_truth[i]) continue;
       const Point at = view_.has_ground_truth[i] ? true_position(i) : position(i);
       add_label(labels, at, record_.names[i]);

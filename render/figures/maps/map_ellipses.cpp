@@ -23,14 +23,15 @@ bool shown(const Panel& panel, double x, double y) {
 }
 
 Ellipses ellipses_of(const MapRecord& record, const MapCertainty& certainty, const Panel& panel) {
-  Ellipses shapes{.label = "95 % ellipse", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
+  Ellipses shapes{
+      .label = "95 % ellipse", .colour = ThemeColour::kSeries1, .fill = Fill::kTint, .width = 0.6};
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
     const double x = record.estimate(i, 0), y = record.estimate(i, 1);
     const auto ellipse = confidence_ellipse(certainty, i);
     if (!ellipse || !std::isfinite(x + y) || !shown(panel, x, y)) continue;
     shapes.x.push_back(x), shapes.y.push_back(y);
     shapes.a.push_back(ellipse->a), shapes.b.push_back(ellipse->b);
-    shapes.turn_rad.push_back(ellipse->turn_rad);
+    shapes.rotation_rad.push_back(ellipse->rotation_rad);
     shapes.marks.push_back({fmt::format("ellipse-{}", i + 1),
                             {{"landmark", record.names[static_cast<std::size_t>(i)]},
                              {"kind", "ellipse"},

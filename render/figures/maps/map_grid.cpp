@@ -86,9 +86,9 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
                         : "Translation, rotation, scale and reflection are arbitrary.";
   if (!without_position.empty()) {
     const std::string text =
-        "Landmarks without a place are left out of: " + listed(without_position, 4) + ".";
+        "Landmarks without a position are left out of: " + listed(without_position, 4) + ".";
     figure.caption += " " + text;
-    figure.notes.push_back({text, Ink::kWarning});
+    figure.notes.push_back({text, ThemeColour::kWarning});
   }
   require_valid(figure);
   return figure;

@@ -44,7 +44,7 @@ Panel histogram(const std::vector<double>& shares) {
   panel.y.whole = true;
   Span span;
   span.see(shares);
-  Area bars{.ink = Ink::kSeries1, .outlined = true, .width = 0.8};
+  Area bars{.colour = ThemeColour::kSeries1, .outlined = true, .width = 0.8};
   double most = 0.0;
   if (span.known()) {
     const double width = std::max(tick_step(span.low, span.high + 1e-9, kMostBins), 0.1);
@@ -80,7 +80,7 @@ Panel errors(const OcclusionSpec& spec, const std::vector<double>& shares) {
     const OcclusionMethod& method = spec.methods[i];
     const SeriesStyle style = series_style(series[i]);
     Scatter points{.label = method.label,
-                   .ink = style.ink,
+                   .colour = style.colour,
                    .marker = style.marker,
                    .filled = i % 2 == 0,
                    .size = 0.8};
@@ -133,7 +133,7 @@ Figure occlusion_figure(const OcclusionSpec& spec) {
       "runs, and "
       "the error of each run's maps.";
   if (shares.empty()) {
-    figure.notes.push_back({"There are no runs.", Ink::kWarning});
+    figure.notes.push_back({"There are no runs.", ThemeColour::kWarning});
     figure.alt = "No runs.";
   } else {
     const auto [low, high] = std::ranges::minmax(shares);

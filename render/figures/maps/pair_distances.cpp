@@ -26,7 +26,7 @@ void require_consistent(const MeasuredMapSpec& spec) {
 }
 
 Segments pair_lines(const MeasuredMapSpec& spec) {
-  Segments lines{.label = "measured pair", .ink = Ink::kSeries3, .width = 0.4};
+  Segments lines{.label = "measured pair", .colour = ThemeColour::kSeries3, .width = 0.4};
   for (const MeasuredPair& pair : spec.pairs) {
     const auto from = spec.map.estimate.row(pair.first), to = spec.map.estimate.row(pair.second);
     if (!from.allFinite() || !to.allFinite()) continue;
@@ -49,10 +49,10 @@ struct Distances {
 };
 
 Distances distances_in(const Points& positions_shown_m, const PairDistancesSpec& spec,
-                       const char* where, Ink ink, Marker marker) {
+                       const char* where, ThemeColour colour, Marker marker) {
   Distances result{where,
-                   {.label = where, .ink = ink, .marker = marker, .size = 0.5},
-                   {.label = where, .ink = ink, .marker = marker, .size = 0.5}};
+                   {.label = where, .colour = colour, .marker = marker, .size = 0.5},
+                   {.label = where, .colour = colour, .marker = marker, .size = 0.5}};
   for (const MeasuredPair& pair : spec.pairs) {
     const double known_m =
         (positions_shown_m.row(pair.first) - positions_shown_m.row(pair.second)).norm();
@@ -92,7 +92,7 @@ Polyline right_line(double longest, double slope) {
   return {.label = "no error",
           .x = {0.0, longest},
           .y = {0.0, slope * longest},
-          .ink = Ink::kMuted,
+          .colour = ThemeColour::kMuted,
           .dash = Dash::kDashed};
 }
 
@@ -123,10 +123,10 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
   const bool is_fitted = !spec.map.anchors.empty();
   std::vector<Distances> known = {distances_in(spec.map.estimate, spec,
                                                is_fitted ? "in the map as fitted" : "in the map",
-                                               Ink::kSeries1, Marker::kCircle)};
+                                               ThemeColour::kSeries1, Marker::kCircle)};
   if (spec.map.ground_truth_m)
     known.push_back(distances_in(*spec.map.ground_truth_m, spec, "in the ground truth",
-                                 Ink::kSeries2, Marker::kCross));
+                                 ThemeColour::kSeries2, Marker::kCross));
   double longest = 0.0;
   for (const Distances& distances : known)
     for (const double x : distances.against.x) longest = std::max(longest, x);
@@ -138,7 +138,7 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
   off.y.label = "measured less distance [m]";
   figure.caption =
       "Each pair of landmarks that scans showed together: its measured distance against that of "
-      "their places, and the difference.";
+      "their positions, and the difference.";
   if (is_fitted)
     figure.caption +=
         " The map is fitted to its anchors, which may stretch it: distances before that are in the "
@@ -148,7 +148,7 @@ Figure pair_distances_figure(const PairDistancesSpec& spec) {
     against.layers.emplace_back(right_line(longest, 1.0));
     off.layers.emplace_back(right_line(longest, 0.0));
   } else {
-    figure.notes.push_back({"No measured pair has a place.", Ink::kWarning});
+    figure.notes.push_back({"No measured pair has a position.", ThemeColour::kWarning});
   }
   for (Distances& distances : known) {
     if (distances.against.x.empty()) continue;

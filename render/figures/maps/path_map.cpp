@@ -168,11 +168,11 @@ class PathMap {
     panel.y = {.label = "y [m]", .limits = view_.limits.y};
     if (spec_.run.log.ground_truth)
       panel.layers.push_back(
-          path(*spec_.run.log.ground_truth, "true path", "ground-truth", kTrueInk, 2.4));
+          path(*spec_.run.log.ground_truth, "true path", "ground-truth", kTrueColour, 2.4));
     for (const SlamRecord* record : view_.shown) {
       const PathStyle style = path_style(record->method);
       panel.layers.push_back(
-          path(record->estimate.path, label_of(*record), key(*record), style.ink, style.width));
+          path(record->estimate.path, label_of(*record), key(*record), style.colour, style.width));
     }
     panel.layers.push_back(true_landmarks(false));
     panel.layers.push_back(true_landmarks(true));
@@ -187,14 +187,14 @@ class PathMap {
 
   static std::string key(const SlamRecord& record) { return std::string(info(record.method).name); }
 
-  Polyline path(const Trajectory& path, const std::string& label, const std::string& key, Ink ink,
-                double width) const {
+  Polyline path(const Trajectory& path, const std::string& label, const std::string& key,
+                ThemeColour colour, double width) const {
     ThinLine thin = thin_path(path, view_.tolerance_m);
     const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
     return {.label = label,
             .x = std::move(thin.x),
             .y = std::move(thin.y),
-            .ink = ink,
+            .colour = colour,
             .width = width,
             .marker = marker,
             .mark = {"path-" + key, {{"path", label}}}};
@@ -225,7 +225,7 @@ class PathMap {
 
   Scatter true_landmarks(bool known) const {
     Scatter points{.label = known ? "landmark, known" : "landmark, true",
-                   .ink = Ink::kText,
+                   .colour = ThemeColour::kText,
                    .marker = known ? Marker::kSquare : Marker::kCircle,
                    .filled = false,
                    .size = 1.5};
@@ -242,7 +242,7 @@ class PathMap {
   Scatter landmarks(const SlamRecord& record) const {
     const PathStyle style = path_style(record.method);
     Scatter points{
-        .label = label_of(record), .ink = style.ink, .marker = style.marker, .size = 1.2};
+        .label = label_of(record), .colour = style.colour, .marker = style.marker, .size = 1.2};
     const Points& positions = record.estimate.landmarks_m;
     for (Index i = 0; i < positions.rows(); ++i) {
       if (!in_image(positions.row(i))) continue;
@@ -254,7 +254,7 @@ class PathMap {
 
   Ellipses ellipses(const SlamRecord& record) const {
     const PathStyle style = path_style(record.method);
-    Ellipses ellipses{.label = label_of(record), .ink = style.ink, .width = 0.8};
+    Ellipses ellipses{.label = label_of(record), .colour = style.colour, .width = 0.8};
     const auto& covariances = record.estimate.landmark_cov_m2;
     for (Index i = 0; i < std::ssize(covariances); ++i) {
       const Eigen::RowVector2d at = record.estimate.landmarks_m.row(i);
@@ -263,7 +263,7 @@ class PathMap {
       ellipses.x.push_back(at.x()), ellipses.y.push_back(at.y());
       ellipses.a.push_back(view_.enlarged * ellipse.a);
       ellipses.b.push_back(view_.enlarged * ellipse.b);
-      ellipses.turn_rad.push_back(ellipse.turn_rad);
+      ellipses.rotation_rad.push_back(ellipse.rotation_rad);
       ellipses.marks.push_back({fmt::format("ellipse-{}-{}", key(record), i + 1),
                                 {{"landmark", spec_.run.log.landmarks[i]},
                                  {"a", data_number(ellipse.a)},
@@ -304,12 +304,13 @@ class PathMap {
 
   std::vector<Note> notes() const {
     std::vector<Note> notes;
-    if (view_.shown.empty()) notes.push_back({"No method gave a path.", Ink::kWarning});
+    if (view_.shown.empty()) notes.push_back({"No method gave a path.", ThemeColour::kWarning});
     if (any_ellipse() && view_.enlarged != 1.0)
       notes.push_back(
           {fmt::format("Ellipses hold 95 % and are enlarged {:g} times.", view_.enlarged)});
     if (!view_.leaving.empty())
-      notes.push_back({"Outside the image: " + listed(view_.leaving, 4) + ".", Ink::kWarning});
+      notes.push_back(
+          {"Outside the image: " + listed(view_.leaving, 4) + ".", ThemeColour::kWarning});
     std::vector<std::string> others;
     for (const SlamRecord* record : view_.failed) {
       const auto& statuses = record->estimate.statuses;

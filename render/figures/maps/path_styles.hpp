@@ -9,7 +9,7 @@ namespace mapproof {
 
 /// The style of a method's path, errors and landmarks, the same in all figures.
 struct PathStyle {
-  Ink ink = Ink::kSeries1;
+  ThemeColour colour = ThemeColour::kSeries1;
   Dash dash = Dash::kSolid;  ///< Of errors over time; paths are solid, being dense.
   double width = 1.0;        ///< Of paths.
   Marker marker = Marker::kPlus;
@@ -17,7 +17,7 @@ struct PathStyle {
 PathStyle path_style(SlamMethod method);
 
 /// The colour class of the ground truth: wide and grey, so that what lies on it is seen.
-inline constexpr Ink kTrueInk = Ink::kMuted;
+inline constexpr ThemeColour kTrueColour = ThemeColour::kMuted;
 
 /// "unaligned", "rigid", "rigid with reflection", "similarity": how an error was taken, in
 /// words.

@@ -47,13 +47,16 @@ PanelLimits limits_of(const Points& ground_truth_m) {
 
 /// What is drawn, landmark by landmark.
 struct EllipseLayers {
-  Ellipses scatter{
-      .label = "95 % of estimates", .ink = Ink::kSeries1, .fill = Fill::kTint, .width = 0.6};
-  Segments bias{.label = "error of the mean", .ink = Ink::kText, .width = 0.7};
-  Scatter means{.label = "mean estimate", .ink = Ink::kSeries1, .size = 0.6};
-  Scatter ground_truth{.label = "true position", .ink = Ink::kText, .filled = false, .size = 0.7};
+  Ellipses scatter{.label = "95 % of estimates",
+                   .colour = ThemeColour::kSeries1,
+                   .fill = Fill::kTint,
+                   .width = 0.6};
+  Segments bias{.label = "error of the mean", .colour = ThemeColour::kText, .width = 0.7};
+  Scatter means{.label = "mean estimate", .colour = ThemeColour::kSeries1, .size = 0.6};
+  Scatter ground_truth{
+      .label = "true position", .colour = ThemeColour::kText, .filled = false, .size = 0.7};
   Scatter anchors{.label = "anchor",
-                  .ink = Ink::kSeries2,
+                  .colour = ThemeColour::kSeries2,
                   .marker = Marker::kSquare,
                   .filled = false,
                   .size = 1.3};
@@ -74,7 +77,7 @@ struct EllipseLayers {
     if (std::isnan(e.a_m)) return;
     scatter.x.push_back(mean.x), scatter.y.push_back(mean.y);
     scatter.a.push_back(e.a_m), scatter.b.push_back(e.b_m);
-    scatter.turn_rad.push_back(e.turn_rad);
+    scatter.rotation_rad.push_back(e.rotation_rad);
     scatter.marks.push_back({fmt::format("ellipse-{}", i + 1), data});
   }
 };
@@ -82,7 +85,7 @@ struct EllipseLayers {
 /// The limits with all of the ellipses, as far as half the width beyond where they began.
 PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
   const auto reach = [&](bool along_x, std::size_t i) {
-    const double c = std::cos(ellipses.turn_rad[i]), s = std::sin(ellipses.turn_rad[i]);
+    const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
     const double a = ellipses.a[i] * (along_x ? c : s), b = ellipses.b[i] * (along_x ? s : c);
     return std::hypot(a, b);
   };
@@ -140,12 +143,13 @@ std::string alt_of(const EllipseMapSpec& spec, const EllipseSummary& summary) {
 
 std::vector<Note> notes_of(const EllipseSummary& summary) {
   std::vector<Note> notes;
-  if (summary.placed == 0) notes.push_back({"No run gave a landmark a place.", Ink::kWarning});
+  if (summary.placed == 0)
+    notes.push_back({"No run gave a landmark a position.", ThemeColour::kWarning});
   if (summary.placed > 0 && summary.with_ellipse == 0)
-    notes.push_back({"Fewer than three runs: no ellipses.", Ink::kWarning});
+    notes.push_back({"Fewer than three runs: no ellipses.", ThemeColour::kWarning});
   if (summary.outside > 0)
     notes.push_back(
-        {counted(summary.outside, "mean estimate") + " outside the image.", Ink::kWarning});
+        {counted(summary.outside, "mean estimate") + " outside the image.", ThemeColour::kWarning});
   return notes;
 }
 
@@ -167,7 +171,7 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
   }
   C /= ellipse.runs - 1;
   const Ellipse axes = covariance_ellipse(C);
-  ellipse.a_m = axes.a, ellipse.b_m = axes.b, ellipse.turn_rad = axes.turn_rad;
+  ellipse.a_m = axes.a, ellipse.b_m = axes.b, ellipse.rotation_rad = axes.rotation_rad;
   return ellipse;
 }
 

@@ -22,11 +22,11 @@ struct EllipseMapSpec {
 
 /// Mean and covariance of one landmark's estimates, as an ellipse.
 struct ScatterEllipse {
-  int runs = 0;  ///< That gave the landmark a place.
+  int runs = 0;  ///< That gave the landmark a position.
   Eigen::RowVector2d mean_m = Eigen::RowVector2d::Constant(0.0);  ///< NaN without runs.
   double a_m = 0.0;  ///< Half axes, a >= b; NaN below three runs.
   double b_m = 0.0;
-  double turn_rad = 0.0;  ///< Of a from the x axis.
+  double rotation_rad = 0.0;  ///< Of a from the x axis.
 };
 
 /// The ellipse that holds 95 % of a normal scatter with the mean and the covariance (n - 1) of the

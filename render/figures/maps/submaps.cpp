@@ -38,7 +38,7 @@ std::vector<Point> hull_of(const Points& positions) {
 }
 
 Area outline(const Submap& map, std::size_t number) {
-  Area area{.ink = series_ink(number), .outlined = true, .width = 0.8};
+  Area area{.colour = series_colour(number), .outlined = true, .width = 0.8};
   for (const Point& corner : hull_of(map.positions)) add_corner(area, corner);
   area.mark = {fmt::format("submap-{}", number + 1),
                {{"landmarks", std::to_string(map.landmarks.size())}}};
@@ -46,7 +46,7 @@ Area outline(const Submap& map, std::size_t number) {
 }
 
 Segments residuals(const JoinedSubmaps& joined, const std::vector<std::string>& names) {
-  Segments lines{.label = "residual", .ink = Ink::kText, .width = 0.6};
+  Segments lines{.label = "residual", .colour = ThemeColour::kText, .width = 0.6};
   for (std::size_t g = 0; g < joined.submaps.size(); ++g) {
     const Submap& map = joined.submaps[g];
     for (std::size_t k = 0; map.placed && k < map.landmarks.size(); ++k) {
@@ -63,7 +63,7 @@ Segments residuals(const JoinedSubmaps& joined, const std::vector<std::string>& 
 }
 
 Scatter landmarks(const JoinedSubmaps& joined, const std::vector<std::string>& names) {
-  Scatter points{.label = "joined landmark", .ink = Ink::kText, .size = 0.7};
+  Scatter points{.label = "joined landmark", .colour = ThemeColour::kText, .size = 0.7};
   for (Eigen::Index i = 0; i < joined.positions.rows(); ++i) {
     if (!joined.positions.row(i).allFinite()) continue;
     add_point(points, point_of(joined.positions.row(i)));

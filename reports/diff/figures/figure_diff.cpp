@@ -60,8 +60,8 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
     log.change(kind_of(first, second, varies, ChangeKind::kStyle), "figure", "note", first, second);
     if (before && after)
       log.change(ChangeKind::kStyle, "figure", "colour of a note",
-                 std::string(name_in_files(a.notes[i].ink)),
-                 std::string(name_in_files(b.notes[i].ink)));
+                 std::string(name_in_files(a.notes[i].colour)),
+                 std::string(name_in_files(b.notes[i].colour)));
   }
 }
 

@@ -14,9 +14,8 @@ namespace {
 
 /// The names in the comparison of fields that have a different name in files.
 std::string_view word_of(std::string_view key) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kWords = {
-      {{"ink", "colour"},
-       {"turn_rad", "turn"},
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kWords = {
+      {{"rotation_rad", "rotation"},
        {"values", "value"},
        {"limits", "limits of the ramp"},
        {"bar_label", "label of the colour bar"},
@@ -27,7 +26,7 @@ std::string_view word_of(std::string_view key) {
   return found == kWords.end() ? key : found->second;
 }
 
-/// Sorts the fields of a layer by their role.
+/// Sorts the fields of a layer by what they are.
 struct LayerViewer : FieldVisitor {
   LayerView view;
 

@@ -28,7 +28,7 @@ struct LayerExtent {
 };
 
 /// The coordinates that form a position of each point.
-struct Places {
+struct Locations {
   std::size_t x = 0;  ///< Index into LayerView::coordinates.
   std::size_t y = 0;
 };
@@ -39,7 +39,7 @@ struct LayerView {
   std::string label;
   std::vector<LayerStyle> styles;
   std::vector<Coordinates> coordinates;
-  std::vector<Places> locations;
+  std::vector<Locations> locations;
   std::vector<LayerExtent> extents;
   std::span<const std::string> texts;  ///< One per point, or none.
   std::span<const Mark> marks;         ///< One per point, one for all, or none.

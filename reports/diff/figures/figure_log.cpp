@@ -197,7 +197,7 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
                               std::size_t j) {
   std::optional<MarkMove> farthest;
   bool is_within = false;
-  for (const Places& at : a.locations) {
+  for (const Locations& at : a.locations) {
     const Point before{a.coordinates[at.x].values[i], a.coordinates[at.y].values[i]};
     const Point after{b.coordinates[at.x].values[j], b.coordinates[at.y].values[j]};
     const Movement movement =
@@ -245,7 +245,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
 void LayerDiff::compare_values(const LayerView& a, const LayerView& b,
                                const std::vector<Match>& matches) {
   for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
-    if (std::ranges::any_of(a.locations, [&](Places at) { return at.x == c || at.y == c; }))
+    if (std::ranges::any_of(a.locations, [&](Locations at) { return at.x == c || at.y == c; }))
       continue;
     long count = 0;
     double first = 0.0, second = 0.0;

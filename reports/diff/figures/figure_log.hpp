@@ -36,7 +36,7 @@ struct FigureChange {
 
 /// A mark, or a point of a curve, that moved.
 struct MarkMove {
-  std::string location;     ///< As FigureChange::place.
+  std::string location;     ///< As FigureChange::location.
   std::string mark;         ///< Mark::id, "" if it has none.
   std::string landmark;     ///< Its data-landmark, "" if it has none.
   std::string curve;        ///< Its data-curve, "" if it has none.

@@ -33,14 +33,14 @@ namespace {
 constexpr double kNoisyShare = 0.2;
 
 // Of 255: a contrast above any allowed noise.
-constexpr double kInk = 16.0;
+constexpr double kContrast = 16.0;
 
 /// The result of the first pass over a tile.
 struct TileStyle {
   bool differs = false;
-  bool is_textured = false;  ///< Not of one colour.
-  bool has_ink = false;      ///< It has colours further apart than kInk.
-  int within_noise = 0;      ///< Pixels that differ by no more than noise.
+  bool is_textured = false;   ///< Not of one colour.
+  bool has_contrast = false;  ///< It has colours further apart than kContrast.
+  int within_noise = 0;       ///< Pixels that differ by no more than noise.
 };
 
 /// The pixels of a tile, cut off at the image's edge.
@@ -78,10 +78,10 @@ TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double no
     const std::uint32_t *p = a.row(y) + box.x, *q = b.row(y) + box.x;
     style.is_textured =
         style.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
-    style.has_ink =
-        style.has_ink || (style.is_textured && std::any_of(p, p + box.width, [=](auto v) {
-                            return !is_within(v, first, kInk);
-                          }));
+    style.has_contrast =
+        style.has_contrast || (style.is_textured && std::any_of(p, p + box.width, [=](auto v) {
+                                 return !is_within(v, first, kContrast);
+                               }));
     if (std::memcmp(p, q, sizeof *p * static_cast<std::size_t>(box.width)) == 0) continue;
     style.differs = true;
     for (int x = 0; x < box.width; ++x)
@@ -409,7 +409,7 @@ void judge_pixels(const Image& baseline, const Image& current, const ImageOption
     if (styles[i].differs) tiles.push_back(static_cast<int>(i));
     within_noise += styles[i].within_noise;
     texture.tiles += styles[i].is_textured;
-    if (!styles[i].has_ink) continue;
+    if (!styles[i].has_contrast) continue;
     texture.bounds.add(static_cast<int>(i) % diff.marks.across(),
                        static_cast<int>(i) / diff.marks.across());
   }

@@ -125,11 +125,11 @@ Recolouring find_recolouring(const PatchPair& pair, double noise) {
   for (const Pixel& pixel : pixels) {
     const Eigen::Vector3d reported = map.transpose() * row_of(pixel);
     rest += (pixel.difference - reported).squaredNorm();
-    const Eigen::Vector3d ink = pixel.before - paper;
-    const double length = ink.norm();
+    const Eigen::Vector3d drawn = pixel.before - paper;
+    const double length = drawn.norm();
     if (length >= 8.0)
-      found.off_line =
-          std::max(found.off_line, (reported - reported.dot(ink) / (length * length) * ink).norm());
+      found.off_line = std::max(
+          found.off_line, (reported - reported.dot(drawn) / (length * length) * drawn).norm());
   }
   found.share = 1.0 - rest / energy;
   return found;

@@ -109,9 +109,9 @@ RecordSet set_of(StudyContents contents) {
   return set;
 }
 
-RecordSet read_study_set(const fs::path& folder, const fs::path& beside) {
+RecordSet read_study_set(const fs::path& folder, const fs::path& other) {
   const auto differs = [&](const fs::path& file) {
-    return !same_bytes(file, beside / file.lexically_relative(folder));
+    return !same_bytes(file, other / file.lexically_relative(folder));
   };
   RecordSet set = set_of(read_study_contents(folder, {.maps = differs, .keeps_on = true}));
   add_settings(set, folder / "study.json");
@@ -143,9 +143,9 @@ bool is_compared(const fs::path& file) {
 }
 
 /// Lists the files that differ from those of the other side.
-void add_others(RecordSet& set, const fs::path& folder, const fs::path& beside) {
+void add_others(RecordSet& set, const fs::path& folder, const fs::path& other) {
   for (const fs::path& file : record_files(folder))
-    if (!is_compared(file) && !same_bytes(folder / file, beside / file))
+    if (!is_compared(file) && !same_bytes(folder / file, other / file))
       set.others[file.generic_string()] = folder / file;
 }
 
@@ -205,19 +205,19 @@ bool holds_records(const fs::path& path) {
   return is_single(path);
 }
 
-RecordSet read_records(const fs::path& path, const fs::path& beside) {
+RecordSet read_records(const fs::path& path, const fs::path& other) {
   std::error_code error;
   RecordSet set;
   if (has_study(path)) {
-    set = read_study_set(path, beside);
+    set = read_study_set(path, other);
   } else {
     const fs::path file = single_file(path);
     if (file.empty()) throw IoError(path.string(), "holds no records");
     set = read_single(file);
   }
   if (fs::is_directory(path, error))
-    add_others(set, path, beside);
-  else if (!same_bytes(path, beside))
+    add_others(set, path, other);
+  else if (!same_bytes(path, other))
     set.others[""] = path;
   return set;
 }

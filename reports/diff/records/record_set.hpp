@@ -12,7 +12,7 @@
 namespace mapproof {
 
 /// The files that hold records, without the timings: those of a study of any kind, of a map or of
-/// one log's result. Paths below `place`, ascending. Files that cannot be listed are left out.
+/// one log's result. Paths below `location`, ascending. Files that cannot be listed are left out.
 std::vector<std::filesystem::path> record_files(const std::filesystem::path& location);
 
 /// The folder below `root` whose record_files() include the file; empty if none does.
@@ -71,8 +71,8 @@ bool holds_records(const std::filesystem::path& path);
 
 /// Reads the records of a folder or a file. A file of a study that cannot be read is listed as a
 /// problem; the others are read.
-/// @param beside  The other side: maps and details with equal bytes there are left out.
+/// @param other  The other side: maps and details with equal bytes there are left out.
 /// @throws IoError if there are no records, or if the file that states their kind cannot be read.
-RecordSet read_records(const std::filesystem::path& path, const std::filesystem::path& beside);
+RecordSet read_records(const std::filesystem::path& path, const std::filesystem::path& other);
 
 }  // namespace mapproof

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -15,10 +16,18 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/diff/svg/svg_active.hpp"
-#include "reports/diff/svg/xml_place.hpp"
 
 namespace mapproof {
 namespace {
+
+/// Where a parser stands, from 1. Expat has another name for it from 2.9 on.
+std::uint64_t line_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+  return XML_GetCurrentLineNumber64(parser);
+#else
+  return XML_GetCurrentLineNumber(parser);
+#endif
+}
 
 constexpr std::string_view kSvg = "http://www.w3.org/2000/svg";
 

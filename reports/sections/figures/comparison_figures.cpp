@@ -1,4 +1,4 @@
-#include "reports/sections/figures/comparison_figures.hpp"
+#include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
 #include <cmath>

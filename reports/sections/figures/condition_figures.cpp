@@ -1,4 +1,4 @@
-#include "reports/sections/figures/condition_figures.hpp"
+#include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "reports/sections/figures/measurement_figures.hpp"
+#include "reports/sections/figures/figure_builders.hpp"
 
 #include "render/figures/diagrams/measurement.hpp"
 

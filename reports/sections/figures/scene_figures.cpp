@@ -1,4 +1,4 @@
-#include "reports/sections/figures/scene_figures.hpp"
+#include "reports/sections/figures/figure_builders.hpp"
 
 #include <fmt/format.h>
 

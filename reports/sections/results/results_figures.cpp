@@ -252,12 +252,13 @@ std::string free_id(const FigureGroup& group, const std::string& id) {
   return free;
 }
 
-Polyline path_line(const std::string& label, const Trajectory& path, Ink ink, double width) {
+Polyline path_line(const std::string& label, const Trajectory& path, ThemeColour colour,
+                   double width) {
   constexpr double kShareOfSpan = 5e-4;  // Less than a line's width.
   const Eigen::RowVector2d span =
       path.positions_m.colwise().maxCoeff() - path.positions_m.colwise().minCoeff();
   const ThinLine thin = thin_path(path, kShareOfSpan * span.maxCoeff());
-  return {.label = label, .x = thin.x, .y = thin.y, .ink = ink, .width = width};
+  return {.label = label, .x = thin.x, .y = thin.y, .colour = colour, .width = width};
 }
 
 std::string alignment_words(const GivenPath& path) {
@@ -281,8 +282,9 @@ Figure path_figure(const GivenPath& path, std::string id) {
   panel.y.label = "y [m]";
   panel.equal_aspect = true;
   if (path.ground_truth)
-    panel.layers.emplace_back(path_line("ground truth", *path.ground_truth, Ink::kText, 0.6));
-  panel.layers.emplace_back(path_line("estimate", path.path, Ink::kSeries1, 1.0));
+    panel.layers.emplace_back(
+        path_line("ground truth", *path.ground_truth, ThemeColour::kText, 0.6));
+  panel.layers.emplace_back(path_line("estimate", path.path, ThemeColour::kSeries1, 1.0));
   figure.caption =
       fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
                   path.ground_truth ? " and its ground truth" : "", alignment_words(path));

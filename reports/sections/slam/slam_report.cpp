@@ -1,8 +1,5 @@
 #include "reports/sections/slam/slam_report.hpp"
 
-#include "reports/sections/slam/slam_run_section.hpp"
-#include "reports/sections/slam/slam_summary.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -18,11 +15,12 @@
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/provenance.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
-#include "reports/sections/tables/sessions_table.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -108,7 +106,7 @@ void add_statuses(const std::string& where, const std::string& id,
       item = list.items.end() - 1;
     }
     item->count = 1;
-    item->places.push_back({id, status_text(status)});
+    item->locations.push_back({id, status_text(status)});
   }
 }
 

@@ -184,12 +184,12 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
   if (record == nullptr) return std::nullopt;
   const SlamEstimate& estimate = record->estimate;
   const auto& ground_truth = run.log.true_landmarks;
-  const bool sure = std::ssize(estimate.landmark_cov_m2) == estimate.landmarks_m.rows();
+  const bool has_covariances = std::ssize(estimate.landmark_cov_m2) == estimate.landmarks_m.rows();
   Table table;
   table.id = "slam-landmarks-" + run.id;
   table.caption = fmt::format("Landmarks, {}", info(record->method).label);
   table.columns = {{"Landmark", "", "", ""}, {"x", "m", "Map", ""}, {"y", "m", "Map", ""}};
-  if (sure) {
+  if (has_covariances) {
     table.columns.push_back({"x", "m", "Standard deviation", ""});
     table.columns.push_back({"y", "m", "Standard deviation", ""});
   }
@@ -204,7 +204,7 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
     row.cells = {TextCell{run.log.landmarks[i], Emphasis::kData},
                  NumberCell{estimate.landmarks_m(i, 0), 3},
                  NumberCell{estimate.landmarks_m(i, 1), 3}};
-    if (sure)
+    if (has_covariances)
       for (Index axis = 0; axis < 2; ++axis)
         row.cells.emplace_back(NumberCell{std::sqrt(estimate.landmark_cov_m2[i](axis, axis)), 3});
     if (ground_truth) {

@@ -356,7 +356,8 @@ std::vector<FaultCase> make_cases() {
            [](const std::string& folder) {
              return std::vector<std::string>{"map",      folder + "/observations.csv",
                                              "--sensor", "visibility",
-                                             "--out",    folder + "/out"};
+                                             "--drop-unseen",
+                                            "--out",    folder + "/out"};
            }},
       slam_case()};
 }

@@ -60,8 +60,8 @@ TEST(MapWithIds, NamesAndRepairsASwapInTheSecondHalf) {
   ASSERT_EQ(named.at("data_association").size(), 1U);
   const json& swap = named.at("data_association")[0];
   EXPECT_EQ(swap.at("what"), "swapped");
-  const std::set<std::string> labels = {swap.at("first"), swap.at("second")};
-  EXPECT_EQ(labels, (std::set{clean.names[3], clean.names[11]}));
+  const std::set<std::string> ids = {swap.at("first"), swap.at("second")};
+  EXPECT_EQ(ids, (std::set{clean.names[3], clean.names[11]}));
   EXPECT_LT(swap.at("after_m").get<double>(), 0.75 * swap.at("before_m").get<double>());
   EXPECT_FALSE(swap.at("repaired").get<bool>());
   const std::string page = read_file(folder / "named/report.html");

@@ -125,7 +125,7 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   const TemporaryFolder folder;
   const Survey survey;
   const std::string file =
-      folder.file("growing.csv", "step,landmark,value\n" + survey.rows(0, 100));
+      folder.file("live.csv", "step,landmark,value\n" + survey.rows(0, 100));
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const std::string out = folder.path() / "out";
   const pid_t process =
@@ -155,7 +155,7 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
 TEST(MapFollow, EndsWithARemarkWhereTheFileIsCutShort) {
   const TemporaryFolder folder;
   const Survey survey;
-  const std::string file = folder.file("growing.csv", survey.rows(0, 50));
+  const std::string file = folder.file("live.csv", survey.rows(0, 50));
   const std::string out = folder.path() / "out";
   const pid_t process = start_mapproof({"map", file, "--follow", "--every", "10", "--sensor",
                                         "bearing", "--method", "lpca", "--out", out});

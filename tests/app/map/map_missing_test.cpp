@@ -6,7 +6,7 @@
 
 #include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/samples/incomplete.hpp"
@@ -165,7 +165,7 @@ TEST(Map, WarnsOfAMapThatIsWorthNoMoreThanTheAnchorsMean) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const auto result = nlohmann::json::parse(outcome.out);
   ASSERT_EQ(result["warnings"].size(), 1U) << outcome.error;
-  EXPECT_NE(result["warnings"][0].get<std::string>().find("worth nothing in metres"),
+  EXPECT_NE(result["warnings"][0].get<std::string>().find("cannot be used in metres"),
             std::string::npos);
 }
 

@@ -72,8 +72,8 @@ TEST(MapUnassociated, FindsTheLandmarksOfMeasurementsWithoutAnId) {
   EXPECT_LT(result["score"]["mpe_all_fitted_m"], 0.15);
   EXPECT_NE(result["remarks"].dump().find("Data association estimated together with the map"),
             std::string::npos);
-  // Each line of labels.csv names the line of the file that it is about.
-  std::istringstream lines(read_file(folder / "out" / "labels.csv"));
+  // Each line of association.csv names the line of the file that it is about.
+  std::istringstream lines(read_file(folder / "out" / "association.csv"));
   std::string line;
   std::getline(lines, line);
   std::map<std::size_t, std::string> found;
@@ -103,7 +103,7 @@ TEST(MapUnassociated, MendsSomeOfTwoLabelsThatAreConfusedInAQuarterOfTheStepsAnd
   EXPECT_LT(result["score"]["mpe_all_fitted_m"], plain["score"]["mpe_all_fitted_m"]);
   // Of the two measurements in each fourth step some only are found: little distinguishes two
   // landmarks that are never certain.
-  const std::string csv = read_file(folder / "out" / "labels.csv");
+  const std::string csv = read_file(folder / "out" / "association.csv");
   EXPECT_GT(std::ranges::count(csv, '\n'), 30);
   EXPECT_NE(result["warnings"].dump().find("have no certain measurement"), std::string::npos)
       << result["warnings"];

@@ -91,6 +91,10 @@ TEST(Words, NoTextHasARetiredOne) {
   const std::vector<fs::path> files = texts();
   EXPECT_GT(files.size(), 1000U);
   for (const fs::path& file : files) {
+    for (const Retired& one : words)
+      if (one.is_in(file.string()))
+        ADD_FAILURE() << file.string() << ": the name has " << one.word << " (use "
+                      << one.use_instead << ")";
     std::ifstream text(fs::path(MAPPROOF_SOURCE_DIR) / file);
     int number = 0;
     for (std::string line; std::getline(text, line);) {

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kSeenWell = 30;  ///< Detections of each landmark by that robot, together with others.
 
-bool same_labels(const AssociationFinding& one, int a, int b) {
+bool same_ids(const AssociationFinding& one, int a, int b) {
   return std::minmax(one.first, one.second) == std::minmax(a, b);
 }
 
@@ -33,11 +33,11 @@ struct Sweep {
            const std::function<bool(int)>& in_step) {
     const DetectionLog wrong = swapped(log, a, b, in_step);
     const AssociationCheck check = check_association(wrong);
-    const auto is_swap = [&](const AssociationFinding& one) { return same_labels(one, a, b); };
+    const auto is_swap = [&](const AssociationFinding& one) { return same_ids(one, a, b); };
     const auto is_known = [&](const AssociationFinding& one) {
       return is_swap(one) ||
              std::ranges::any_of(clean.findings, [&](const AssociationFinding& other) {
-               return same_labels(one, other.first, other.second);
+               return same_ids(one, other.first, other.second);
              });
     };
     const bool found = std::ranges::any_of(check.findings, is_swap);
@@ -48,7 +48,7 @@ struct Sweep {
     corrected += is_corrected ? 1 : 0;
     others += std::ranges::all_of(check.findings, is_known) ? 0 : 1;
     if (found && is_corrected) return;
-    std::cout << fmt::format("{} and {}, {} labels, {} left:\n", log.names[a], log.names[b],
+    std::cout << fmt::format("{} and {}, {} IDs, {} left:\n", log.names[a], log.names[b],
                              wrong_ids(wrong, log), left);
     for (const AssociationFinding& one : check.findings)
       std::cout << fmt::format("  {} {}, {}\n", name(one.fault), one.first, one.second);
@@ -105,7 +105,7 @@ TEST_P(FaultSweep, LeavesMostMapsAsGoodAsOnesWithoutFaults) {
     const auto [a, b] = pair_of(number);
     const DetectionLog wrong = with_fault(log, kind, a, b, static_cast<std::uint64_t>(number));
     const AssociationCheck check = check_association(wrong);
-    const auto is_right = [&](const AssociationFinding& one) { return same_labels(one, a, b); };
+    const auto is_right = [&](const AssociationFinding& one) { return same_ids(one, a, b); };
     const bool found = std::ranges::any_of(check.findings, is_right);
     const bool other = !std::ranges::all_of(check.findings, is_right);
     const DetectionLog corrected =

@@ -91,7 +91,7 @@ TEST(ConfidenceEllipse, HasTheAxesOfItsCovariance) {
   ASSERT_TRUE(ellipse);
   EXPECT_NEAR(ellipse->a, 4.0, 1e-12);
   EXPECT_NEAR(ellipse->b, 2.0, 1e-12);
-  EXPECT_NEAR(ellipse->turn_rad, std::atan(1.0), 1e-12);
+  EXPECT_NEAR(ellipse->rotation_rad, std::atan(1.0), 1e-12);
   EXPECT_FALSE(confidence_ellipse(certainty, 1));
 }
 

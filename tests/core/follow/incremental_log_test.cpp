@@ -1,4 +1,4 @@
-#include "core/follow/moved_watch.hpp"
+#include "core/follow/incremental_map.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/experiment/scored_map.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "tests/support/samples/incomplete.hpp"
 #include "tests/support/samples/worlds.hpp"

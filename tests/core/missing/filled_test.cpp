@@ -6,7 +6,7 @@
 
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "tests/support/samples/incomplete.hpp"
 

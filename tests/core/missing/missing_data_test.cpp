@@ -1,4 +1,4 @@
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 
 #include <cmath>
 
@@ -16,7 +16,7 @@ ObservationHistory bearings_of(const test::WalkedRoom& room) {
   return observe(room.world, room.path, {.sensor = Sensor::kBearing}, random);
 }
 
-TEST(Gaps, RemoveTheRequestedShareAndLeaveTheRest) {
+TEST(MissingEntries, RemoveTheRequestedShareAndLeaveTheRest) {
   const test::WalkedRoom room = test::walked_room(1, 60, 20);
   const ObservationHistory history = bearings_of(room);
   Random random(2);
@@ -29,7 +29,7 @@ TEST(Gaps, RemoveTheRequestedShareAndLeaveTheRest) {
   }
 }
 
-TEST(Gaps, OfLimitedRangeAreTheMostDistantEntries) {
+TEST(MissingEntries, OfLimitedRangeAreTheMostDistantEntries) {
   const test::WalkedRoom room = test::walked_room(2, 60, 20);
   const Losses distances = range_losses(room.world, room.path);
   const ObservationHistory incomplete = with_missing(bearings_of(room), distances, 0.4);
@@ -43,7 +43,7 @@ TEST(Gaps, OfLimitedRangeAreTheMostDistantEntries) {
   EXPECT_LE(furthest_kept, nearest_lost);
 }
 
-TEST(Gaps, OfOcclusionAreThoseThatTheVisibilitySensorFindsHidden) {
+TEST(MissingEntries, OfOcclusionAreThoseThatTheVisibilitySensorFindsHidden) {
   const test::WalkedRoom room = test::walked_room(3, 40, 30);
   const Losses losses = occlusion_losses(room.world, room.path);
   const double radius = room.world.landmark_diameter_m / 2.0;
@@ -61,7 +61,7 @@ TEST(Gaps, OfOcclusionAreThoseThatTheVisibilitySensorFindsHidden) {
   EXPECT_GT(hidden, 50);
 }
 
-TEST(Gaps, RefuseSharesAndSizesThatCannotBe) {
+TEST(MissingEntries, RefuseSharesAndSizesThatCannotBe) {
   const test::WalkedRoom room = test::walked_room(1, 20, 10);
   const ObservationHistory history = bearings_of(room);
   const Losses losses = range_losses(room.world, room.path);

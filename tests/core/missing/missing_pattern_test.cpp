@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/random.hpp"
-#include "core/simulate/gaps.hpp"
+#include "core/simulate/missing_entries.hpp"
 #include "core/simulate/sensors.hpp"
 #include "tests/support/samples/incomplete.hpp"
 

@@ -75,7 +75,7 @@ void add_range_slam(Numbers& numbers) {
                                       .landmarks = 8,
                                       .range_sigma_m = 0.1,
                                       .distance_sigma_m = 0.01,
-                                      .turn_sigma_rad = 0.005,
+                                      .heading_change_sigma_rad = 0.005,
                                       .range_scale = 1.05});
   SlamRunOptions options{.methods = {}, .known = all_known(log), .random_starts = 2};
   for (const SlamMethodInfo& method : all_slam_methods()) options.methods.push_back(method.method);

@@ -30,7 +30,7 @@ RangeLog one_step() {
 }
 
 TEST(Ekf, WeighsOneReadingAgainstOneStepByTheirVariances) {
-  EkfOptions options{.odometry = {.forward_m = 0.3, .sideways_m = 0.2, .turn_rad = 0.1},
+  EkfOptions options{.odometry = {.forward_m = 0.3, .sideways_m = 0.2, .heading_change_rad = 0.1},
                      .range_sigma_m = 0.4,
                      .covariances = 2};
   options.known = KnownLandmarks{.rows = {0}, .positions_m = (Points(1, 2) << 10, 0).finished()};
@@ -76,9 +76,11 @@ TEST(Ekf, FindsTheWorldAndTheScaleWithoutNoise) {
 }
 
 TEST(Ekf, IsBetterThanDeadReckoning) {
-  const RangeLog log = slam_world(
-      5, {.steps = 400, .range_sigma_m = 0.2, .distance_sigma_m = 0.02, .turn_sigma_rad = 0.02});
-  EkfOptions options{.odometry = {.turn_rad = 0.02}, .range_sigma_m = 0.2};
+  const RangeLog log = slam_world(5, {.steps = 400,
+                                      .range_sigma_m = 0.2,
+                                      .distance_sigma_m = 0.02,
+                                      .heading_change_sigma_rad = 0.02});
+  EkfOptions options{.odometry = {.heading_change_rad = 0.02}, .range_sigma_m = 0.2};
   options.known = all_known(log);
   SlamEstimate reckoned;
   reckoned.path = dead_reckoned(log);
@@ -92,9 +94,9 @@ TEST(Ekf, ErrorsAreAsLargeAsItsCovariancesSay) {
   double squared = 0.0;
   constexpr int kDraws = 200;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const RangeLog log =
-        slam_world(500 + static_cast<std::uint64_t>(draw),
-                   {.range_sigma_m = 0.2, .distance_sigma_m = 0.02, .turn_sigma_rad = 0.005});
+    const RangeLog log = slam_world(
+        500 + static_cast<std::uint64_t>(draw),
+        {.range_sigma_m = 0.2, .distance_sigma_m = 0.02, .heading_change_sigma_rad = 0.005});
     EkfOptions options{.range_sigma_m = 0.2, .gate = 1e9, .covariances = 2};
     options.known = all_known(log);
     const SlamEstimate estimate = ekf_slam(log, options);
@@ -154,7 +156,7 @@ TEST(Ekf, BrokenBoundsAreRefused) {
   log.landmarks.resize(501);
   EXPECT_THROW(ekf_slam(log), InvalidInput);
   log = slam_world(1);
-  log.odometry[3].turn_rad = std::nan("");
+  log.odometry[3].heading_change_rad = std::nan("");
   EXPECT_THROW(ekf_slam(log), InvalidInput);
 }
 

@@ -20,7 +20,7 @@ using test::procrustes_gap;
 using test::ranges_between;
 using test::spread_of;
 
-/// A world of noisy ranges, and the online map of it.
+/// A world of noisy ranges, and the incremental map of it.
 struct Streamed {
   Points landmarks, path;
   Eigen::MatrixXd Y;

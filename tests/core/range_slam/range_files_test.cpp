@@ -121,20 +121,20 @@ TEST(RangeLogFiles, OdometryWithTheGroundTruthsTurnsIsNamed) {
   test::write_mat(log, folder / "a.mat", true);
   EXPECT_TRUE(remarks_hold(read_range_log(folder / "a.mat"), "increments of DR are those"));
   RangeLog noisy = log;
-  for (Motion& motion : noisy.odometry) motion.turn_rad += 0.001;
+  for (Motion& motion : noisy.odometry) motion.heading_change_rad += 0.001;
   EXPECT_FALSE(remarks_hold(read_range_log(csv_folder(folder, noisy)), "is not honest"));
 }
 
 TEST(RangeLogFiles, OdometryIsRecoveredFromTheDeadReckonedPath) {
   RangeLog log = sample_log();
-  for (Motion& motion : log.odometry) motion.turn_rad = -7.0;  // DR lies, DRp does not.
+  for (Motion& motion : log.odometry) motion.heading_change_rad = -7.0;  // DR lies, DRp does not.
   const test::TemporaryFolder folder;
   test::write_mat(log, folder / "a.mat", true);
   expect_same(read_range_log(folder / "a.mat"), sample_log(), 1e-12);
   RangeLogOptions as_given;
   as_given.odometry = OdometrySource::kAsGiven;
   const RangeLog given = read_range_log(folder / "a.mat", as_given);
-  EXPECT_EQ(given.odometry.front().turn_rad, -7.0);
+  EXPECT_EQ(given.odometry.front().heading_change_rad, -7.0);
 }
 
 TEST(RangeLogFiles, LandmarksWithoutRangesOrWithoutAPlaceAreNamed) {

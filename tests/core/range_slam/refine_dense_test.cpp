@@ -51,7 +51,7 @@ struct DenseProblem {
       const double dy = b(1) - a(1);
       r(3 * i) = (std::cos(a(2)) * dx + std::sin(a(2)) * dy - motion.distance_m) / 0.02;
       r(3 * i + 1) = (-std::sin(a(2)) * dx + std::cos(a(2)) * dy - motion.sideways_m) / 0.02;
-      r(3 * i + 2) = (b(2) - a(2) - motion.turn_rad) / 0.005;
+      r(3 * i + 2) = (b(2) - a(2) - motion.heading_change_rad) / 0.005;
     }
     for (std::size_t k = 0; k < log.ranges.size(); ++k) {
       const double at = range_residual(weighted_at, k);

@@ -23,9 +23,11 @@ using test::slam_world;
 TEST(DeadReckoning, FollowsStepsThenTurns) {
   RangeLog log;
   log.start = {.time_s = 0.0, .x_m = 1.0, .y_m = 1.0, .heading_rad = 0.0};
-  log.odometry = {
-      {.time_s = 1.0, .distance_m = 2.0, .turn_rad = std::numbers::pi / 2.0, .sideways_m = 0.0},
-      {.time_s = 2.0, .distance_m = 3.0, .turn_rad = 0.0, .sideways_m = 1.0}};
+  log.odometry = {{.time_s = 1.0,
+                   .distance_m = 2.0,
+                   .heading_change_rad = std::numbers::pi / 2.0,
+                   .sideways_m = 0.0},
+                  {.time_s = 2.0, .distance_m = 3.0, .heading_change_rad = 0.0, .sideways_m = 1.0}};
   const Trajectory path = dead_reckoned(log);
   Points expected(3, 2);
   expected << 1, 1, 3, 1, 2, 4;
@@ -62,9 +64,10 @@ TEST(KeyPoses, GiveTheDeadReckonedPathAtAnyTime) {
 /// Two steps put together have the covariance of many drawn ones.
 TEST(KeyPoses, PutTheNoiseOfStepsTogether) {
   RangeLog log;
-  log.odometry = {{.time_s = 1.0, .distance_m = 2.0, .turn_rad = 0.8, .sideways_m = 0.0},
-                  {.time_s = 2.0, .distance_m = 1.0, .turn_rad = -0.3, .sideways_m = 0.5}};
-  const OdometryNoise noise{.forward_m = 0.02, .sideways_m = 0.01, .turn_rad = 0.02};
+  log.odometry = {
+      {.time_s = 1.0, .distance_m = 2.0, .heading_change_rad = 0.8, .sideways_m = 0.0},
+      {.time_s = 2.0, .distance_m = 1.0, .heading_change_rad = -0.3, .sideways_m = 0.5}};
+  const OdometryNoise noise{.forward_m = 0.02, .sideways_m = 0.01, .heading_change_rad = 0.02};
   const KeyPoses keys(dead_reckoned(log), noise, 1e6);
   ASSERT_EQ(keys.motions().size(), 1U);
   const Eigen::Matrix3d W = keys.motions()[0].root_information;
@@ -76,7 +79,7 @@ TEST(KeyPoses, PutTheNoiseOfStepsTogether) {
     for (Motion& motion : drawn.odometry) {
       motion.distance_m += noise.forward_m * random.normal();
       motion.sideways_m += noise.sideways_m * random.normal();
-      motion.turn_rad += noise.turn_rad * random.normal();
+      motion.heading_change_rad += noise.heading_change_rad * random.normal();
     }
     const Trajectory path = dead_reckoned(drawn);
     const Eigen::Vector3d end(path.positions_m(2, 0), path.positions_m(2, 1), path.heading_rad(2));

@@ -27,9 +27,9 @@ TEST(Refine, CovariancesAreThoseOfManyDraws) {
   double squared = 0.0;
   constexpr int kDraws = 150;
   for (int draw = 0; draw < kDraws; ++draw) {
-    const RangeLog log =
-        slam_world(100 + static_cast<std::uint64_t>(draw),
-                   {.range_sigma_m = 0.05, .distance_sigma_m = 0.02, .turn_sigma_rad = 0.005});
+    const RangeLog log = slam_world(
+        100 + static_cast<std::uint64_t>(draw),
+        {.range_sigma_m = 0.05, .distance_sigma_m = 0.02, .heading_change_sigma_rad = 0.005});
     const RefineOptions options{.range_sigma_m = 0.05, .huber = 100.0, .covariances = 1};
     const SlamEstimate refined = refine(log, ground_truth_as_start(log), options);
     const Similarity motion =
@@ -55,9 +55,11 @@ TEST(Refine, FindsTheWorldAndTheScaleWithoutNoise) {
 }
 
 TEST(Refine, IsBetterThanDeadReckoningAndTheSameFromEveryStart) {
-  const RangeLog log = slam_world(
-      5, {.steps = 300, .range_sigma_m = 0.2, .distance_sigma_m = 0.02, .turn_sigma_rad = 0.02});
-  const RefineOptions options{.odometry = {.turn_rad = 0.02}, .range_sigma_m = 0.2};
+  const RangeLog log = slam_world(5, {.steps = 300,
+                                      .range_sigma_m = 0.2,
+                                      .distance_sigma_m = 0.02,
+                                      .heading_change_sigma_rad = 0.02});
+  const RefineOptions options{.odometry = {.heading_change_rad = 0.02}, .range_sigma_m = 0.2};
   const SlamEstimate start = dead_reckoning_start(log);
   const SlamEstimate refined = refine(log, start, options);
   EXPECT_LT(mean_error_m(log, refined, Alignment::kRigid), 0.15);

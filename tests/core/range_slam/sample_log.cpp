@@ -59,11 +59,11 @@ RangeLog sample_log() {
     if (i + 1 == kPoses) break;
     const Motion motion{.time_s = path.time_s(i + 1),
                         .distance_m = 0.5 + 0.05 * static_cast<double>(i),
-                        .turn_rad = i == 5 ? 1.0 : 0.02,
+                        .heading_change_rad = i == 5 ? 1.0 : 0.02,
                         .sideways_m = 0.0};
     log.odometry.push_back(motion);
     position += motion.distance_m * Eigen::RowVector2d(std::cos(heading), std::sin(heading));
-    heading += motion.turn_rad;
+    heading += motion.heading_change_rad;
   }
   return log;
 }
@@ -80,7 +80,7 @@ std::string ranges_csv_of(const RangeLog& log) {
 std::string odometry_csv_of(const RangeLog& log) {
   std::string text = "dheading,t,ddist\n";
   for (const Motion& motion : log.odometry)
-    text += fmt::format("{},{},{}\n", motion.turn_rad, motion.time_s, motion.distance_m);
+    text += fmt::format("{},{},{}\n", motion.heading_change_rad, motion.time_s, motion.distance_m);
   return text;
 }
 
@@ -118,7 +118,7 @@ std::string pyfg_of(const RangeLog& log) {
   }
   for (std::size_t i = 0; i < log.odometry.size(); ++i)
     text += fmt::format("EDGE_SE2 {} A{} A{} {} 0 {} 1 0 0 1 0 1\n", log.odometry[i].time_s, i,
-                        i + 1, log.odometry[i].distance_m, log.odometry[i].turn_rad);
+                        i + 1, log.odometry[i].distance_m, log.odometry[i].heading_change_rad);
   for (const RangeMeasurement& measured : log.ranges)
     text +=
         fmt::format("EDGE_RANGE {} A{} L{} {} 0.25\n", measured.time_s,
@@ -140,7 +140,7 @@ std::string dr_text_of(const RangeLog& log) {
   std::string text;
   for (const Motion& motion : log.odometry)
     text += number(motion.time_s) + " " + number(motion.distance_m) + " " +
-            number(motion.turn_rad) + "\n";
+            number(motion.heading_change_rad) + "\n";
   return text;
 }
 
@@ -158,7 +158,7 @@ void write_mat(const RangeLog& log, const std::filesystem::path& path, bool is_c
   Eigen::MatrixXd motions(static_cast<Eigen::Index>(log.odometry.size()), 3);
   for (Eigen::Index i = 0; i < motions.rows(); ++i) {
     const Motion& motion = log.odometry[static_cast<std::size_t>(i)];
-    motions.row(i) << motion.time_s, motion.distance_m, motion.turn_rad;
+    motions.row(i) << motion.time_s, motion.distance_m, motion.heading_change_rad;
   }
   Eigen::MatrixXd ranges(static_cast<Eigen::Index>(log.ranges.size()), 4);
   for (Eigen::Index i = 0; i < ranges.rows(); ++i) {
@@ -196,7 +196,8 @@ void expect_same(const RangeLog& log, const RangeLog& expected, double tolerance
     EXPECT_EQ(log.odometry[i].time_s, expected.odometry[i].time_s);
     EXPECT_NEAR(log.odometry[i].distance_m, expected.odometry[i].distance_m, tolerance);
     if (i + 1 < log.odometry.size() || tolerance == 0.0) {
-      EXPECT_NEAR(log.odometry[i].turn_rad, expected.odometry[i].turn_rad, tolerance);
+      EXPECT_NEAR(log.odometry[i].heading_change_rad, expected.odometry[i].heading_change_rad,
+                  tolerance);
     }
     EXPECT_EQ(log.odometry[i].sideways_m, 0.0);
   }

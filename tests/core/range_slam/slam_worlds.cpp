@@ -45,10 +45,11 @@ RangeLog slam_world(std::uint64_t seed, const SlamWorldOptions& options) {
     if (i + 1 == poses) break;
     const double turn =
         options.is_straight ? 0.0 : 0.12 + 0.15 * std::sin(0.35 * static_cast<double>(i));
-    log.odometry.push_back({.time_s = path.time_s(i + 1),
-                            .distance_m = 0.5 + options.distance_sigma_m * random.normal(),
-                            .turn_rad = turn + options.turn_sigma_rad * random.normal(),
-                            .sideways_m = options.distance_sigma_m * random.normal()});
+    log.odometry.push_back(
+        {.time_s = path.time_s(i + 1),
+         .distance_m = 0.5 + options.distance_sigma_m * random.normal(),
+         .heading_change_rad = turn + options.heading_change_sigma_rad * random.normal(),
+         .sideways_m = options.distance_sigma_m * random.normal()});
     position += 0.5 * Eigen::RowVector2d(std::cos(heading), std::sin(heading));
     heading += turn;
   }
@@ -59,7 +60,7 @@ RangeLog noisy_world(std::uint64_t seed, Eigen::Index steps) {
   return slam_world(seed, {.steps = steps,
                            .range_sigma_m = 0.2,
                            .distance_sigma_m = 0.02,
-                           .turn_sigma_rad = 0.01,
+                           .heading_change_sigma_rad = 0.01,
                            .range_scale = 1.05});
 }
 

@@ -10,7 +10,7 @@ struct SlamWorldOptions {
   Eigen::Index landmarks = 4;
   double range_sigma_m = 0.0;
   double distance_sigma_m = 0.0;
-  double turn_sigma_rad = 0.0;
+  double heading_change_sigma_rad = 0.0;
   double range_scale = 1.0;
   bool is_straight = false;
 };

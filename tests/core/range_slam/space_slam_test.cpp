@@ -337,7 +337,7 @@ TEST(RangeFlight, RefusesWhatIsNoWorld) {
   refused([](RangeFlightOptions& o) { o.height_m = 0.0; });
   refused([](RangeFlightOptions& o) { o.step_m = 5.0; });
   refused([](RangeFlightOptions& o) { o.half_width_m = NAN; });
-  refused([](RangeFlightOptions& o) { o.turn_sigma_rad = NAN; });
+  refused([](RangeFlightOptions& o) { o.heading_change_sigma_rad = NAN; });
   refused([](RangeFlightOptions& o) { o.noise.sigma_m = -1.0; });
   refused([](RangeFlightOptions& o) { o.noise.correlation = 1.0; });
 }

@@ -47,7 +47,7 @@ std::string text_of(const RangeLog& log) {
   for (const RangeMeasurement& range : log.ranges)
     text += fmt::format("\n{} {} {}", range.time_s, range.landmark, range.range_m);
   for (const Motion& motion : log.odometry)
-    text += fmt::format("\n{} {} {}", motion.time_s, motion.distance_m, motion.turn_rad);
+    text += fmt::format("\n{} {} {}", motion.time_s, motion.distance_m, motion.heading_change_rad);
   if (log.ground_truth) text += text_of(log.ground_truth->positions_m);
   if (log.true_landmarks) text += text_of(*log.true_landmarks);
   return text;

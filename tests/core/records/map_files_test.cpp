@@ -186,7 +186,7 @@ TEST(MapCsv, GivesTheEllipsesOfLandmarksThatHaveOne) {
   const std::string csv = map_csv(sample(), sample_certainty());
   EXPECT_TRUE(
       csv.starts_with("name,x_m,y_m,true_x_m,true_y_m,error_m,anchor,ellipse_a_m,"
-                      "ellipse_b_m,ellipse_turn_deg\r\noak,0,0,0,0,0,1,0,0,0\r\n"));
+                      "ellipse_b_m,ellipse_rotation_deg\r\noak,0,0,0,0,0,1,0,0,0\r\n"));
   EXPECT_NE(csv.find("\r\nash,4,0,4,0,0,1,4,2,45\r\n"), std::string::npos) << csv;
   EXPECT_NE(csv.find("\r\nelm,,,4,3,,0,,,\r\n"), std::string::npos) << csv;
 }

@@ -20,8 +20,9 @@ RangeLog made_up_log() {
   log.ranges = {{.time_s = 0.5, .landmark = 0, .range_m = 3.25},
                 {.time_s = 0.75, .landmark = 2, .range_m = 0.1}};
   log.start = {.time_s = 0.5, .x_m = 1.5, .y_m = -2.0, .heading_rad = 0.1};
-  log.odometry = {{.time_s = 1.0, .distance_m = 0.4, .turn_rad = 0.2, .sideways_m = 0.0},
-                  {.time_s = 2.25, .distance_m = -0.3, .turn_rad = 0.0, .sideways_m = 0.05}};
+  log.odometry = {
+      {.time_s = 1.0, .distance_m = 0.4, .heading_change_rad = 0.2, .sideways_m = 0.0},
+      {.time_s = 2.25, .distance_m = -0.3, .heading_change_rad = 0.0, .sideways_m = 0.05}};
   log.ground_truth = short_path(0.0, true);
   log.true_landmarks = Points(3, 2);
   *log.true_landmarks << 0.0, 1.0, kNaN, kNaN, 5.0, 5.5;
@@ -46,7 +47,7 @@ SlamRecord made_up_record() {
   estimate.iterations = 7;
   estimate.cost = 123.456;
   estimate.statuses = {
-      status_with_message(StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no place.")};
+      status_with_message(StatusCode::kLandmarkUnseen, "Landmark \"post, left\" has no position.")};
   record.errors = {{.alignment = Alignment::kRigid,
                     .mean_m = 0.2,
                     .rmse_m = 0.25,

@@ -26,7 +26,7 @@ TEST(QuantityDictionary, HasEachIdOnceWithALabelAndStandInsThatItHas) {
     if (!quantity.stands_in_for.empty()) {
       EXPECT_NE(find_quantity(quantity.stands_in_for), nullptr) << quantity.id;
     }
-    // What is judged by nightly runs is an error, and no hint of the solver.
+    // What is judged by nightly runs is an error, not a number of the solver.
     if (quantity.nightly == NightlyRule::kRatio || quantity.nightly == NightlyRule::kPoints) {
       EXPECT_EQ(quantity.better, Better::kLower) << quantity.id;
       EXPECT_FALSE(quantity.of_solver) << quantity.id;

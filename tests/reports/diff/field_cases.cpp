@@ -115,7 +115,7 @@ std::vector<ValueCase> slam_cases() {
       field(run, "/starts/0/iterations", 3000, Verdict::kWithinTolerance, {"within tolerance"}),
       reported(run, "/published/poses", 9659), reported(run, "/log/ranges/range_m/0", 3.5),
       field(run, "/log/true_landmarks_m/0/1", 1.25, Verdict::kChanged, {"of different landmarks"}),
-      reported(run, "/log/odometry/turn_rad/0", 0.3),
+      reported(run, "/log/odometry/heading_change_rad/0", 0.3),
       field(run, "/log/landmarks/0", "other", Verdict::kChanged, {"of different landmarks"}),
       reported(run, "/upgrade/steps/1", 1),
       field(run, "/log/ground_truth/x_m/1", 0.7, Verdict::kChanged,

@@ -53,7 +53,9 @@ void add_words(const Figure& figure, std::vector<ValueCase>& cases) {
   style("title", {"title"}, [](Figure& f) { f.title += " again"; });
   style("caption", {"only texts", "caption"}, [](Figure& f) { f.caption += " More."; });
   style("alternative text", {"alternative text"}, [](Figure& f) { f.alt += " More."; });
-  style("note", {"note (A note)"}, [](Figure& f) { f.notes.push_back({"A note", Ink::kText}); });
+  style("note", {"note (A note)"}, [](Figure& f) {
+    f.notes.push_back({"A note", ThemeColour::kText});
+  });
   style("panel title", {"panel 1: title"}, [](Figure& f) { f.panels[0].title = "A panel"; });
   style("x label", {"label of x"}, [](Figure& f) { f.panels[0].x.label += " more"; });
   style("y label", {"label of y"}, [](Figure& f) { f.panels[0].y.label = "other [m]"; });
@@ -73,7 +75,7 @@ void add_map_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   for (std::size_t i = 0; i < 3; ++i) {
     const auto name = [&](const char* what) { return fmt::format("{} of scatter {}", what, i); };
     style(name("colour"), {"colour", "series7"},
-          [i](Figure& f) { layer<Scatter>(f, i).ink = Ink::kSeries7; });
+          [i](Figure& f) { layer<Scatter>(f, i).colour = ThemeColour::kSeries7; });
     style(name("marker"), {"marker", "triangle"},
           [i](Figure& f) { layer<Scatter>(f, i).marker = Marker::kTriangle; });
     style(name("fill"), {"filled"},
@@ -85,7 +87,7 @@ void add_map_styles(const Figure& figure, std::vector<ValueCase>& cases) {
           [i](Figure& f) { layer<Scatter>(f, i).label = "other words"; });
   }
   style("error colour", {"colour muted"},
-        [](Figure& f) { layer<Segments>(f).ink = Ink::kSeries3; });
+        [](Figure& f) { layer<Segments>(f).colour = ThemeColour::kSeries3; });
   style("error dash", {"dash solid \u2192 dashed"},
         [](Figure& f) { layer<Segments>(f).dash = Dash::kDashed; });
   style("error width", {"width"}, [](Figure& f) { layer<Segments>(f).width = 2.0; });
@@ -103,7 +105,7 @@ void add_curve_styles(const Figure& figure, std::vector<ValueCase>& cases) {
   for (std::size_t i = 0; i < 2; ++i) {
     const auto name = [&](const char* what) { return fmt::format("{} of curve {}", what, i); };
     style(name("colour"), {"colour", "series7"},
-          [i](Figure& f) { layer<Polyline>(f, i).ink = Ink::kSeries7; });
+          [i](Figure& f) { layer<Polyline>(f, i).colour = ThemeColour::kSeries7; });
     style(name("dash"), {"dash", "long-dash"},
           [i](Figure& f) { layer<Polyline>(f, i).dash = Dash::kLongDash; });
     style(name("marker"), {"marker", "plus"},
@@ -112,7 +114,7 @@ void add_curve_styles(const Figure& figure, std::vector<ValueCase>& cases) {
     style(name("legend entry dropped"), {"label (was "},
           [i](Figure& f) { layer<Polyline>(f, i).label = ""; });
     style(name("band colour"), {"band", "colour"},
-          [i](Figure& f) { layer<Band>(f, i).ink = Ink::kSeries6; });
+          [i](Figure& f) { layer<Band>(f, i).colour = ThemeColour::kSeries6; });
   }
   style("scale", {"scale of y", "log"}, [](Figure& f) {
     f.panels[0].y.scale = Scale::kLog;

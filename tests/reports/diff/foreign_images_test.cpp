@@ -225,7 +225,7 @@ TEST(ForeignImages, WhateverIsPlantedOnFlatGroundIsFoundAndSoIsItsLoss) {
 }
 
 /// Two sets of tolerances, the second at least as large as the first in each.
-std::pair<ImageOptions, ImageOptions> growing_options(Random& random) {
+std::pair<ImageOptions, ImageOptions> widened_options(Random& random) {
   const auto pair = [&](double largest) {
     const double a = largest * std::pow(random.uniform(), 3),
                  b = largest * std::pow(random.uniform(), 3);
@@ -256,7 +256,7 @@ TEST(ForeignImages, ALargerToleranceFailsNothingThatASmallerOnePasses) {
         pixel = colour;
       }
     }
-    const auto [small, large] = growing_options(random);
+    const auto [small, large] = widened_options(random);
     const PixelDiff strict = pixel_diff(pair.baseline, pair.current, small).pixels;
     const PixelDiff lenient = pixel_diff(pair.baseline, pair.current, large).pixels;
     (strict.changed > 0 ? failed : passed) += 1;

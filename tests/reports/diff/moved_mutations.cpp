@@ -16,7 +16,7 @@ Point* data_marker(Item& item, const Drawing& drawing) {
   const Box frame = drawing.frames.front();
   const bool is_inside = stamp && item.panel == 0 && stamp->at.x > frame.x0 &&
                          stamp->at.x < frame.x1 && stamp->at.y > frame.y0 && stamp->at.y < frame.y1;
-  return is_inside && item.role == Role::kMarker ? &stamp->at : nullptr;
+  return is_inside && item.item_class == ItemClass::kMarker ? &stamp->at : nullptr;
 }
 
 int data_markers(Drawing drawing) {
@@ -62,11 +62,11 @@ Change stretched(double by_px) {
                    at.y - px * (frame.y1 - at.y) / frame.height()};
     };
     for (Item& item : drawing.items) {
-      if (item.panel != 0 || item.role == Role::kFrame) continue;
+      if (item.panel != 0 || item.item_class == ItemClass::kFrame) continue;
       if (Point* at = data_marker(item, drawing)) *at = moved(*at);
       auto* shape = std::get_if<Shape>(&item.what);
-      if (shape && (item.role == Role::kLine || item.role == Role::kGrid ||
-                    item.role == Role::kBand || item.role == Role::kTick))
+      if (shape && (item.item_class == ItemClass::kLine || item.item_class == ItemClass::kGrid ||
+                    item.item_class == ItemClass::kBand || item.item_class == ItemClass::kTick))
         for (Point& point : shape->path.points) point = moved(point);
     }
   };
@@ -81,7 +81,7 @@ std::vector<std::size_t> last_label(const Drawing& drawing) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < drawing.items.size(); ++i)
     if (const auto* line = std::get_if<TextLine>(&drawing.items[i].what);
-        line && drawing.items[i].role == Role::kTickLabel &&
+        line && drawing.items[i].item_class == ItemClass::kTickLabel &&
         line->shaped.text.find_last_of("0123456789") != std::string::npos)
       found = {i};
   return found;
@@ -111,7 +111,7 @@ std::vector<Mutation> moved_mutations_of(const Drawing& drawing, const std::stri
     add("markers pushed apart by 1 px", snapped, both(snapped, pushed_apart));
   }
   // Cells are a raster that stays.
-  if (std::ranges::find(drawing.items, Role::kCells, &Item::role) != drawing.items.end())
+  if (std::ranges::find(drawing.items, ItemClass::kCells, &Item::item_class) != drawing.items.end())
     return found;
   for (const double by : {1.5, 2.0, 2.5, 3.0, 4.0})
     add(fmt::format("stretched by {} px", by), none, stretched(by));

@@ -85,7 +85,7 @@ class Mutations {
       return drawn(other);
     });
   }
-  /// Of the items of a role, the first, a middle one and the last.
+  /// Of the items of a class, the first, a middle one and the last.
   std::vector<std::size_t> some(const std::function<bool(const Item&)>& wanted) const {
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < drawing_->items.size(); ++i)
@@ -150,7 +150,7 @@ class Mutations {
   void marks() {
     using enum ImageState;
     const auto wanted = [](const Item& item) {
-      return item.role == Role::kMarker && std::holds_alternative<Stamp>(item.what);
+      return item.item_class == ItemClass::kMarker && std::holds_alternative<Stamp>(item.what);
     };
     const double px = 72.0 / drawing_->dpi;
     for (const std::size_t i : some(wanted)) {
@@ -181,7 +181,7 @@ class Mutations {
     std::map<Colour, int> colours;
     for (const Item& item : drawing_->items)
       if (const auto* shape = std::get_if<Shape>(&item.what);
-          shape && shape->stroke && item.role == Role::kLine)
+          shape && shape->stroke && item.item_class == ItemClass::kLine)
         ++colours[shape->stroke->colour];
     return colours;
   }
@@ -190,11 +190,12 @@ class Mutations {
     using enum ImageState;
     const auto is_shape = [](const Item& item) { return std::holds_alternative<Shape>(item.what); };
     for (const std::size_t i : some([&](const Item& item) {
-           return is_shape(item) && (item.role == Role::kLine || item.role == Role::kGrid ||
-                                     item.role == Role::kBand);
+           return is_shape(item) &&
+                  (item.item_class == ItemClass::kLine || item.item_class == ItemClass::kGrid ||
+                   item.item_class == ItemClass::kBand);
          })) {
-      const std::string role(name(drawing_->items[i].role));
-      change(fmt::format("{} {} lost", role, i), kDifferent,
+      const std::string item_class(name(drawing_->items[i].item_class));
+      change(fmt::format("{} {} lost", item_class, i), kDifferent,
              [i](Drawing& drawing) { drawing.items.erase(drawing.items.begin() + i); });
     }
     for (const auto& [colour, count] : stroke_colours())
@@ -207,14 +208,15 @@ class Mutations {
                      shape->stroke->colour = subtle(colour, by);
                });
     for (const std::size_t i : some([&](const Item& item) {
-           return is_shape(item) && item.role == Role::kBand && std::get<Shape>(item.what).fill;
+           return is_shape(item) && item.item_class == ItemClass::kBand &&
+                  std::get<Shape>(item.what).fill;
          }))
       for (const double by : {0.9, 1.1, 0.5})
         change(fmt::format("band {} {} times as opaque", i, by), kDifferent,
                [i, by](Drawing& drawing) {
                  std::get<Shape>(drawing.items[i].what).fill_opacity *= by;
                });
-    const auto is_grid = [](const Item& item) { return item.role == Role::kGrid; };
+    const auto is_grid = [](const Item& item) { return item.item_class == ItemClass::kGrid; };
     if (!some(is_grid).empty())
       change("grid lost", kDifferent,
              [is_grid](Drawing& drawing) { std::erase_if(drawing.items, is_grid); });
@@ -223,7 +225,8 @@ class Mutations {
   void words() {
     using enum ImageState;
     for (const std::size_t i : some([](const Item& item) {
-           return item.role == Role::kTickLabel && std::holds_alternative<TextLine>(item.what);
+           return item.item_class == ItemClass::kTickLabel &&
+                  std::holds_alternative<TextLine>(item.what);
          }))
       for (const int by : {1, 3, 6}) {
         const std::string& text = std::get<TextLine>(drawing_->items[i].what).shaped.text;
@@ -236,7 +239,8 @@ class Mutations {
         });
       }
     const auto legend = some([](const Item& item) {
-      return item.role == Role::kLegendText && std::holds_alternative<TextLine>(item.what);
+      return item.item_class == ItemClass::kLegendText &&
+             std::holds_alternative<TextLine>(item.what);
     });
     if (legend.size() < 2) return;
     change("legend order swapped", kDifferent, [legend](Drawing& drawing) {

@@ -33,7 +33,7 @@ TEST(SceneDiff, DistinguishesDataFromStyleAndTexts) {
   EXPECT_EQ(kind_after([](Scene& s) { s.record_ids.emplace_back("another"); }), ChangeKind::kData);
   EXPECT_EQ(kind_after([](Scene& s) { s.views[0].camera.eye.x() += 1.0; }), ChangeKind::kStyle);
   EXPECT_EQ(kind_after([](Scene& s) {
-              s.notes.push_back({"A note", Ink::kText});
+              s.notes.push_back({"A note", ThemeColour::kText});
             }),
             ChangeKind::kStyle);
   EXPECT_EQ(kind_after([](Scene& s) {

@@ -35,9 +35,9 @@ cairo_font_face_t* hinted_face(bool font_hints) {
 }
 
 void draw_text(const TextLine& line, bool outlined, cairo_t* context) {
-  const Colour ink = line.colour;
+  const Colour colour = line.colour;
   cairo_save(context);
-  cairo_set_source_rgb(context, ink.red / 255.0, ink.green / 255.0, ink.blue / 255.0);
+  cairo_set_source_rgb(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
   cairo_translate(context, line.at.x, line.at.y);
   if (line.upward) cairo_rotate(context, -std::numbers::pi / 2.0);
   cairo_set_font_size(context, line.size);

@@ -15,7 +15,7 @@ namespace {
 /// The stroke of a line of data, or null.
 Stroke* stroke_of(Item& item) {
   auto* shape = std::get_if<Shape>(&item.what);
-  return shape && shape->stroke && item.role == Role::kLine ? &*shape->stroke : nullptr;
+  return shape && shape->stroke && item.item_class == ItemClass::kLine ? &*shape->stroke : nullptr;
 }
 
 std::set<Colour> line_colours(Drawing drawing) {
@@ -42,7 +42,7 @@ Change pale_grid(int levels) {
     const Colour paper = drawing.background;
     for (Item& item : drawing.items)
       if (auto* shape = std::get_if<Shape>(&item.what);
-          shape && shape->stroke && item.role == Role::kGrid)
+          shape && shape->stroke && item.item_class == ItemClass::kGrid)
         shape->stroke = Stroke{{off(paper.red), off(paper.green), off(paper.blue)},
                                1.25 * 72.0 / drawing.dpi,
                                {72.0 / drawing.dpi, 144.0 / drawing.dpi}};
@@ -50,7 +50,8 @@ Change pale_grid(int levels) {
 }
 
 void lose_grid(Drawing& drawing) {
-  std::erase_if(drawing.items, [](const Item& item) { return item.role == Role::kGrid; });
+  std::erase_if(drawing.items,
+                [](const Item& item) { return item.item_class == ItemClass::kGrid; });
 }
 
 /// A wave of 60 pixels, or what fits, drawn through so many points.
@@ -66,11 +67,11 @@ Change with_wave(int waves, int points) {
                      frame.centre().y + height * std::sin(2 * std::numbers::pi * waves * part)};
       i == 0 ? wave.path.move_to(at) : wave.path.line_to(at);
     }
-    drawing.add(Role::kLine, 0, std::move(wave));
+    drawing.add(ItemClass::kLine, 0, std::move(wave));
   };
 }
 
-/// All items of a role moved by pixels; of text any role.
+/// All items of a class moved by pixels; of text any class.
 struct LayerMove {
   std::string layer;
   std::function<bool(const Item&)> is_in;
@@ -93,12 +94,13 @@ bool is_text(const Item& item) { return std::holds_alternative<TextLine>(item.wh
 
 std::vector<LayerMove> layer_moves() {
   std::vector<LayerMove> moves;
-  const auto is_of = [](Role role) {
-    return [role](const Item& item) { return item.role == role && !is_text(item); };
+  const auto is_of = [](ItemClass item_class) {
+    return
+        [item_class](const Item& item) { return item.item_class == item_class && !is_text(item); };
   };
   for (const auto& [right, down] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {-1.0, 1.0}}) {
-    moves.push_back({"markers", is_of(Role::kMarker), right, down});
-    moves.push_back({"lines", is_of(Role::kLine), right, down});
+    moves.push_back({"markers", is_of(ItemClass::kMarker), right, down});
+    moves.push_back({"lines", is_of(ItemClass::kLine), right, down});
     moves.push_back({"text", is_text, right, down});
   }
   return moves;
@@ -120,7 +122,8 @@ class SubtleMutations {
       for (const double times : {0.7, 1.25, 1.5})
         add(fmt::format("curve {} {} times as thick", hex(colour), times), kDifferent, {none},
             {thicker(colour, times)});
-    if (std::ranges::find(drawing_.items, Role::kGrid, &Item::role) != drawing_.items.end())
+    if (std::ranges::find(drawing_.items, ItemClass::kGrid, &Item::item_class) !=
+        drawing_.items.end())
       for (const int levels : {4, 6})
         add(fmt::format("grid of dots {} levels off lost", levels), kDifferent, {pale_grid(levels)},
             {lose_grid});
@@ -151,13 +154,13 @@ class SubtleMutations {
                       [=] { return made(after); }});
   }
 
-  /// The middle one of the items of a role.
-  std::vector<std::size_t> one(Role role) const {
+  /// The middle one of the items of a class.
+  std::vector<std::size_t> one(ItemClass item_class) const {
     std::vector<std::size_t> all;
     for (std::size_t i = 0; i < drawing_.items.size(); ++i) {
       const Item& item = drawing_.items[i];
       const auto* text = std::get_if<TextLine>(&item.what);
-      if (item.role == role &&
+      if (item.item_class == item_class &&
           (!text || text->shaped.text.find_last_of("0123456789") != std::string::npos))
         all.push_back(i);
     }
@@ -185,9 +188,9 @@ class SubtleMutations {
       add(fmt::format("{}, all moved {} {} px", name, right, down), ImageState::kDifferent, {none},
           {change, {.right_px = right, .down_px = down}});
     };
-    for (const std::size_t i : one(Role::kMarker)) moved("marker lost", without(i));
-    for (const std::size_t i : one(Role::kLine)) moved("line lost", without(i));
-    for (const std::size_t i : one(Role::kTickLabel))
+    for (const std::size_t i : one(ItemClass::kMarker)) moved("marker lost", without(i));
+    for (const std::size_t i : one(ItemClass::kLine)) moved("line lost", without(i));
+    for (const std::size_t i : one(ItemClass::kTickLabel))
       for (const int by : {1, 3, 6}) moved(fmt::format("digit {} further", by), other_digit(i, by));
   }
 
@@ -204,7 +207,7 @@ class SubtleMutations {
       add(fmt::format("hinted by the rasterizer and moved {} {} px", right, down),
           ImageState::kWithinTolerance, {none, plain},
           {LayerMove{"text", is_text, right, down}, automatic});
-    for (const std::size_t i : one(Role::kTickLabel))
+    for (const std::size_t i : one(ItemClass::kTickLabel))
       for (const int by : {1, 3, 6})
         add(fmt::format("hinted digit {} further", by), ImageState::kDifferent, {none, automatic},
             {other_digit(i, by), automatic});

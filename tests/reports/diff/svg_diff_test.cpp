@@ -75,8 +75,9 @@ TEST(SvgDiff, OneElementThatIsGoneIsOneChange) {
 TEST(SvgDiff, AMarkerLostFromAFigureIsNamedByItsId) {
   Drawing drawing = usual_map();
   const std::string before = to_svg(drawing);
-  const auto marker = std::ranges::find_if(
-      drawing.items, [](const Item& item) { return item.role == Role::kMarker && item.mark; });
+  const auto marker = std::ranges::find_if(drawing.items, [](const Item& item) {
+    return item.item_class == ItemClass::kMarker && item.mark;
+  });
   ASSERT_NE(marker, drawing.items.end());
   drawing.items.erase(marker);
   const SvgDiff found = diff_of(before, to_svg(drawing));

@@ -12,26 +12,27 @@ namespace {
 
 constexpr double kPixelsPerPoint = 2.0;
 
-bool is_data(Role role) {
-  return role == Role::kBand || role == Role::kCells || role == Role::kLine ||
-         role == Role::kMarker;
+bool is_data(ItemClass item_class) {
+  return item_class == ItemClass::kBand || item_class == ItemClass::kCells ||
+         item_class == ItemClass::kLine || item_class == ItemClass::kMarker;
 }
 
-bool blocks_text(Role role) {
-  return is_data(role) || role == Role::kFrame || role == Role::kTick || role == Role::kLeader;
+bool blocks_text(ItemClass item_class) {
+  return is_data(item_class) || item_class == ItemClass::kFrame || item_class == ItemClass::kTick ||
+         item_class == ItemClass::kLeader;
 }
 
-/// The pixels of the drawing's items of some roles alone.
+/// The pixels of the drawing's items of some classes alone.
 template <typename Wanted>
 Image image_of(const Drawing& drawing, Wanted wanted) {
   Drawing part = drawing;
-  std::erase_if(part.items, [&](const Item& item) { return !wanted(item.role); });
+  std::erase_if(part.items, [&](const Item& item) { return !wanted(item.item_class); });
   part.dpi = 72.0 * kPixelsPerPoint;
   return to_image(part);
 }
 
-/// Whether a pixel wholly inside the box has ink.
-bool has_ink(const Image& image, const Box& box, Colour background) {
+/// Whether a pixel wholly inside the box has colour.
+bool is_drawn_on(const Image& image, const Box& box, Colour background) {
   const std::uint32_t paper = background.red << 16 | background.green << 8 | background.blue;
   const auto pixel = [](double points) { return points * kPixelsPerPoint; };
   const int x0 = std::max(static_cast<int>(std::ceil(pixel(box.x0))), 0);
@@ -51,7 +52,7 @@ class Inspector {
   std::vector<std::string> inspect() {
     for (const Item& item : drawing_.items)
       if (const auto* line = std::get_if<TextLine>(&item.what))
-        texts_.push_back({&item, line, ink_box(*line)});
+        texts_.push_back({&item, line, text_box(*line)});
     check_frames();
     check_borders();
     check_text_on_text();
@@ -66,11 +67,11 @@ class Inspector {
   struct Text {
     const Item* item;
     const TextLine* line;
-    Box ink;
+    Box bounds;
   };
 
   static std::string named(const Text& text) {
-    return fmt::format("{} '{}'", name(text.item->role), text.line->shaped.text);
+    return fmt::format("{} '{}'", name(text.item->item_class), text.line->shaped.text);
   }
 
   void check_frames() {
@@ -85,7 +86,7 @@ class Inspector {
   void check_borders() {
     const Box page{0.0, 0.0, drawing_.width, drawing_.height};
     for (const Text& text : texts_)
-      if (!page.holds(text.ink)) flaws_.push_back(named(text) + " is cut by the border");
+      if (!page.holds(text.bounds)) flaws_.push_back(named(text) + " is cut by the border");
     for (const Item& item : drawing_.items)
       if (const auto* stamp = std::get_if<Stamp>(&item.what)) {
         const Box reach =
@@ -97,27 +98,29 @@ class Inspector {
   void check_text_on_text() {
     for (std::size_t i = 0; i < texts_.size(); ++i)
       for (std::size_t j = i + 1; j < texts_.size(); ++j)
-        if (texts_[i].ink.overlaps(texts_[j].ink))
+        if (texts_[i].colour.overlaps(texts_[j].colour))
           flaws_.push_back(named(texts_[i]) + " and " + named(texts_[j]) + " overlap");
   }
 
   void check_text_on_marks() {
     const Image marks = image_of(drawing_, blocks_text);
-    const Image no_cells =
-        image_of(drawing_, [](Role role) { return blocks_text(role) && role != Role::kCells; });
+    const Image no_cells = image_of(drawing_, [](ItemClass item_class) {
+      return blocks_text(item_class) && item_class != ItemClass::kCells;
+    });
     for (const Text& text : texts_) {
-      const bool is_on_cell = text.item->role == Role::kCellText;
-      if (has_ink(is_on_cell ? no_cells : marks, text.ink, drawing_.background))
+      const bool is_on_cell = text.item->item_class == ItemClass::kCellText;
+      if (is_drawn_on(is_on_cell ? no_cells : marks, text.bounds, drawing_.background))
         flaws_.push_back(named(text) + " covers a line or a mark");
     }
   }
 
   /// What a text of a cell stands on.
   Colour below(const Text& text) const {
-    if (text.item->role != Role::kCellText) return drawing_.background;
+    if (text.item->item_class != ItemClass::kCellText) return drawing_.background;
     if (cells_.width == 0)
-      cells_ = image_of(drawing_, [](Role role) { return role == Role::kCells; });
-    const Point middle = text.ink.centre();
+      cells_ =
+          image_of(drawing_, [](ItemClass item_class) { return item_class == ItemClass::kCells; });
+    const Point middle = text.bounds.centre();
     const auto pixel = [](double points) { return static_cast<int>(points * kPixelsPerPoint); };
     return colour(cells_.row(pixel(middle.y))[pixel(middle.x)] & 0xFFFFFF);
   }
@@ -125,10 +128,12 @@ class Inspector {
   void check_legend_on_data() {
     const Image data = image_of(drawing_, is_data);
     for (const Item& item : drawing_.items) {
-      if (item.role != Role::kLegendBox && item.role != Role::kLegendSample) continue;
+      if (item.item_class != ItemClass::kLegendBox && item.item_class != ItemClass::kLegendSample)
+        continue;
       const auto* shape = std::get_if<Shape>(&item.what);
-      if (shape != nullptr && has_ink(data, bounds(shape->path).grown(0.5), drawing_.background))
-        flaws_.push_back(fmt::format("{} covers data", name(item.role)));
+      if (shape != nullptr &&
+          is_drawn_on(data, bounds(shape->path).grown(0.5), drawing_.background))
+        flaws_.push_back(fmt::format("{} covers data", name(item.item_class)));
     }
   }
 
@@ -140,11 +145,12 @@ class Inspector {
       const auto* stamp = std::get_if<Stamp>(&item.what);
       const auto* shape =
           stamp != nullptr ? &drawing_.symbols[stamp->symbol] : std::get_if<Shape>(&item.what);
-      const bool counts = item.role == Role::kLine || item.role == Role::kMarker ||
-                          item.role == Role::kFrame || item.role == Role::kTick;
+      const bool counts =
+          item.item_class == ItemClass::kLine || item.item_class == ItemClass::kMarker ||
+          item.item_class == ItemClass::kFrame || item.item_class == ItemClass::kTick;
       if (shape == nullptr || !counts) continue;
       if (contrast(shape->stroke ? shape->stroke->colour : *shape->fill, drawing_.background) < 3.0)
-        flaws_.push_back(fmt::format("a {} has too little contrast", name(item.role)));
+        flaws_.push_back(fmt::format("a {} has too little contrast", name(item.item_class)));
     }
   }
 

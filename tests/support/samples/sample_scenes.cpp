@@ -165,14 +165,14 @@ Scene small_scene() {
               .alt = "A box, a tube, rods, spheres and a field.",
               .record_ids = {"record/1"},
               .lights = usual_lights()};
-  Surface sheet{.label = "sheet", .style = {.ink = Ink::kSeries3, .opacity = 0.5}};
+  Surface sheet{.label = "sheet", .style = {.colour = ThemeColour::kSeries3, .opacity = 0.5}};
   add_rectangle(sheet, {0.1, 0.1, 0.3}, {0.9, 0.1, 0.3}, {0.9, 0.9, 0.3}, {0.1, 0.9, 0.3});
   Tube tube{.label = "tube",
             .points = {{0.0, 0.0, 0.1}, {0.5, 0.2, 0.1}, {1.0, 0.0, 0.4}},
             .radius = 0.03};
   tube.tones = {{0.0, NAN, 2.0}, {0.0, 2.0}};
   Rods rods{.label = "rods", .from = {{0.2, 0.8, 0.0}}, .to = {{0.2, 0.8, 0.5}}, .radius = 0.06};
-  rods.style.ink = Ink::kSeries1;
+  rods.style.colour = ThemeColour::kSeries1;
   Rods arrow{.label = "arrow",
              .from = {{0.5, 0.9, 0.05}},
              .to = {{0.9, 0.5, 0.05}},
@@ -181,7 +181,7 @@ Scene small_scene() {
   Spheres spheres{.label = "sphere",
                   .at = {{0.75, 0.25, 0.15}},
                   .radius = 0.1,
-                  .style = {.ink = Ink::kSeries2}};
+                  .style = {.colour = ThemeColour::kSeries2}};
   Field field{.label = "field",
               .points = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.1}}};
   field.tones = {{0.0, 1.0, 1.0, 2.0}, {0.0, 2.0}};
@@ -191,7 +191,7 @@ Scene small_scene() {
   const std::vector<Point3> corners = {
       {-0.2, -0.2, 0.0}, {1.2, -0.2, 0.0}, {1.2, 1.0, 0.0}, {0.0, 1.0, 0.6}};
   view.camera = fitted_camera(corners, {0.4, -1.0, 0.8}, false);
-  view.labels = {{{{0.75, 0.25, 0.25}, {0.2, 0.8, 0.5}}, {"σ² = ½", "λ"}, Ink::kText}};
+  view.labels = {{{{0.75, 0.25, 0.25}, {0.2, 0.8, 0.5}}, {"σ² = ½", "λ"}, ThemeColour::kText}};
   view.rules = {{.to = {1.0, 0.0, 0.0}, .range = {0.0, 1.0}, .label = "x [m]"}};
   scene.views = {view};
   return scene;

@@ -1,0 +1,97 @@
+#include "core/embed/pca.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/errors.hpp"
+#include "core/linalg/centering.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Eigenvalues up to this share of the largest, or of the matrix, are rounding.
+constexpr double kCoordinateRounding = 1e-12;
+/// Eigenvalues nearer to each other than this share of the largest count as one.
+constexpr double kEqualEigenvalues = 1e-10;
+
+void check(const Eigen::MatrixXd& matrix) {
+  if (matrix.rows() < 3 || matrix.cols() != matrix.rows())
+    throw InvalidInput("kernel PCA needs a square matrix of at least 3 landmarks");
+  if (!matrix.allFinite()) throw InvalidInput("kernel PCA needs finite values");
+}
+
+/// A second eigenvalue within these many times the mean one is not an axis of a map: all are alike.
+constexpr double kLeastOfMean = 0.5;
+constexpr double kMostOfMean = 2.0;
+
+Embedding of_kernel(Eigen::MatrixXd K) {
+  const double size = K.cwiseAbs().maxCoeff();
+  const Eigen::MatrixXd B = centered(std::move(K));
+  const double mean = B.trace() / static_cast<double>(B.rows() - 1);
+  Embedding result = principal_coordinates(B, size);
+  const bool is_said = std::ranges::any_of(result.statuses, [](const Status& status) {
+    return status.code == StatusCode::kUndetermined || status.code == StatusCode::kRankDeficient;
+  });
+  // Three landmarks or four have too few eigenvalues to decide.
+  if (!is_said && B.rows() > 4 && result.spectrum.size() > 1 &&
+      result.spectrum(1) > kLeastOfMean * mean && result.spectrum(1) < kMostOfMean * mean)
+    result.statuses.push_back(status_of<StatusReason::kEqualKernel>(result.spectrum(1) / mean));
+  return result;
+}
+
+}  // namespace
+
+Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
+  const EigenPairs pairs = largest_eigenpairs(B, std::min<Eigen::Index>(B.rows(), 10));
+  Embedding result;
+  result.spectrum = pairs.values;
+  result.coordinates.setZero(B.rows(), 2);
+  const double floor = kCoordinateRounding * std::max(pairs.values(0), size);
+  int rank = 0;
+  for (; rank < 2 && pairs.values(rank) > floor; ++rank)
+    result.coordinates.col(rank) = std::sqrt(pairs.values(rank)) * pairs.vectors.col(rank);
+  if (!pairs.converged)
+    result.statuses.push_back(status_of<StatusReason::kEigenvaluesNotConverged>());
+  if (rank < 2) {
+    result.statuses.push_back(status_of<StatusReason::kDistancesFlat>(rank));
+  } else if (pairs.values(1) - pairs.values(2) <= kEqualEigenvalues * pairs.values(0)) {
+    result.statuses.push_back(status_of<StatusReason::kEqualEigenvalues>(pairs.values(1)));
+  }
+  return result;
+}
+
+Embedding lpca(const Eigen::MatrixXd& squared_distances) {
+  const Eigen::Index n = squared_distances.rows();
+  if (n < 3 || squared_distances.cols() != n)
+    throw InvalidInput("LPCA needs a square matrix of at least 3 landmarks");
+  return principal_coordinates(double_centered(squared_distances), squared_distances.maxCoeff());
+}
+
+Embedding kernel_pca(const Eigen::MatrixXd& squared_distances, const GaussianKernel& kernel) {
+  check(squared_distances);
+  if (!(kernel.variance > 0.0)) throw InvalidInput("a Gaussian kernel needs a variance above 0");
+  return of_kernel((squared_distances.array() / (-2.0 * kernel.variance)).exp());
+}
+
+Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKernel& kernel) {
+  check(inner_products);
+  if (kernel.degree < 1 || kernel.degree > 20)
+    throw InvalidInput("a polynomial kernel needs a degree from 1 to 20");
+  // Divided by its largest value, so that no power overflows; the map then gets its scale back.
+  const Eigen::ArrayXXd shifted = inner_products.array() + 1.0;
+  const double largest = std::max(shifted.abs().maxCoeff(), 1e-300);
+  const Eigen::ArrayXXd base = shifted / largest;
+  Eigen::ArrayXXd power = base;
+  for (int exponent = 1; exponent < kernel.degree; ++exponent) power *= base;
+  Embedding result = of_kernel(power.matrix());
+  const double scale = std::pow(largest, kernel.degree);
+  if (scale > 0.0 && std::isfinite(scale * result.spectrum.cwiseAbs().maxCoeff())) {
+    result.coordinates *= std::sqrt(scale);
+    result.spectrum *= scale;
+  }
+  return result;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,19 @@
+#pragma once
+
+namespace mapproof {
+
+/// The meaning of a colour; a theme defines the colour itself.
+enum class ThemeColour {
+  kText,
+  kMuted,    ///< Helps the eye; still at least 3:1 against the background.
+  kWarning,  ///< Text about a warning or a failure.
+  kSeries1,
+  kSeries2,
+  kSeries3,
+  kSeries4,
+  kSeries5,
+  kSeries6,
+  kSeries7,
+};
+
+}  // namespace mapproof
