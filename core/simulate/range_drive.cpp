@@ -45,11 +45,11 @@ void add_odometry(const RangeDriveOptions& options, const DriveFaults& faults, R
   for (Eigen::Index i = 1; i < path.size(); ++i) {
     Motion motion{.time_s = path.time_s(i),
                   .distance_m = kDriveStep_m + options.forward_sigma_m * random.normal(),
-                  .turn_rad = path.heading_rad(i) - path.heading_rad(i - 1) +
-                              options.turn_sigma_rad * random.normal()};
+                  .heading_change_rad = path.heading_rad(i) - path.heading_rad(i - 1) +
+                              options.heading_change_sigma_rad * random.normal()};
     const double since_s = motion.time_s - middle_s;
     if (since_s > 0.0 && since_s < faults.gap_s) continue;
-    if (since_s > 0.0 && since_s < faults.frozen_s) motion.distance_m = motion.turn_rad = 0.0;
+    if (since_s > 0.0 && since_s < faults.frozen_s) motion.distance_m = motion.heading_change_rad = 0.0;
     log.odometry.push_back(motion);
   }
 }

@@ -13,7 +13,7 @@ struct RangeDriveOptions {
   int steps = 2000;               ///< Motions, each .2 s and .2 m long; >= 2.
   double half_width_m = 30;       ///< Landmarks and path lie in [-half_width, half_width]^2.
   double forward_sigma_m = 0.02;  ///< Of one motion, forward; none sideways.
-  double turn_sigma_rad = 0.005;  ///< Of its heading change.
+  double heading_change_sigma_rad = 0.005;  ///< Of its heading change.
   double range_sigma_m = 0.5;
   double range_every_s = 0.25;
   double range_scale = 1.0;

@@ -76,7 +76,7 @@ RangeDriveOptions drive_options(const TrialContext& context) {
   options.landmarks = 4 + static_cast<int>(4.0 * random.uniform());
   const auto noisier = [&] { return std::exp(random.uniform(-1.0986, 1.0986)); };
   options.forward_sigma_m *= noisier();
-  options.turn_sigma_rad *= noisier();
+  options.heading_change_sigma_rad *= noisier();
   options.range_sigma_m *= noisier();
   options.range_scale = random.uniform(0.95, 1.07);
   const double most = number_option(context.experiment, "correlation");

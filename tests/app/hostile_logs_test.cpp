@@ -53,20 +53,20 @@ std::vector<HostileLog> hostile_logs() {
           {"LandmarksOnALine", [](RangeLog& log) { log.true_landmarks->col(1).setZero(); }},
           {"RobotStandsStill",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.distance_m = one.turn_rad = one.sideways_m = 0.0;
+             for (Motion& one : log.odometry) one.distance_m = one.heading_change_rad = one.sideways_m = 0.0;
            }},
           {"RobotDrivesStraight",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.turn_rad = 0.0;
+             for (Motion& one : log.odometry) one.heading_change_rad = 0.0;
            }},
           {"RobotSpins",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.turn_rad = 3.0, one.distance_m = 0.0;
+             for (Motion& one : log.odometry) one.heading_change_rad = 3.0, one.distance_m = 0.0;
            }},
           {"RobotJumps", [](RangeLog& log) { log.odometry[50].distance_m = 1e5; }},
           {"TinyMotions",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.distance_m *= 1e-300, one.turn_rad *= 1e-300;
+             for (Motion& one : log.odometry) one.distance_m *= 1e-300, one.heading_change_rad *= 1e-300;
            }},
           {"OneMotion", [](RangeLog& log) { log.odometry.resize(1); }},
           {"TimesNearlyEqual",

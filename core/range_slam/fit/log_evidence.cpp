@@ -35,7 +35,7 @@ Steps steps_of(const RangeLog& log) {
     steps.from_s.push_back(before);
     steps.to_s.push_back(motion.time_s);
     steps.way_m.push_back(std::hypot(motion.distance_m, motion.sideways_m));
-    steps.turn.push_back(std::abs(motion.turn_rad));
+    steps.turn.push_back(std::abs(motion.heading_change_rad));
     lengths.push_back(motion.time_s - before);
     before = motion.time_s;
   }
@@ -59,7 +59,7 @@ OdometryGap gap_at(const Steps& steps, double from_s, double to_s) {
   return {.from_s = from_s,
           .to_s = to_s,
           .way_sigma_m = share * way_m,
-          .turn_sigma_rad = std::min(kUnknownTurn, share * turn)};
+          .heading_change_sigma_rad = std::min(kUnknownTurn, share * turn)};
 }
 
 /// Mean of clipped squares over the rows, as sigmas from what it should be.

@@ -507,7 +507,7 @@ void LogTester::try_frozen() {
     // count in neither: how the robot went there is open.
     OdometryGap trusted = run;
     trusted.way_sigma_m = 0.0;
-    trusted.turn_sigma_rad = 0.0;
+    trusted.heading_change_sigma_rad = 0.0;
     std::vector<OdometryGap> before = gaps_;
     before.push_back(trusted);
     const LogProblem with = make_problem(options_.test_keys, gaps);
@@ -820,7 +820,7 @@ LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
                         {"fit_outliers_percent", 100.0 * plain_.noise.outlier_share},
                         {"fit_range_sigma_m", plain_.noise.range_m},
                         {"fit_forward_sigma_m", plain_.noise.way_m},
-                        {"fit_turn_sigma_rad", plain_.noise.turn_per_metre}};
+                        {"fit_heading_change_sigma_rad", plain_.noise.turn_per_metre}};
   if (!options_.only_tests) finish(result);
   return result;
 }

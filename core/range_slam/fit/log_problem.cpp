@@ -188,7 +188,7 @@ LogProblem::Motion LogProblem::motion_between(Index first, Index last,
       if (!(share > 0.0)) continue;
       motion.given(0, 0) += share * gap.way_sigma_m * gap.way_sigma_m;
       motion.given(1, 1) += share * gap.way_sigma_m * gap.way_sigma_m;
-      motion.given(2, 2) += share * gap.turn_sigma_rad * gap.turn_sigma_rad;
+      motion.given(2, 2) += share * gap.heading_change_sigma_rad * gap.heading_change_sigma_rad;
     }
   }
   return motion;

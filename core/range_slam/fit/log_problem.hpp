@@ -59,7 +59,7 @@ struct OdometryGap {
   double from_s = 0.0;
   double to_s = 0.0;
   double way_sigma_m = 0.0;
-  double turn_sigma_rad = 0.0;
+  double heading_change_sigma_rad = 0.0;
 };
 
 /// The negative log-likelihood of a log, marginal over the path, and its derivatives.

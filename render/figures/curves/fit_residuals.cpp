@@ -25,7 +25,7 @@ Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_
   std::vector<Scatter> points(has_colours ? spec.landmarks.size() : 1);
   for (std::size_t n = 0; n < points.size(); ++n)
     points[n] = {.label = has_colours ? printable(spec.landmarks[n], 20) : "ranges",
-                 .ink = series_ink(n),
+                 .colour = series_colour(n),
                  .size = 0.4};
   const std::size_t step = (spec.ranges.size() + kMostRangesDrawn - 1) / kMostRangesDrawn;
   double low = 0.0, high = 1.0;
@@ -41,7 +41,7 @@ Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_
     if (n < points.size())
       add_point(points[n], {x, std::clamp(range.normalised, -kMostSigmas, kMostSigmas)});
   }
-  Segments zero{.ink = Ink::kText, .width = 0.6};
+  Segments zero{.colour = ThemeColour::kText, .width = 0.6};
   add_line(zero, {low, 0.0}, {std::max(high, low + 1e-9), 0.0});
   panel.layers.emplace_back(std::move(zero));
   for (Scatter& layer : points) panel.layers.emplace_back(std::move(layer));
@@ -56,7 +56,7 @@ Figure fit_residuals_figure(const FitResidualsSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = {spec.record_id};
-  figure.notes.push_back({spec.verdict, spec.is_alarm ? Ink::kWarning : Ink::kText});
+  figure.notes.push_back({spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
   const double start_s = spec.ranges.empty() ? 0.0 : spec.ranges.front().time_s;
   figure.panels = {residual_panel(spec, true, start_s), residual_panel(spec, false, start_s)};
   figure.columns = 1;
