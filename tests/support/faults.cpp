@@ -213,7 +213,7 @@ ssize_t writev(int file, const iovec* parts, int count) {
   return ::syscall(SYS_writev, file, parts, count);
 }
 int fsync(int file) {
-  return fails(Kind::kSync) ? -1 : static_cast<int>(::syscall(SYS_fsync, file));
+  return fails(Kind::kSync, Kind::kDisk) ? -1 : static_cast<int>(::syscall(SYS_fsync, file));
 }
 int fdatasync(int file) {
   return fails(Kind::kSync) ? -1 : static_cast<int>(::syscall(SYS_fdatasync, file));
@@ -253,9 +253,6 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to,
   if (fails(Kind::kRename, Kind::kExchange)) return -1;
   return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
 }
-int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
-  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to)));
-}
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
   if (fails(Kind::kLink)) return -1;
   return static_cast<int>(changing(SYS_linkat, from_folder, at(from), to_folder, at(to), flags));
@@ -275,10 +272,6 @@ int mkdirat(int folder, const char* path, mode_t mode) noexcept {
 int mkdir(const char* path, mode_t mode) noexcept {
   return static_cast<int>(changing(SYS_mkdirat, AT_FDCWD, at(path), mode));
 }
-int mkdirat(int folder, const char* path, mode_t mode) noexcept {
-  return static_cast<int>(changing(SYS_mkdirat, folder, at(path), mode));
-}
-int fsync(int file) { return static_cast<int>(changing(SYS_fsync, file, 0, 0)); }
 int chmod(const char* path, mode_t mode) noexcept {
   return static_cast<int>(changing(SYS_fchmodat, AT_FDCWD, at(path), mode));
 }
