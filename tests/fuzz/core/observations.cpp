@@ -34,10 +34,12 @@ std::string text_of(const ObservationSource& read) {
 void read_table(std::string_view bytes, Layout layout) {
   constexpr std::array kSensors = {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange};
   for (const Sensor sensor : kSensors) {
-    const AngleUnit unit = bytes.size() % 2 == 0 ? AngleUnit::kRadians : AngleUnit::kDegrees;
+    const TableFormat format{
+        .unit = bytes.size() % 2 == 0 ? AngleUnit::kRadians : AngleUnit::kDegrees,
+        .layout = layout};
     try {
       read_in_any_way(bytes, [&](ByteSource& source) {
-        return text_of(read_observations(source, sensor, layout, unit));
+        return text_of(read_observations(source, sensor, format));
       });
     } catch (const IoError&) {
     }
@@ -172,7 +174,8 @@ const Added kObservationStream(
              ByteSource source = test::source_of(std::string(text), ByteSource::kPeek, kSource);
              const Layout layout = is_detections(source) ? Layout::kAuto : Layout::kLong;
              return fmt::format("{}",
-                                read_observations(source, Sensor::kRange, layout).history.names);
+                                read_observations(source, Sensor::kRange, {.layout = layout})
+                                    .history.names);
            });
          },
      .seeds = {"observations"}});

@@ -98,7 +98,7 @@ class Inspector {
   void check_text_on_text() {
     for (std::size_t i = 0; i < texts_.size(); ++i)
       for (std::size_t j = i + 1; j < texts_.size(); ++j)
-        if (texts_[i].colour.overlaps(texts_[j].colour))
+        if (texts_[i].bounds.overlaps(texts_[j].bounds))
           flaws_.push_back(named(texts_[i]) + " and " + named(texts_[j]) + " overlap");
   }
 
