@@ -16,7 +16,7 @@
 
 #include "core/base/sha256.hpp"
 #include "reports/html/diff/diff_html.hpp"
-#include "reports/html/escape.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {

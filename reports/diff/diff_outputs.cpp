@@ -1,5 +1,7 @@
 #include "reports/diff/diff_outputs.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
@@ -14,31 +16,10 @@ namespace {
 constexpr std::size_t kMostRows = 50;
 constexpr std::size_t kLongest = 2000;  // Characters of a cause.
 
-/// Makes a text fit for XML: escaped, without characters that XML does not have.
+/// A text as XML on one line.
 std::string xml(const std::string& text) {
-  std::string out;
-  for (const char c : displayable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\n':
-      case '\t':
-        out += ' ';
-        break;
-      default:
-        out += c;
-    }
-  }
+  std::string out = html_escaped(text);
+  std::ranges::replace_if(out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
   return out;
 }
 

@@ -4,35 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reports/model/format.hpp"
-
 namespace mapproof {
-
-std::string html_escaped(const std::string& text) {
-  std::string out;
-  for (const char c : displayable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 std::string file_link(const std::string& path) {
   constexpr std::string_view kPlain =

@@ -1,7 +1,7 @@
 #include "reports/html/page_frame.hpp"
 
 #include "core/base/errors.hpp"
-#include "reports/html/escape.hpp"
+#include "reports/model/format.hpp"
 #include "reports/html/sha256.hpp"
 #include "reports/html/template_check.hpp"
 

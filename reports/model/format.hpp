@@ -28,4 +28,8 @@ std::string format_duration(double seconds);
 /// and on).
 std::string displayable(const std::string& text);
 
+/// Escapes a text for content between tags and for quoted attributes of HTML and XML: special
+/// characters become references, and what displayable() changes becomes visible.
+std::string html_escaped(const std::string& text);
+
 }  // namespace mapproof

@@ -8,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "reports/html/escape.hpp"
 #include "reports/html/sha256.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/hostile_report.hpp"
 #include "tests/reports/synthetic_study.hpp"

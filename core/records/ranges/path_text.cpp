@@ -9,7 +9,6 @@
 #include "core/base/errors.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/ranges/range_tables.hpp"
-#include "core/records/tables/number_rows.hpp"
 #include "core/records/tables/table_stream.hpp"
 
 namespace mapproof {
@@ -28,19 +27,6 @@ std::size_t path_width(ByteSource& source) {
       },
       TableReader::kBlanks);
   return width;
-}
-
-NumberTable numbers_in(ByteSource& source, std::size_t width) {
-  NumberTable table{.source = source.name()};
-  const std::string bytes = source.rest();
-  NumberRows rows(checked_text(bytes, table.source), table.source, width);
-  std::vector<double> values;
-  while (rows.next()) {
-    table.rows.push_back(rows.line());
-    values.insert(values.end(), rows.values().begin(), rows.values().end());
-  }
-  table.set_values(values, static_cast<Eigen::Index>(width));
-  return table;
 }
 
 /// @param poses  t x y z qx qy qz qw.
@@ -80,7 +66,7 @@ Eigen::VectorXd times_beside(const ByteSource& source) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};
   ByteSource times(path);
-  return numbers_in(times, 1).values.col(0);
+  return read_number_table(times, 1).values.col(0);
 }
 
 }  // namespace
@@ -94,7 +80,7 @@ Trajectory read_path_text(ByteSource& source, const Eigen::VectorXd& times_s) {
   const std::size_t width = path_width(source);
   Eigen::VectorXd times = width == kKittiWidth ? times_beside(source) : Eigen::VectorXd();
   if (times.size() == 0) times = times_s;
-  NumberTable table = numbers_in(source, width);
+  NumberTable table = read_number_table(source, width);
   if (table.values.rows() == 0) throw IoError(table.source, "holds no poses");
   if (width == kTumWidth) {
     table.values = tum_path(table.values);

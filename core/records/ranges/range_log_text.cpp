@@ -5,9 +5,7 @@
 #include <system_error>
 
 #include "core/base/files/input_file.hpp"
-#include "core/json/text_input.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
-#include "core/records/tables/number_rows.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,19 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> kTextEnds = {"_DR.txt", "_TD.txt"};
-
-NumberTable read_numbers(ByteSource& source, std::size_t width) {
-  NumberTable table{.source = source.name()};
-  const std::string bytes = source.rest();
-  NumberRows rows(checked_text(bytes, table.source), table.source, width);
-  std::vector<double> values;
-  while (rows.next()) {
-    table.rows.push_back(rows.line());
-    values.insert(values.end(), rows.values().begin(), rows.values().end());
-  }
-  table.set_values(values, static_cast<Eigen::Index>(width));
-  return table;
-}
 
 /// NAME_TD.txt or NAME_DR.txt, packed or not.
 fs::path file_of(const fs::path& stem, const char* end) {
@@ -39,9 +24,9 @@ bool is_odometry(const fs::path& path) {
 }
 
 NumberTable read_ranges(ByteSource& source) {
-  if (!is_odometry(source.path())) return read_numbers(source, 4);
+  if (!is_odometry(source.path())) return read_number_table(source, 4);
   ByteSource ranges(file_of(text_stem(source.path()), "_TD.txt"));
-  return read_numbers(ranges, 4);
+  return read_number_table(ranges, 4);
 }
 
 }  // namespace
@@ -56,7 +41,7 @@ RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options)
   std::error_code error;
   if (fs::exists(odometry_path, error)) {
     ByteSource odometry(odometry_path);
-    parts.odometry = motions_in(read_numbers(odometry, 3));
+    parts.odometry = motions_in(read_number_table(odometry, 3));
     parts.remarks.push_back(
         "The odometry is DR as it stands; whether its heading changes are the robot's own "
         "cannot be determined without the ground truth.");

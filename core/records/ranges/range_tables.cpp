@@ -10,6 +10,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/tables/cells.hpp"
+#include "core/records/tables/number_rows.hpp"
 
 namespace mapproof {
 namespace {
@@ -55,6 +56,19 @@ std::string NumberTable::location(Eigen::Index row) const {
 
 void NumberTable::fail(Eigen::Index row, const std::string& what) const {
   throw IoError(source, location(row), what);
+}
+
+NumberTable read_number_table(ByteSource& source, std::size_t width) {
+  NumberTable table{.source = source.name()};
+  const std::string bytes = source.rest();
+  NumberRows rows(checked_text(bytes, table.source), table.source, width);
+  std::vector<double> values;
+  while (rows.next()) {
+    table.rows.push_back(rows.line());
+    values.insert(values.end(), rows.values().begin(), rows.values().end());
+  }
+  table.set_values(values, static_cast<Eigen::Index>(width));
+  return table;
 }
 
 Trajectory trajectory_in(const NumberTable& table) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/files/byte_source.hpp"
 #include "core/model/range_log.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 
@@ -25,6 +26,9 @@ struct NumberTable {
   /// @throws IoError at that row.
   [[noreturn]] void fail(Eigen::Index row, const std::string& what) const;
 };
+
+/// Lines of `width` numbers each. @throws IoError with the line.
+NumberTable read_number_table(ByteSource& source, std::size_t width);
 
 /// A measurement whose landmark has no row yet.
 struct NamedMeasurement {

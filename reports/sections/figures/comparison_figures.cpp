@@ -12,6 +12,7 @@
 #include "render/figures/curves/pareto.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/critical_difference.hpp"
+#include "render/figures/diagrams/published_errors.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -20,6 +21,29 @@
 
 namespace mapproof {
 namespace {
+
+void add_published(FigureSource& source, std::vector<Figure>& figures) {
+  PublishedErrorsSpec spec;
+  spec.id = "published-errors";
+  for (const SensorStudy& sensor : source.study().experiment.sensors) {
+    if (sensor.published.source.empty()) continue;
+    PublishedErrorsSpec::Sensor& panel = spec.sensors.emplace_back();
+    panel.title = title_of(sensor.sensor.sensor);
+    panel.source = sensor.published.source;
+    for (const SettingSummary& best : source.best(sensor)) {
+      if (!best.mpe_m) continue;
+      PublishedError& method = panel.methods.emplace_back();
+      method.label = short_label({best.setting.method, std::nullopt});
+      method.key = info(best.setting.method).name;
+      method.mean_m = best.mpe_m->mean;
+      if (const auto interval = interval_of(best.mpe_m))
+        method.interval = Range{interval->low, interval->high};
+      if (best.published) method.published_m = best.published->mpe_m;
+      spec.record_ids.push_back(source_of(best));
+    }
+  }
+  if (!spec.sensors.empty()) figures.push_back(published_errors_figure(spec));
+}
 
 void add_ranks(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
   const MethodRanks ranks = method_ranks(source.study(), sensor);
@@ -128,6 +152,7 @@ class SecondsOfMaps {
 
 std::vector<Figure> comparison_figures(FigureSource& source) {
   std::vector<Figure> figures;
+  add_published(source, figures);
   const auto& sensors = source.study().experiment.sensors;
   for (const SensorStudy& sensor : sensors) add_ranks(source, sensor, figures);
   for (const SensorStudy& sensor : sensors)

@@ -6,7 +6,7 @@
 #include "reports/diff/svg/svg_parser.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/nightly_scores.hpp"
-#include "reports/html/escape.hpp"
+#include "reports/model/format.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/template_check.hpp"
 #include "reports/html/templates.hpp"

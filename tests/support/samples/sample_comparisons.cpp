@@ -10,6 +10,7 @@
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
 #include "render/figures/diagrams/fit_tests.hpp"
+#include "render/figures/diagrams/published_errors.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -140,6 +141,36 @@ void add_errors(std::vector<Figure>& figures) {
   figures.push_back(pareto_figure(with_id(sample_costs(10), "pareto-usual")));
   figures.push_back(pareto_figure(with_id(sample_costs(40), "pareto-many")));
   figures.push_back(pareto_figure(with_id(sample_costs(0), "pareto-none")));
+}
+
+void add_published(std::vector<Figure>& figures) {
+  const auto sensor = [](const char* title, std::size_t methods) {
+    PublishedErrorsSpec::Sensor made{title, "Someone 2007, Table 1", {}};
+    for (std::size_t i = 0; i < methods; ++i) {
+      const double mean = 0.05 * std::pow(1.4, static_cast<double>((5 * i) % 11));
+      made.methods.push_back({.label = fmt::format("Method {}", i),
+                              .key = fmt::format("method-{}", i),
+                              .mean_m = mean,
+                              .interval = Range{0.9 * mean, 1.1 * mean},
+                              .published_m = (i % 3 == 0 ? 1.05 : i % 3 == 1 ? 1.3 : 0.8) * mean});
+    }
+    return made;
+  };
+  PublishedErrorsSpec spec{"published-usual", {sensor("Visibility maps", 10)}, {"run"}};
+  spec.sensors.push_back(sensor("Bearing maps", 9));
+  spec.sensors[1].methods[2].published_m.reset();
+  figures.push_back(published_errors_figure(spec));
+  figures.push_back(
+      published_errors_figure({"published-one", {sensor("Bearing maps", 3)}, {"run"}}));
+  figures.push_back(
+      published_errors_figure({"published-none", {sensor("Bearing maps", 0)}, {"run"}}));
+  spec.id = "published-hostile";
+  for (std::size_t i = 0; i < 5; ++i) spec.sensors[0].methods[i].label = hostile_names()[i + 1];
+  spec.sensors[0].methods[5].mean_m = NAN;
+  spec.sensors[0].methods[6].mean_m = 1e17;
+  spec.sensors[0].methods[7].published_m = INFINITY;
+  spec.sensors[1].methods[0].interval.reset();
+  figures.push_back(published_errors_figure(spec));
 }
 
 }  // namespace
@@ -341,6 +372,7 @@ std::vector<Figure> sample_comparison_figures() {
   add_map_comparisons(figures);
   add_errors(figures);
   add_fits(figures);
+  add_published(figures);
   return figures;
 }
 
