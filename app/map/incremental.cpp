@@ -225,8 +225,7 @@ constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known on
 class RangeFollower : public Follower {
  public:
   explicit RangeFollower(const FollowedTable& table)
-      : table_(table),
-        stream_(table.source, Sensor::kRange, table.format) {}
+      : table_(table), stream_(table.source, Sensor::kRange, table.format) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }

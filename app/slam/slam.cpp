@@ -90,8 +90,7 @@ void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
     out.write("landmarks.csv", landmarks_csv(run.log.landmarks, best->estimate.landmarks_m));
     out.write("path.csv", trajectory_csv(best->estimate.path));
     out.write("path.tum", trajectory_tum(best->estimate.path));
-    if (const std::optional<std::string> graph = graph_of(run, *best))
-      out.write("log.g2o", *graph);
+    if (const std::optional<std::string> graph = graph_of(run, *best)) out.write("log.g2o", *graph);
   }
   write_report(
       slam_folder_report(folder.path(), study_of(run),
@@ -190,8 +189,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
-  const SlamRunResult result =
-      range_map(std::move(log), known, arguments.fit, arguments.repair);
+  const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
+#include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/sections/study_report.hpp"
-#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {

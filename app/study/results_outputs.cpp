@@ -1,10 +1,10 @@
 #include <utility>
 
+#include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/score/trajectory_error.hpp"
 #include "reports/sections/results/results_report.hpp"
-#include "app/study/folder_report.hpp"
 
 namespace mapproof {
 namespace {

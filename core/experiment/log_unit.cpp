@@ -26,10 +26,10 @@ void scale_fit(Fit& fit, double factor) {
     if (test.limit) scale_value(*test.limit, factor);
   // The variance of odometry grows with the way, as the square root of which its deviation does.
   for (FitNumber& number : fit.numbers) {
-    const double power = number.quantity == "fit_range_sigma_m"     ? 1.0
-                         : number.quantity == "fit_forward_sigma_m" ? 0.5
-                         : number.quantity == "fit_heading_change_sigma_rad"  ? -0.5
-                                                                    : 0.0;
+    const double power = number.quantity == "fit_range_sigma_m"              ? 1.0
+                         : number.quantity == "fit_forward_sigma_m"          ? 0.5
+                         : number.quantity == "fit_heading_change_sigma_rad" ? -0.5
+                                                                             : 0.0;
     number.value *= std::pow(factor, power);
   }
 }

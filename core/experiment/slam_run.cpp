@@ -364,10 +364,12 @@ OdometryNoise SlamEstimates::noise_of_motion(const LogNoise& noise) const {
   }
   const double count = static_cast<double>(log_.odometry.size());
   const double forward_m = std::max(noise.way_m * std::sqrt(way_m / count), 1e-9);
-  const double heading_change_rad = std::max(std::hypot(noise.turn_per_metre * std::sqrt(way_m / count),
-                                              noise.turn_per_radian * std::sqrt(turn / count)),
-                                   1e-9);
-  return {.forward_m = forward_m, .sideways_m = forward_m, .heading_change_rad = heading_change_rad};
+  const double heading_change_rad =
+      std::max(std::hypot(noise.turn_per_metre * std::sqrt(way_m / count),
+                          noise.turn_per_radian * std::sqrt(turn / count)),
+               1e-9);
+  return {
+      .forward_m = forward_m, .sideways_m = forward_m, .heading_change_rad = heading_change_rad};
 }
 
 SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) {

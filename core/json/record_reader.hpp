@@ -175,7 +175,8 @@ void read_matrix(const JsonCursor& json, T& matrix, const FieldRule& rule) {
     const JsonItems rows = read_items(json, rows_rule);
     std::size_t columns =
         kColumns == Eigen::Dynamic ? rule.columns : static_cast<std::size_t>(kColumns);
-    if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty()) columns = (*rows.begin()).size();
+    if (kColumns == Eigen::Dynamic && columns == 0 && !rows.empty())
+      columns = (*rows.begin()).size();
     if constexpr (kRows == Eigen::Dynamic)
       matrix.resize(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
     FieldRule row_rule = item_rule(rule);

@@ -9,35 +9,34 @@ namespace {
 constexpr std::array<std::string_view, 5> kFitVerdicts = {"fits", "doubtful", "undetermined",
                                                           "does_not_fit", "not_testable"};
 
-constexpr std::array<std::string_view, 28> kFitCodes = {
-    "residuals",
-    "landmark_residuals",
-    "outliers",
-    "common_offset",
-    "landmark_offset",
-    "time_offset",
-    "clock_jump",
-    "landmark_moved",
-    "ids_exchanged",
-    "odometry_gap",
-    "odometry_frozen",
-    "known_landmark_off",
-    "known_landmarks_exchanged",
-    "known_landmarks_at_odds",
-    "residuals_over_time",
-    "residuals_over_range",
-    "stress",
-    "anchor_missed",
-    "weak_bridge",
-    "mirror",
-    "fold",
-    "wrong_ids",
-    "scatter",
-    "robot_ranges",
-    "robot_bearings",
-    "known_mirrored",
-    "known_scale",
-    "disconnected"};
+constexpr std::array<std::string_view, 28> kFitCodes = {"residuals",
+                                                        "landmark_residuals",
+                                                        "outliers",
+                                                        "common_offset",
+                                                        "landmark_offset",
+                                                        "time_offset",
+                                                        "clock_jump",
+                                                        "landmark_moved",
+                                                        "ids_exchanged",
+                                                        "odometry_gap",
+                                                        "odometry_frozen",
+                                                        "known_landmark_off",
+                                                        "known_landmarks_exchanged",
+                                                        "known_landmarks_at_odds",
+                                                        "residuals_over_time",
+                                                        "residuals_over_range",
+                                                        "stress",
+                                                        "anchor_missed",
+                                                        "weak_bridge",
+                                                        "mirror",
+                                                        "fold",
+                                                        "wrong_ids",
+                                                        "scatter",
+                                                        "robot_ranges",
+                                                        "robot_bearings",
+                                                        "known_mirrored",
+                                                        "known_scale",
+                                                        "disconnected"};
 static_assert(kFitCodes.size() == static_cast<std::size_t>(FitCode::kDisconnected) + 1);
 
 constexpr std::array<std::string_view, 5> kFitMissing = {"map", "redundancy", "noise_model",
@@ -51,9 +50,7 @@ std::string_view name(FitVerdict verdict) {
 
 std::string_view name(FitCode code) { return kFitCodes[static_cast<std::size_t>(code)]; }
 
-std::string_view name(FitMissing missing) {
-  return kFitMissing[static_cast<std::size_t>(missing)];
-}
+std::string_view name(FitMissing missing) { return kFitMissing[static_cast<std::size_t>(missing)]; }
 
 const FitNumber* Fit::number(std::string_view quantity) const {
   const auto found = std::ranges::find(numbers, quantity, &FitNumber::quantity);

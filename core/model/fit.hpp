@@ -41,18 +41,18 @@ enum class FitCode {
   kResidualsOverTime,        ///< Residuals of some time differ from those of the others.
   kResidualsOverRange,       ///< Residuals depend on the range.
   // Of maps of observations.
-  kStress,          ///< Distances in the map beside the measured ones.
-  kAnchorMissed,    ///< An anchor is missed by more than noise allows.
-  kWeakBridge,      ///< Groups of landmarks hang together by few pairs.
-  kMirror,          ///< A group of landmarks fits as well when it is reflected.
-  kFold,            ///< A group of landmarks fits as well when it is folded onto others.
-  kWrongIds,        ///< Data association that residuals deny.
-  kScatter,         ///< Repeated measurements of a distance differ by far.
-  kRobotRanges,     ///< One robot's ranges are longer or shorter than the others'.
-  kRobotBearings,   ///< One robot sees landmarks in the opposite orientation.
-  kKnownMirrored,   ///< Given positions fit the reflected map.
-  kKnownScale,      ///< Given positions fit the map in another scale.
-  kDisconnected,    ///< Groups of landmarks that no measurement connects.
+  kStress,         ///< Distances in the map beside the measured ones.
+  kAnchorMissed,   ///< An anchor is missed by more than noise allows.
+  kWeakBridge,     ///< Groups of landmarks hang together by few pairs.
+  kMirror,         ///< A group of landmarks fits as well when it is reflected.
+  kFold,           ///< A group of landmarks fits as well when it is folded onto others.
+  kWrongIds,       ///< Data association that residuals deny.
+  kScatter,        ///< Repeated measurements of a distance differ by far.
+  kRobotRanges,    ///< One robot's ranges are longer or shorter than the others'.
+  kRobotBearings,  ///< One robot sees landmarks in the opposite orientation.
+  kKnownMirrored,  ///< Given positions fit the reflected map.
+  kKnownScale,     ///< Given positions fit the map in another scale.
+  kDisconnected,   ///< Groups of landmarks that no measurement connects.
 };
 
 /// In files: "common_offset".

@@ -6,7 +6,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::array kSensorNames = {std::string_view("visibility"), std::string_view("bearing"),
-                               std::string_view("range")};
+                                     std::string_view("range")};
 
 }  // namespace
 

@@ -22,7 +22,7 @@ struct SubmapJoin {
   int shared = 0;         ///< Landmarks of both.
   double residual = 0.0;  ///< RMS distance of the positions that both give the shared landmarks,
                           ///< over the RMS radius of these; NaN if one of them is not placed.
-  bool in_tree = false;  ///< Of the spanning tree that the joining started from.
+  bool in_tree = false;   ///< Of the spanning tree that the joining started from.
 };
 
 /// Sub-maps joined into one map.

@@ -46,10 +46,11 @@ void add_odometry(const RangeDriveOptions& options, const DriveFaults& faults, R
     Motion motion{.time_s = path.time_s(i),
                   .distance_m = kDriveStep_m + options.forward_sigma_m * random.normal(),
                   .heading_change_rad = path.heading_rad(i) - path.heading_rad(i - 1) +
-                              options.heading_change_sigma_rad * random.normal()};
+                                        options.heading_change_sigma_rad * random.normal()};
     const double since_s = motion.time_s - middle_s;
     if (since_s > 0.0 && since_s < faults.gap_s) continue;
-    if (since_s > 0.0 && since_s < faults.frozen_s) motion.distance_m = motion.heading_change_rad = 0.0;
+    if (since_s > 0.0 && since_s < faults.frozen_s)
+      motion.distance_m = motion.heading_change_rad = 0.0;
     log.odometry.push_back(motion);
   }
 }

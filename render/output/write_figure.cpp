@@ -22,8 +22,7 @@ std::string figure_pdf(const Figure& figure, const Theme& theme) {
   return to_pdf(lay_out(figure, theme));
 }
 
-std::string write_figure(const Figure& figure, const Theme& theme,
-                         const OutputFolder& folder) {
+std::string write_figure(const Figure& figure, const Theme& theme, const OutputFolder& folder) {
   const Drawing drawing = lay_out(figure, theme);
   std::string svg = to_svg(drawing);
   folder.write(figure.id + ".svg", svg);

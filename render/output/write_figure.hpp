@@ -22,7 +22,6 @@ std::string figure_pdf(const Figure& figure, const Theme& theme);
 /// Writes ID.svg, ID.png, ID.pdf and ID.figure.json, each at once or not at all.
 /// @return The SVG file's text, as of figure_svg.
 /// @throws InvalidInput as figure_svg; IoError if a file cannot be written.
-std::string write_figure(const Figure& figure, const Theme& theme,
-                         const OutputFolder& folder);
+std::string write_figure(const Figure& figure, const Theme& theme, const OutputFolder& folder);
 
 }  // namespace mapproof

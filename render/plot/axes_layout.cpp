@@ -49,7 +49,7 @@ constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are short
 // Of a row's label: wider in a frame that has the room.
 constexpr double kWidestRowName = 16.0;
 constexpr double kRowNameShare = 0.38;  // Of the frame's width.
-constexpr double kLabelLine = 1.55;    // From the foot of tick labels to the axis label's, em.
+constexpr double kLabelLine = 1.55;     // From the foot of tick labels to the axis label's, em.
 
 /// Shortens names, which may come from anywhere.
 TickLabels shaped(Ticks ticks, double widest_em = kWidestName) {

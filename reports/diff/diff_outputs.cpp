@@ -19,7 +19,8 @@ constexpr std::size_t kLongest = 2000;  // Characters of a cause.
 /// A text as XML on one line.
 std::string xml(const std::string& text) {
   std::string out = html_escaped(text);
-  std::ranges::replace_if(out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  std::ranges::replace_if(
+      out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
   return out;
 }
 

@@ -1,9 +1,9 @@
 #include "reports/html/page_frame.hpp"
 
 #include "core/base/errors.hpp"
-#include "reports/model/format.hpp"
 #include "reports/html/sha256.hpp"
 #include "reports/html/template_check.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,9 +9,9 @@
 namespace mapproof {
 
 /// Sets the data for the head of every page: "policy", "style_element" and "script_element", from
-/// the common files (common.css, common.js and its parts common_*.js) and those of the page: NAME.css, NAME.js and, before
-/// them, their parts (NAME_*.js). The policy allows that style sheet, that script, images within
-/// the page, and nothing else.
+/// the common files (common.css, common.js and its parts common_*.js) and those of the page:
+/// NAME.css, NAME.js and, before them, their parts (NAME_*.js). The policy allows that style sheet,
+/// that script, images within the page, and nothing else.
 void set_page_frame(kainjow::mustache::data& page, const std::string& name,
                     const Templates& templates);
 

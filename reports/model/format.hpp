@@ -24,8 +24,8 @@ std::string full_heading(const Column& column);
 std::string format_duration(double seconds);
 
 /// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 and the controls
-/// U+0080 to U+009F become U+FFFD, other control characters but tab and newline their images (U+2400
-/// and on).
+/// U+0080 to U+009F become U+FFFD, other control characters but tab and newline their images
+/// (U+2400 and on).
 std::string displayable(const std::string& text);
 
 /// Escapes a text for content between tags and for quoted attributes of HTML and XML: special

@@ -116,7 +116,8 @@ TEST(Environment, WhereNobodyReadsTheOutputEndsWithoutACrash) {
     EXPECT_TRUE((outcome.exit_code >= 0 && outcome.exit_code < 4) ||
                 outcome.exit_code == kEndedByPipe)
         << outcome.exit_code << outcome.error;
-    EXPECT_LE(std::ranges::count(outcome.error, '\n'), 2) << outcome.error;
+    // What was understood, a warning, the failure.
+    EXPECT_LE(std::ranges::count(outcome.error, '\n'), 3) << outcome.error;
   }
 }
 

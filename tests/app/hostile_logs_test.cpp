@@ -53,7 +53,8 @@ std::vector<HostileLog> hostile_logs() {
           {"LandmarksOnALine", [](RangeLog& log) { log.true_landmarks->col(1).setZero(); }},
           {"RobotStandsStill",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.distance_m = one.heading_change_rad = one.sideways_m = 0.0;
+             for (Motion& one : log.odometry)
+               one.distance_m = one.heading_change_rad = one.sideways_m = 0.0;
            }},
           {"RobotDrivesStraight",
            [](RangeLog& log) {
@@ -66,7 +67,8 @@ std::vector<HostileLog> hostile_logs() {
           {"RobotJumps", [](RangeLog& log) { log.odometry[50].distance_m = 1e5; }},
           {"TinyMotions",
            [](RangeLog& log) {
-             for (Motion& one : log.odometry) one.distance_m *= 1e-300, one.heading_change_rad *= 1e-300;
+             for (Motion& one : log.odometry)
+               one.distance_m *= 1e-300, one.heading_change_rad *= 1e-300;
            }},
           {"OneMotion", [](RangeLog& log) { log.odometry.resize(1); }},
           {"TimesNearlyEqual",

@@ -30,7 +30,8 @@ TEST(Parallel, ThrowsWhatAPieceThrew) {
   EXPECT_THROW(run_isolated([&] { fail(7); }), std::out_of_range);
 }
 
-/// What fails around it must not let inner work return undone: its callers would go on with nothing.
+/// What fails around it must not let inner work return undone: its callers would go on with
+/// nothing.
 TEST(Parallel, WorkWithinWorkIsDoneThoughOtherWorkFails) {
   for (int round = 0; round < 300; ++round) {
     std::atomic<int> undone = 0;

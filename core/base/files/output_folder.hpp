@@ -21,8 +21,8 @@ class OutputFolder {
  public:
   OutputFolder(std::filesystem::path named) : named_(std::move(named)) {}
   template <typename Text>
-    requires std::convertible_to<Text, std::filesystem::path>
-  OutputFolder(const Text& named) : named_(named) {}
+  requires std::convertible_to<Text, std::filesystem::path> OutputFolder(const Text& named)
+      : named_(named) {}
 
   /// A folder below it.
   OutputFolder operator/(const std::filesystem::path& inner) const;

@@ -271,8 +271,8 @@ struct Unpacker::State {
   std::size_t used = 0;
   bool is_ended = false;
   bool is_known = false;
-  bool is_unpacked = false;    ///< The input was unpacked already.
-  bool is_text_ended = false;  ///< `text` knows that no more comes.
+  bool is_unpacked = false;                     ///< The input was unpacked already.
+  bool is_text_ended = false;                   ///< `text` knows that no more comes.
   std::unique_ptr<unpacking::Decoder> decoder;  ///< Null: the bytes pass unchanged.
   std::unique_ptr<Unpacker> text;               ///< Of what gzip or xz held; else null.
   std::string room;                             ///< Buffer of decoded bytes.

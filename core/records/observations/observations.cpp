@@ -336,7 +336,8 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
 
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
                                     const TableFormat& format) {
-  if (is_folder(path)) return read_mrclam(path, kind.value_or(Sensor::kVisibility), format.scan_window_s);
+  if (is_folder(path))
+    return read_mrclam(path, kind.value_or(Sensor::kVisibility), format.scan_window_s);
   ByteSource source(path);
   return read_observations(source, kind, format);
 }

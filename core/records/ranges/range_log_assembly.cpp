@@ -11,6 +11,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
@@ -54,6 +55,17 @@ std::map<std::string_view, Eigen::Index> rows_by_name(const std::vector<std::str
   return rows;
 }
 
+/// @throws IoError for ranges so small that differences of positions vanish in rounding.
+void check_unit(const std::string& source, const std::vector<RangeMeasurement>& ranges) {
+  std::vector<double> lengths_m;
+  for (const RangeMeasurement& range : ranges) lengths_m.push_back(range.range_m);
+  if (const double middle_m = upper_median(lengths_m); middle_m < kLeastMedianRange_m)
+    throw IoError(source,
+                  fmt::format("the median of its ranges is {:g} m, expected at least {:g} m: "
+                              "ranges are in metres",
+                              middle_m, kLeastMedianRange_m));
+}
+
 void take_measurements(const RangeLogOptions& options, RangeLogParts& parts, RangeLog& log) {
   std::size_t jumps = 0;
   double farthest_s = 0.0;
@@ -94,6 +106,7 @@ void take_measurements(const RangeLogOptions& options, RangeLogParts& parts, Ran
         fmt::format("Left out, since they repeat landmark and stamp of another one: {}.",
                     counted(static_cast<long long>(repeated), "range")));
   if (log.ranges.empty()) throw IoError(parts.source, "holds no ranges but zeros");
+  check_unit(parts.source, log.ranges);
 }
 
 void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {

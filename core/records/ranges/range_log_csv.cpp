@@ -21,8 +21,8 @@
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
-#include "core/records/tables/time_text.hpp"
 #include "core/records/tables/table_stream.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -278,8 +278,9 @@ std::string range_log_g2o(const RangeLog& log, const SlamEstimate& estimate,
     const Motion& motion = log.odometry[i];
     const Eigen::Vector3d weight =
         motion.sigmas.value_or(motion_sigmas).array().square().inverse().matrix();
-    text += fmt::format("EDGE_SE2 {} {} {} {} {} {} 0 0 {} 0 {}\n", i, i + 1, motion.distance_m,
-                        motion.sideways_m, motion.heading_change_rad, weight(0), weight(1), weight(2));
+    text +=
+        fmt::format("EDGE_SE2 {} {} {} {} {} {} 0 0 {} 0 {}\n", i, i + 1, motion.distance_m,
+                    motion.sideways_m, motion.heading_change_rad, weight(0), weight(1), weight(2));
   }
   for (const RangeMeasurement& range : log.ranges) {
     if (!is_placed(range.landmark) || range.time_s < path.time_s(0) ||

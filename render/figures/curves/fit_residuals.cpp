@@ -56,7 +56,8 @@ Figure fit_residuals_figure(const FitResidualsSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = {spec.record_id};
-  figure.notes.push_back({spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
+  figure.notes.push_back(
+      {spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
   const double start_s = spec.ranges.empty() ? 0.0 : spec.ranges.front().time_s;
   figure.panels = {residual_panel(spec, true, start_s), residual_panel(spec, false, start_s)};
   figure.columns = 1;

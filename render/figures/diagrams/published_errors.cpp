@@ -52,7 +52,7 @@ Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) 
 }
 
 std::string title_of(const Agreement& all) {
-  if (all.compared == 0) return "Errors of the methods beside the published ones";
+  if (all.compared == 0) return "Errors of the methods, ours and published";
   return fmt::format("{} of {} published errors lie within our 95 % intervals", all.within,
                      all.compared);
 }
@@ -112,22 +112,22 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
   figure.title = title_of(agreement);
   if (const std::string note = note_of(agreement); !note.empty()) figure.notes.push_back({note});
   figure.record_ids = spec.record_ids;
-  std::vector<std::string> sources, told;
+  std::vector<std::string> sources, errors;
   for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors) {
     add_panel(figure, sensor);
     sources.push_back(sensor.source);
     for (const PublishedError& method : sensor.methods)
       if (method.published_m)
-        told.push_back(fmt::format("{} {} (published {})", method.label,
-                                   significant(method.mean_m, 3),
-                                   significant(*method.published_m, 3)));
+        errors.push_back(fmt::format("{} {} (published {})", method.label,
+                                     significant(method.mean_m, 3),
+                                     significant(*method.published_m, 3)));
   }
   figure.caption = fmt::format(
       "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "
       "the mean, and the error printed in {}. The methods are in the order of our errors.",
       listed(sources, 4));
   figure.alt = fmt::format("MPE in metres, ours and published: {}.",
-                           told.empty() ? "none" : listed(told, 12));
+                           errors.empty() ? "none" : listed(errors, 12));
   figure.shared_x = figure.panels.size() > 1;
   require_valid(figure);
   return figure;

@@ -28,7 +28,7 @@ struct PublishedErrorsSpec {
   std::vector<std::string> record_ids;
 };
 
-/// A panel per sensor: each method's mean error with its interval beside the published one, on a
+/// A panel per sensor: each method's mean error with its interval, and the published one, on a
 /// logarithmic axis, least error uppermost. The title counts the published errors within our
 /// intervals.
 Figure published_errors_figure(const PublishedErrorsSpec& spec);

@@ -32,7 +32,7 @@ std::vector<Figure> forming_figures(FigureSource& source);
 std::vector<Figure> parameter_figures(FigureSource& source);
 
 // comparison_figures.cpp
-/// Errors beside the published ones; mean ranks, distances and eigenvalues of the methods.
+/// Errors compared with the published ones; mean ranks, distances and eigenvalues of the methods.
 std::vector<Figure> comparison_figures(FigureSource& source);
 /// Error against seconds; varies from run to run.
 std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> timings);

@@ -354,10 +354,10 @@ std::vector<FaultCase> make_cases() {
        .prepare = make_observations,
        .command =
            [](const std::string& folder) {
-             return std::vector<std::string>{"map",      folder + "/observations.csv",
-                                             "--sensor", "visibility",
-                                             "--drop-unseen",
-                                            "--out",    folder + "/out"};
+             return std::vector<std::string>{"map",           folder + "/observations.csv",
+                                             "--sensor",      "visibility",
+                                             "--drop-unseen", "--out",
+                                             folder + "/out"};
            }},
       slam_case()};
 }

@@ -124,8 +124,7 @@ bool reaches(const std::string& folder, int steps) {
 TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   const TemporaryFolder folder;
   const Survey survey;
-  const std::string file =
-      folder.file("live.csv", "step,landmark,value\n" + survey.rows(0, 100));
+  const std::string file = folder.file("live.csv", "step,landmark,value\n" + survey.rows(0, 100));
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const std::string out = folder.path() / "out";
   const pid_t process =

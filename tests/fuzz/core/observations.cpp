@@ -173,9 +173,8 @@ const Added kObservationStream(
            stream(bytes, streamed_observations, [](auto text) {
              ByteSource source = test::source_of(std::string(text), ByteSource::kPeek, kSource);
              const Layout layout = is_detections(source) ? Layout::kAuto : Layout::kLong;
-             return fmt::format("{}",
-                                read_observations(source, Sensor::kRange, {.layout = layout})
-                                    .history.names);
+             return fmt::format(
+                 "{}", read_observations(source, Sensor::kRange, {.layout = layout}).history.names);
            });
          },
      .seeds = {"observations"}});

@@ -14,8 +14,8 @@ std::string text_of(const RangeLog& log) {
   for (const RangeMeasurement& range : log.ranges)
     text += fmt::format("\n{} {} {}", range.time_s, range.landmark, range.range_m);
   for (const Motion& motion : log.odometry)
-    text += fmt::format("\n{} {} {} {}", motion.time_s, motion.distance_m, motion.heading_change_rad,
-                        motion.sideways_m);
+    text += fmt::format("\n{} {} {} {}", motion.time_s, motion.distance_m,
+                        motion.heading_change_rad, motion.sideways_m);
   if (log.ground_truth)
     text += fmt::format("\n{}", fmt::join(log.ground_truth->positions_m.reshaped().eval(), " "));
   if (log.true_landmarks)

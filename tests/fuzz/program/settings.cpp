@@ -6,10 +6,10 @@
 #include "reports/diff/svg/svg_parser.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/nightly_scores.hpp"
-#include "reports/model/format.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/template_check.hpp"
 #include "reports/html/templates.hpp"
+#include "reports/model/format.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/target.hpp"
 

@@ -74,7 +74,8 @@ void add_utf16(std::vector<ValueCase>& cases) {
     add("SVG in UTF-16", utf16(kMark, big), Verdict::kIdentical, {});
     add("another SVG in UTF-16", utf16(other, big), Verdict::kChanged,
         {"svg, by its elements alone: 1 change, the first"});
-    add("SVG in half of UTF-16", utf16(kMark, big).substr(0, 81), Verdict::kUnreadable, {"is UTF-16"});
+    add("SVG in half of UTF-16", utf16(kMark, big).substr(0, 81), Verdict::kUnreadable,
+        {"is UTF-16"});
   }
 }
 
