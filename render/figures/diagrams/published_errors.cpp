@@ -124,7 +124,8 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
   }
   figure.caption = fmt::format(
       "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "
-      "the mean, and the error printed in {}. The methods are in the order of our errors.",
+      "the mean, and the error printed in {}, which may belong to another parameter. The methods "
+      "are in the order of our errors.",
       listed(sources, 4));
   figure.alt = fmt::format("MPE in metres, ours and published: {}.",
                            errors.empty() ? "none" : listed(errors, 12));
