@@ -52,7 +52,7 @@ std::set<std::string> spellings(const std::string& folder) {
 std::vector<std::string> home_spellings() {
   std::set<std::string> folders = {variable("HOME")}, all;
   if (const passwd* entry = ::getpwuid(::getuid()); entry != nullptr) folders.insert(entry->pw_dir);
-  for (std::string folder : std::set<std::string>(folders)) {
+  for (const std::string& folder : std::set<std::string>(folders)) {
     std::error_code error;
     folders.insert(fs::canonical(folder, error).string());
   }
