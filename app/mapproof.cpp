@@ -58,8 +58,9 @@ struct Common {
 };
 
 /// The commands that write where and by whom something was made.
-constexpr std::array<std::string_view, 10> kWithProvenance = {
-    "reproduce", "run", "render", "report", "map", "slam", "diff", "check", "nightly", "history"};
+constexpr std::array<std::string_view, 11> kWithProvenance = {
+    "reproduce", "run",  "render", "report",  "map",    "slam",
+    "evaluate",  "diff", "check",  "nightly", "history"};
 
 void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--json", common.json, "Print the result as one JSON object");
@@ -113,20 +114,11 @@ int run_command_of(int argc, char** argv) {
   app.require_subcommand(1);
   Common common;
   const std::vector<std::pair<const char*, AddCommand>> commands = {
-      {"reproduce", reproduce_command},
-      {"run", run_command},
-      {"render", render_command},
-      {"report", report_command},
-      {"map", map_command},
-      {"slam", slam_command},
-      {"diff", diff_command},
-      {"approve", approve_command},
-      {"check", check_command},
-      {"example", example_command},
-      {"methods", methods_command},
-      {"validate", validate_command},
-      {"nightly", nightly_command},
-      {"history", history_command},
+      {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
+      {"report", report_command},       {"map", map_command},         {"slam", slam_command},
+      {"evaluate", evaluate_command},   {"diff", diff_command},       {"approve", approve_command},
+      {"check", check_command},         {"example", example_command}, {"methods", methods_command},
+      {"validate", validate_command},   {"nightly", nightly_command}, {"history", history_command},
   };
   std::vector<std::pair<CLI::App*, Action>> actions;
   for (const auto& [name, command] : commands) {

@@ -14,10 +14,10 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kAlignmentNames = {
-    std::pair(FrameAlignment::kNone, "none"), std::pair(FrameAlignment::kRigid, "rigid"),
-    std::pair(FrameAlignment::kSimilarity, "similarity"),
-    std::pair(FrameAlignment::kFirstPose, "first-pose")};
+constexpr std::array kAlignmentNames = {std::pair(FrameAlignment::kNone, "none"),
+                                        std::pair(FrameAlignment::kRigid, "rigid"),
+                                        std::pair(FrameAlignment::kSimilarity, "similarity"),
+                                        std::pair(FrameAlignment::kFirstPose, "first-pose")};
 
 /// A pose as the rigid motion from its own frame.
 struct Pose {
@@ -67,13 +67,12 @@ CommonPoses common_poses(const SpacePath& ground_truth, const SpacePath& estimat
           ground_truth.size(), estimate.size()));
     return {ground_truth, estimate};
   }
-  std::vector<Eigen::Index> truth_rows, estimate_rows;
-  for (const PosePair& pair :
-       associate_times(ground_truth.time_s, estimate.time_s, association)) {
-    truth_rows.push_back(pair.ground_truth);
+  std::vector<Eigen::Index> reference_rows, estimate_rows;
+  for (const PosePair& pair : associate_times(ground_truth.time_s, estimate.time_s, association)) {
+    reference_rows.push_back(pair.ground_truth);
     estimate_rows.push_back(pair.estimate);
   }
-  return {selected(ground_truth, truth_rows), selected(estimate, estimate_rows)};
+  return {selected(ground_truth, reference_rows), selected(estimate, estimate_rows)};
 }
 
 SpaceSimilarity alignment_of(const CommonPoses& poses, FrameAlignment alignment) {
@@ -187,7 +186,39 @@ RelativeErrors relative_errors(const CommonPoses& poses, const Eigen::VectorXd& 
   return errors;
 }
 
+/// The first of the nearest times, which do not descend.
+Eigen::Index nearest(const Eigen::VectorXd& times_s, double time_s) {
+  const auto after = std::lower_bound(times_s.begin(), times_s.end(), time_s);
+  if (after == times_s.begin()) return 0;
+  const auto gap_after = after == times_s.end() ? HUGE_VAL : std::abs(*after - time_s);
+  const double before_s = *(after - 1);
+  if (gap_after < std::abs(before_s - time_s)) return after - times_s.begin();
+  return std::lower_bound(times_s.begin(), after, before_s) - times_s.begin();
+}
+
 }  // namespace
+
+std::vector<PosePair> associate_times(const Eigen::VectorXd& ground_truth_s,
+                                      const Eigen::VectorXd& estimate_s,
+                                      const TimeAssociation& association) {
+  if (!(association.largest_gap_s >= 0.0) || !std::isfinite(association.largest_gap_s))
+    throw InvalidInput("the largest gap in time must be a number of seconds >= 0");
+  if (!std::isfinite(association.offset_s))
+    throw InvalidInput("the offset in time must be a finite number of seconds");
+  const bool estimate_is_longer = estimate_s.size() > ground_truth_s.size();
+  const Eigen::VectorXd& few = estimate_is_longer ? ground_truth_s : estimate_s;
+  const Eigen::VectorXd many = estimate_is_longer
+                                   ? Eigen::VectorXd(estimate_s.array() + association.offset_s)
+                                   : Eigen::VectorXd(ground_truth_s.array() - association.offset_s);
+  std::vector<PosePair> pairs;
+  if (many.size() == 0) return pairs;
+  for (Eigen::Index i = 0; i < few.size(); ++i) {
+    const Eigen::Index k = nearest(many, few(i));
+    if (!(std::abs(many(k) - few(i)) <= association.largest_gap_s)) continue;
+    pairs.push_back(estimate_is_longer ? PosePair{i, k} : PosePair{k, i});
+  }
+  return pairs;
+}
 
 std::string_view name(FrameAlignment alignment) {
   for (const auto& [known, text] : kAlignmentNames)
@@ -220,9 +251,8 @@ PathEvaluation evaluate_path(const SpacePath& ground_truth, const SpacePath& est
         poses.estimate.size(), ground_truth.size(), estimate.size(),
         options.association.largest_gap_s));
   PathEvaluation result;
-  result.associated_percent =
-      100.0 * static_cast<double>(poses.estimate.size()) /
-      static_cast<double>(std::min(ground_truth.size(), estimate.size()));
+  result.associated_percent = 100.0 * static_cast<double>(poses.estimate.size()) /
+                              static_cast<double>(std::min(ground_truth.size(), estimate.size()));
   result.alignment = alignment_of(poses, options.alignment);
   poses.estimate = aligned(std::move(poses.estimate), result.alignment);
   result.poses = pose_errors(poses);

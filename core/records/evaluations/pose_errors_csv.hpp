@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/model/space_path.hpp"
+#include "core/model/paths/space_path.hpp"
 
 namespace mapproof {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/files/byte_source.hpp"
-#include "core/model/space_path.hpp"
+#include "core/model/paths/space_path.hpp"
 
 namespace mapproof {
 

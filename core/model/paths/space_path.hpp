@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,13 @@ struct PoseErrors {
   bool has_times = true;      ///< Otherwise time_s counts poses.
 
   Eigen::Index size() const { return time_s.size(); }
+};
+
+/// Errors of one method in one run.
+struct PathErrors {
+  std::string run;
+  std::string method;
+  PoseErrors poses;
 };
 
 }  // namespace mapproof
