@@ -129,4 +129,24 @@ void NpyArray::append(std::string& text, std::size_t row, std::size_t column) co
   element_of(kind_, size_)->append(text, data_, index * size_, is_swapped_);
 }
 
+std::string npy_bytes(const Eigen::MatrixXd& matrix) {
+  static_assert(std::endian::native == std::endian::little,
+                "elements are written as they are held");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor rows = matrix;
+  std::string header = fmt::format(
+      "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows.rows(), rows.cols());
+  // The elements begin at a multiple of 64 bytes, behind the magic, the version and the length.
+  constexpr std::size_t kAlignment = 64, kFixed = 10;
+  header.append(kAlignment - 1 - (kFixed + header.size()) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size() & 0xff);
+  bytes += static_cast<char>(header.size() >> 8);
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(rows.data()),
+               static_cast<std::size_t>(rows.size()) * sizeof(double));
+  return bytes;
+}
+
 }  // namespace mapproof

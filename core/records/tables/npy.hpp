@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace mapproof {
 
 /// An array of NumPy's format .npy: of booleans, integers or floats of 4 and 8 bytes.
@@ -32,5 +34,8 @@ class NpyArray {
   bool is_swapped_ = false;
   bool is_fortran_ = false;
 };
+
+/// A matrix as a file of NumPy's format .npy, version 1.0: float64, little endian, by rows.
+std::string npy_bytes(const Eigen::MatrixXd& matrix);
 
 }  // namespace mapproof
