@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path& made_map_folder(const fs::path& folder) {
+fs::path made_map_folder(const fs::path& folder) {
   check_map_folder(folder);
   make_folder(folder);
   return folder;

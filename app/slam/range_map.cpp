@@ -78,7 +78,7 @@ std::string difference(const SlamRun& there, const SlamRun& here) {
   return "";
 }
 
-const fs::path& made_slam_folder(const fs::path& folder) {
+fs::path made_slam_folder(const fs::path& folder) {
   check_result_folder(folder, kSlamFile, "range-only map");
   make_folder(folder);
   return folder;

@@ -43,7 +43,7 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& ids) {
 
 /// Those of the ids that were asked for, all if none was.
 Images chosen_images(const RenderArguments& arguments, const FolderReport& view) {
-  const Images all = images_of(view);
+  Images all = images_of(view);
   if (arguments.ids.empty()) return all;
   Images chosen;
   for (const std::string& id : without_repeats(arguments.ids)) {

@@ -248,7 +248,7 @@ RobustMap refolded_map(const IdentifiedScans& scans, const std::vector<PairItem>
 
 /// The fault over the stretch of steps that its map yields.
 FaultTrial sharp_trial(const IdentifiedScans& scans, const std::vector<int>& ids,
-                       AssociationHypothesis one, RobustMap map) {
+                       const AssociationHypothesis& one, RobustMap map) {
   FaultTrial trial{one, refined_width(scans, ids, one, map), {}, std::move(map)};
   trial.ids = corrected_ids(scans, ids, one, trial.stretch);
   trial.fault.first_m = trial.map.positions_m.row(one.first);

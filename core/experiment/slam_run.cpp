@@ -267,7 +267,7 @@ void SlamEstimates::prepare(SlamMethod method) {
     if (method == SlamMethod::kRefined || method == SlamMethod::kBatchFixedScale) spectral_start();
     if (method == SlamMethod::kRefinedFromOdometry) odometry_start();
   } catch (const InvalidInput&) {
-    // The error recurs, and is reported, when the method itself runs.
+    return;  // The error recurs, and is reported, when the method itself runs.
   }
 }
 

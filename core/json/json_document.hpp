@@ -70,7 +70,7 @@ inline JsonDocument parse_json(const char* text, const std::string& source) {
 /// The same of a text that the document keeps.
 template <std::same_as<std::string> Text>
 JsonDocument parse_json(Text&& text, const std::string& source) {
-  auto owned = std::make_unique<const std::string>(std::move(text));
+  auto owned = std::make_unique<const std::string>(std::forward<Text>(text));
   JsonDocument document = parse_json(std::string_view(*owned), source);
   document.owned_ = std::move(owned);
   return document;
