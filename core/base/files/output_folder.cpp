@@ -15,7 +15,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/descriptor.hpp"
-#include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/paths.hpp"
 
@@ -57,8 +56,8 @@ mode_t type_of(const Parent& parent, const std::string& name) {
 
 Parent inner_folder(const Parent& parent, const std::string& name) {
   const fs::path path = parent.path / name;
-  Descriptor inner(::openat(parent.folder.get(), name.c_str(),
-                            O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  Descriptor inner(
+      ::openat(parent.folder.get(), name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (inner.get() < 0) {
     const int why = errno;
     if (type_of(parent, name) == S_IFLNK) refuse_link(path);
@@ -91,7 +90,8 @@ void require_replaceable(const Parent& parent, const std::string& name) {
   if (type == 0 || S_ISREG(type)) return;
   if (S_ISLNK(type)) refuse_link(path);
   if (S_ISDIR(type)) throw IoError(path.string(), "is a folder, no file to be replaced");
-  throw IoError(path.string(), std::string("is ") + endless_kind(type) + ", no file to be replaced");
+  throw IoError(path.string(),
+                std::string("is ") + endless_kind(type) + ", no file to be replaced");
 }
 
 /// Whether the entries of the folder are on the disk; errno holds the reason if not.
@@ -122,6 +122,13 @@ void write_into(const Parent& parent, const std::string& name, std::string_view 
 }
 
 }  // namespace
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw IoError(path.string(), "folder cannot be made: " + error.message());
+  if (!fs::is_directory(path, error)) throw IoError(path.string(), "is not a folder");
+}
 
 OutputFolder OutputFolder::operator/(const fs::path& inner) const {
   OutputFolder folder = *this;
@@ -164,7 +171,8 @@ void OutputFolder::remove(const fs::path& file) const {
   // The path through the descriptor: a folder above cannot become a link on the way.
   fs::remove_all(fs::path(path_of(parent.folder)) / inner.filename(), error);
   if (error)
-    throw IoError((parent.path / inner.filename()).string(), "cannot be removed: " + error.message());
+    throw IoError((parent.path / inner.filename()).string(),
+                  "cannot be removed: " + error.message());
 }
 
 std::string part_name(const std::string& name) {
