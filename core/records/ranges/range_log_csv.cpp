@@ -16,13 +16,12 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/path_text.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_reader.hpp"
-#include "core/records/tables/time_text.hpp"
 #include "core/records/tables/table_stream.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
