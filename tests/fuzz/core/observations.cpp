@@ -9,7 +9,6 @@
 
 #include "core/records/detections/detection_stream.hpp"
 #include "core/records/detections/detections.hpp"
-#include "core/records/detections/detections_long.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observation_stream.hpp"
@@ -173,9 +172,8 @@ const Added kObservationStream(
            stream(bytes, streamed_observations, [](auto text) {
              ByteSource source = test::source_of(std::string(text), ByteSource::kPeek, kSource);
              const Layout layout = is_detections(source) ? Layout::kAuto : Layout::kLong;
-             return fmt::format("{}",
-                                read_observations(source, Sensor::kRange, {.layout = layout})
-                                    .history.names);
+             return fmt::format(
+                 "{}", read_observations(source, Sensor::kRange, {.layout = layout}).history.names);
            });
          },
      .seeds = {"observations"}});

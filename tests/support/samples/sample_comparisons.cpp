@@ -9,8 +9,8 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
-#include "render/figures/diagrams/fit_tests.hpp"
-#include "render/figures/diagrams/published_errors.hpp"
+#include "render/figures/diagrams/fit.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -152,7 +152,10 @@ void add_published(std::vector<Figure>& figures) {
                               .key = fmt::format("method-{}", i),
                               .mean_m = mean,
                               .interval = Range{0.9 * mean, 1.1 * mean},
-                              .published_m = (i % 3 == 0 ? 1.05 : i % 3 == 1 ? 1.3 : 0.8) * mean});
+                              .published_m = (i % 3 == 0   ? 1.05
+                                              : i % 3 == 1 ? 1.3
+                                                           : 0.8) *
+                                             mean});
     }
     return made;
   };
