@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/map_fit/history_fit.hpp"
 #include "core/map_fit/map_fit.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/records/detections/mrclam.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "core/experiment/log_unit.hpp"
+#include "core/experiment/slam_run.hpp"
 #include "core/records/studies/slam_store.hpp"
 
 namespace mapproof {

@@ -9,7 +9,7 @@
 
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
-#include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_scene.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
-#include "core/json/json_document.hpp"
+#include "core/json/json_text_scan.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
@@ -60,6 +60,17 @@ double number_of(std::string_view token) {
 }
 
 }  // namespace
+
+JsonCursor JsonDocument::cursor() const {
+  return {*this, skip_blanks(text_, 0), nodes_.empty() ? JsonNode::kNone : 0};
+}
+
+nlohmann::json JsonDocument::tree() const {
+  if (text_.size() > kLargestJsonTree)
+    throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are compared or merged",
+                                      text_.size(), kLargestJsonTree));
+  return nlohmann::json::parse(text_);
+}
 
 const std::string& JsonCursor::source() const { return document_->source; }
 

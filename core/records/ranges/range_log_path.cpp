@@ -1,4 +1,4 @@
-#include "core/records/ranges/path_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 
 #include <algorithm>
 #include <cmath>
