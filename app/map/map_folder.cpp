@@ -59,7 +59,7 @@ void refuse_other(const fs::path& folder, const MapRecord& there, const MapRecor
   const std::string what = difference(there, here);
   if (!what.empty())
     throw IoError(folder.string(),
-                  fmt::format("holds another map ({}); choose another --out or remove it", what));
+                  fmt::format("holds another map ({}); choose another --out, or replace it by --force", what));
 }
 
 }  // namespace

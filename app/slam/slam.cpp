@@ -1,9 +1,12 @@
 #include "app/commands.hpp"
 
 #include <algorithm>
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,13 +14,16 @@
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"
+#include "app/console.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/observations/trajectories.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_logs.hpp"
@@ -36,7 +42,8 @@ struct SlamArguments {
   std::string known;
   std::optional<std::string> templates;
   RangeLogOptions log;
-  std::string ground_truth;
+  std::vector<std::string> truths;  ///< As typed; sort_truths() tells path and landmarks apart.
+  std::string ground_truth;         ///< The true path.
   std::string true_landmarks;
   std::string odometry;
   LogFitOptions fit;
@@ -45,6 +52,38 @@ struct SlamArguments {
   std::string every = "1s";
   int jobs = 1;
 };
+
+/// Whether a file of ground truth holds positions of landmarks rather than a path: its header names
+/// them, or it has three columns without a time.
+bool holds_landmarks(const std::string& file) {
+  ByteSource source(file);
+  const std::string_view start = source.peek(4096);
+  std::string line(start.substr(0, start.find('\n')));
+  for (char& c : line)
+    if (c == ';' || c == '\t' || c == '\r') c = c == '\r' ? ' ' : ',';
+  const std::string head = "," + lower_case(line) + ",";
+  const auto has = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) {
+      return head.find("," + std::string(word)) != std::string::npos;
+    });
+  };
+  if (has({"name", "landmark", "beacon", "tag", "marker", "id,"})) return true;
+  if (has({"t,", "t ", "time", "stamp"})) return false;
+  return std::ranges::count(line, ',') == 2;
+}
+
+/// Puts each file of --ground-truth where it belongs. @throws InvalidInput for two of a kind.
+void sort_truths(SlamArguments& arguments) {
+  for (const std::string& typed : arguments.truths) {
+    const std::string file = made_file(typed);
+    const bool is_landmarks = holds_landmarks(file);
+    std::string& place = is_landmarks ? arguments.true_landmarks : arguments.ground_truth;
+    if (!place.empty())
+      throw InvalidInput(fmt::format("--ground-truth: {} and {} are both {}", printable(place),
+                                     printable(typed), is_landmarks ? "landmarks" : "paths"));
+    place = file;
+  }
+}
 
 /// A study of this one log.
 SlamStudy study_of(const SlamRun& run) {
@@ -95,7 +134,11 @@ void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
   write_report(
       slam_folder_report(folder.path(), study_of(run),
                          {.methods = result.timings, .factorization = {}}, {}, invocation.command),
-      {page, arguments.jobs, invocation.disclosure}, folder.lock());
+      {.page = page,
+       .jobs = arguments.jobs,
+       .disclosure = invocation.disclosure,
+       .progress = count_progress(invocation.console, "drawing")},
+      folder.lock());
 }
 
 nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
@@ -171,13 +214,14 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
 
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  std::vector<std::string> inputs = {arguments.data, arguments.known, arguments.odometry};
+  inputs.insert(inputs.end(), arguments.truths.begin(), arguments.truths.end());
+  refuse_shared_streams(inputs);
+  sort_truths(arguments);
   if (arguments.follow) {
-    refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.true_landmarks});
     return follow_ranges(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
-  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.ground_truth,
-                                   arguments.true_landmarks, arguments.odometry});
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
@@ -189,7 +233,9 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
+  working.reset();
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
@@ -211,7 +257,7 @@ Action slam_command(CLI::App& app) {
       "  mapproof slam plaza/plaza1 --out out/plaza1\n"
       "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
       "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
-      "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --ground-truth gps.csv --out "
+      "  mapproof slam run7_TD.txt --anchors beacons.csv --ground-truth gps.csv --out "
       "out/run7\n\n"
       "DATA is one of\n"
       "  a folder with ranges.csv, and perhaps odometry.csv, groundtruth.csv, landmarks.csv\n"
@@ -224,14 +270,16 @@ Action slam_command(CLI::App& app) {
       "The exit code is 1 if there is no map; the report says why.\n");
   app.add_option("DATA", arguments->data, "File or folder")->required();
   add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
-  app.add_option(
-      "--known-landmarks", arguments->known,
-      "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
-  app.add_option("--ground-truth,--truth", arguments->ground_truth,
-                 "True path, to compute errors: CSV with t, x, y, heading; TUM; or g2o");
-  app.add_option(
-      "--ground-truth-landmarks", arguments->true_landmarks,
-      "True positions of landmarks, to compute errors only: CSV with name, x [m], y [m]");
+  app.add_option("--anchors", arguments->known,
+                 "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
+      ->type_name("FILE");
+  app.add_option("--ground-truth,--truth", arguments->truths,
+                 "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
+                 "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
+                 "both, each by an option of its own")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
   app.add_option("--odometry", arguments->odometry,
                  "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
   app.add_option("--range-sigma", arguments->fit.noise.range_m,
@@ -265,6 +313,11 @@ Action slam_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
+  group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
+                      {"Known positions", {"--anchors", "--ground-truth"}},
+                      {"Growing files", {"--follow", "--every"}},
+                      {"Output", {"--templates"}}});
+  app.get_option("--odometry")->type_name("FILE");
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }
 

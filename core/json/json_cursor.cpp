@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -57,6 +59,29 @@ double number_of(std::string_view token) {
   const auto error = std::from_chars(token.data(), token.data() + token.size(), value).ec;
   if (error == std::errc::result_out_of_range) return token.starts_with('-') ? -0.0 : 0.0;
   return token == "-0" ? 0.0 : value;  // An integer has no sign of zero.
+}
+
+/// The key that a person means who gives the value another unit or the thing another name; empty if
+/// there is none.
+std::string_view otherwise_called(std::string_view key, const std::vector<std::string_view>& keys) {
+  constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+      {"steps", "checkpoints"}, {"step", "checkpoints"},   {"runs", "layouts"},
+      {"worlds", "layouts"},    {"trajectories", "poses"}, {"starts", "poses"}};
+  const auto is_key = [&](std::string_view word) {
+    return std::ranges::find(keys, word) != keys.end();
+  };
+  const auto without_unit = [](std::string_view word) {
+    constexpr std::string_view kUnits[] = {"deg", "rad", "m", "cm", "mm", "km", "s", "ms", "percent"};
+    const std::size_t at = word.rfind('_');
+    const bool has_unit = at != std::string_view::npos &&
+                          std::ranges::find(kUnits, word.substr(at + 1)) != std::end(kUnits);
+    return has_unit ? word.substr(0, at) : word;
+  };
+  for (const std::string_view candidate : keys)
+    if (without_unit(candidate) == without_unit(key)) return candidate;
+  for (const auto& [other, ours] : kOthers)
+    if (key == other && is_key(ours)) return ours;
+  return {};
 }
 
 }  // namespace
@@ -172,9 +197,11 @@ void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
     const std::string key = item.key();
     if (const std::string_view now = replacement_of(NameKind::kKey, key, keys); !now.empty())
       fail(fmt::format("{}: this key is now called \"{}\"", in_quotes(key), now));
-    const std::string_view meant = likely_word(key, keys);
+    const std::string_view other = otherwise_called(key, keys);
+    const std::string_view meant = other.empty() ? likely_word(key, keys) : other;
     fail("unknown key " + in_quotes(key) +
-         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)));
+         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)) +
+         (!meant.empty() && key.ends_with("_deg") ? " Angles are in radians" : ""));
   }
 }
 

@@ -43,8 +43,9 @@ const std::map<std::string_view, Words> kFailing = {
 
 /// Options that go with every other option. --with-sensor belongs to --with, and --truth is short
 /// for --ground-truth.
-const std::set<std::string> kFree = {"--out",   "--provenance", "--with-sensor", "--help",
-                                     "--truth", "--json",       "--quiet",       "--verbose"};
+const std::set<std::string> kFree = {
+    "-o", "--out",         "-j",     "--jobs",  "--force", "-q",      "-v",
+    "--provenance", "--with-sensor", "--help", "--truth", "--json",  "--quiet", "--verbose"};
 
 /// The parser of `mapproof map`, with the job that it fills in.
 struct Parser {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,9 +47,13 @@ class SchemaMaker : public FieldVisitor {
     put(key, {{"const", name}}, true);
   }
   template <typename T>
-  void field(std::string_view key, T&, const FieldRule& rule = {}) {
-    put(key, described(value_schema<T>(rule, definitions_), rule.description),
-        is_required(rule) && rule.when);
+  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
+    Json schema = described(value_schema<T>(rule, definitions_), rule.description);
+    // What a key keeps that is left out; beside a reference nothing counts.
+    if constexpr (std::is_arithmetic_v<T>)
+      if (rule.key == Key::kOptional && rule.written && std::isfinite(static_cast<double>(value)))
+        schema["default"] = value;
+    put(key, std::move(schema), is_required(rule) && rule.when);
   }
 
   template <typename Fields>
