@@ -1,7 +1,6 @@
 #include "app/commands.hpp"
 
 #include <algorithm>
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <memory>
@@ -11,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
+#include "app/console.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"
-#include "app/console.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
@@ -247,6 +246,45 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   return best_record(result.run) == nullptr ? kNo : kDone;
 }
 
+void add_input_options(CLI::App& app, SlamArguments& arguments) {
+  app.add_option("DATA", arguments.data, "File or folder")->required();
+  add_out_option(app, arguments.out, "Folder for map, paths, figures and report")->required();
+  app.add_option("--anchors", arguments.known,
+                 "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
+      ->type_name("FILE");
+  app.add_option("--ground-truth,--truth", arguments.truths,
+                 "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
+                 "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
+                 "both, each by an option of its own")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app.add_option("--odometry", arguments.odometry,
+                 "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
+  app.get_option("--odometry")->type_name("FILE");
+}
+
+void add_fit_options(CLI::App& app, SlamArguments& arguments) {
+  app.add_option("--range-sigma", arguments.fit.noise.range_m,
+                 "Standard deviation of a range [m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-sigma", arguments.fit.noise.way_m,
+                 "Standard deviation of odometry after 1 m, which grows with the root of the way "
+                 "[m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--heading-sigma", arguments.fit.noise.turn_per_metre,
+                 "Standard deviation of its heading after 1 m [rad]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-scale-sigma", arguments.fit.odometry_scale_sigma,
+                 "Standard deviation of the scale of odometry, a share, in the ellipses where "
+                 "ranges and odometry disagree on the scale")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_flag("--repair", arguments.repair,
+               "If the data do not fit the map and the cause can be modelled: also make the map "
+               "that allows for it, and take it as the result");
+}
+
 }  // namespace
 
 Action slam_command(CLI::App& app) {
@@ -268,38 +306,8 @@ Action slam_command(CLI::App& app) {
       "are\n"
       "reported only with ground truth. Without odometry the map may be reflected.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
-  app.add_option("DATA", arguments->data, "File or folder")->required();
-  add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
-  app.add_option("--anchors", arguments->known,
-                 "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
-      ->type_name("FILE");
-  app.add_option("--ground-truth,--truth", arguments->truths,
-                 "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
-                 "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
-                 "both, each by an option of its own")
-      ->expected(1)
-      ->take_all()
-      ->type_name("FILE");
-  app.add_option("--odometry", arguments->odometry,
-                 "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
-  app.add_option("--range-sigma", arguments->fit.noise.range_m,
-                 "Standard deviation of a range [m]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--odometry-sigma", arguments->fit.noise.way_m,
-                 "Standard deviation of odometry after 1 m, which grows with the root of the way "
-                 "[m]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--heading-sigma", arguments->fit.noise.turn_per_metre,
-                 "Standard deviation of its heading after 1 m [rad]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--odometry-scale-sigma", arguments->fit.odometry_scale_sigma,
-                 "Standard deviation of the scale of odometry, a share, in the ellipses where "
-                 "ranges and odometry disagree on the scale")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  app.add_flag("--repair", arguments->repair,
-               "If the data do not fit the map and the cause can be modelled: also make the map "
-               "that allows for it, and take it as the result");
+  add_input_options(app, *arguments);
+  add_fit_options(app, *arguments);
   app.add_flag(
       "--follow", arguments->follow,
       "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "
@@ -317,7 +325,6 @@ Action slam_command(CLI::App& app) {
                       {"Known positions", {"--anchors", "--ground-truth"}},
                       {"Growing files", {"--follow", "--every"}},
                       {"Output", {"--templates"}}});
-  app.get_option("--odometry")->type_name("FILE");
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }
 
