@@ -122,30 +122,28 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
     if (name[1] != '-' && std::ranges::find(names, name.substr(0, 2)) != names.end()) continue;
     const std::vector<std::string_view> known(names.begin(), names.end());
     const std::string_view meant = likely_word(lower_case(name), known);
-    throw InvalidInput(fmt::format(
-        "{}: {} has no such option; {}\"mapproof help {}\" lists them", printable(name),
-        command.get_name(), meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
-        command.get_name()));
+    throw InvalidInput(fmt::format("{}: {} has no such option; {}\"mapproof help {}\" lists them",
+                                   printable(name), command.get_name(),
+                                   meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
+                                   command.get_name()));
   }
 }
 
 /// What the parser has against the words, in one sentence.
 std::string objection(const CLI::ParseError& error, const CLI::App& command) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return printable(error.what(), 2000);
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr)
+    return printable(error.what(), 2000);
   std::vector<std::string> extras = command.remaining();
   for (std::string& word : extras) word = "\"" + printable(word) + "\"";
   return fmt::format("{} takes no {}", command.get_name(), listed(extras, 4));
 }
 
 constexpr std::pair<const char*, AddCommand> kCommands[] = {
-    {"reproduce", reproduce_command}, {"run", run_command},
-    {"render", render_command},       {"report", report_command},
-    {"map", map_command},             {"slam", slam_command},
-    {"diff", diff_command},           {"approve", approve_command},
-    {"check", check_command},         {"example", example_command},
-    {"methods", methods_command},     {"validate", validate_command},
-    {"nightly", nightly_command},     {"history", history_command},
-    {"generate", generate_command},
+    {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
+    {"report", report_command},       {"map", map_command},         {"slam", slam_command},
+    {"diff", diff_command},           {"approve", approve_command}, {"check", check_command},
+    {"example", example_command},     {"methods", methods_command}, {"validate", validate_command},
+    {"nightly", nightly_command},     {"history", history_command}, {"generate", generate_command},
 };
 
 int run_command_of(int argc, char** argv) {

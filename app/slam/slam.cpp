@@ -1,7 +1,6 @@
 #include "app/commands.hpp"
 
 #include <algorithm>
-#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <memory>
@@ -11,10 +10,10 @@
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
+#include "app/console.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"
-#include "app/console.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
@@ -315,6 +314,9 @@ Action slam_command(CLI::App& app) {
   add_jobs_option(app, arguments->jobs);
   group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
                       {"Known positions", {"--anchors", "--ground-truth"}},
+                      {"Fit",
+                       {"--range-sigma", "--odometry-sigma", "--heading-sigma",
+                        "--odometry-scale-sigma", "--repair"}},
                       {"Growing files", {"--follow", "--every"}},
                       {"Output", {"--templates"}}});
   app.get_option("--odometry")->type_name("FILE");
