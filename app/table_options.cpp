@@ -50,7 +50,9 @@ void add_table_options(CLI::App& app, TableOptions& options) {
   app.add_option("--columns", options.columns,
                  "Headers or numbers of the columns of a table, as in time=Zeit,landmark=Objekt,"
                  "bearing=3; also step, nanoseconds, robot, range, value, x, y, right")
+      ->type_name("NAME=COLUMN")
       ->delimiter(',');
+  group_options(app, {{"Input", {"--degrees", "--bearing-convention", "--layout", "--columns"}}});
 }
 
 }  // namespace mapproof

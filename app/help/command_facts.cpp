@@ -73,8 +73,11 @@ OptionFacts option_facts(const CLI::Option& option) {
 }
 
 void add_options(const CLI::App& command, CommandFacts& facts) {
+  // A group of options inherits --help from its command.
+  const CLI::Option* repeated = command.get_name().empty() ? command.get_help_ptr() : nullptr;
   for (const CLI::Option* option : command.get_options())
-    if (!option->get_group().empty()) facts.options.push_back(option_facts(*option));
+    if (!option->get_group().empty() && option != repeated)
+      facts.options.push_back(option_facts(*option));
   for (const CLI::App* sub : command.get_subcommands({}))
     if (sub->get_name().empty()) add_options(*sub, facts);
 }
@@ -116,9 +119,9 @@ std::string usage_of(const CommandFacts& command) {
   std::string usage = "mapproof " + command.name + " [OPTIONS]";
   for (const OptionFacts& option : command.options) {
     if (!option.is_argument && !option.is_required) continue;
-    const std::string one =
-        option.is_argument ? option.names.front() + (option.takes_several ? "..." : "")
-                           : fmt::format("{} {}", option.names.back(), option.value);
+    const std::string one = option.is_argument
+                                ? option.names.front() + (option.takes_several ? "..." : "")
+                                : fmt::format("{} {}", option.names.back(), option.value);
     usage += option.is_required ? " " + one : " [" + one + "]";
   }
   return usage;

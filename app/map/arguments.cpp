@@ -57,7 +57,8 @@ void add_observation_options(CLI::App& app, MapJob& job) {
   add_table_options(app, job.table);
   app.add_option("--scan-window", job.scan_window,
                  "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
-                 "are one scan (default: found from the gaps between the stamps)");
+                 "are one scan (default: found from the gaps between the stamps)")
+      ->type_name("SECONDS");
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -166,18 +167,17 @@ void add_map_options(CLI::App& app, MapJob& job) {
   app.add_flag("--force", job.force, "Replace another map in the folder");
   add_jobs_option(app, job.jobs);
   group_options(
-      app,
-      {{"Input",
-        {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--degrees", "--layout", "--steps",
-         "--drop-unseen"}},
-       {"Method",
-        {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--only-seen-together",
-         "--submaps", "--overlap"}},
-       {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
-       {"Missing data", {"--missing", "--dimensions"}},
-       {"Landmark IDs", {"--check-ids", "--repair-ids", "--find-moved", "--uncertain-ids"}},
-       {"Growing files", {"--follow", "--every"}},
-       {"Output", {"--ellipses", "--templates", "--force"}}});
+      app, {{"Input",
+             {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--scan-window", "--steps",
+              "--drop-unseen"}},
+            {"Method",
+             {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--stress-fall",
+              "--only-seen-together", "--submaps", "--overlap"}},
+            {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
+            {"Missing data", {"--missing", "--dimensions"}},
+            {"Landmark IDs", {"--check-ids", "--repair-ids", "--find-moved", "--uncertain-ids"}},
+            {"Growing files", {"--follow", "--every"}},
+            {"Output", {"--ellipses", "--templates", "--force"}}});
   for (const char* file : {"--anchors", "--ground-truth", "--with"})
     app.get_option(file)->type_name("FILE");
 }

@@ -323,6 +323,9 @@ Action slam_command(CLI::App& app) {
   add_jobs_option(app, arguments->jobs);
   group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
                       {"Known positions", {"--anchors", "--ground-truth"}},
+                      {"Fit",
+                       {"--range-sigma", "--odometry-sigma", "--heading-sigma",
+                        "--odometry-scale-sigma", "--repair"}},
                       {"Growing files", {"--follow", "--every"}},
                       {"Output", {"--templates"}}});
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };

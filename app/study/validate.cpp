@@ -249,6 +249,7 @@ Action validate_command(CLI::App& app) {
   app.add_option("--sensor", arguments->sensor,
                  "What the values of tables are; without it, any that fits")
       ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
+  group_options(app, {{"Input", {"--sensor"}}});
   add_table_options(app, arguments->table);
   return
       [arguments](const Invocation& invocation) { return validate_files(*arguments, invocation); };

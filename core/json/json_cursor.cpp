@@ -71,7 +71,8 @@ std::string_view otherwise_called(std::string_view key, const std::vector<std::s
     return std::ranges::find(keys, word) != keys.end();
   };
   const auto without_unit = [](std::string_view word) {
-    constexpr std::string_view kUnits[] = {"deg", "rad", "m", "cm", "mm", "km", "s", "ms", "percent"};
+    constexpr std::string_view kUnits[] = {"deg", "rad", "m",  "cm",     "mm",
+                                           "km",  "s",   "ms", "percent"};
     const std::size_t at = word.rfind('_');
     const bool has_unit = at != std::string_view::npos &&
                           std::ranges::find(kUnits, word.substr(at + 1)) != std::end(kUnits);
