@@ -571,6 +571,38 @@ LogProblem::Fit LogProblem::fit(const LogHypothesis& hypothesis, LogState start,
   return fit;
 }
 
+Eigen::VectorXd LogProblem::range_costs(const LogHypothesis& hypothesis, const Fit& fit) const {
+  Eigen::VectorXd costs = Eigen::VectorXd::Zero(std::ssize(ranges_));
+  for (Index i = 0; i < costs.size(); ++i) {
+    const Range& range = ranges_[static_cast<std::size_t>(i)];
+    if (range.in_gap) continue;
+    costs(i) = mixture_of(term_of(range, hypothesis, fit.state).residual_m,
+                          sigma_of(range, fit.noise), fit.noise.outlier_share, outlier_width_m_)
+                   .cost;
+  }
+  return costs;
+}
+
+LogNoise LogProblem::first_noise(const LogState& start) const {
+  LogNoise noise;
+  double way_m = 0.0, turn = 0.0;
+  for (const Motion& motion : motions_) {
+    way_m += motion.step.head<2>().norm();
+    turn += motion.per_radian(2, 2);
+  }
+  way_m = std::max(way_m, 1e-300);
+  noise.way_m = kFirstWayError * std::sqrt(way_m);
+  noise.turn_per_metre = kFirstTurnError / std::sqrt(way_m);
+  noise.turn_per_radian = kFirstTurnError / std::sqrt(std::max(turn, 1.0));
+  std::vector<double> sizes;
+  for (const Range& range : ranges_)
+    if (!range.in_gap) sizes.push_back(std::abs(term_of(range, LogHypothesis{}, start).residual_m));
+  const double typical = sizes.empty() ? 0.0 : median(sizes);
+  noise.range_m = std::max(1.5 * typical, 1e-6 * outlier_width_m_);
+  noise.outlier_share = 0.02;
+  return noise;
+}
+
 ChainSystem LogProblem::score_system(const Fit& fit, const std::vector<double>& times_s) const {
   const LogHypothesis plain;
   const Columns columns = columns_of(plain, fit.noise);
