@@ -64,7 +64,7 @@ void add_common_options(CLI::App& app, Common& common) {
         ->capture_default_str();
 }
 
-/// What is wrong with a first word that is no command.
+/// What is wrong with a first word that is not a command.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string_view> commands;
   for (const CLI::App* sub : app.get_subcommands({}))

@@ -176,7 +176,7 @@ void add_map_options(CLI::App& app, MapJob& job) {
             {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
             {"Missing data", {"--missing", "--dimensions"}},
             {"Landmark IDs", {"--check-ids", "--repair-ids", "--find-moved", "--uncertain-ids"}},
-            {"Growing files", {"--follow", "--every"}},
+            {"Files that grow", {"--follow", "--every"}},
             {"Output", {"--ellipses", "--templates", "--force"}}});
   for (const char* file : {"--anchors", "--ground-truth", "--with"})
     app.get_option(file)->type_name("FILE");

@@ -104,8 +104,9 @@ Drawables read_drawables(const fs::path& input) {
   else if (name.ends_with(".json"))
     add_file(input, drawables);
   else
-    throw IoError(input.string(),
-                  "is no figure: a figure is a folder of mapproof, ID.figure.json or ID.scene.json");
+    throw IoError(
+        input.string(),
+        "is not a figure: a figure is a folder of mapproof, ID.figure.json or ID.scene.json");
   return drawables;
 }
 
@@ -126,12 +127,12 @@ Figure panel_figure(const std::string& panel, const std::optional<Drawables>& fr
     const std::string known =
         from ? fmt::format("; there are the figures {}", fmt::join(ids_of(*from), ", ")) : "";
     throw InvalidInput(
-        fmt::format("--panel: {} is no folder and no file{}", printable(panel), known));
+        fmt::format("--panel: {} is neither a folder nor a file{}", printable(panel), known));
   }
   Drawables drawables = read_drawables(panel);
   if (drawables.figures.empty())
-    throw InvalidInput(fmt::format("--panel: {} is a scene, which has no axes to share",
-                                   printable(panel)));
+    throw InvalidInput(
+        fmt::format("--panel: {} is a scene, which has no axes to share", printable(panel)));
   return std::move(drawables.figures.front());
 }
 

@@ -1,6 +1,7 @@
 #include "app/render/style_options.hpp"
 
 #include "core/base/errors.hpp"
+#include "render/style/style_file.hpp"
 #include "render/style/words.hpp"
 
 namespace mapproof {
@@ -49,8 +50,7 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
       ->group(group);
   std::vector<std::string> known;
   for (const std::string_view language : languages()) known.emplace_back(language);
-  app.add_option("--language", arguments.language,
-                 "Language of the words in figures")
+  app.add_option("--language", arguments.language, "Language of the words in figures")
       ->transform(one_of(known))
       ->group(group);
   app.add_option("--style", arguments.file,
@@ -73,8 +73,9 @@ FigureStyle style_of(const StyleArguments& arguments) {
   if (arguments.no_title) {
     const bool drawn = style.draws_title.value_or(style.theme == BaseTheme::kReport);
     if (!drawn)
-      throw InvalidInput("--no-title: no title is drawn anyway, neither by the theme paper nor with "
-                         "this style");
+      throw InvalidInput(
+          "--no-title: no title is drawn anyway, neither by the theme paper nor with "
+          "this style");
     style.draws_title = false;
   }
   return style;

@@ -41,8 +41,9 @@ struct SlamArguments {
   std::string known;
   std::optional<std::string> templates;
   RangeLogOptions log;
-  std::vector<std::string> truths;  ///< As typed; sort_truths() tells path and landmarks apart.
-  std::string ground_truth;         ///< The true path.
+  std::vector<std::string>
+      ground_truths;         ///< As typed; sort_ground_truths() tells path and landmarks apart.
+  std::string ground_truth;  ///< The true path.
   std::string true_landmarks;
   std::string odometry;
   LogFitOptions fit;
@@ -72,8 +73,8 @@ bool holds_landmarks(const std::string& file) {
 }
 
 /// Puts each file of --ground-truth where it belongs. @throws InvalidInput for two of a kind.
-void sort_truths(SlamArguments& arguments) {
-  for (const std::string& typed : arguments.truths) {
+void sort_ground_truths(SlamArguments& arguments) {
+  for (const std::string& typed : arguments.ground_truths) {
     const std::string file = made_file(typed);
     const bool is_landmarks = holds_landmarks(file);
     std::string& place = is_landmarks ? arguments.true_landmarks : arguments.ground_truth;
@@ -214,9 +215,9 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   std::vector<std::string> inputs = {arguments.data, arguments.known, arguments.odometry};
-  inputs.insert(inputs.end(), arguments.truths.begin(), arguments.truths.end());
+  inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
   refuse_shared_streams(inputs);
-  sort_truths(arguments);
+  sort_ground_truths(arguments);
   if (arguments.follow) {
     return follow_ranges(arguments, page, invocation);
   }
@@ -252,7 +253,7 @@ void add_input_options(CLI::App& app, SlamArguments& arguments) {
   app.add_option("--anchors", arguments.known,
                  "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
       ->type_name("FILE");
-  app.add_option("--ground-truth,--truth", arguments.truths,
+  app.add_option("--ground-truth,--truth", arguments.ground_truths,
                  "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
                  "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
                  "both, each by an option of its own")
@@ -326,7 +327,7 @@ Action slam_command(CLI::App& app) {
                       {"Fit",
                        {"--range-sigma", "--odometry-sigma", "--heading-sigma",
                         "--odometry-scale-sigma", "--repair"}},
-                      {"Growing files", {"--follow", "--every"}},
+                      {"Files that grow", {"--follow", "--every"}},
                       {"Output", {"--templates"}}});
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }

@@ -53,8 +53,8 @@ class Painter {
   Painter(const Drawing& drawing, cairo_t* context, bool keeps_text,
           std::vector<SurfaceHandle>& images)
       : drawing_(drawing), context_(context), keeps_text_(keeps_text), images_(images) {
-    if (drawing.font) own_face_ = make_font_face(drawing.font);
-    cairo_set_font_face(context_, own_face_ ? own_face_.get() : thread_font_face());
+    if (drawing.font) drawing_face_ = make_font_face(drawing.font);
+    cairo_set_font_face(context_, drawing_face_ ? drawing_face_.get() : thread_font_face());
     cairo_set_font_options(context_, plain_font_options().get());
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
   }
@@ -207,7 +207,7 @@ class Painter {
   cairo_t* context_;
   bool keeps_text_;
   std::vector<SurfaceHandle>& images_;
-  FontFaceHandle own_face_;
+  FontFaceHandle drawing_face_;
   bool clipped_ = false;
   std::size_t panel_ = 0;
 };

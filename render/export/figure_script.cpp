@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "render/export/matplotlib_script.hpp"
 #include "render/export/python_text.hpp"
-#include "render/export/script_parts.hpp"
 
 namespace mapproof {
 namespace {
@@ -57,10 +57,12 @@ class LayerCalls {
     data("x", points.x);
     data("y", points.y);
     const bool crosses = points.marker == Marker::kCross || points.marker == Marker::kPlus;
-    call("ax.plot(x, y, linestyle=\"none\", marker={}, markersize={}, color={}, "
-         "markerfacecolor={}{})",
-         marker_sign(points.marker), python_number(theme_.marker_pt * points.size), colour(points.colour),
-         points.filled || crosses ? colour(points.colour) : "\"none\"", common(points.label));
+    call(
+        "ax.plot(x, y, linestyle=\"none\", marker={}, markersize={}, color={}, "
+        "markerfacecolor={}{})",
+        marker_sign(points.marker), python_number(theme_.marker_pt * points.size),
+        colour(points.colour), points.filled || crosses ? colour(points.colour) : "\"none\"",
+        common(points.label));
   }
   void operator()(const Segments& lines) {
     data("x0", lines.x0);
@@ -68,53 +70,60 @@ class LayerCalls {
     data("x1", lines.x1);
     data("y1", lines.y1);
     if (lines.arrow)
-      call("ax.quiver(x0, y0, np.subtract(x1, x0), np.subtract(y1, y0), angles=\"xy\", "
-           "scale_units=\"xy\", scale=1, width=0.004, color={}{})",
-           colour(lines.colour), common(lines.label));
+      call(
+          "ax.quiver(x0, y0, np.subtract(x1, x0), np.subtract(y1, y0), angles=\"xy\", "
+          "scale_units=\"xy\", scale=1, width=0.004, color={}{})",
+          colour(lines.colour), common(lines.label));
     else
-      call("ax.add_collection(LineCollection(list(zip(zip(x0, y0), zip(x1, y1))), colors={}, "
-           "linestyles={}, linewidths={}{}))\nax.autoscale_view()",
-           colour(lines.colour), line_style(lines.dash), width(lines.width), common(lines.label));
+      call(
+          "ax.add_collection(LineCollection(list(zip(zip(x0, y0), zip(x1, y1))), colors={}, "
+          "linestyles={}, linewidths={}{}))\nax.autoscale_view()",
+          colour(lines.colour), line_style(lines.dash), width(lines.width), common(lines.label));
   }
   void operator()(const PointLabels& labels) {
     data("x", labels.x);
     data("y", labels.y);
     out_ += "texts = " + python_list(labels.text) + "\n";
-    call("for at_x, at_y, text in zip(x, y, texts):\n"
-         "    ax.annotate(text, (at_x, at_y), xytext=(4, 4), textcoords=\"offset points\", "
-         "color={}{})",
-         colour(labels.colour), common(""));
+    call(
+        "for at_x, at_y, text in zip(x, y, texts):\n"
+        "    ax.annotate(text, (at_x, at_y), xytext=(4, 4), textcoords=\"offset points\", "
+        "color={}{})",
+        colour(labels.colour), common(""));
   }
   void operator()(const Texts& shown) {
     constexpr const char* kAligned[] = {"left", "center", "right"};
     data("x", shown.x);
     data("y", shown.y);
     out_ += "texts = " + python_list(shown.text) + "\n";
-    call("for at_x, at_y, text in zip(x, y, texts):\n"
-         "    ax.text(at_x, at_y, text, ha=\"{}\", va=\"center\", color={}{})",
-         kAligned[static_cast<std::size_t>(shown.align)], colour(shown.colour), common(""));
+    call(
+        "for at_x, at_y, text in zip(x, y, texts):\n"
+        "    ax.text(at_x, at_y, text, ha=\"{}\", va=\"center\", color={}{})",
+        kAligned[static_cast<std::size_t>(shown.align)], colour(shown.colour), common(""));
   }
   void operator()(const Area& area) {
     data("x", area.x);
     data("y", area.y);
-    call("for part_x, part_y in outlines(x, y):\n"
-         "    ax.fill(part_x, part_y, facecolor={}, edgecolor={}, linestyle={}, linewidth={}{})",
-         face(area.fill, area.colour), area.outlined ? colour(area.colour) : "\"none\"",
-         line_style(area.dash), width(area.width), common(area.label));
+    call(
+        "for part_x, part_y in outlines(x, y):\n"
+        "    ax.fill(part_x, part_y, facecolor={}, edgecolor={}, linestyle={}, linewidth={}{})",
+        face(area.fill, area.colour), area.outlined ? colour(area.colour) : "\"none\"",
+        line_style(area.dash), width(area.width), common(area.label));
   }
   void operator()(const Ellipses& shapes) {
     std::vector<double> turn_deg;
-    for (const double turn : shapes.rotation_rad) turn_deg.push_back(turn * 180.0 / std::numbers::pi);
+    for (const double turn : shapes.rotation_rad)
+      turn_deg.push_back(turn * 180.0 / std::numbers::pi);
     data("x", shapes.x);
     data("y", shapes.y);
     data("a", shapes.a);
     data("b", shapes.b);
     data("turn_deg", turn_deg);
-    call("for one in zip(x, y, a, b, turn_deg):\n"
-         "    ax.add_patch(Ellipse(one[:2], 2 * one[2], 2 * one[3], angle=one[4], facecolor={}, "
-         "edgecolor={}, linestyle={}, linewidth={}{}))\nax.autoscale_view()",
-         face(shapes.fill, shapes.colour), colour(shapes.colour), line_style(shapes.dash),
-         width(shapes.width), common(shapes.label));
+    call(
+        "for one in zip(x, y, a, b, turn_deg):\n"
+        "    ax.add_patch(Ellipse(one[:2], 2 * one[2], 2 * one[3], angle=one[4], facecolor={}, "
+        "edgecolor={}, linestyle={}, linewidth={}{}))\nax.autoscale_view()",
+        face(shapes.fill, shapes.colour), colour(shapes.colour), line_style(shapes.dash),
+        width(shapes.width), common(shapes.label));
   }
   void operator()(const Cells& cells) {
     data("values", cells.values);
@@ -123,12 +132,13 @@ class LayerCalls {
             ? "\"viridis\""
             : fmt::format("LinearSegmentedColormap.from_list(\"colour\", [\"{}\", {}])",
                           hex(theme_.background), colour(cells.colour));
-    call("image = ax.imshow(np.reshape(values, (-1, {})), extent=({}, {}, {}, {}), cmap={}, "
-         "norm={}({}, {}, clip=True), aspect=\"auto\", interpolation=\"nearest\", zorder={})",
-         cells.columns, python_number(cells.x.low), python_number(cells.x.high),
-         python_number(cells.y.low), python_number(cells.y.high), map,
-         cells.scale == Scale::kLog ? "LogNorm" : "Normalize", python_number(cells.limits.low),
-         python_number(cells.limits.high), order_);
+    call(
+        "image = ax.imshow(np.reshape(values, (-1, {})), extent=({}, {}, {}, {}), cmap={}, "
+        "norm={}({}, {}, clip=True), aspect=\"auto\", interpolation=\"nearest\", zorder={})",
+        cells.columns, python_number(cells.x.low), python_number(cells.x.high),
+        python_number(cells.y.low), python_number(cells.y.high), map,
+        cells.scale == Scale::kLog ? "LogNorm" : "Normalize", python_number(cells.limits.low),
+        python_number(cells.limits.high), order_);
     if (!cells.bar_label.empty())
       call("fig.colorbar(image, ax=ax, label={})", python_text(cells.bar_label));
     if (!cells.text.empty()) add_cell_texts(cells);
@@ -138,14 +148,15 @@ class LayerCalls {
  private:
   void add_cell_texts(const Cells& cells) {
     out_ += "texts = " + python_list(cells.text) + "\n";
-    call("for i, text in enumerate(texts):\n"
-         "    row, column = divmod(i, {})\n"
-         "    ax.text({} + (column + 0.5) * {}, {} - (row + 0.5) * {}, text, ha=\"center\", "
-         "va=\"center\")",
-         cells.columns, python_number(cells.x.low),
-         python_number((cells.x.high - cells.x.low) / static_cast<double>(cells.columns)),
-         python_number(cells.y.high),
-         python_number((cells.y.high - cells.y.low) / static_cast<double>(cells.rows())));
+    call(
+        "for i, text in enumerate(texts):\n"
+        "    row, column = divmod(i, {})\n"
+        "    ax.text({} + (column + 0.5) * {}, {} - (row + 0.5) * {}, text, ha=\"center\", "
+        "va=\"center\")",
+        cells.columns, python_number(cells.x.low),
+        python_number((cells.x.high - cells.x.low) / static_cast<double>(cells.columns)),
+        python_number(cells.y.high),
+        python_number((cells.y.high - cells.y.low) / static_cast<double>(cells.rows())));
   }
 
   std::string colour(ThemeColour of) const { return script_colour(theme_.of(of)); }
@@ -186,12 +197,14 @@ class LayerCalls {
 };
 
 void add_axis(const Axis& axis, char name, std::string& out) {
-  if (!axis.label.empty()) out += fmt::format("ax.set_{}label({})\n", name, python_text(axis.label));
+  if (!axis.label.empty())
+    out += fmt::format("ax.set_{}label({})\n", name, python_text(axis.label));
   if (axis.scale == Scale::kLog) out += fmt::format("ax.set_{}scale(\"log\")\n", name);
   if (axis.limits)
     out += fmt::format("ax.set_{}lim({}, {})\n", name, python_number(axis.limits->low),
                        python_number(axis.limits->high));
-  if (axis.whole) out += fmt::format("ax.{}axis.set_major_locator(MaxNLocator(integer=True))\n", name);
+  if (axis.whole)
+    out += fmt::format("ax.{}axis.set_major_locator(MaxNLocator(integer=True))\n", name);
   if (!axis.names.empty())
     out += fmt::format("ax.set_{0}ticks(range({1}))\nax.set_{0}ticklabels({2})\n", name,
                        axis.names.size(), python_list(axis.names));
@@ -242,8 +255,7 @@ std::string figure_script(const Figure& figure, const Theme& theme) {
       "for ax in panels[{}:]:\n    ax.remove()\n",
       rows, columns, python_number(theme.width_pt / 72.0),
       python_number(static_cast<double>(rows) * theme.height_pt / 72.0),
-      figure.shared_x ? "True" : "False", figure.shared_y ? "True" : "False",
-      figure.panels.size());
+      figure.shared_x ? "True" : "False", figure.shared_y ? "True" : "False", figure.panels.size());
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     out += fmt::format("\n# Panel {}\nax = panels[{}]\n", p + 1, p);
     add_panel(figure.panels[p], theme, out);

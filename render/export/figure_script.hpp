@@ -3,7 +3,6 @@
 #include <string>
 
 #include "render/plot/figure.hpp"
-#include "render/scene/scene.hpp"
 #include "render/theme/theme.hpp"
 
 namespace mapproof {
@@ -13,8 +12,5 @@ namespace mapproof {
 /// file that it is called with. Positions of labels and legend are matplotlib's.
 /// @throws InvalidInput if the figure cannot be drawn.
 std::string figure_script(const Figure& figure, const Theme& theme);
-
-/// The same of a scene, by mpl_toolkits.mplot3d: one 3-D axes per view.
-std::string scene_script(const Scene& scene, const Theme& theme);
 
 }  // namespace mapproof

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "render/export/figure_script.hpp"
+#include "render/export/matplotlib_script.hpp"
 #include "render/export/python_text.hpp"
-#include "render/export/script_parts.hpp"
+#include "render/export/scene_script.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,9 +17,7 @@ std::string axis_list(const std::vector<Point3>& points, int axis) {
 }
 
 /// Names of the data of a part in the script: x3, y3, z3.
-std::string names_of(const std::string& suffix) {
-  return fmt::format("x{0}, y{0}, z{0}", suffix);
-}
+std::string names_of(const std::string& suffix) { return fmt::format("x{0}, y{0}, z{0}", suffix); }
 
 void put_points(const std::vector<Point3>& points, const std::string& suffix, std::string& out) {
   out += fmt::format("x{0} = {1}\ny{0} = {2}\nz{0} = {3}\n", suffix, axis_list(points, 0),
@@ -55,9 +53,9 @@ class PartText {
   }
   void operator()(const Tube& tube) {
     put_points(tube.points, at_, data_);
-    call_ += fmt::format("ax.plot({}, linewidth={}, {})\n", names_of(at_),
-                         python_number(theme_.line_pt),
-                         common_words(tube.style, theme_, tube.label));
+    call_ +=
+        fmt::format("ax.plot({}, linewidth={}, {})\n", names_of(at_), python_number(theme_.line_pt),
+                    common_words(tube.style, theme_, tube.label));
   }
   void operator()(const Rods& rods) {
     put_points(rods.from, at_ + "a", data_);
@@ -96,8 +94,8 @@ class PartText {
     std::vector<double> corners;
     for (const auto& triangle : triangles)
       for (const std::uint32_t corner : triangle) corners.push_back(corner);
-    data_ += fmt::format("faces{} = np.reshape({}, (-1, 3)).astype(int)\n", at_,
-                         python_list(corners));
+    data_ +=
+        fmt::format("faces{} = np.reshape({}, (-1, 3)).astype(int)\n", at_, python_list(corners));
   }
 
   const Theme& theme_;
@@ -111,7 +109,8 @@ std::string camera_words(const Camera& camera) {
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return fmt::format("ax.view_init(elev={:.2f}, azim={:.2f})\nax.set_proj_type(\"{}\")\n",
                      std::atan2(from.z(), std::hypot(from.x(), from.y())) * kDegrees,
-                     std::atan2(from.y(), from.x()) * kDegrees, camera.parallel ? "ortho" : "persp");
+                     std::atan2(from.y(), from.x()) * kDegrees,
+                     camera.parallel ? "ortho" : "persp");
 }
 
 void add_view(const Shot& view, const Scene& scene, const std::vector<std::string>& calls,
@@ -159,12 +158,11 @@ std::string scene_script(const Scene& scene, const Theme& theme) {
   std::vector<std::string> calls(scene.parts.size());
   for (std::size_t p = 0; p < scene.parts.size(); ++p)
     std::visit(PartText(theme, p, data, calls[p]), scene.parts[p]);
-  const std::size_t columns = scene.columns == 0 ? scene.views.size()
-                                                 : std::min(scene.columns, scene.views.size());
+  const std::size_t columns =
+      scene.columns == 0 ? scene.views.size() : std::min(scene.columns, scene.views.size());
   const std::size_t rows = (scene.views.size() + columns - 1) / columns;
   out += data;
-  out += fmt::format("fig = plt.figure(figsize=({}, {}))\n",
-                     python_number(theme.width_pt / 72.0),
+  out += fmt::format("fig = plt.figure(figsize=({}, {}))\n", python_number(theme.width_pt / 72.0),
                      python_number(static_cast<double>(rows) * theme.height_pt / 72.0));
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     out += fmt::format("\n# View {0}\nax = fig.add_subplot({1}, {2}, {0}, projection=\"3d\")\n",

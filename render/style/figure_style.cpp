@@ -5,15 +5,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
-#include "core/json/record_reader.hpp"
-#include "render/style/figure_style_fields.hpp"
-#include "render/style/words.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kLargestStyle = std::size_t{1} << 20;  // Bytes.
-constexpr std::size_t kLargestFont = std::size_t{1} << 26;   // Bytes.
+constexpr std::size_t kLargestFont = std::size_t{1} << 26;  // Bytes.
 
 void take(const std::string& hex, Colour& to) {
   if (hex.empty()) return;
@@ -27,12 +23,6 @@ void take(const std::optional<double>& value, double& to, double factor = 1.0) {
 }
 
 }  // namespace
-
-FigureStyle read_figure_style(const std::filesystem::path& file) {
-  auto style = from_json_text<FigureStyle>(read_file(file, kLargestStyle), file.string());
-  if (!style.font.empty()) style.font = (file.parent_path() / style.font).string();
-  return style;
-}
 
 Theme theme_of(const FigureStyle& style) {
   constexpr double kPointsPerInch = 72.0;
@@ -63,12 +53,6 @@ Theme theme_of(const FigureStyle& style) {
   if (!style.font.empty())
     theme.font = std::make_shared<const Font>(read_file(style.font, kLargestFont), style.font);
   return theme;
-}
-
-std::map<std::string, std::string> words_of(const FigureStyle& style) {
-  std::map<std::string, std::string> words = language_words(style.language);
-  for (const auto& [phrase, by] : style.words) words[phrase] = by;
-  return words;
 }
 
 }  // namespace mapproof

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -29,21 +28,12 @@ struct FigureStyle {
   std::optional<double> font_pt = {}, tick_font_pt = {}, title_font_pt = {};
   std::optional<double> line_pt = {}, hairline_pt = {}, marker_pt = {}, space_pt = {};
   StyleColours colours = {};
-  std::string language = {};                      ///< Of the words, see languages(); empty: English.
+  std::string language = {};  ///< Of the words, see languages(); empty: English.
   std::map<std::string, std::string> words = {};  ///< Phrases and what replaces them in all texts.
 };
-
-/// The style that a file holds (docs/schemas/style.schema.json). A font in it is relative to the
-/// folder of the file.
-/// @throws IoError with the file and the JSON pointer.
-FigureStyle read_figure_style(const std::filesystem::path& file);
 
 /// The theme that a style amounts to; reads its font.
 /// @throws InvalidInput for a font that cannot be used; IoError if it cannot be read.
 Theme theme_of(const FigureStyle& style);
-
-/// The phrases that a style replaces: those of its language, under its own words.
-/// @throws InvalidInput for a language that is not known.
-std::map<std::string, std::string> words_of(const FigureStyle& style);
 
 }  // namespace mapproof

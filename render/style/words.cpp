@@ -114,4 +114,10 @@ void replace_words(Scene& scene, const Words& words) {
   }
 }
 
+std::map<std::string, std::string> words_of(const FigureStyle& style) {
+  std::map<std::string, std::string> words = language_words(style.language);
+  for (const auto& [phrase, by] : style.words) words[phrase] = by;
+  return words;
+}
+
 }  // namespace mapproof

@@ -8,6 +8,8 @@
 #include "render/plot/figure.hpp"
 #include "render/scene/scene.hpp"
 
+#include "render/style/figure_style.hpp"
+
 namespace mapproof {
 
 /// The languages that figures can have: "de", "en", "es", "fr".
@@ -24,5 +26,9 @@ std::string replaced(std::string_view text, const std::map<std::string, std::str
 /// and description.
 void replace_words(Figure& figure, const std::map<std::string, std::string>& words);
 void replace_words(Scene& scene, const std::map<std::string, std::string>& words);
+
+/// The phrases that a style replaces: those of its language, under its own words.
+/// @throws InvalidInput for a language that is not known.
+std::map<std::string, std::string> words_of(const FigureStyle& style);
 
 }  // namespace mapproof

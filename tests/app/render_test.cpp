@@ -44,7 +44,8 @@ TEST_F(RenderOfAMap, GivesTheSameBytesAsTheMapInItsOwnStyle) {
 }
 
 TEST_F(RenderOfAMap, DrawsItForAColumnOfAPaper) {
-  const Outcome outcome = render({map_, "--theme", "paper", "--width", "3.25", "--as", "pdf,eps,latex"});
+  const Outcome outcome =
+      render({map_, "--theme", "paper", "--width", "3.25", "--as", "pdf,eps,latex"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_NE(text_of("map/figures-paper/map.pdf").find("/MediaBox [ 0 0 234 "), std::string::npos);
   EXPECT_NE(text_of("map/figures-paper/map.tex").find("\\includegraphics[width=3.25in]{map.pdf}"),
@@ -56,7 +57,8 @@ TEST_F(RenderOfAMap, DrawsItForAColumnOfAPaper) {
 TEST_F(RenderOfAMap, TakesItsFileOrItsFolderOfFigures) {
   for (const std::string& input :
        {map_ + "/figures/map.figure.json", map_ + "/figures", map_ + "/map.json", map_}) {
-    const Outcome outcome = render({input, "--width", "5", "--as", "svg", "--out", folder_ / "own"});
+    const Outcome outcome =
+        render({input, "--width", "5", "--as", "svg", "--out", folder_ / "own"});
     EXPECT_EQ(outcome.exit_code, 0) << input << outcome.error;
     EXPECT_NE(text_of("own/map.svg").find("width=\"360"), std::string::npos) << input;
     fs::remove_all(folder_ / "own");
@@ -79,7 +81,9 @@ TEST_F(RenderOfAMap, NamesLandmarksTitleAndWordsAsAsked) {
   };
   const auto map = nlohmann::json::parse(read_file(map_ + "/map.json"));
   EXPECT_EQ(named(all), map["names"].size());
-  ASSERT_EQ(render({map_, "--landmarks", "none", "--as", "json", "--out", folder_ / "none"}).exit_code, 0);
+  ASSERT_EQ(
+      render({map_, "--landmarks", "none", "--as", "json", "--out", folder_ / "none"}).exit_code,
+      0);
   EXPECT_EQ(named(nlohmann::json::parse(text_of("none/map.figure.json"))), 0U);
 }
 
@@ -105,7 +109,7 @@ TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
       {{map_, "--font", map_ + "/map.json"}, "is not a TrueType or OpenType font"},
       {{map_, "--style", map_ + "/map.json"}, "map.json"},
       {{folder_ / ""}, "holds nothing to draw"},
-      {{map_ + "/map.csv"}, "is no figure"},
+      {{map_ + "/map.csv"}, "is not a figure"},
       {{folder_ / "none"}, "there is no such file or folder"},
       {{"--panel", map_, map_}, "name the folder for the figure by --out"},
       {{}, "name what to draw"}};
@@ -125,8 +129,8 @@ TEST_F(RenderOfAMap, ListsWhatCanBeDrawn) {
 
 TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {
   const std::string files = std::string(kExamples) + "/map";
-  std::vector<std::string> words = {"map", files + "/bearings.csv", "--sensor", "bearing", "--method",
-                                    "isomap", "--out", map_};
+  std::vector<std::string> words = {
+      "map", files + "/bearings.csv", "--sensor", "bearing", "--method", "isomap", "--out", map_};
   const Outcome refused = mapproof(words);
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.error.find("--force"), std::string::npos) << refused.error;
@@ -136,7 +140,8 @@ TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {
 
 TEST(RenderOfARangeMap, DrawsItsFiguresAgain) {
   const TemporaryFolder folder;
-  ASSERT_EQ(mapproof({"slam", std::string(kExamples) + "/slam", "--out", folder / "slam"}).exit_code, 0);
+  ASSERT_EQ(
+      mapproof({"slam", std::string(kExamples) + "/slam", "--out", folder / "slam"}).exit_code, 0);
   const Outcome outcome = mapproof({"render", folder / "slam", "--theme", "paper", "--as", "pdf"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_FALSE(fs::is_empty(folder.path() / "slam/figures-paper"));

@@ -9,6 +9,7 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/export/figure_csv.hpp"
 #include "render/export/figure_script.hpp"
+#include "render/export/scene_script.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/samples/sample_scenes.hpp"
@@ -53,8 +54,9 @@ TEST(FigureCsv, GivesCellsTheirMiddleFromTheUppermostRowOn) {
 
 TEST(FigureCsv, HasRowsForEverySample) {
   for (const Figure& figure : sample_figures()) {
-    const bool is_empty_figure = std::ranges::all_of(
-        figure.panels, [](const Panel& panel) { return std::ranges::all_of(panel.layers, is_empty); });
+    const bool is_empty_figure = std::ranges::all_of(figure.panels, [](const Panel& panel) {
+      return std::ranges::all_of(panel.layers, is_empty);
+    });
     EXPECT_EQ(lines_of(figure_csv(figure)) > 1, !is_empty_figure) << figure.id;
   }
   for (const Scene& scene : sample_scenes()) EXPECT_GT(lines_of(scene_csv(scene)), 1U) << scene.id;
@@ -103,11 +105,9 @@ TEST(FigureScript, DrawsEveryTypeOfFigureAndSceneByMatplotlib) {
   if (!has_matplotlib()) GTEST_SKIP() << "python3-matplotlib is not installed: not run";
   const fs::path runner = folder.path() / "run";
   write_file(runner, kRunner);
-  EXPECT_TRUE(ChildProcess({kPython, {runner.string(), folder.path().string()}}, {})
-                  .wait()
-                  .is_success());
-  for (const std::string& id : ids)
-    EXPECT_TRUE(fs::exists(folder.path() / (id + ".png"))) << id;
+  EXPECT_TRUE(
+      ChildProcess({kPython, {runner.string(), folder.path().string()}}, {}).wait().is_success());
+  for (const std::string& id : ids) EXPECT_TRUE(fs::exists(folder.path() / (id + ".png"))) << id;
 }
 
 TEST(Eps, IsTheSameEachTimeAndHasOnePageOfTheSizeOfTheFigure) {

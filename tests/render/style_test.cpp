@@ -7,6 +7,7 @@
 #include "render/plot/layout.hpp"
 #include "render/style/edits.hpp"
 #include "render/style/figure_style.hpp"
+#include "render/style/style_file.hpp"
 #include "render/style/words.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -58,11 +59,10 @@ TEST(FigureStyle, OfNothingIsTheTheme) {
 
 TEST(FigureStyle, RefusesWhatIsNoneWithTheLocation) {
   const TemporaryFolder folder;
-  for (const auto& [text, said] :
-       {std::pair{R"("colours": {"text": "red"}})", "/colours/text"},
-        {R"("dpi": 5})", "/dpi"},
-        {R"("colour": {}})", "did you mean \"colours\"?"},
-        {R"("theme": "papr"})", "did you mean \"paper\"?"}}) {
+  for (const auto& [text, said] : {std::pair{R"("colours": {"text": "red"}})", "/colours/text"},
+                                   {R"("dpi": 5})", "/dpi"},
+                                   {R"("colour": {}})", "did you mean \"colours\"?"},
+                                   {R"("theme": "papr"})", "did you mean \"paper\"?"}}) {
     const auto file = folder.file("style.json", std::string(kHead) + text);
     try {
       read_figure_style(file);

@@ -180,7 +180,7 @@ class LogProblem {
   double prediction_variance(const Solved& solved, const Range& range, const Term& term) const;
   bool update_noise(const LogHypothesis& hypothesis, const Columns& columns, const LogState& state,
                     const ChainSystem& system, LogNoise& noise) const;
-  /// The normalised residual of each range, and how far it is no outlier.
+  /// The normalised residual of each range, and the probability that it is not an outlier.
   void take_residuals(const LogHypothesis& hypothesis, Fit& fit) const;
 
   const RangeLog* log_;

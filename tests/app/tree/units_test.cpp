@@ -24,6 +24,7 @@ constexpr std::ptrdiff_t kMostFilesOfFolder = 36;
 
 /// Headers whose functions are defined in a file each, which the header names.
 const std::set<std::string> kRegisters = {"app/commands.hpp",
+                                          "app/help/generated.hpp",
                                           "core/records/ranges/range_log_forms.hpp",
                                           "core/records/tables/respelling.hpp",
                                           "reports/sections/figures/figure_builders.hpp",

@@ -1,4 +1,4 @@
-#include "render/export/script_parts.hpp"
+#include "render/export/matplotlib_script.hpp"
 
 #include <fmt/format.h>
 
@@ -24,7 +24,8 @@ std::string script_head(const std::string& id, const std::string& title, const T
       "    \"xtick.labelsize\": {3}, \"ytick.labelsize\": {3}, \"axes.titlesize\": {2},\n"
       "    \"legend.fontsize\": {2}, \"figure.titlesize\": {4}, \"axes.linewidth\": {5},\n"
       "    \"savefig.dpi\": {6}, \"figure.facecolor\": {7}, \"axes.facecolor\": {7},\n"
-      "    \"text.color\": {8}, \"axes.labelcolor\": {8}, \"xtick.color\": {8}, \"ytick.color\": {8},\n"
+      "    \"text.color\": {8}, \"axes.labelcolor\": {8}, \"xtick.color\": {8}, \"ytick.color\": "
+      "{8},\n"
       "    \"axes.edgecolor\": {8}, \"axes.axisbelow\": True,\n"
       "}})\n\n",
       id, python_text(title), python_number(theme.font_pt), python_number(theme.tick_font_pt),
