@@ -167,7 +167,8 @@ class LayerCalls {
       case Fill::kNone:
         return "\"none\"";
       case Fill::kTint:
-        return fmt::format("({}, 0.2)", colour(of));
+        // Opacity 0.2 as two digits: pairs of colour and opacity are of matplotlib 3.8.
+        return fmt::format("\"{}33\"", hex(theme_.of(of)));
       case Fill::kSolid:
         return colour(of);
       case Fill::kPaper:

@@ -59,10 +59,11 @@ TEST(FigureStyle, OfNothingIsTheTheme) {
 
 TEST(FigureStyle, RefusesWhatIsNoneWithTheLocation) {
   const TemporaryFolder folder;
-  for (const auto& [text, said] : {std::pair{R"("colours": {"text": "red"}})", "/colours/text"},
-                                   {R"("dpi": 5})", "/dpi"},
-                                   {R"("colour": {}})", "did you mean \"colours\"?"},
-                                   {R"("theme": "papr"})", "did you mean \"paper\"?"}}) {
+  for (const auto& [text, said] :
+       {std::pair{R"("colours": {"text": "red"}})", "/colours/text"},
+        {R"("dpi": 5})", "/dpi"},
+        {R"("colour": {}})", "did you mean \"colours\"?"},
+        {R"("theme": "papr"})", "expected report or paper, got \"papr\""}}) {
     const auto file = folder.file("style.json", std::string(kHead) + text);
     try {
       read_figure_style(file);
