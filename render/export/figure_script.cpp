@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -211,13 +212,16 @@ void add_axis(const Axis& axis, char name, std::string& out) {
                        axis.names.size(), python_list(axis.names));
 }
 
-void add_panel(const Panel& panel, const Theme& theme, std::string& out) {
+/// @param adjusts  What gives way to an equal aspect: "datalim", or "box" where both axes are
+///                 shared, which matplotlib asks for.
+void add_panel(const Panel& panel, const Theme& theme, std::string_view adjusts, std::string& out) {
   for (std::size_t k = 0; k < panel.layers.size(); ++k)
     std::visit(LayerCalls(theme, k + 2, out), panel.layers[k]);
   if (!panel.title.empty()) out += fmt::format("ax.set_title({})\n", python_text(panel.title));
   add_axis(panel.x, 'x', out);
   add_axis(panel.y, 'y', out);
-  if (panel.equal_aspect) out += "ax.set_aspect(\"equal\", adjustable=\"datalim\")\n";
+  if (panel.equal_aspect)
+    out += fmt::format("ax.set_aspect(\"equal\", adjustable=\"{}\")\n", adjusts);
   out += panel.bare ? "ax.set_axis_off()\n"
                     : fmt::format("ax.grid(True, color={}, linewidth={}, zorder=0)\n",
                                   script_colour(theme.grid), python_number(theme.hairline_pt));
@@ -257,9 +261,10 @@ std::string figure_script(const Figure& figure, const Theme& theme) {
       rows, columns, python_number(theme.width_pt / 72.0),
       python_number(static_cast<double>(rows) * theme.height_pt / 72.0),
       figure.shared_x ? "True" : "False", figure.shared_y ? "True" : "False", figure.panels.size());
+  const char* adjusts = figure.shared_x && figure.shared_y ? "box" : "datalim";
   for (std::size_t p = 0; p < figure.panels.size(); ++p) {
     out += fmt::format("\n# Panel {}\nax = panels[{}]\n", p + 1, p);
-    add_panel(figure.panels[p], theme, out);
+    add_panel(figure.panels[p], theme, adjusts, out);
   }
   for (const PanelArrow& arrow : figure.arrows)
     out += fmt::format(
