@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
@@ -56,8 +57,10 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
           "--seed", "\"" + printable(text) + "\" is not a whole number from 0 to 2^64 - 1");
     changes.seed = value;
   };
-  app.add_option_function<std::string>("--seed", read, "Replaces the experiment's seed: a whole number")
-      ->type_name("N")->group("Experiment");
+  app.add_option_function<std::string>("--seed", read,
+                                       "Replaces the experiment's seed: a whole number")
+      ->type_name("N")
+      ->group("Experiment");
   app.add_option("--layouts", changes.layouts, "Replaces the number of layouts")
       ->check(CLI::Range(1, kMostLayouts))
       ->group("Experiment");
@@ -78,10 +81,14 @@ CLI::Validator one_of(std::vector<std::string> words) {
               return "";
             }
             const std::vector<std::string_view> known(words.begin(), words.end());
+            if (const std::string_view now = replacement_of(NameKind::kValue, text, known);
+                !now.empty())
+              return fmt::format("{} is now called {}", printable(text), now);
             const std::string_view meant = likely_word(lower_case(text), known);
             return fmt::format("no value \"{}\"{} {}", printable(text),
-                               meant.empty() ? "; there are"
-                                             : fmt::format("; did you mean \"{}\"? There are", meant),
+                               meant.empty()
+                                   ? "; there are"
+                                   : fmt::format("; did you mean \"{}\"? There are", meant),
                                listed(words, words.size()));
           },
           std::move(shown)};

@@ -7,7 +7,6 @@
 #include "app/command_line.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
-#include "core/base/text/retired_names.hpp"
 #include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
 #include "core/records/detections/scan_grouping.hpp"
@@ -76,19 +75,12 @@ void add_observation_options(CLI::App& app, MapJob& job) {
       "Visibility: no edge of the neighbour graph joins landmarks that were never seen together");
 }
 
-/// Empty unless another value has replaced it.
-std::string refuse_retired_value(const std::string& value) {
-  const std::string_view now = replacement_of(NameKind::kValue, value);
-  return now.empty() ? "" : fmt::format("{} is now called {}", value, now);
-}
-
 /// Missing data, sub-maps, ellipses.
 void add_capability_options(CLI::App& app, MapJob& job) {
   app.add_option(
          "--missing", job.missing,
          "Strategy for missing data: pairwise-complete distances, entries filled in by PPCA or "
          "PCA, or distances of covisible landmarks only. auto: by the pattern of the missing data")
-      ->check(refuse_retired_value)
       ->transform(one_of(missing_ways()))
       ->capture_default_str();
   app.add_option("--dimensions", job.dimensions,

@@ -172,8 +172,9 @@ TEST(CommandLine, UnknownOptionsAndValuesAreNamedWithTheNearestOnes) {
     EXPECT_NE(outcome.error.find(said), std::string::npos) << outcome.error;
   }
   // Values are taken in any case: the file is looked for.
-  EXPECT_NE(mapproof({"map", "none.csv", "--sensor", "Bearing", "--out", "o"}).error.find("none.csv"),
-            std::string::npos);
+  EXPECT_NE(
+      mapproof({"map", "none.csv", "--sensor", "Bearing", "--out", "o"}).error.find("none.csv"),
+      std::string::npos);
 }
 
 TEST(CommandLine, HelpIsWrappedAtTheWidthOfTheTerminalInGroupsOfPlainSentences) {
@@ -195,10 +196,11 @@ TEST(CommandLine, CompletionsAndManualPagesNameEveryCommandAndOption) {
   ASSERT_EQ(mapproof({"generate", "completions", "--out", folder / ""}).exit_code, 0);
   ASSERT_EQ(mapproof({"generate", "man", "--out", folder / ""}).exit_code, 0);
   const std::string bash = read_file(folder / "bash-completion/completions/mapproof");
-  EXPECT_EQ(run_program({"bash", "-n", folder / "bash-completion/completions/mapproof"}).exit_code, 0);
+  EXPECT_EQ(run_program({"bash", "-n", folder / "bash-completion/completions/mapproof"}).exit_code,
+            0);
   for (const std::string& command : all_commands()) {
-    for (const char* file : {"zsh/site-functions/_mapproof", "fish/vendor_completions.d/mapproof.fish",
-                             "man/man1/mapproof.1"})
+    for (const char* file : {"zsh/site-functions/_mapproof",
+                             "fish/vendor_completions.d/mapproof.fish", "man/man1/mapproof.1"})
       EXPECT_NE(read_file(folder / file).find(command), std::string::npos) << file << command;
     const std::string page = read_file(folder / ("man/man1/mapproof-" + command + ".1"));
     EXPECT_NE(page.find("\\-\\-json"), std::string::npos) << command;

@@ -18,7 +18,7 @@ constexpr const char* kExamples = MAPPROOF_SOURCE_DIR "/examples";
 class RenderOfAMap : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::string files = std::string(kExamples) + "/map";
+    const std::string files = std::string(kExamples) + "/hall";
     const Outcome made =
         mapproof({"map", files + "/bearings.csv", "--sensor", "bearing", "--method", "lpca",
                   "--anchors", files + "/anchors.csv", "--out", map_});
@@ -128,7 +128,7 @@ TEST_F(RenderOfAMap, ListsWhatCanBeDrawn) {
 }
 
 TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {
-  const std::string files = std::string(kExamples) + "/map";
+  const std::string files = std::string(kExamples) + "/hall";
   std::vector<std::string> words = {
       "map", files + "/bearings.csv", "--sensor", "bearing", "--method", "isomap", "--out", map_};
   const Outcome refused = mapproof(words);

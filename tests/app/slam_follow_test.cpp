@@ -43,9 +43,9 @@ TEST(SlamFollow, MapsLandmarksExactlyWhereRangesAreExact) {
   const RangeTable table;
   const std::string ground_truth = folder.file("groundtruth.csv", table.positions(0, 7));
   for (const std::string& bytes : {"t,beacon,range\n" + table.rows, gzipped(table.rows)}) {
-    const Outcome outcome = followed(
-        "slam", folder, bytes,
-        {"--ground-truth", ground_truth, "--every", "20", "--out", folder / "out"});
+    const Outcome outcome =
+        followed("slam", folder, bytes,
+                 {"--ground-truth", ground_truth, "--every", "20", "--out", folder / "out"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result.at("method"), "spectral");

@@ -63,8 +63,8 @@ TEST(Slam, GroundTruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
             {.odometry = false, .ground_truth = false, .landmarks = false});
   const Outcome outcome =
       mapproof({"slam", folder / "log", "--odometry", folder / "whole/odometry.csv", "--truth",
-                folder / "whole/groundtruth.csv", "--anchors",
-                folder / "whole/landmarks.csv", "--out", folder / "out", "--json"});
+                folder / "whole/groundtruth.csv", "--anchors", folder / "whole/landmarks.csv",
+                "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const json result = json::parse(outcome.out);
   EXPECT_LT(mean_error(result, "spectral-known"), 0.5);
