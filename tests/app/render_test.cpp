@@ -66,8 +66,8 @@ TEST_F(RenderOfAMap, TakesItsFileOrItsFolderOfFigures) {
 }
 
 TEST_F(RenderOfAMap, NamesLandmarksTitleAndWordsAsAsked) {
-  ASSERT_EQ(render({map_, "--landmarks", "all", "--title", "Halle 3", "--language", "de", "--as",
-                    "json", "--out", folder_ / "all"})
+  ASSERT_EQ(render({map_, "--figure", "map", "--landmarks", "all", "--title", "Halle 3",
+                    "--language", "de", "--as", "json", "--out", folder_ / "all"})
                 .exit_code,
             0);
   const auto all = nlohmann::json::parse(text_of("all/map.figure.json"));
@@ -141,7 +141,7 @@ TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {
 TEST(RenderOfARangeMap, DrawsItsFiguresAgain) {
   const TemporaryFolder folder;
   ASSERT_EQ(
-      mapproof({"slam", std::string(kExamples) + "/slam", "--out", folder / "slam"}).exit_code, 0);
+      mapproof({"slam", std::string(kExamples) + "/drive", "--out", folder / "slam"}).exit_code, 0);
   const Outcome outcome = mapproof({"render", folder / "slam", "--theme", "paper", "--as", "pdf"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_FALSE(fs::is_empty(folder.path() / "slam/figures-paper"));

@@ -81,7 +81,10 @@ constexpr const char* kRunner =
     "for script in sorted(pathlib.Path(sys.argv[1]).glob('*.py')):\n"
     "    sys.argv = [str(script), str(script.with_suffix('.png'))]\n"
     "    plt.rcParams['savefig.dpi'] = 40\n"
-    "    runpy.run_path(str(script), run_name='__main__')\n"
+    "    try:\n"
+    "        runpy.run_path(str(script), run_name='__main__')\n"
+    "    except Exception as error:\n"
+    "        sys.exit(f'{script.stem}: {error}')\n"
     "    plt.close('all')\n";
 
 TEST(FigureScript, DrawsEveryTypeOfFigureAndSceneByMatplotlib) {
