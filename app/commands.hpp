@@ -13,6 +13,7 @@ Action render_command(CLI::App& app);
 Action report_command(CLI::App& app);
 Action map_command(CLI::App& app);
 Action slam_command(CLI::App& app);
+Action evaluate_command(CLI::App& app);
 Action diff_command(CLI::App& app);
 Action approve_command(CLI::App& app);
 Action check_command(CLI::App& app);

@@ -4,6 +4,7 @@
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/score/trajectory_error.hpp"
+#include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 
 namespace mapproof {
@@ -42,6 +43,9 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
   StudyFigures figures = results_figures(view, comparisons);
   FigureGroup given = given_figures(study, read_given_maps(folder), aligned_paths(folder));
   if (!given.empty()) figures.groups.push_back(std::move(given));
+  const std::vector<PathErrors> errors = read_path_errors(folder);
+  for (FigureGroup& group : path_error_figures(study, errors))
+    figures.groups.push_back(std::move(group));
   const ResultsReportInput input{.view = view,
                                  .comparisons = comparisons,
                                  .figures = figures,

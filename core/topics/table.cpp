@@ -27,6 +27,11 @@ void read_table(const fs::path& folder, const std::string&, const ContentsAsked&
     for (const GivenPath& path : read_given_paths(folder))
       contents.points["paths/" + path.id] = placed_path(path.path.positions_m);
   });
+  try_file(contents, folder, folder / "errors", asked, [&] {
+    for (const PathErrors& errors : read_path_errors(folder))
+      contents.points["errors/" + errors.run + "/" + errors.method] =
+          placed_path(errors.poses.estimate_m.leftCols<2>());
+  });
 }
 
 }  // namespace
@@ -36,7 +41,7 @@ const StudyKind kTableStudies = {
     .title = "a table of results",
     .experiment = {},
     .files = {{kResultsStudy, [](auto text, auto& source) { parse_results_study(text, source); }}},
-    .records = {"results.csv", "maps", "paths"},
+    .records = {"results.csv", "maps", "paths", "errors"},
     .read = read_table,
     .check =
         [](const fs::path& folder) {
@@ -50,6 +55,7 @@ const StudyKind kTableStudies = {
             remarks.push_back((folder / "").string() + remark);
           read_given_maps(folder);
           read_given_paths(folder);
+          read_path_errors(folder);
           return remarks;
         },
 };

@@ -91,6 +91,8 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},
       {"map", data + "/mrclam", "--method", "lpca", "--out", folder / "map"},
       {"slam", folder / "log", "--out", folder / "slam"},
+      {"evaluate", "--ground-truth", folder / "path.tum", folder / "path.tum", "--out",
+       folder / "evaluation"},
       {"example", "hall", "--out", folder / "hall"},
       {"methods"},
       {"validate", data + "/experiments/small.json", study},
@@ -103,6 +105,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       {"history", folder / "nightly_runs", "--prune", "last=3"},
   };
   write_log(drive_log(), folder / "log");
+  write_file(folder / "path.tum", "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 1 1 0 0 0 0 1\n");
   std::set<std::string> called = {"diff", "check"};  // Their --json names a file.
   for (std::vector<std::string> call : calls) {
     called.insert(call[0]);

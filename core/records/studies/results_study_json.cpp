@@ -9,7 +9,9 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/json/record_reader.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/json/text_input.hpp"
+#include "core/records/evaluations/pose_errors_csv.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectories.hpp"
 #include "core/records/studies/results_table.hpp"
@@ -41,6 +43,30 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& extens
   std::ranges::sort(files);
   return files;
 }
+
+constexpr const char* kErrors = "errors";
+
+/// errors/RUN, hidden ones left out.
+std::vector<fs::path> error_folders(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  for (const fs::path& run : files_in(folder / kErrors, ""))
+    if (fs::is_directory(run) && !run.filename().string().starts_with('.')) folders.push_back(run);
+  return folders;
+}
+
+std::vector<fs::path> error_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const fs::path& run : error_folders(folder))
+    for (const fs::path& file : files_in(run, ".csv")) files.push_back(file);
+  return files;
+}
+
+std::string not_read(const fs::path& below, const fs::path& file, std::string_view read) {
+  return fmt::format("{}/{}: is not read: {}", below.generic_string(),
+                     printable(file.filename().string()), read);
+}
+
+bool is_hidden(const fs::path& file) { return file.filename().string().starts_with('.'); }
 
 }  // namespace
 
@@ -99,11 +125,31 @@ std::vector<GivenPath> read_given_paths(const fs::path& folder) {
   return paths;
 }
 
+std::vector<PathErrors> read_path_errors(const fs::path& folder) {
+  std::vector<PathErrors> all;
+  for (const fs::path& file : error_files(folder)) {
+    const std::string text = read_file(file);
+    all.push_back(
+        {.run = file.parent_path().filename().string(),
+         .method = file.stem().string(),
+         .poses = parse_pose_errors_csv(checked_text(text, file.string()), file.string())});
+  }
+  return all;
+}
+
+std::string results_study_json(const ResultsStudy& study) {
+  ResultsHead head;
+  head.study = study;
+  return to_json_text(head);
+}
+
 std::vector<fs::path> results_study_files(const fs::path& folder) {
   std::vector<fs::path> files = {"study.json", "results.csv"};
   for (const auto& [below, extension] : {std::pair("maps", ".csv"), std::pair("paths", ".tum")})
     for (const fs::path& file : files_in(folder / below, extension))
       files.push_back(below / file.filename());
+  for (const fs::path& file : error_files(folder))
+    files.push_back(kErrors / file.parent_path().filename() / file.filename());
   return files;
 }
 
@@ -113,9 +159,15 @@ std::vector<std::string> passed_over_files(const fs::path& folder) {
        {std::tuple("maps", ".csv", "a map is maps/NAME.csv"),
         std::tuple("paths", ".tum", "a path is paths/NAME.tum")})
     for (const fs::path& file : files_in(folder / below, ""))
-      if (file.extension() != extension && !file.filename().string().starts_with('.'))
-        remarks.push_back(fmt::format("{}/{}: is not read: {}", below,
-                                      printable(file.filename().string()), read));
+      if (file.extension() != extension && !is_hidden(file))
+        remarks.push_back(not_read(below, file, read));
+  constexpr std::string_view kRead = "errors of poses are errors/RUN/METHOD.csv";
+  for (const fs::path& run : files_in(folder / kErrors, ""))
+    if (!fs::is_directory(run) && !is_hidden(run)) remarks.push_back(not_read(kErrors, run, kRead));
+  for (const fs::path& run : error_folders(folder))
+    for (const fs::path& file : files_in(run, ""))
+      if (file.extension() != ".csv" && !is_hidden(file))
+        remarks.push_back(not_read(kErrors / run.filename(), file, kRead));
   return remarks;
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/model/given_path.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/paths/space_path.hpp"
 #include "core/records/studies/quantity_fields.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
@@ -40,11 +41,21 @@ std::vector<MapRecord> read_given_maps(const std::filesystem::path& folder);
 /// @throws IoError with the location; also for a ground truth of no path.
 std::vector<GivenPath> read_given_paths(const std::filesystem::path& folder);
 
-/// Every file of a study of results, below the folder: study.json, results.csv, maps and paths.
+/// The errors of poses in errors/RUN/METHOD.csv, by run, then by method. @throws IoError with the
+/// location.
+std::vector<PathErrors> read_path_errors(const std::filesystem::path& folder);
+
+/// The text of study.json of a study without paths: its name, title, question, command, labels and
+/// quantities.
+std::string results_study_json(const ResultsStudy& study);
+
+/// Every file of a study of results, below the folder: study.json, results.csv, maps, paths and
+/// errors.
 std::vector<std::filesystem::path> results_study_files(const std::filesystem::path& folder);
 
-/// What is in maps/ and paths/ and is not read, a sentence each that begins with the file as seen
-/// from the folder: all but maps/NAME.csv, paths/NAME.tum and hidden files.
+/// What is in maps/, paths/ and errors/ and is not read, a sentence each that begins with the file
+/// as seen from the folder: all but maps/NAME.csv, paths/NAME.tum, errors/RUN/METHOD.csv and hidden
+/// files.
 std::vector<std::string> passed_over_files(const std::filesystem::path& folder);
 
 /// Whether the folder's study.json is of that schema, be the rest readable or not.
@@ -119,6 +130,9 @@ void fields(Visitor& v, ResultsHead& head) {
   v.field("command", study.command,
           {.description = "The command that made the results.", .key = Key::kOptional});
   std::vector<Quantity> quantities;
+  if constexpr (!Visitor::kReads)
+    for (const std::string& id : study.quantities)
+      quantities.push_back(study.results.quantities.at(id));
   v.field("quantities", quantities,
           {.description = "In the order of tables. A quantity of the dictionary may be left out, "
                           "or named by its id alone.",
@@ -128,6 +142,8 @@ void fields(Visitor& v, ResultsHead& head) {
   v.field("setups", study.setups, kLabels);
   v.field("methods", study.methods, kLabels);
   std::vector<FactorLabel> factors;
+  if constexpr (!Visitor::kReads)
+    for (const Label& factor : study.factors) factors.push_back({factor});
   v.field("factors", factors, kLabels);
   check_ids(v, "setups", study.setups);
   check_ids(v, "methods", study.methods);

@@ -11,6 +11,7 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/provenance.hpp"
+#include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_contents.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/trials/trial_means.hpp"
@@ -115,13 +116,31 @@ std::vector<Paragraph> uncompared(const ResultsReportInput& input, const Results
   return all;
 }
 
+/// Why quantities have no figure, those with the same reason in one sentence.
+std::vector<std::string> why_no_figures(const ResultsView& view, const ResultsBlock& block) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;  // And the labels.
+  for (const Quantity* quantity : view.quantities(block)) {
+    const std::string why = why_no_figure(view, block, *quantity);
+    if (why.empty()) continue;
+    const std::string reason = why.substr(quantity->label.size());
+    const auto known = std::ranges::find(reasons, reason, &decltype(reasons)::value_type::first);
+    if (known == reasons.end())
+      reasons.push_back({reason, {quantity->label}});
+    else
+      known->second.push_back(quantity->label);
+  }
+  std::vector<std::string> sentences;
+  for (const auto& [reason, labels] : reasons)
+    sentences.push_back(fmt::format("{}{}", fmt::join(labels, "; "), reason));
+  return sentences;
+}
+
 Section block_section(const ResultsReportInput& input, const ResultsBlock& block) {
   Section section{block.id, block.title, {}};
   const auto group = std::ranges::find(input.figures.groups, block.id, &FigureGroup::id);
   if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
-  for (const Quantity* quantity : input.view.quantities(block))
-    if (std::string why = why_no_figure(input.view, block, *quantity); !why.empty())
-      section.blocks.emplace_back(plain(std::move(why)));
+  for (std::string& why : why_no_figures(input.view, block))
+    section.blocks.emplace_back(plain(std::move(why)));
   for (Table& table : results_tables(input.view, block))
     section.blocks.emplace_back(std::move(table));
   for (const MethodComparison& comparison : input.comparisons)
@@ -172,6 +191,9 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
     section.blocks.emplace_back(gallery_of(*group));
     sections.push_back(std::move(section));
   }
+  for (const FigureGroup& errors : input.figures.groups)
+    if (errors.id.starts_with(path_error_prefix(input.view.study())))
+      sections.push_back({errors.id, errors.title, {gallery_of(errors)}});
   if (!input.cost.empty()) {
     Section section{input.view.study().name + "-cost", "Cost", {}};
     for (const Table& table : input.cost) section.blocks.emplace_back(table);
@@ -255,9 +277,11 @@ std::vector<Block> trial_provenance(const TrialStudy& study, std::span<const Ses
 std::vector<Block> given_provenance(const ResultsView& view, const std::string& command) {
   const ResultsStudy& study = view.study();
   std::vector<Block> blocks;
-  blocks.emplace_back(
-      plain("Another program made these results. Every number here is one of results.csv or is "
-            "computed from its rows; this command writes the report again:"));
+  blocks.emplace_back(plain(
+      std::string(
+          command.starts_with("mapproof evaluate ") ? "" : "Another program made these results. ") +
+      "Every number here is one of results.csv or is computed from its rows; this command "
+      "writes the report again:"));
   blocks.emplace_back(KeyValues{{{"Command", {command, Emphasis::kCode}}}});
   KeyValues facts;
   facts.items.push_back({"Results", {"results.csv", Emphasis::kFile}});

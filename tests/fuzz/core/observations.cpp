@@ -9,6 +9,7 @@
 
 #include "core/records/detections/detection_stream.hpp"
 #include "core/records/detections/detections.hpp"
+#include "core/records/evaluations/space_path_text.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observation_stream.hpp"
@@ -201,6 +202,18 @@ void read_path(std::string_view bytes) {
                                 2.0 * std::numbers::pi)) > 1e-12)
       found("headings are read back as they were written", trajectory_tum(again));
 }
+const Added kSpacePaths({.name = "paths-space", .run = [](auto bytes) {
+                           read_in_any_way(bytes, [](ByteSource& source) {
+                             const SpacePath path = read_space_path(source);
+                             std::string text =
+                                 fmt::format("{} {} {}", path.has_times,
+                                             fmt::join(path.time_s.reshaped().eval(), " "),
+                                             fmt::join(path.positions_m.reshaped().eval(), " "));
+                             for (const Eigen::Matrix3d& R : path.orientations)
+                               text += fmt::format(" {}", fmt::join(R.reshaped().eval(), " "));
+                             return text;
+                           });
+                         }});
 const Added kPaths({.name = "paths-tum", .run = read_path});
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "core/json/text_input.hpp"
+#include "core/records/evaluations/pose_errors_csv.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/results_study_json.hpp"
@@ -52,6 +53,15 @@ const Added kMapCsv({.name = "map-csv", .run = [](auto bytes) {
                            },
                            [](const MapRecord& map) { return map_csv(map); });
                      }});
+
+const Added kPoseErrors({.name = "pose-errors", .run = [](auto bytes) {
+                           round_trip(
+                               bytes,
+                               [](auto text, auto& source) {
+                                 return parse_pose_errors_csv(checked_text(text, source), source);
+                               },
+                               pose_errors_csv);
+                         }});
 
 }  // namespace
 }  // namespace mapproof::fuzz

@@ -1,0 +1,283 @@
+#include "render/figures/maps/path_errors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
+#include "render/base/span.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/figures/curves/thinning.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr int kCurveBins = 200;
+/// Cells along the longer side of a map: some four pixels each.
+constexpr double kCells = 100.0;
+constexpr std::array kAxisNames = {"x", "y", "z"};
+
+void check(const PathErrorsSpec& spec) {
+  if (spec.lines.empty())
+    throw InvalidInput("figure " + printable(spec.id) + ": errors of poses need a path");
+  for (const PathErrorLine& line : spec.lines)
+    if (line.poses == nullptr || line.poses->size() == 0)
+      throw InvalidInput("figure " + printable(spec.id) + ": a path without poses");
+}
+
+double root_mean_square(const Eigen::VectorXd& values) {
+  return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
+}
+
+std::string numbers_of(const PathErrorsSpec& spec) {
+  std::string text;
+  for (const PathErrorLine& line : spec.lines) {
+    const Eigen::VectorXd& errors_m = line.poses->error_m;
+    text += fmt::format(
+        " {}: {}, RMSE {} m, median {} m, greatest {} m.", line.label,
+        counted(errors_m.size(), "pose"), significant(root_mean_square(errors_m)),
+        significant(median(std::span(errors_m.data(), static_cast<std::size_t>(errors_m.size())))),
+        significant(errors_m.maxCoeff()));
+  }
+  return text;
+}
+
+Figure figure_of(const PathErrorsSpec& spec, std::string caption) {
+  check(spec);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.caption = std::move(caption);
+  figure.alt = figure.caption + numbers_of(spec);
+  return figure;
+}
+
+/// The two axes along which the ground truth extends most.
+std::pair<Eigen::Index, Eigen::Index> plane_of(const PathErrorsSpec& spec) {
+  Eigen::RowVector3d span = Eigen::RowVector3d::Zero();
+  for (const PathErrorLine& line : spec.lines) {
+    const SpacePoints& path = line.poses->ground_truth_m;
+    span = span.cwiseMax(path.colwise().maxCoeff() - path.colwise().minCoeff());
+  }
+  Eigen::Index least = 0;
+  for (Eigen::Index i = 1; i < 3; ++i)
+    if (span(i) <= span(least)) least = i;
+  return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
+}
+
+/// A grid of square cells over the ground truths.
+struct Grid {
+  Range x, y;
+  std::size_t columns = 1, rows = 1;
+
+  std::size_t cell_of(double at_x, double at_y) const {
+    const auto index = [](double at, const Range& range, std::size_t count) {
+      const double share = (at - range.low) / (range.high - range.low);
+      return std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
+    };
+    // The uppermost row first.
+    return (rows - 1 - index(at_y, y, rows)) * columns + index(at_x, x, columns);
+  }
+};
+
+Grid grid_of(const PathErrorsSpec& spec, std::pair<Eigen::Index, Eigen::Index> plane) {
+  Span x, y;
+  for (const PathErrorLine& line : spec.lines) {
+    const SpacePoints& path = line.poses->ground_truth_m;
+    for (Eigen::Index i = 0; i < path.rows(); ++i) {
+      x.see(path(i, plane.first));
+      y.see(path(i, plane.second));
+    }
+  }
+  const double side_m = std::max(x.high - x.low, y.high - y.low);
+  const double cell_m = side_m > 0.0 ? side_m / kCells : 1.0;
+  const auto cells = [&](const Span& span) {
+    return static_cast<std::size_t>(std::floor((span.high - span.low) / cell_m)) + 1;
+  };
+  Grid grid;
+  grid.columns = cells(x);
+  grid.rows = cells(y);
+  const auto around = [&](const Span& span, std::size_t count) {
+    const double middle = 0.5 * (span.low + span.high);
+    const double half = 0.5 * static_cast<double>(count) * cell_m;
+    return Range{middle - half, middle + half};
+  };
+  grid.x = around(x, grid.columns);
+  grid.y = around(y, grid.rows);
+  return grid;
+}
+
+/// Fills the cells that the way between two poses crosses with the greater of their errors.
+void add_way(const Grid& grid, Eigen::RowVector2d from, Eigen::RowVector2d to, double error_m,
+             std::vector<double>& values) {
+  const double cell_m = (grid.x.high - grid.x.low) / static_cast<double>(grid.columns);
+  const int steps = 1 + static_cast<int>(std::min(2.0 * (to - from).norm() / cell_m, 1e4));
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::RowVector2d at = from + (to - from) * (static_cast<double>(i) / steps);
+    double& value = values[grid.cell_of(at.x(), at.y())];
+    if (!(value >= error_m)) value = error_m;
+  }
+}
+
+/// Longer ways between two poses are a gap in what was associated.
+double longest_way(const PoseErrors& poses) {
+  std::vector<double> ways_m;
+  for (Eigen::Index i = 1; i < poses.size(); ++i)
+    ways_m.push_back(poses.distance_m(i) - poses.distance_m(i - 1));
+  constexpr double kManyTimes = 10.0;
+  return ways_m.empty() ? 0.0 : kManyTimes * std::max(upper_median(std::move(ways_m)), 1e-12);
+}
+
+Panel map_panel(const PathErrorLine& line, const Grid& grid,
+                std::pair<Eigen::Index, Eigen::Index> plane, double greatest_m) {
+  const PoseErrors& poses = *line.poses;
+  const auto at = [&](const SpacePoints& path, Eigen::Index i) {
+    return Eigen::RowVector2d(path(i, plane.first), path(i, plane.second));
+  };
+  Cells cells{.x = grid.x, .y = grid.y, .columns = grid.columns};
+  cells.values.assign(grid.columns * grid.rows, kNaN);
+  cells.limits = {0.0, greatest_m > 0.0 ? greatest_m : 1.0};
+  cells.ramp = Ramp::kViridis;
+  cells.bar_label = "error [m]";
+  cells.mark = {.id = "errors", .data = {{"method", line.label}}};
+  const double longest_m = longest_way(poses);
+  Polyline estimate{.label = "estimate", .colour = ThemeColour::kText, .width = 0.5};
+  for (Eigen::Index i = 0; i < poses.size(); ++i) {
+    const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0);
+    const bool follows = poses.distance_m(i) - poses.distance_m(before) <= longest_m;
+    add_way(grid, at(poses.ground_truth_m, follows ? before : i), at(poses.ground_truth_m, i),
+            std::max(poses.error_m(i), follows ? poses.error_m(before) : 0.0), cells.values);
+    if (!follows) {
+      estimate.x.push_back(kNaN);
+      estimate.y.push_back(kNaN);
+    }
+    estimate.x.push_back(at(poses.estimate_m, i).x());
+    estimate.y.push_back(at(poses.estimate_m, i).y());
+  }
+  Panel panel;
+  panel.x.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.first)]);
+  panel.y.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.second)]);
+  panel.equal_aspect = true;
+  panel.layers.emplace_back(std::move(cells));
+  panel.layers.emplace_back(std::move(estimate));
+  return panel;
+}
+
+Polyline curve_of(const PathErrorLine& line, const Eigen::VectorXd& over, bool is_labelled) {
+  const Eigen::VectorXd& errors_m = line.poses->error_m;
+  ThinLine thin = thin_curve(over, {errors_m.begin(), errors_m.end()}, kCurveBins);
+  const SeriesStyle style = series_style(line.series);
+  return {.label = is_labelled ? fmt::format("{}, RMSE {} m", line.label,
+                                             significant(root_mean_square(errors_m)))
+                               : "",
+          .x = std::move(thin.x),
+          .y = std::move(thin.y),
+          .colour = style.colour,
+          .dash = style.dash,
+          .width = 0.7};
+}
+
+/// The share of values at or below each, at most so many points.
+Polyline distribution_of(const PathErrorLine& line, const Eigen::VectorXd& errors) {
+  std::vector<double> sorted(errors.begin(), errors.end());
+  std::ranges::sort(sorted);
+  const SeriesStyle style = series_style(line.series);
+  Polyline curve{.label = line.label, .colour = style.colour, .dash = style.dash};
+  const std::size_t n = sorted.size(), points = std::min<std::size_t>(n, 2 * kCurveBins);
+  curve.x.push_back(sorted.front());
+  curve.y.push_back(0.0);
+  for (std::size_t k = 1; k <= points; ++k) {
+    const std::size_t rank = (k * n + points - 1) / points;  // From 1 to n.
+    curve.x.push_back(sorted[rank - 1]);
+    curve.y.push_back(100.0 * static_cast<double>(rank) / static_cast<double>(n));
+  }
+  return curve;
+}
+
+}  // namespace
+
+Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown) {
+  check(spec);
+  if (shown >= spec.lines.size())
+    throw InvalidInput("figure " + printable(spec.id) + ": there is no such path");
+  const auto plane = plane_of(spec);
+  const Grid grid = grid_of(spec, plane);
+  const double cell_m = (grid.x.high - grid.x.low) / static_cast<double>(grid.columns);
+  PathErrorsSpec one = spec;
+  one.lines = {spec.lines[shown]};
+  Figure figure =
+      figure_of(one, fmt::format("Colours: the greatest position error in cells of {} m along the "
+                                 "ground truth; line: the aligned estimate. RMSE: {} m.",
+                                 significant(cell_m, 2),
+                                 significant(root_mean_square(spec.lines[shown].poses->error_m))));
+  double greatest_m = 0.0;
+  for (const PathErrorLine& line : spec.lines)
+    greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
+  figure.panels.push_back(map_panel(spec.lines[shown], grid, plane, greatest_m));
+  require_valid(figure);
+  return figure;
+}
+
+Figure path_error_curves_figure(const PathErrorsSpec& spec) {
+  check(spec);
+  const bool has_times = spec.lines.front().poses->has_times;
+  Figure figure =
+      figure_of(spec, fmt::format("Position error of each pose over {} and over the way along the "
+                                  "ground truth.",
+                                  has_times ? "time" : "the number of the pose"));
+  Panel over_time, over_way;
+  over_time.x.label = has_times ? "time [s]" : "pose";
+  over_way.x.label = "way [m]";
+  double first_s = HUGE_VAL;
+  for (const PathErrorLine& line : spec.lines)
+    first_s = std::min(first_s, has_times ? line.poses->time_s(0) : 0.0);
+  for (const PathErrorLine& line : spec.lines) {
+    over_time.layers.emplace_back(curve_of(line, line.poses->time_s.array() - first_s, true));
+    over_way.layers.emplace_back(curve_of(line, line.poses->distance_m, true));
+  }
+  for (Panel* panel : {&over_time, &over_way}) {
+    panel->y.label = "error [m]";
+    figure.panels.push_back(std::move(*panel));
+  }
+  figure.shared_y = true;
+  double greatest_m = 0.0;
+  for (const PathErrorLine& line : spec.lines)
+    greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
+  for (Panel& panel : figure.panels)
+    panel.y.limits = Range{0.0, greatest_m > 0.0 ? 1.05 * greatest_m : 1.0};
+  require_valid(figure);
+  return figure;
+}
+
+Figure path_error_distribution_figure(const PathErrorsSpec& spec) {
+  Figure figure = figure_of(spec, "Lines: the share of poses whose error is at or below a value.");
+  Panel positions;
+  positions.x.label = "position error [m]";
+  for (const PathErrorLine& line : spec.lines)
+    positions.layers.emplace_back(distribution_of(line, line.poses->error_m));
+  figure.panels.push_back(std::move(positions));
+  const bool has_angles = std::ranges::all_of(
+      spec.lines, [](const PathErrorLine& line) { return line.poses->error_deg.size() > 0; });
+  if (has_angles) {
+    Panel angles;
+    angles.x.label = "orientation error [°]";
+    for (const PathErrorLine& line : spec.lines)
+      angles.layers.emplace_back(distribution_of(line, line.poses->error_deg));
+    figure.panels.push_back(std::move(angles));
+  }
+  for (Panel& panel : figure.panels)
+    panel.y = {.label = "poses at or below [%]", .limits = Range{0.0, 103.0}};
+  figure.shared_y = figure.panels.size() > 1;
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/model/paths/space_path.hpp"
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// The errors of one method along a path.
+struct PathErrorLine {
+  std::string label;
+  const PoseErrors* poses = nullptr;  ///< Not null, at least one pose.
+  std::size_t series = 0;             ///< Its style, see series_style().
+};
+
+/// The errors of several methods in one run.
+struct PathErrorsSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::vector<PathErrorLine> lines;
+  std::vector<std::string> record_ids;
+};
+
+/// The ground truth of the poses of one of the methods, coloured by the greatest error of the poses
+/// in a cell, and the estimate as a line. It is seen along the axis along which the ground truth
+/// extends least. The figures of all methods have the same cells and colours.
+/// @param shown  A row of `spec.lines`.
+/// @throws InvalidInput if there is no such line, or one without poses.
+Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown);
+
+/// The errors of poses over time (over the number of the pose without times) and over the way.
+/// Lines are thinned to their least and greatest values in 200 pieces.
+/// @throws InvalidInput as above.
+Figure path_error_curves_figure(const PathErrorsSpec& spec);
+
+/// The share of poses whose error is at or below a value: of positions and, where all methods have
+/// it, of orientations.
+/// @throws InvalidInput as above.
+Figure path_error_distribution_figure(const PathErrorsSpec& spec);
+
+}  // namespace mapproof
