@@ -9,6 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/retired_names.hpp"
+#include "core/base/text/spelling.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {
@@ -32,11 +35,17 @@ std::string quoted_command(const std::vector<std::string>& words) {
   return command;
 }
 
+void group_options(CLI::App& app, const OptionGroups& groups) {
+  for (const auto& [group, names] : groups)
+    for (const std::string& name : names) app.get_option(name)->group(group);
+}
+
 void add_jobs_option(CLI::App& app, int& jobs) {
   jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  app.add_option("--jobs", jobs, "Threads; the results do not depend on it")
+  app.add_option("-j,--jobs", jobs,
+                 "Number of threads, by default one per core; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
+      ->group("Output");
 }
 
 void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
@@ -48,11 +57,41 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes) {
           "--seed", "\"" + printable(text) + "\" is not a whole number from 0 to 2^64 - 1");
     changes.seed = value;
   };
-  app.add_option_function<std::string>("--seed", read, "Replaces the experiment's seed");
+  app.add_option_function<std::string>("--seed", read,
+                                       "Replaces the experiment's seed: a whole number")
+      ->type_name("N")
+      ->group("Experiment");
   app.add_option("--layouts", changes.layouts, "Replaces the number of layouts")
-      ->check(CLI::Range(1, kMostLayouts));
+      ->check(CLI::Range(1, kMostLayouts))
+      ->group("Experiment");
   app.add_option("--poses", changes.poses, "Replaces the number of initial poses in each")
-      ->check(CLI::Range(1, kMostPoses));
+      ->check(CLI::Range(1, kMostPoses))
+      ->group("Experiment");
+}
+
+CLI::Validator one_of(std::vector<std::string> words) {
+  std::string shown = "{" + CLI::detail::join(words, ",") + "}";
+  return {[words = std::move(words)](std::string& text) -> std::string {
+            const auto same = [&](const std::string& word) {
+              return lower_case(word) == lower_case(text);
+            };
+            const auto found = std::ranges::find_if(words, same);
+            if (found != words.end()) {
+              text = *found;
+              return "";
+            }
+            const std::vector<std::string_view> known(words.begin(), words.end());
+            if (const std::string_view now = replacement_of(NameKind::kValue, text, known);
+                !now.empty())
+              return fmt::format("{} is now called {}", printable(text), now);
+            const std::string_view meant = likely_word(lower_case(text), known);
+            return fmt::format("no value \"{}\"{} {}", printable(text),
+                               meant.empty()
+                                   ? "; there are"
+                                   : fmt::format("; did you mean \"{}\"? There are", meant),
+                               listed(words, words.size()));
+          },
+          std::move(shown)};
 }
 
 CLI::Validator names_folder() {
@@ -60,11 +99,11 @@ CLI::Validator names_folder() {
     if (text == "-") return "standard input is not a folder";
     return text.empty() ? "an empty name is not a folder" : "";
   };
-  return {problem, ""};
+  return {problem, "DIR"};
 }
 
 CLI::Option* add_out_option(CLI::App& app, std::string& out, const std::string& what) {
-  return app.add_option("--out", out, what)->check(names_folder());
+  return app.add_option("-o,--out", out, what)->check(names_folder())->group("Output");
 }
 
 }  // namespace mapproof

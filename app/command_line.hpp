@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -33,12 +34,20 @@ using AddCommand = Action (*)(CLI::App& app);
 /// with stays what it is to a shell.
 std::string quoted_command(const std::vector<std::string>& words);
 
+/// Puts options into groups of help, by their names: {{"Input", {"OBSERVATIONS", "--sensor"}}}.
+using OptionGroups = std::vector<std::pair<std::string, std::vector<std::string>>>;
+void group_options(CLI::App& app, const OptionGroups& groups);
+
 /// Adds --jobs to a command: threads, by default one per core.
 void add_jobs_option(CLI::App& app, int& jobs);
 
 /// Adds --seed (a whole number from 0 to 2^64 - 1; others are refused, not wrapped round),
 /// --layouts and --poses to a command.
 void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
+
+/// Takes one of the words, in any case, and makes it that word; for CLI::Option::transform(). Others
+/// are refused with the nearest one.
+CLI::Validator one_of(std::vector<std::string> words);
 
 /// Refuses the empty name and "-": standard input is not a folder.
 CLI::Validator names_folder();

@@ -24,5 +24,7 @@ Action methods_command(CLI::App& app);
 Action validate_command(CLI::App& app);
 Action nightly_command(CLI::App& app);
 Action history_command(CLI::App& app);
+/// Hidden: the build writes by it what describes the command line.
+Action generate_command(CLI::App& app);
 
 }  // namespace mapproof

@@ -1,7 +1,15 @@
 #include "app/console.hpp"
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <csignal>
 #include <cstdio>
+#include <mutex>
 #include <string>
+#include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +17,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "app/help/help_text.hpp"
 #include "core/base/errors.hpp"
 
 namespace mapproof {
@@ -20,35 +29,24 @@ constexpr int kResultVersion =
 /// One line of a message, however hostile the names in it.
 std::string one_line(const std::string& message) { return printable(message, 4000); }
 
+constexpr std::string_view kWipe = "\r\033[K";
+
+/// The state of the one terminal that the program writes to.
+std::mutex terminal_mutex;                 // NOLINT: there is one terminal.
+std::atomic<bool> terminal_has_line{false};  // NOLINT: likewise.
+
+/// What the handler of a signal writes: nothing in it may allocate.
+std::array<char, 200> last_words{};      // NOLINT: a handler gets no other argument.
+std::atomic<std::size_t> last_length{0};  // NOLINT: likewise.
+
+extern "C" void end_with_a_word(int signal) {
+  if (terminal_has_line.load()) (void)!::write(STDERR_FILENO, kWipe.data(), kWipe.size());
+  (void)!::write(STDERR_FILENO, last_words.data(), last_length.load());
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 }  // namespace
-
-ProgressLine::ProgressLine(bool shown) : shown_(shown), terminal_(::isatty(STDERR_FILENO) == 1) {}
-
-ProgressLine::~ProgressLine() {
-  if (drawn_) std::fputs("\r\033[K", stderr);
-}
-
-void ProgressLine::operator()(const Progress& progress) {
-  if (!shown_) return;
-  const Clock::time_point now = Clock::now();
-  const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
-  if (now - last_ < pause) return;
-  last_ = now;
-  const std::string text =
-      progress_text(progress, std::chrono::duration<double>(now - start_).count());
-  std::fputs((terminal_ ? "\r\033[K" + text : text + "\n").c_str(), stderr);
-  std::fflush(stderr);
-  drawn_ = terminal_;
-}
-
-std::string progress_text(const Progress& progress, double seconds) {
-  std::string text = fmt::format("{} of {} {}", progress.finished, progress.total, progress.noun);
-  const int made = progress.finished - progress.reused;
-  if (made < 1 || seconds <= 0.0) return text;
-  const double rate = made / seconds;
-  return text + fmt::format(", {:.3g} {}/s, {:.0f} s left", rate, progress.noun,
-                            (progress.total - progress.finished) / rate);
-}
 
 Console::Console(Verbosity verbosity, bool json, std::string command)
     : verbosity_(verbosity), json_(json), command_(std::move(command)) {
@@ -61,12 +59,21 @@ Console::Console(Verbosity verbosity, bool json, std::string command)
   spdlog::set_default_logger(std::move(logger));
 }
 
-void Console::info(const std::string& message) const { spdlog::info("{}", one_line(message)); }
+void Console::info(const std::string& message) const {
+  wipe_progress_line();
+  spdlog::info("{}", one_line(message));
+}
 
-void Console::detail(const std::string& message) const { spdlog::debug("{}", one_line(message)); }
+void Console::detail(const std::string& message) const {
+  wipe_progress_line();
+  spdlog::debug("{}", one_line(message));
+}
 
 void Console::warning(const std::string& message) const {
-  spdlog::warn("warning: {}", one_line(message));
+  wipe_progress_line();
+  const bool coloured = shows_colours(STDERR_FILENO);
+  spdlog::warn("{}warning:{} {}", coloured ? "\033[33m" : "", coloured ? "\033[0m" : "",
+               one_line(message));
 }
 
 void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
@@ -76,8 +83,101 @@ void Console::result(const std::string& text, const nlohmann::ordered_json& obje
   const std::string out =
       json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
             : text;
-  const bool whole = std::fwrite(out.data(), 1, out.size(), stdout) == out.size();
+  print(out);
+}
+
+void Console::print(const std::string& text) const {
+  wipe_progress_line();
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (std::fflush(stdout) != 0 || !whole) throw IoError("standard output", "cannot be written");
+}
+
+void wipe_progress_line() {
+  const std::lock_guard lock(terminal_mutex);
+  if (!terminal_has_line.exchange(false)) return;
+  std::fwrite(kWipe.data(), 1, kWipe.size(), stderr);
+  std::fflush(stderr);
+}
+
+ProgressLine::ProgressLine(bool shown) : shown_(shown), terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
+  if (shown_) wipe_progress_line();
+}
+
+void ProgressLine::operator()(const Progress& progress) {
+  show(progress_text(progress, std::chrono::duration<double>(Clock::now() - start_).count()));
+}
+
+void ProgressLine::show(const std::string& text) {
+  if (!shown_) return;
+  const std::lock_guard lock(terminal_mutex);
+  const Clock::time_point now = Clock::now();
+  const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
+  if (now - last_ < pause) return;
+  last_ = now;
+  std::fputs((terminal_ ? std::string(kWipe) + text : text + "\n").c_str(), stderr);
+  std::fflush(stderr);
+  terminal_has_line = terminal_;
+}
+
+CountProgress count_progress(const Console& console, std::string doing) {
+  auto line = std::make_shared<ProgressLine>(!console.is_quiet());
+  return [line, doing = std::move(doing)](std::size_t done, std::size_t total) {
+    line->show(fmt::format("{} {} of {}", doing, done, total));
+  };
+}
+
+struct WorkingLine::State {
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool ended = false;
+  std::thread thread;
+};
+
+WorkingLine::WorkingLine(const Console& console, std::string doing)
+    : state_(std::make_unique<State>()) {
+  if (console.is_quiet() || ::isatty(STDERR_FILENO) != 1) return;
+  state_->thread = std::thread([state = state_.get(), doing = std::move(doing)] {
+    ProgressLine line(true);
+    std::unique_lock lock(state->mutex);
+    for (int seconds = 1;; ++seconds) {
+      if (state->changed.wait_for(lock, std::chrono::seconds(1), [&] { return state->ended; }))
+        return;
+      line.show(fmt::format("{}, {} s", doing, seconds));
+    }
+  });
+}
+
+WorkingLine::~WorkingLine() {
+  if (!state_->thread.joinable()) return;
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->ended = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+std::string progress_text(const Progress& progress, double seconds) {
+  std::string text = fmt::format("{} of {} {}", progress.finished, progress.total, progress.noun);
+  const int made = progress.finished - progress.reused;
+  if (made < 1 || seconds <= 0.0) return text;
+  const double rate = made / seconds;
+  return text + fmt::format(", {:.3g} {}/s, {:.0f} s left", rate, progress.noun,
+                            (progress.total - progress.finished) / rate);
+}
+
+void say_when_stopped(std::string_view last_word) {
+  const std::string text = "mapproof: " + std::string(last_word) + "\n";
+  const std::size_t length = std::min(text.size(), last_words.size());
+  std::copy_n(text.begin(), length, last_words.begin());
+  last_length = length;
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    std::signal(signal, end_with_a_word);
+  }
 }
 
 }  // namespace mapproof

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
 #include <string>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -28,6 +32,8 @@ class Console {
   Console(Verbosity verbosity, bool json, std::string command);
 
   bool is_quiet() const { return verbosity_ == Verbosity::kQuiet; }
+  /// Whether the result is asked for as JSON.
+  bool is_json() const { return json_; }
 
   /// What was done; not with --quiet.
   void info(const std::string& message) const;
@@ -39,6 +45,8 @@ class Console {
   /// The result: `text`, or with --json `object` behind the schema of the command's results; it
   /// names none of its own. Text that is not UTF-8 is corrected.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
+  /// The result where it has a form of its own, as it stands. @throws IoError.
+  void print(const std::string& text) const;
 
  private:
   Verbosity verbosity_;
@@ -46,8 +54,8 @@ class Console {
   std::string command_;
 };
 
-/// Shows how far an experiment has come on standard error: one line that is redrawn on a terminal,
-/// a plain line every five seconds elsewhere.
+/// Shows how far a command has come on standard error: one line that is redrawn on a terminal, a
+/// plain line every five seconds elsewhere. Safe from any thread.
 class ProgressLine {
  public:
   explicit ProgressLine(bool shown);
@@ -56,18 +64,51 @@ class ProgressLine {
   ProgressLine& operator=(const ProgressLine&) = delete;
 
   void operator()(const Progress& progress);
+  /// "drawing 7 of 23".
+  void show(const std::string& text);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   bool shown_;
   bool terminal_;
-  bool drawn_ = false;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
 };
 
+/// Removes the line that is redrawn from the terminal, so that a message can be written. Safe from
+/// any thread.
+void wipe_progress_line();
+
+/// Called with how many of how many are done.
+using CountProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// Shows "drawing 7 of 23" until it is destroyed.
+CountProgress count_progress(const Console& console, std::string doing);
+
+/// Shows "mapping, 12 s" on a terminal from the first second on, until it is destroyed.
+class WorkingLine {
+ public:
+  WorkingLine(const Console& console, std::string doing);
+  ~WorkingLine();
+  WorkingLine(const WorkingLine&) = delete;
+  WorkingLine& operator=(const WorkingLine&) = delete;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// "12 of 25 runs, 3.1 runs/s, 4 s left", after that many seconds.
 std::string progress_text(const Progress& progress, double seconds);
+
+/// What a command says that has nothing better to say.
+inline constexpr std::string_view kStoppedWord = "stopped; no file was left half written";
+/// What one says that goes on where it was stopped.
+inline constexpr std::string_view kContinuesWord = "stopped; the same command continues";
+
+/// On SIGINT and SIGTERM the program says `last_word` on standard error, without its progress line,
+/// and ends by the signal. A later call replaces the word.
+void say_when_stopped(std::string_view last_word);
 
 }  // namespace mapproof

@@ -35,6 +35,7 @@ int try_work(const std::function<int()>& work, const std::string& of) {
 }  // namespace
 
 ExitCode report_failure(const std::string& what, ExitCode code) {
+  wipe_progress_line();
   // Any layer may pass on the system's message.
   const bool is_memory = what.ends_with(std::strerror(ENOMEM));
   std::cerr << "mapproof: " << (is_memory ? "out of memory: " : "") << printable(what, 4000)

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <csignal>
 #include <functional>
 #include <iostream>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,39 +18,28 @@
 #include "app/build_facts.hpp"
 #include "app/commands.hpp"
 #include "app/failures.hpp"
+#include "app/help/command_facts.hpp"
+#include "app/help/help_text.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 
 namespace {
 
-/// @param words  Of the command line, behind the program's name.
-/// @throws InvalidInput with the new name of the first retired option among them (see
-///         core/base/text/retired_names.hpp).
-void refuse_retired_options(std::span<char* const> words) {
-  for (const std::string_view word : words) {
-    if (word == "--") return;
-    const std::string_view name = word.substr(0, word.find('='));
-    if (const std::string_view now = replacement_of(NameKind::kOption, name); !now.empty())
-      throw InvalidInput(fmt::format("{}: this option is now called {}", name, now));
-  }
-}
-
 constexpr const char* kExitCodes =
     "Exit codes:\n"
     "  0  done\n"
     "  1  the check that was asked for says no, or there is no map\n"
-    "  2  usage or input\n"
-    "  3  internal error\n"
-    "  4  nightly: only seconds or memory grew\n";
+    "  2  wrong usage or input\n"
+    "  3  internal error\n";
 
 constexpr const char* kFooter =
-    "Every command takes --json (its result as one JSON object on standard output; diff and check "
-    "take\n--json FILE, where - is standard output), --quiet and --verbose; messages go to "
-    "standard "
-    "error.\n\"mapproof COMMAND --help\" shows examples.\n";
+    "Every command takes --json (its result as one JSON object on standard output), --quiet and "
+    "--verbose, before its name or after it. Messages go to standard error. \"mapproof help "
+    "COMMAND\" shows the options and examples of a command.\n";
 
 struct Common {
   bool json = false;
@@ -58,106 +49,170 @@ struct Common {
 };
 
 /// The commands that write where and by whom something was made.
-constexpr std::array<std::string_view, 11> kWithProvenance = {
+constexpr std::array<std::string_view, 13> kWithProvenance = {
     "reproduce", "run",  "render", "report",  "map",    "slam",
-    "evaluate",  "diff", "check",  "nightly", "history"};
+    "evaluate",  "bench", "import", "diff", "check", "nightly", "history"};
 
 void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--json", common.json, "Print the result as one JSON object");
-  auto* quiet = app.add_flag("--quiet", common.quiet, "Only warnings and errors");
-  app.add_flag("--verbose", common.verbose, "Details")->excludes(quiet);
+  auto* quiet =
+      app.add_flag("-q,--quiet", common.quiet, "Print warnings, errors and the result alone");
+  app.add_flag("-v,--verbose", common.verbose, "Print details")->excludes(quiet);
   if (std::ranges::find(kWithProvenance, app.get_name()) != kWithProvenance.end())
     app.add_option("--provenance", common.provenance,
                    "reduced: records and pages name no user, host or home folder; full: they do")
-        ->check(CLI::IsMember({"reduced", "full"}))
+        ->transform(one_of({"reduced", "full"}))
         ->capture_default_str();
 }
 
-/// What is wrong with the first word if it is meant as a command and is none; empty otherwise.
-std::string unknown_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return "";
-  const std::string word = argv[1];
+/// What is wrong with a first word that is not a command.
+std::string unknown_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string_view> commands;
-  for (const CLI::App* sub : app.get_subcommands({})) commands.push_back(sub->get_name());
-  if (std::ranges::find(commands, word) != commands.end()) return "";
-  const std::string_view meant = likely_word(word, commands);
+  for (const CLI::App* sub : app.get_subcommands({}))
+    if (!sub->get_group().empty()) commands.push_back(sub->get_name());
+  const std::string_view meant = likely_word(lower_case(word), commands);
   return "unknown command \"" + printable(word) + "\"" +
          (meant.empty() ? "; \"mapproof --help\" lists them"
                         : "; did you mean \"" + std::string(meant) + "\"?");
 }
 
-/// "help" and "help COMMAND" as "--help" and "COMMAND --help".
-std::vector<char*> with_help(int argc, char** argv) {
-  std::vector<char*> words(argv, argv + argc);
-  static char help[] = "--help";
-  if (argc < 2 || std::string_view(argv[1]) != "help") return words;
-  words.erase(words.begin() + 1);
-  words.push_back(help);
+/// The words of a command line, "help" and "help COMMAND" as "--help" and "COMMAND --help", and
+/// flags before the command behind it.
+std::vector<std::string> ordered_words(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> first;
+  constexpr std::array kMoved = {"--json", "--quiet", "--verbose", "-q", "-v"};
+  while (!words.empty() && std::ranges::find(kMoved, words.front()) != kMoved.end()) {
+    first.push_back(words.front());
+    words.erase(words.begin());
+  }
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  words.insert(words.end() - (words.empty() ? 0 : std::ssize(words) - 1), first.begin(),
+               first.end());
   return words;
 }
 
-/// Whether the words are --version and --json, in whatever order.
-bool asks_for_version_json(std::span<char* const> words) {
+/// Whether the words are --version (or -V) and --json, in whatever order.
+bool asks_for_version_json(std::span<const std::string> words) {
   const auto has = [&](std::string_view word) {
-    return std::ranges::any_of(words, [&](const char* one) { return one == word; });
+    return std::ranges::find(words, word) != words.end();
   };
-  return words.size() == 2 && has("--version") && has("--json");
+  return words.size() == 2 && (has("--version") || has("-V")) && has("--json");
+}
+
+/// Refuses words that look like options and are none of the command.
+/// @param words  Behind the command's name. @throws InvalidInput with the nearest option, or with
+///               the new name of a retired one.
+void check_options(const CLI::App& command, std::span<const std::string> words) {
+  const std::vector<std::string> names = option_names(command);
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    const std::string name = word.substr(0, word.find('='));
+    const bool is_option = name.size() > 1 && name[0] == '-' &&
+                           (std::isalpha(static_cast<unsigned char>(name[1])) != 0 ||
+                            (name[1] == '-' && name.size() > 2));
+    if (!is_option || std::ranges::find(names, name) != names.end()) continue;
+    const std::string own = command.get_name() + " " + name;
+    for (const std::string& retired : {own, name})
+      if (const auto now = replacement_of(NameKind::kOption, retired); !now.empty())
+        throw InvalidInput(fmt::format("{}: this option is now called {}", name, now));
+    // "-K6", "-jx": a short name with its value.
+    if (name[1] != '-' && std::ranges::find(names, name.substr(0, 2)) != names.end()) continue;
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const std::string_view meant = likely_word(lower_case(name), known);
+    throw InvalidInput(fmt::format("{}: {} has no such option; {}\"mapproof help {}\" lists them",
+                                   printable(name), command.get_name(),
+                                   meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
+                                   command.get_name()));
+  }
+}
+
+/// What the parser has against the words, in one sentence.
+std::string objection(const CLI::ParseError& error, const CLI::App& command) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr)
+    return printable(error.what(), 2000);
+  std::vector<std::string> extras = command.remaining();
+  for (std::string& word : extras) word = "\"" + printable(word) + "\"";
+  return fmt::format("{} takes no {}", command.get_name(), listed(extras, 4));
+}
+
+constexpr std::pair<const char*, AddCommand> kCommands[] = {
+    {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
+    {"report", report_command},       {"map", map_command},         {"slam", slam_command},
+    {"evaluate", evaluate_command},   {"bench", bench_command},     {"export", export_command},
+    {"import", import_command},       {"diff", diff_command},       {"approve", approve_command},
+    {"check", check_command},         {"example", example_command}, {"methods", methods_command},
+    {"validate", validate_command},   {"nightly", nightly_command}, {"history", history_command},
+    {"generate", generate_command},
+};
+
+/// Does a command's work. @param typed  The words of the command line.
+int act(const Action& action, const std::string& name, const Common& common,
+        std::vector<std::string> typed) {
+  const Console console(common.quiet     ? Verbosity::kQuiet
+                        : common.verbose ? Verbosity::kVerbose
+                                         : Verbosity::kNormal,
+                        common.json, name);
+  typed.insert(typed.begin(), "mapproof");
+  const Disclosure disclosure(common.provenance == "full");
+  const Invocation invocation{.console = console,
+                              .command = quoted_command(disclosure.words(typed)),
+                              .disclosure = disclosure};
+  say_when_stopped(kStoppedWord);
+  return action(invocation);
 }
 
 int run_command_of(int argc, char** argv) {
   CLI::App app(
       "Maps from what a robot observed, without ever estimating its pose, with the evidence",
       "mapproof");
+  app.formatter(help_formatter());
   app.footer(std::string(kExitCodes) + "\n" + kFooter);
-  app.set_version_flag("--version", std::function<std::string()>(version_text),
-                       "Version and libraries; with --json, licences too");
-  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "Print this help");
+  app.set_version_flag("-V,--version", std::function<std::string()>(version_text),
+                       "Print the versions of the program and its libraries; with --json, their "
+                       "licences too");
   Common common;
-  const std::vector<std::pair<const char*, AddCommand>> commands = {
-      {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
-      {"report", report_command},       {"map", map_command},         {"slam", slam_command},
-      {"evaluate", evaluate_command},   {"diff", diff_command},       {"approve", approve_command},
-      {"check", check_command},         {"example", example_command}, {"methods", methods_command},
-      {"validate", validate_command},   {"nightly", nightly_command}, {"history", history_command},
-  };
   std::vector<std::pair<CLI::App*, Action>> actions;
-  for (const auto& [name, command] : commands) {
+  for (const auto& [name, command] : kCommands) {
     CLI::App* sub = app.add_subcommand(name);
-    add_common_options(*sub, common);
     actions.emplace_back(sub, command(*sub));
-    sub->footer(sub->get_footer() + "\n" + kExitCodes);
+    add_common_options(*sub, common);
+    const bool has_codes = sub->get_footer().find("Exit codes:") != std::string::npos;
+    sub->footer(sub->get_footer() + (has_codes ? "" : std::string("\n") + kExitCodes));
   }
 
-  if (const std::string complaint = unknown_command(app, argc, argv); !complaint.empty())
-    throw InvalidInput(complaint);
-  const std::span<char* const> words_given(argv, static_cast<std::size_t>(argc));
-  refuse_retired_options(words_given);
-  if (!words_given.empty() && asks_for_version_json(words_given.subspan(1))) {
+  std::vector<std::string> words = ordered_words(argc, argv);
+  if (asks_for_version_json(words)) {
     Console(Verbosity::kNormal, true, "version").result("", version_json());
     return kDone;
   }
+  if (words.empty()) words = {"--help"};
+  CLI::App* command = nullptr;
+  if (!words.front().starts_with("-")) {
+    for (const auto& [sub, action] : actions)
+      if (sub->get_name() == words.front()) command = sub;
+    if (command == nullptr) throw InvalidInput(unknown_command(app, words.front()));
+    check_options(*command, std::span(words).subspan(1));
+  }
+  const std::string about = command == nullptr ? "--help" : "help " + command->get_name();
   try {
-    app.parse(argc, argv);
+    std::vector<std::string> backwards(words.rbegin(), words.rend());
+    app.parse(backwards);
   } catch (const CLI::Success& asked) {  // --help, --version
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    std::cerr << "mapproof: " << printable(error.what(), 2000)
-              << "\nmapproof: \"mapproof --help\" shows what it takes\n";
+    std::cerr << "mapproof: " << objection(error, command == nullptr ? app : *command)
+              << "\nmapproof: \"mapproof " << about << "\" shows what it takes\n";
     return kUsage;
   }
+  if (command == nullptr) throw InvalidInput("no command; \"mapproof --help\" lists them");
 
-  const Console console(common.quiet     ? Verbosity::kQuiet
-                        : common.verbose ? Verbosity::kVerbose
-                                         : Verbosity::kNormal,
-                        common.json, app.get_subcommands().front()->get_name());
-  std::vector<std::string> words{"mapproof"};
-  words.insert(words.end(), argv + 1, argv + argc);
-  const Disclosure disclosure(common.provenance == "full");
-  const Invocation invocation{.console = console,
-                              .command = quoted_command(disclosure.words(words)),
-                              .disclosure = disclosure};
   for (const auto& [sub, action] : actions)
-    if (sub->parsed()) return action(invocation);
+    if (sub == command) return act(action, command->get_name(), common, {argv + 1, argv + argc});
   return kInternal;
 }
 
@@ -177,8 +232,5 @@ int main(int argc, char** argv) {
   open_standard_streams();
   // A limit on file sizes then fails the write, which says so and cleans up, not the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  return exit_code_of([&] {
-    std::vector<char*> words = with_help(argc, argv);
-    return run_command_of(static_cast<int>(words.size()), words.data());
-  });
+  return exit_code_of([&] { return run_command_of(argc, argv); });
 }

@@ -54,8 +54,7 @@ void require_replaceable(const fs::path& path) {
 
 void check_output_paths(const DiffOptions& options, std::span<const fs::path> inputs) {
   const std::array outputs = {
-      Output{"the page", options.page, "content=\"mapproof\""},
-      Output{"--json", options.json, "\"mapproof.diff\""},
+      Output{"--page", options.page, "content=\"mapproof\""},
       Output{"--junit", options.junit, "<testsuites"},
       Output{"--markdown", options.markdown, "### mapproof diff"},
   };

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "app/command_line.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -38,17 +40,19 @@ void add_table_options(CLI::App& app, TableOptions& options) {
                  "Zero and sense of the bearings: counterclockwise (to the left) or clockwise from "
                  "the robot's heading; compass: clockwise from north, in degrees; east: "
                  "counter-clockwise from the x axis. A map depends on neither")
-      ->check(CLI::IsMember(std::vector<std::string>(kConventions.begin(), kConventions.end())))
+      ->transform(one_of(std::vector<std::string>(kConventions.begin(), kConventions.end())))
       ->capture_default_str();
   app.add_option("--layout", options.layout,
                  "Layout of a table: wide, one row per landmark; transposed, one row per time "
                  "step; long, one row per observation")
-      ->check(CLI::IsMember({"auto", "wide", "transposed", "long"}))
+      ->transform(one_of({"auto", "wide", "transposed", "long"}))
       ->capture_default_str();
   app.add_option("--columns", options.columns,
                  "Headers or numbers of the columns of a table, as in time=Zeit,landmark=Objekt,"
                  "bearing=3; also step, nanoseconds, robot, range, value, x, y, right")
+      ->type_name("NAME=COLUMN")
       ->delimiter(',');
+  group_options(app, {{"Input", {"--degrees", "--bearing-convention", "--layout", "--columns"}}});
 }
 
 }  // namespace mapproof

@@ -25,7 +25,7 @@ struct CheckArguments {
   std::string baseline;
   std::string out = "out/check";
   int jobs = 1;
-  OrderOptions order;
+  OrderOptions order{.profile = "full"};
   DiffOptions options;
 };
 
@@ -37,7 +37,10 @@ void make_candidate(const CheckArguments& arguments, const Invocation& invocatio
              {invocation.command, invocation.disclosure.host()}, invocation.console);
   const FolderLock lock(arguments.out);
   write_report(read_folder_report(arguments.out, invocation.command, ""),
-               {load_templates(arguments.options.templates), arguments.jobs, invocation.disclosure},
+               {.page = load_templates(arguments.options.templates),
+                .jobs = arguments.jobs,
+                .disclosure = invocation.disclosure,
+                .progress = count_progress(invocation.console, "drawing")},
                lock);
 }
 
@@ -53,7 +56,7 @@ void check_paths(const CheckArguments& arguments) {
 
 int check(const CheckArguments& arguments, const Invocation& invocation) {
   check_paths(arguments);
-  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
+  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline, invocation.console);
   make_candidate(arguments, invocation);
   check_paths(arguments);  // Now that the candidate's files are there.
   std::error_code error;
@@ -65,6 +68,7 @@ int check(const CheckArguments& arguments, const Invocation& invocation) {
         "{}",
         arguments.baseline, arguments.out,
         quoted_command({"mapproof", "approve", arguments.baseline, arguments.out, "--all"})));
+    if (!asks_for_outputs(arguments.options, invocation.console)) return kNo;
     return hand_out(no_baseline(arguments.baseline, arguments.out, settings), settings,
                     arguments.options, invocation);
   }
@@ -91,12 +95,13 @@ Action check_command(CLI::App& app) {
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment");
+  app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment, such as quick; full is all of it")
+      ->capture_default_str()
+      ->group("Experiment");
+  group_options(app, {{"Comparison", {"--baseline"}}});
   add_jobs_option(app, arguments->jobs);
   add_experiment_options(app, arguments->order.changes);
   add_data_options(app, arguments->order);
-  app.add_option("--page", arguments->options.page,
-                 "Write a page that shows what differs, diff.html for instance");
   add_diff_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return check(*arguments, invocation); };
 }

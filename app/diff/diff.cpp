@@ -3,10 +3,12 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/diff/diff_options.hpp"
 #include "app/input_streams.hpp"
 #include "app/output_paths.hpp"
+#include "app/console.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -26,8 +28,10 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
   const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
                                                        arguments.options.settings};
   check_output_paths(arguments.options, inputs);
-  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline);
+  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline, invocation.console);
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "comparing");
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
+  working.reset();
   return hand_out(result, settings, arguments.options, invocation);
 }
 
@@ -39,7 +43,7 @@ Action diff_command(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof diff baseline out\n"
-      "  mapproof diff baseline out --out diff.html\n"
+      "  mapproof diff baseline out --page diff.html\n"
       "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
       "  mapproof diff old.png new.png\n"
       "  mapproof diff <(git show HEAD:map.png) map.png\n\n"
@@ -49,8 +53,6 @@ Action diff_command(CLI::App& app) {
   app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
       ->required();
   app.add_option("CURRENT", arguments->current, "The one that is compared")->required();
-  app.add_option("--out", arguments->options.page,
-                 "Write a page that shows what differs, diff.html for instance");
   add_diff_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return diff(*arguments, invocation); };
 }

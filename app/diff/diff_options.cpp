@@ -54,9 +54,9 @@ fs::path settings_beside(const std::string& baseline) {
 }
 
 /// How many of the outputs replace the text.
-std::ptrdiff_t to_standard_output(const DiffOptions& options) {
-  const std::array locations = {&options.page, &options.json, &options.junit, &options.markdown};
-  return std::ranges::count_if(
+std::ptrdiff_t to_standard_output(const DiffOptions& options, const Console& console) {
+  const std::array locations = {&options.page, &options.junit, &options.markdown};
+  return (console.is_json() ? 1 : 0) + std::ranges::count_if(
       locations, [](const std::string* location) { return *location == kStandardOutput; });
 }
 
@@ -68,9 +68,8 @@ bool is_run_by_ctest() {
 }  // namespace
 
 void add_diff_options(CLI::App& app, DiffOptions& options) {
-  app.remove_option(app.get_option("--json"));
-  app.add_option("--json", options.json,
-                 "Write all that was found as JSON, a file of its own form; - to standard output");
+  app.add_option("--page", options.page,
+                 "Write a page that shows what differs, e.g. diff.html; - to standard output");
   app.add_option("--templates", options.templates,
                  "Folder whose templates replace those of the page")
       ->check(names_folder());
@@ -79,14 +78,25 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
                  "Write a summary for a comment on a change; - to standard output");
   app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
   app.add_option("--settings", options.settings,
-                 "Tolerances and ignored regions (default: mapproof-diff.json of the baseline)");
+                 "Tolerances and ignored regions, by default mapproof-diff.json of the baseline");
+  group_options(app, {{"Comparison", {"--allow", "--settings"}},
+                      {"Output", {"--page", "--templates", "--junit", "--markdown"}}});
+  for (const char* file : {"--page", "--junit", "--markdown", "--settings"})
+    app.get_option(file)->type_name("FILE");
 }
 
-DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline) {
+bool asks_for_outputs(const DiffOptions& options, const Console& console) {
+  return console.is_json() || !options.page.empty() || !options.junit.empty() ||
+         !options.markdown.empty();
+}
+
+DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline,
+                           const Console& console) {
   const fs::path file =
       options.settings.empty() ? settings_beside(baseline) : fs::path(options.settings);
-  if (to_standard_output(options) > 1)
-    throw InvalidInput("only one of --out, --json, --junit and --markdown can be \"-\"");
+  if (to_standard_output(options, console) > 1)
+    throw InvalidInput(
+        "only one of --json and the files --page, --junit and --markdown can be standard output");
   DiffSettings settings;
   if (!file.empty())
     settings = parse_diff_settings(read_file(file, kLargestSettings), file.string());
@@ -98,7 +108,6 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
              const Invocation& invocation) {
   const Console& console = invocation.console;
-  const nlohmann::ordered_json object = diff_json(result);
   std::string text;
   const auto hand = [&](const std::string& location, const auto& make) {
     if (location.empty()) return;
@@ -110,14 +119,14 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   };
   hand(options.page,
        [&] { return diff_html(result, settings, load_templates(options.templates)); });
-  hand(options.json, [&] { return json_text(object); });
   hand(options.junit, [&] { return diff_junit(result); });
   hand(options.markdown, [&] { return diff_markdown(result); });
-  if (to_standard_output(options) == 0) {
+  if (console.is_json()) text = invocation.disclosure.text(json_text(diff_json(result)));
+  if (to_standard_output(options, console) == 0) {
     text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
     if (is_run_by_ctest()) text += ctest_lines(result);
   }
-  console.result(text, {});  // --json is an output like the others.
+  console.print(text);
   return result.passes ? kDone : kNo;
 }
 

@@ -367,7 +367,7 @@ int evaluate(const EvaluateArguments& arguments, const Invocation& invocation) {
 void add_comparison_options(CLI::App& app, EvaluateArguments& arguments) {
   app.add_option("--align", arguments.alignment,
                  "none; rigid: rotation and translation; similarity: with a scale; first-pose")
-      ->check(CLI::IsMember({"none", "rigid", "similarity", "first-pose"}))
+      ->transform(one_of({"none", "rigid", "similarity", "first-pose"}))
       ->capture_default_str();
   app.add_option("--offset", arguments.offset_s, "Added to the times of estimates [s]")
       ->capture_default_str();
@@ -382,7 +382,7 @@ void add_comparison_options(CLI::App& app, EvaluateArguments& arguments) {
       ->delimiter(',');
   app.add_option("--landmarks", arguments.landmarks,
                  "id: landmarks are associated by ID; nearest: by position alone")
-      ->check(CLI::IsMember({"id", "nearest"}))
+      ->transform(one_of({"id", "nearest"}))
       ->capture_default_str();
   app.add_option("--gate", arguments.gate_m,
                  "With --landmarks nearest: landmarks farther apart are not associated [m]; "
@@ -424,6 +424,11 @@ Action evaluate_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
+  group_options(app, {{"Input", {"ESTIMATE", "--ground-truth"}},
+                      {"Comparison",
+                       {"--align", "--offset", "--largest-gap", "--relative", "--landmarks",
+                        "--gate"}},
+                      {"Output", {"--name", "--title", "--templates"}}});
   return [arguments](const Invocation& invocation) { return evaluate(*arguments, invocation); };
 }
 

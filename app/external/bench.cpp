@@ -153,6 +153,7 @@ Action bench_command(CLI::App& app) {
       ->check(names_folder());
   app.add_option("--methods", arguments->methods, "methods.json")->required();
   add_external_outputs(app, arguments->outputs);
+  group_options(app, {{"Input", {"STUDY", "--methods"}}});
   return [arguments](const Invocation& invocation) { return bench(*arguments, invocation); };
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <memory>
 #include <set>
@@ -21,7 +22,6 @@
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectories.hpp"
-#include "core/records/tables/npy.hpp"
 
 namespace mapproof {
 namespace {
@@ -42,6 +42,27 @@ struct ExportArguments {
 fs::path folder_of(const ObservedCheckpoint& checkpoint) {
   return fs::path(slug(checkpoint.run)) / std::string(name(checkpoint.sensor)) /
          fmt::format("{}", checkpoint.steps);
+}
+
+/// A matrix as a file of NumPy's format .npy, version 1.0: float64, little endian, by rows.
+std::string npy_bytes(const Eigen::MatrixXd& matrix) {
+  static_assert(std::endian::native == std::endian::little,
+                "elements are written as they are held");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const RowMajor rows = matrix;
+  std::string header = fmt::format(
+      "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows.rows(), rows.cols());
+  // The elements begin at a multiple of 64 bytes, behind the magic, the version and the length.
+  constexpr std::size_t kAlignment = 64, kFixed = 10;
+  header.append(kAlignment - 1 - (kFixed + header.size()) % kAlignment, ' ');
+  header += '\n';
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size() & 0xff);
+  bytes += static_cast<char>(header.size() >> 8);
+  bytes += header;
+  bytes.append(reinterpret_cast<const char*>(rows.data()),
+               static_cast<std::size_t>(rows.size()) * sizeof(double));
+  return bytes;
 }
 
 /// Bare numbers, one row per landmark; `inf` and `nan` where there is none.
@@ -223,13 +244,14 @@ Action export_command(CLI::App& app) {
   add_out_option(app, arguments->out, "Folder for the files")->required();
   app.add_option("--what", arguments->what,
                  "distances, features, history, ground-truth; several with commas")
-      ->check(CLI::IsMember({"distances", "features", "history", "ground-truth"}))
+      ->transform(one_of({"distances", "features", "history", "ground-truth"}))
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();
   app.add_option("--format", arguments->format, "Of matrices: npy or csv")
-      ->check(CLI::IsMember({"npy", "csv"}))
+      ->transform(one_of({"npy", "csv"}))
       ->capture_default_str();
+  group_options(app, {{"Input", {"STUDY"}}, {"Output", {"--what", "--format"}}});
   return [arguments](const Invocation& invocation) { return export_study(*arguments, invocation); };
 }
 
@@ -248,6 +270,7 @@ Action import_command(CLI::App& app) {
       ->check(names_folder());
   app.add_option("MAPS", arguments->maps, "Folder of the maps")->required()->check(names_folder());
   add_external_outputs(app, arguments->outputs);
+  group_options(app, {{"Input", {"STUDY", "MAPS"}}});
   return [arguments](const Invocation& invocation) { return import_maps(*arguments, invocation); };
 }
 

@@ -243,6 +243,7 @@ void add_external_outputs(CLI::App& app, ExternalOutputs& outputs) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, outputs.jobs);
+  group_options(app, {{"Output", {"--name", "--all", "--templates"}}});
 }
 
 }  // namespace mapproof

@@ -7,7 +7,6 @@
 #include "app/command_line.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
-#include "core/base/text/retired_names.hpp"
 #include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
 #include "core/records/detections/scan_grouping.hpp"
@@ -45,19 +44,20 @@ void add_observation_options(CLI::App& app, MapJob& job) {
          "--sensor", job.kind,
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
          "needed for tables, except detections")
-      ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
+      ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
   app.add_option(
          "--with", job.with,
          "Observations of the same landmarks by another sensor, for one joint map. Landmarks "
          "are matched by name; the steps may differ")
       ->take_all();
   app.add_option("--with-sensor", job.with_kind, "The sensor of each --with")
-      ->check(CLI::IsMember({"visibility", "bearing", "range"}))
+      ->transform(one_of({"visibility", "bearing", "range"}))
       ->take_all();
   add_table_options(app, job.table);
   app.add_option("--scan-window", job.scan_window,
                  "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
-                 "are one scan (default: found from the gaps between the stamps)");
+                 "are one scan (default: found from the gaps between the stamps)")
+      ->type_name("SECONDS");
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -67,18 +67,12 @@ void add_observation_options(CLI::App& app, MapJob& job) {
          "--fit", job.fit,
          "How the affine map to the anchors is fitted. rigid: a map of range-bearing keeps its "
          "scale and shape")
-      ->check(CLI::IsMember({"least-distances", "least-squares", "rigid"}))
+      ->transform(one_of({"least-distances", "least-squares", "rigid"}))
       ->capture_default_str();
   app.add_flag("--drop-unseen", job.drop_unseen, "Leave out landmarks that were never observed");
   app.add_flag(
       "--only-seen-together", job.embedder.only_seen_together,
       "Visibility: no edge of the neighbour graph joins landmarks that were never seen together");
-}
-
-/// Empty unless another value has replaced it.
-std::string refuse_retired_value(const std::string& value) {
-  const std::string_view now = replacement_of(NameKind::kValue, value);
-  return now.empty() ? "" : fmt::format("{} is now called {}", value, now);
 }
 
 /// Missing data, sub-maps, ellipses.
@@ -87,8 +81,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
          "--missing", job.missing,
          "Strategy for missing data: pairwise-complete distances, entries filled in by PPCA or "
          "PCA, or distances of covisible landmarks only. auto: by the pattern of the missing data")
-      ->check(refuse_retired_value)
-      ->check(CLI::IsMember(missing_ways()))
+      ->transform(one_of(missing_ways()))
       ->capture_default_str();
   app.add_option("--dimensions", job.dimensions,
                  "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
@@ -163,6 +156,22 @@ void add_map_options(CLI::App& app, MapJob& job) {
   add_observation_options(app, job);
   add_capability_options(app, job);
   add_incremental_options(app, job);
+  app.add_flag("--force", job.force, "Replace another map in the folder");
+  add_jobs_option(app, job.jobs);
+  group_options(
+      app, {{"Input",
+             {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--scan-window", "--steps",
+              "--drop-unseen"}},
+            {"Method",
+             {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--stress-fall",
+              "--only-seen-together", "--submaps", "--overlap"}},
+            {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
+            {"Missing data", {"--missing", "--dimensions"}},
+            {"Landmark IDs", {"--check-ids", "--repair-ids", "--find-moved", "--uncertain-ids"}},
+            {"Files that grow", {"--follow", "--every"}},
+            {"Output", {"--ellipses", "--templates", "--force"}}});
+  for (const char* file : {"--anchors", "--ground-truth", "--with"})
+    app.get_option(file)->type_name("FILE");
 }
 
 }  // namespace mapproof

@@ -32,6 +32,8 @@ struct MapJob {
   std::vector<std::string> with_kind;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;
+  int jobs = 1;              ///< Threads.
+  bool force = false;        ///< Replace another map in the folder.
   int steps = 0;             ///< The first so many observations; 0: all.
   bool drop_unseen = false;  ///< Map the others where a landmark was never observed.
   std::string fit = "least-distances";

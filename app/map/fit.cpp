@@ -7,7 +7,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/map_fit/history_fit.hpp"
 #include "core/map_fit/map_fit.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/records/detections/mrclam.hpp"
@@ -38,7 +37,7 @@ void check_cheaply(MapDraft& draft, const DetectionLog& log) {
 /// are there, too.
 Fit mrclam_fit(const std::string& path, const Fit& of_sensor, const Points& known_m) {
   const DetectionLog log = read_mrclam_detections(path).log;
-  const Fit of_pairs =
+  Fit of_pairs =
       range_bearing_fit(log, pair_map_of(log).embedding.coordinates, {.known_m = &known_m});
   Fit fit = of_sensor;
   if (fit.verdict == FitVerdict::kNotTestable) return of_pairs;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,7 @@
 #include "app/understood.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/parallel.hpp"
 #include "core/records/detections/mrclam.hpp"
 
 namespace mapproof {
@@ -107,21 +109,26 @@ FollowOrder follow_order(const MapJob& job) {
 }
 
 int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
-  job.begin = [&](const MapRecord& begun) {
-    check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
-  };
+  if (!job.force)
+    job.begin = [&](const MapRecord& begun) {
+      check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
+    };
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   job.understood = [&](const std::string& path, const InputSummary& summary) {
     invocation.console.info(understood_line(path, summary));
     inputs.push_back(understood_json(summary));
   };
-  MapResult map = make_map(job);
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  MapResult map;
+  parallel_for(job.jobs, 1, [&](std::size_t) { map = make_map(job); });
+  working.reset();
   map.members.push_back({"inputs", std::move(inputs)});
   for (const auto& [what, value] : map.read)
     invocation.console.detail(fmt::format("{}: {}: {}", input_name(job.path), what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
-  write_map(MapFolder(location.out, map.record), location, map);
+  write_map(job.force ? MapFolder(location.out) : MapFolder(location.out, map.record), location,
+            map);
   return report_map(map, location, invocation);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path& made_map_folder(const fs::path& folder) {
+fs::path made_map_folder(const fs::path& folder) {
   check_map_folder(folder);
   make_folder(folder);
   return folder;
@@ -58,8 +58,10 @@ std::string difference(const MapRecord& there, const MapRecord& here) {
 void refuse_other(const fs::path& folder, const MapRecord& there, const MapRecord& here) {
   const std::string what = difference(there, here);
   if (!what.empty())
-    throw IoError(folder.string(),
-                  fmt::format("holds another map ({}); choose another --out or remove it", what));
+    throw IoError(
+        folder.string(),
+        fmt::format("holds another map ({}); choose another --out, or replace it by --force",
+                    what));
 }
 
 }  // namespace

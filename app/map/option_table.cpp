@@ -38,86 +38,82 @@ bool is_filled_in(Job job) {
   return job.missing == "ppca" || job.missing == "pca" || job.missing == "auto";
 }
 
-const std::vector<MapOption>& all_options() {
-  static const std::vector<MapOption> options = {
-      {"--sensor", [](Job job) { return !job.kind.empty(); }},
-      {"--sensor bearing", [](Job job) { return job.kind == "bearing"; }, {"--sensor", "bearing"}},
-      {"--sensor range", [](Job job) { return job.kind == "range"; }, {"--sensor", "range"}},
-      {"--sensor visibility",
-       [](Job job) { return job.kind == "visibility"; },
-       {"--sensor", "visibility"}},
-      {"--sensor range-bearing",
-       [](Job job) { return job.is_range_bearing(); },
-       {"--sensor", "range-bearing"}},
-      {"--method",
-       [](Job job) { return !job.method.empty() && job.method != kPairs && !job.chooses_method(); },
-       {"--method", "isomap"}},
-      {"--method auto", [](Job job) { return job.chooses_method(); }, {"--method", "auto"}},
-      {"--method pairs", [](Job job) { return job.method == kPairs; }, {"--method", "pairs"}},
-      {"--parameter", [](Job job) { return job.parameter.has_value(); }, {"--parameter", "3"}},
-      {"-K", [](Job job) { return job.neighbours.has_value(); }, {"--neighbours", "3"}},
-      {"--sigma2", [](Job job) { return job.variance.has_value(); }, {"--sigma2", "3"}},
-      {"--degree", [](Job job) { return job.degree.has_value(); }, {"--degree", "3"}},
-      {"a method with a parameter", [](Job job) { return parameter_of(job) != nullptr; }},
-      {"a method with K", [](Job job) { return has_parameter(job, "K"); }},
-      {"a method with sigma2", [](Job job) { return has_parameter(job, "sigma2"); }},
-      {"a method with d", [](Job job) { return has_parameter(job, "d"); }},
-      {"--stress-fall",
-       [](Job job) { return job.stress_fall.has_value(); },
-       {"--stress-fall", "1e-6"}},
-      {"a method of least stress",
-       [](Job job) {
-         const std::optional<Method> method = method_of(job);
-         return method == Method::kSmacof || method == Method::kSmacofKnn || job.chooses_method();
-       }},
-      {"--with", [](Job job) { return !job.with.empty() || !job.with_kind.empty(); }, {"--with"}},
-      {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
-      {"--degrees", [](Job job) { return job.table.degrees; }, {"--degrees"}},
-      {"--layout wide", [](Job job) { return job.table.layout == "wide"; }, {"--layout", "wide"}},
-      {"--layout transposed",
-       [](Job job) { return job.table.layout == "transposed"; },
-       {"--layout", "transposed"}},
-      {"--bearing-convention",
-       [](Job job) { return job.table.convention != TableOptions().convention; },
-       {"--bearing-convention", "clockwise"}},
-      {"--columns",
-       [](Job job) { return !job.table.columns.empty(); },
-       {"--columns", "landmark=landmark"}},
-      {"--scan-window",
-       [](Job job) { return !job.scan_window.empty(); },
-       {"--scan-window", "50ms"}},
-      {"--anchors", [](Job job) { return !job.anchors.empty(); }, {"--anchors"}},
-      {"--ground-truth", [](Job job) { return !job.ground_truth.empty(); }, {"--ground-truth"}},
-      {"--steps", [](Job job) { return job.steps > 0; }, {"--steps", "20"}},
-      {"--fit", [](Job job) { return job.fit == "least-squares"; }, {"--fit", "least-squares"}},
-      {"--fit rigid", [](Job job) { return job.is_rigid(); }, {"--fit", "rigid"}},
-      {"--drop-unseen", [](Job job) { return job.drop_unseen; }, {"--drop-unseen"}},
-      {"--only-seen-together",
-       [](Job job) { return job.embedder.only_seen_together; },
-       {"--only-seen-together"}},
-      {"--missing", [](Job job) { return job.missing != MapJob().missing; }, {"--missing", "ppca"}},
-      {"--missing covisible",
-       [](Job job) { return job.missing == "covisible"; },
-       {"--missing", "covisible"}},
-      {"--missing ppca, pca or auto", is_filled_in},
-      {"--dimensions", [](Job job) { return job.dimensions.has_value(); }, {"--dimensions", "3"}},
-      {"--submaps", [](Job job) { return job.submaps > 0; }, {"--submaps", "6"}},
-      {"--overlap", [](Job job) { return job.overlap.has_value(); }, {"--overlap", "0.5"}},
-      {"--ellipses", [](Job job) { return job.ellipse_replicates > 0; }, {"--ellipses", "10"}},
-      {"--follow", [](Job job) { return job.follow; }, {"--follow"}},
-      {"--every", [](Job job) { return job.every != MapJob().every; }, {"--every", "5"}},
-      {"--check-ids", [](Job job) { return job.check_ids; }, {"--check-ids"}},
-      {"--repair-ids", [](Job job) { return job.repair_ids; }, {"--repair-ids"}},
-      {"--find-moved", [](Job job) { return job.find_moved; }, {"--find-moved"}},
-      {"--find-moved without range-bearing",
-       [](Job job) { return job.find_moved && !job.is_range_bearing(); }},
-      {"--uncertain-ids",
-       [](Job job) { return !job.uncertain_ids.empty(); },
-       {"--uncertain-ids", "L1,L2"}},
-      {"--templates", [](Job job) { return job.templates.has_value(); }, {"--templates"}},
-  };
-  return options;
-}
+/// All options, and what they come to.
+const std::vector<MapOption> kOptions = {
+    {"--sensor", [](Job job) { return !job.kind.empty(); }},
+    {"--sensor bearing", [](Job job) { return job.kind == "bearing"; }, {"--sensor", "bearing"}},
+    {"--sensor range", [](Job job) { return job.kind == "range"; }, {"--sensor", "range"}},
+    {"--sensor visibility",
+     [](Job job) { return job.kind == "visibility"; },
+     {"--sensor", "visibility"}},
+    {"--sensor range-bearing",
+     [](Job job) { return job.is_range_bearing(); },
+     {"--sensor", "range-bearing"}},
+    {"--method",
+     [](Job job) { return !job.method.empty() && job.method != kPairs && !job.chooses_method(); },
+     {"--method", "isomap"}},
+    {"--method auto", [](Job job) { return job.chooses_method(); }, {"--method", "auto"}},
+    {"--method pairs", [](Job job) { return job.method == kPairs; }, {"--method", "pairs"}},
+    {"--parameter", [](Job job) { return job.parameter.has_value(); }, {"--parameter", "3"}},
+    {"-K", [](Job job) { return job.neighbours.has_value(); }, {"--neighbours", "3"}},
+    {"--sigma2", [](Job job) { return job.variance.has_value(); }, {"--sigma2", "3"}},
+    {"--degree", [](Job job) { return job.degree.has_value(); }, {"--degree", "3"}},
+    {"a method with a parameter", [](Job job) { return parameter_of(job) != nullptr; }},
+    {"a method with K", [](Job job) { return has_parameter(job, "K"); }},
+    {"a method with sigma2", [](Job job) { return has_parameter(job, "sigma2"); }},
+    {"a method with d", [](Job job) { return has_parameter(job, "d"); }},
+    {"--stress-fall",
+     [](Job job) { return job.stress_fall.has_value(); },
+     {"--stress-fall", "1e-6"}},
+    {"a method of least stress",
+     [](Job job) {
+       const std::optional<Method> method = method_of(job);
+       return method == Method::kSmacof || method == Method::kSmacofKnn || job.chooses_method();
+     }},
+    {"--with", [](Job job) { return !job.with.empty() || !job.with_kind.empty(); }, {"--with"}},
+    {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
+    {"--degrees", [](Job job) { return job.table.degrees; }, {"--degrees"}},
+    {"--layout wide", [](Job job) { return job.table.layout == "wide"; }, {"--layout", "wide"}},
+    {"--layout transposed",
+     [](Job job) { return job.table.layout == "transposed"; },
+     {"--layout", "transposed"}},
+    {"--bearing-convention",
+     [](Job job) { return job.table.convention != TableOptions().convention; },
+     {"--bearing-convention", "clockwise"}},
+    {"--columns",
+     [](Job job) { return !job.table.columns.empty(); },
+     {"--columns", "landmark=landmark"}},
+    {"--scan-window", [](Job job) { return !job.scan_window.empty(); }, {"--scan-window", "50ms"}},
+    {"--anchors", [](Job job) { return !job.anchors.empty(); }, {"--anchors"}},
+    {"--ground-truth", [](Job job) { return !job.ground_truth.empty(); }, {"--ground-truth"}},
+    {"--steps", [](Job job) { return job.steps > 0; }, {"--steps", "20"}},
+    {"--fit", [](Job job) { return job.fit == "least-squares"; }, {"--fit", "least-squares"}},
+    {"--fit rigid", [](Job job) { return job.is_rigid(); }, {"--fit", "rigid"}},
+    {"--drop-unseen", [](Job job) { return job.drop_unseen; }, {"--drop-unseen"}},
+    {"--only-seen-together",
+     [](Job job) { return job.embedder.only_seen_together; },
+     {"--only-seen-together"}},
+    {"--missing", [](Job job) { return job.missing != MapJob().missing; }, {"--missing", "ppca"}},
+    {"--missing covisible",
+     [](Job job) { return job.missing == "covisible"; },
+     {"--missing", "covisible"}},
+    {"--missing ppca, pca or auto", is_filled_in},
+    {"--dimensions", [](Job job) { return job.dimensions.has_value(); }, {"--dimensions", "3"}},
+    {"--submaps", [](Job job) { return job.submaps > 0; }, {"--submaps", "6"}},
+    {"--overlap", [](Job job) { return job.overlap.has_value(); }, {"--overlap", "0.5"}},
+    {"--ellipses", [](Job job) { return job.ellipse_replicates > 0; }, {"--ellipses", "10"}},
+    {"--follow", [](Job job) { return job.follow; }, {"--follow"}},
+    {"--every", [](Job job) { return job.every != MapJob().every; }, {"--every", "5"}},
+    {"--check-ids", [](Job job) { return job.check_ids; }, {"--check-ids"}},
+    {"--repair-ids", [](Job job) { return job.repair_ids; }, {"--repair-ids"}},
+    {"--find-moved", [](Job job) { return job.find_moved; }, {"--find-moved"}},
+    {"--find-moved without range-bearing",
+     [](Job job) { return job.find_moved && !job.is_range_bearing(); }},
+    {"--uncertain-ids",
+     [](Job job) { return !job.uncertain_ids.empty(); },
+     {"--uncertain-ids", "L1,L2"}},
+    {"--templates", [](Job job) { return job.templates.has_value(); }, {"--templates"}},
+};
 
 constexpr std::string_view kNoParameter = "the method pairs has no parameter";
 constexpr std::string_view kChosen = "it chooses the parameter, too; leave out the parameter";
@@ -207,7 +203,7 @@ constexpr OptionPair kNeeded[] = {
 };
 
 bool is_asked(std::string_view name, Job job) {
-  return std::ranges::find(all_options(), name, &MapOption::name)->is_asked(job);
+  return std::ranges::find(kOptions, name, &MapOption::name)->is_asked(job);
 }
 
 /// "no parameter", or the parameter of the job's method and its option.
@@ -229,7 +225,7 @@ std::string reason(const OptionPair& pair, Job job) {
 
 }  // namespace
 
-std::span<const MapOption> map_option_list() { return all_options(); }
+std::span<const MapOption> map_option_list() { return kOptions; }
 std::span<const OptionPair> options_apart() { return kApart; }
 std::span<const OptionPair> options_needed() { return kNeeded; }
 

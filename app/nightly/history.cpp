@@ -118,7 +118,7 @@ Action history_command(CLI::App& app) {
       "Later nightly runs are compared with a pinned one: pin a nightly run to accept its "
       "changes.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
-  app.add_option("DIR", arguments->store, "Folder of the history")
+  app.add_option("STORE", arguments->store, "Folder of the history, the --store of nightly")
       ->required()
       ->check(names_folder());
   auto* what = app.add_option_group("what");
@@ -128,11 +128,12 @@ Action history_command(CLI::App& app) {
       "and their reference runs: last=N,every=K");
   what->add_option("--export", arguments->format,
                    "Every value of every nightly run, to standard output")
-      ->check(CLI::IsMember({"csv", "json"}));
+      ->transform(one_of({"csv", "json"}));
   what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
       ->check(CLI::PositiveNumber);
   what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
   what->require_option(0, 1);
+  group_options(app, {{"Task", {"--prune", "--export", "--pin", "--verify"}}});
   return [arguments](const Invocation& invocation) { return history_of(*arguments, invocation); };
 }
 

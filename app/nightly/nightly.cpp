@@ -96,7 +96,11 @@ std::vector<NightlyStudy> read_all(const std::vector<StudyOrder>& orders, const 
 /// Draws a study's report. @return Whether all of its scenes could be drawn; a warning if not.
 bool draw(const FolderReport& report, const HistoryOutputs& outputs, const Console& console) {
   try {
-    write_report(report, {outputs.page, outputs.jobs, outputs.disclosure},
+    write_report(report,
+                 {.page = outputs.page,
+                  .jobs = outputs.jobs,
+                  .disclosure = outputs.disclosure,
+                  .progress = count_progress(console, "drawing")},
                  FolderLock(report.folder));
     return true;
   } catch (const SceneError& error) {
@@ -191,6 +195,7 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
     reference_nightly_run(history, nightly_run, asked);
   }
   const fs::path folder = nightly_folder(store, nightly_run.facts.number);
+  say_when_stopped(kContinuesWord);
   begin_nightly_run(folder, orders, console);
   const int made = make_all(orders, folder, arguments.jobs, names, console);
   if (made != kDone) {
@@ -223,8 +228,12 @@ Action nightly_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
-      "Exit code 0: nothing got worse, or there was nothing to compare with, which is said;\n"
-      "1: accuracy got worse, or results are lost; 4: only seconds or memory grew.\n"
+      "Exit codes:\n"
+      "  0  nothing got worse, or there was nothing to compare with, which is said\n"
+      "  1  accuracy got worse, or results are lost\n"
+      "  2  wrong usage or input\n"
+      "  3  internal error\n"
+      "  4  only seconds or memory grew\n\n"
       "docs/nightly.md says by which rules, and how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,
@@ -246,6 +255,10 @@ Action nightly_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_data_options(app, arguments->order);
+  group_options(app, {{"Input", {"EXPERIMENT"}},
+                      {"Experiment", {"--profile"}},
+                      {"Comparison", {"--reference"}},
+                      {"Output", {"--store", "--templates"}}});
   return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
 }
 

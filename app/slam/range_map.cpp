@@ -13,7 +13,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "core/experiment/log_unit.hpp"
+#include "core/experiment/slam_run.hpp"
 #include "core/records/studies/slam_store.hpp"
 
 namespace mapproof {
@@ -78,7 +78,7 @@ std::string difference(const SlamRun& there, const SlamRun& here) {
   return "";
 }
 
-const fs::path& made_slam_folder(const fs::path& folder) {
+fs::path made_slam_folder(const fs::path& folder) {
   check_result_folder(folder, kSlamFile, "range-only map");
   make_folder(folder);
   return folder;

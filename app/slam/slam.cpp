@@ -1,13 +1,16 @@
 #include "app/commands.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
+#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "app/build_facts.hpp"
+#include "app/console.hpp"
 #include "app/input_streams.hpp"
 #include "app/map/incremental_map.hpp"
 #include "app/map/map_folder.hpp"
@@ -16,8 +19,10 @@
 #include "app/slam/slam_json.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/observations/trajectories.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_logs.hpp"
@@ -36,7 +41,9 @@ struct SlamArguments {
   std::string known;
   std::optional<std::string> templates;
   RangeLogOptions log;
-  std::string ground_truth;
+  std::vector<std::string>
+      ground_truths;         ///< As typed; sort_ground_truths() tells path and landmarks apart.
+  std::string ground_truth;  ///< The true path.
   std::string true_landmarks;
   std::string odometry;
   LogFitOptions fit;
@@ -45,6 +52,38 @@ struct SlamArguments {
   std::string every = "1s";
   int jobs = 1;
 };
+
+/// Whether a file of ground truth holds positions of landmarks rather than a path: its header names
+/// them, or it has three columns without a time.
+bool holds_landmarks(const std::string& file) {
+  ByteSource source(file);
+  const std::string_view start = source.peek(4096);
+  std::string line(start.substr(0, start.find('\n')));
+  for (char& c : line)
+    if (c == ';' || c == '\t' || c == '\r') c = c == '\r' ? ' ' : ',';
+  const std::string head = "," + lower_case(line) + ",";
+  const auto has = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) {
+      return head.find("," + std::string(word)) != std::string::npos;
+    });
+  };
+  if (has({"name", "landmark", "beacon", "tag", "marker", "id,"})) return true;
+  if (has({"t,", "t ", "time", "stamp"})) return false;
+  return std::ranges::count(line, ',') == 2;
+}
+
+/// Puts each file of --ground-truth where it belongs. @throws InvalidInput for two of a kind.
+void sort_ground_truths(SlamArguments& arguments) {
+  for (const std::string& typed : arguments.ground_truths) {
+    const std::string file = made_file(typed);
+    const bool is_landmarks = holds_landmarks(file);
+    std::string& place = is_landmarks ? arguments.true_landmarks : arguments.ground_truth;
+    if (!place.empty())
+      throw InvalidInput(fmt::format("--ground-truth: {} and {} are both {}", printable(place),
+                                     printable(typed), is_landmarks ? "landmarks" : "paths"));
+    place = file;
+  }
+}
 
 /// A study of this one log.
 SlamStudy study_of(const SlamRun& run) {
@@ -95,7 +134,11 @@ void write_outputs(const SlamArguments& arguments, const SlamRunResult& result,
   write_report(
       slam_folder_report(folder.path(), study_of(run),
                          {.methods = result.timings, .factorization = {}}, {}, invocation.command),
-      {page, arguments.jobs, invocation.disclosure}, folder.lock());
+      {.page = page,
+       .jobs = arguments.jobs,
+       .disclosure = invocation.disclosure,
+       .progress = count_progress(invocation.console, "drawing")},
+      folder.lock());
 }
 
 nlohmann::ordered_json slam_result(const SlamRun& run, const fs::path& out) {
@@ -171,13 +214,14 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
 
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
+  std::vector<std::string> inputs = {arguments.data, arguments.known, arguments.odometry};
+  inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
+  refuse_shared_streams(inputs);
+  sort_ground_truths(arguments);
   if (arguments.follow) {
-    refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.true_landmarks});
     return follow_ranges(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
-  refuse_shared_streams(std::array{arguments.data, arguments.known, arguments.ground_truth,
-                                   arguments.true_landmarks, arguments.odometry});
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
@@ -189,7 +233,9 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
+  working.reset();
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);
   for (const SlamRecord& record : result.run.records)
     for (const Status& status : record.estimate.statuses)
@@ -199,6 +245,45 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   invocation.console.result(slam_text(result.run, arguments.out),
                             slam_result(result.run, arguments.out));
   return best_record(result.run) == nullptr ? kNo : kDone;
+}
+
+void add_input_options(CLI::App& app, SlamArguments& arguments) {
+  app.add_option("DATA", arguments.data, "File or folder")->required();
+  add_out_option(app, arguments.out, "Folder for map, paths, figures and report")->required();
+  app.add_option("--anchors", arguments.known,
+                 "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]")
+      ->type_name("FILE");
+  app.add_option("--ground-truth,--truth", arguments.ground_truths,
+                 "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
+                 "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
+                 "both, each by an option of its own")
+      ->expected(1)
+      ->take_all()
+      ->type_name("FILE");
+  app.add_option("--odometry", arguments.odometry,
+                 "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
+  app.get_option("--odometry")->type_name("FILE");
+}
+
+void add_fit_options(CLI::App& app, SlamArguments& arguments) {
+  app.add_option("--range-sigma", arguments.fit.noise.range_m,
+                 "Standard deviation of a range [m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-sigma", arguments.fit.noise.way_m,
+                 "Standard deviation of odometry after 1 m, which grows with the root of the way "
+                 "[m]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--heading-sigma", arguments.fit.noise.turn_per_metre,
+                 "Standard deviation of its heading after 1 m [rad]; without: estimated")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--odometry-scale-sigma", arguments.fit.odometry_scale_sigma,
+                 "Standard deviation of the scale of odometry, a share, in the ellipses where "
+                 "ranges and odometry disagree on the scale")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_flag("--repair", arguments.repair,
+               "If the data do not fit the map and the cause can be modelled: also make the map "
+               "that allows for it, and take it as the result");
 }
 
 }  // namespace
@@ -211,7 +296,7 @@ Action slam_command(CLI::App& app) {
       "  mapproof slam plaza/plaza1 --out out/plaza1\n"
       "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
       "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
-      "  mapproof slam run7_TD.txt --known-landmarks beacons.csv --ground-truth gps.csv --out "
+      "  mapproof slam run7_TD.txt --anchors beacons.csv --ground-truth gps.csv --out "
       "out/run7\n\n"
       "DATA is one of\n"
       "  a folder with ranges.csv, and perhaps odometry.csv, groundtruth.csv, landmarks.csv\n"
@@ -222,36 +307,8 @@ Action slam_command(CLI::App& app) {
       "are\n"
       "reported only with ground truth. Without odometry the map may be reflected.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
-  app.add_option("DATA", arguments->data, "File or folder")->required();
-  add_out_option(app, arguments->out, "Folder for map, paths, figures and report")->required();
-  app.add_option(
-      "--known-landmarks", arguments->known,
-      "Known positions of landmarks, which the methods use: CSV with name, x [m], y [m]");
-  app.add_option("--ground-truth,--truth", arguments->ground_truth,
-                 "True path, to compute errors: CSV with t, x, y, heading; TUM; or g2o");
-  app.add_option(
-      "--ground-truth-landmarks", arguments->true_landmarks,
-      "True positions of landmarks, to compute errors only: CSV with name, x [m], y [m]");
-  app.add_option("--odometry", arguments->odometry,
-                 "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
-  app.add_option("--range-sigma", arguments->fit.noise.range_m,
-                 "Standard deviation of a range [m]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--odometry-sigma", arguments->fit.noise.way_m,
-                 "Standard deviation of odometry after 1 m, which grows with the root of the way "
-                 "[m]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--heading-sigma", arguments->fit.noise.turn_per_metre,
-                 "Standard deviation of its heading after 1 m [rad]; without: estimated")
-      ->check(CLI::PositiveNumber);
-  app.add_option("--odometry-scale-sigma", arguments->fit.odometry_scale_sigma,
-                 "Standard deviation of the scale of odometry, a share, in the ellipses where "
-                 "ranges and odometry disagree on the scale")
-      ->check(CLI::Range(0.0, 0.5))
-      ->capture_default_str();
-  app.add_flag("--repair", arguments->repair,
-               "If the data do not fit the map and the cause can be modelled: also make the map "
-               "that allows for it, and take it as the result");
+  add_input_options(app, *arguments);
+  add_fit_options(app, *arguments);
   app.add_flag(
       "--follow", arguments->follow,
       "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "
@@ -265,6 +322,13 @@ Action slam_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
+  group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
+                      {"Known positions", {"--anchors", "--ground-truth"}},
+                      {"Fit",
+                       {"--range-sigma", "--odometry-sigma", "--heading-sigma",
+                        "--odometry-scale-sigma", "--repair"}},
+                      {"Files that grow", {"--follow", "--every"}},
+                      {"Output", {"--templates"}}});
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }
 

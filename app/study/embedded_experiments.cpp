@@ -11,6 +11,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/retired_names.hpp"
+#include "core/base/text/spelling.hpp"
 
 namespace mapproof {
 namespace {
@@ -54,15 +55,23 @@ ExperimentText experiment_text(const std::string& name,
   }
   if (const std::string_view now = replacement_of(NameKind::kExperiment, name); !now.empty())
     throw InvalidInput(fmt::format("the experiment {} is now called {}", name, now));
-  throw InvalidInput(fmt::format("no experiment \"{}\"; there is {}", printable(name),
-                                 fmt::join(experiment_names(), ", ")));
+  const std::vector<std::string> names = experiment_names();
+  const std::string_view meant =
+      likely_word(name, std::vector<std::string_view>(names.begin(), names.end()));
+  throw InvalidInput(fmt::format("no experiment \"{}\"; {}there is {}, or a file by its path",
+                                 printable(name),
+                                 meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant),
+                                 fmt::join(names, ", ")));
+}
+
+bool is_experiment_file(const std::string& file_or_name) {
+  std::error_code error;
+  return handed_in(file_or_name) || std::filesystem::is_regular_file(file_or_name, error) ||
+         file_or_name.find_first_of("./") != std::string::npos;
 }
 
 ExperimentText experiment_of(const std::string& file_or_name) {
-  std::error_code error;
-  // Names have no dot and no slash: what has one was meant to be a file.
-  if (handed_in(file_or_name) || std::filesystem::is_regular_file(file_or_name, error) ||
-      file_or_name.find_first_of("./") != std::string::npos)
+  if (is_experiment_file(file_or_name))
     return {.text = read_input(file_or_name), .source = input_name(file_or_name)};
   return experiment_text(file_or_name, std::nullopt);
 }

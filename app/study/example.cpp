@@ -37,7 +37,7 @@ const std::map<std::string, std::string>& uses() {
        "hall/ground_truth.csv --out out/hall"},
       {"drive", "mapproof slam drive --out out/drive"},
       {"study", "mapproof run study/experiment.json --out out/study"},
-      {"plots", "mapproof diff plots/old plots/new --out out/plots.html"}};
+      {"plots", "mapproof diff plots/old plots/new --page out/plots.html"}};
   return commands;
 }
 
@@ -92,8 +92,7 @@ Action example_command(CLI::App& app) {
   app.add_option("NAME", arguments->target,
                  "hall, drive, study or plots; any other word: the folder for all of them")
       ->required();
-  app.add_option("--out", arguments->out, "Folder for the example of that name")
-      ->capture_default_str();
+  add_out_option(app, arguments->out, "Folder for the example of that name")->capture_default_str();
   return
       [arguments](const Invocation& invocation) { return write_examples(*arguments, invocation); };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -134,27 +135,37 @@ Images images_of(const FolderReport& report) {
   return images;
 }
 
-Drawn write_images(const Images& images, const Theme& theme, const OutputFolder& folder, int jobs,
-                   SceneClient& client) {
+Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& client) {
   Drawn drawn;
+  const std::size_t total = images.figures.size() + images.scenes.size();
+  std::mutex mutex;
+  std::size_t done = 0;
+  const auto count_one = [&] {
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (job.progress) job.progress(done, total);
+  };
   for (const Figure* figure : images.figures) drawn.svg[figure->id];  // None in parallel.
   for (const Scene* scene : images.scenes) drawn.svg[scene->id];
   const auto draw_figures = [&] {
     parallel_for(images.figures.size(), [&](std::size_t i) {
       const Figure& figure = *images.figures[i];
-      drawn.svg.at(figure.id) = write_figure(figure, theme, folder);
+      drawn.svg.at(figure.id) = write_figure(figure, job.theme, job.folder, job.formats);
+      count_one();
     });
   };
   const auto draw_scenes = [&] {
     try {
-      for (const Scene* scene : images.scenes)
-        drawn.svg.at(scene->id) = write_scene(*scene, theme, folder, client);
+      for (const Scene* scene : images.scenes) {
+        drawn.svg.at(scene->id) = write_scene(*scene, job.theme, job.folder, client, job.formats);
+        count_one();
+      }
     } catch (const SceneError& error) {
       drawn.scene_error = error.what();
     }
     drawn.renderer = client.renderer();
   };
-  parallel_for(jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
+  parallel_for(job.jobs, 2, [&](std::size_t i) { i == 0 ? draw_scenes() : draw_figures(); });
   return drawn;
 }
 
@@ -162,8 +173,12 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
                       const FolderLock& /*of_folder*/) {
   const OutputFolder folder(report.folder);
   SceneClient client;
-  const Drawn drawn =
-      write_images(images_of(report), report_theme(), folder / "figures", outputs.jobs, client);
+  const Drawn drawn = write_images(images_of(report),
+                                   {.folder = folder / "figures",
+                                    .theme = report_theme(),
+                                    .jobs = outputs.jobs,
+                                    .progress = outputs.progress},
+                                   client);
   Report shown = report.report;
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, folder / "tables");

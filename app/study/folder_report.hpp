@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "app/console.hpp"
 #include "app/disclosure.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/model/slam_study.hpp"
 #include "core/records/studies/folder_lock.hpp"
+#include "render/output/file_format.hpp"
 #include "render/plot/figure.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -65,16 +67,25 @@ struct Drawn {
   std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
 
-/// Draws the images into `folder`: figures several at a time, scenes one by one beside them.
+/// How images are drawn, and where to.
+struct DrawingJob {
+  OutputFolder folder;
+  Theme theme;
+  int jobs = 1;
+  FileFormats formats = usual_formats();
+  CountProgress progress = {};  ///< May be called from any thread, one call at a time.
+};
+
+/// Draws the images: figures several at a time, scenes one by one beside them.
 /// @throws IoError.
-Drawn write_images(const Images& images, const Theme& theme, const OutputFolder& folder, int jobs,
-                   SceneClient& client);
+Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& client);
 
 /// How a report is written.
 struct ReportOutputs {
   const Templates& page;
   int jobs = 1;
   const Disclosure& disclosure;
+  CountProgress progress = {};  ///< Called for each image that is drawn.
 };
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's

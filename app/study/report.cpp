@@ -1,6 +1,7 @@
 #include "app/commands.hpp"
 
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -20,9 +21,16 @@ int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderLock lock(arguments.study);
   remove_leftovers(arguments.study);
+  std::optional<WorkingLine> working(std::in_place, invocation.console, "reading");
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
+  working.reset();
   const std::filesystem::path path =
-      write_report(view, {page, arguments.jobs, invocation.disclosure}, lock);
+      write_report(view,
+                   {.page = page,
+                    .jobs = arguments.jobs,
+                    .disclosure = invocation.disclosure,
+                    .progress = count_progress(invocation.console, "drawing")},
+                   lock);
   invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
                                         view.runs, view.figures.size(), view.scenes.size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},
@@ -47,6 +55,7 @@ Action report_command(CLI::App& app) {
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
+  group_options(app, {{"Output", {"--templates"}}});
   add_jobs_option(app, arguments->jobs);
   return [arguments](const Invocation& invocation) { return report(*arguments, invocation); };
 }

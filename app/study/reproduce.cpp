@@ -30,7 +30,14 @@ struct ReproduceArguments {
   int jobs = 1;
   OrderOptions options{.profile = "full"};
   std::optional<std::string> templates;
+  bool print = false;  ///< The experiment instead of its study.
 };
+
+/// The experiment of that name, or in that file.
+ExperimentText text_of(const std::string& name, const ReproduceArguments& arguments) {
+  return is_experiment_file(name) ? experiment_of(name) : experiment_text(name, arguments.templates);
+}
+
 
 /// The experiments that a name stands for.
 std::vector<std::string> names_of(const ReproduceArguments& arguments) {
@@ -40,7 +47,7 @@ std::vector<std::string> names_of(const ReproduceArguments& arguments) {
   std::vector<std::string> names;
   for (const std::string& name : experiment_names()) {
     if (std::ranges::find(papers, name) != papers.end()) continue;
-    const bool of_data = needs_data(experiment_text(name, arguments.templates));
+    const bool of_data = needs_data(text_of(name, arguments));
     if (!of_data || arguments.options.data) names.push_back(name);
   }
   return names;
@@ -53,7 +60,7 @@ std::vector<StudyOrder> read_orders(const ReproduceArguments& arguments) {
   options.one_of_several = options.profile_if_there = names.size() > 1;
   std::vector<StudyOrder> orders;
   for (const std::string& name : names)
-    orders.push_back(read_study_order(experiment_text(name, arguments.templates), options));
+    orders.push_back(read_study_order(text_of(name, arguments), options));
   check_data_used(orders, options);
   return orders;
 }
@@ -65,7 +72,7 @@ void check_folder_of_all(const fs::path& folder) {
   if (is_study(folder))
     throw IoError(folder.string(), "holds a study; choose another folder for all of them");
   std::vector<std::string> ours = experiment_names();
-  ours.insert(ours.end(), {"figures", "figures-paper", "tables", "report.html"});
+  ours.insert(ours.end(), {"figures", "figures-paper", "figures-styled", "tables", "report.html"});
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
@@ -74,6 +81,14 @@ void check_folder_of_all(const fs::path& folder) {
     if (!is_ours)
       throw IoError(folder.string(), "is not empty and holds no studies; choose another folder");
   }
+}
+
+/// Prints the text of one experiment, to be changed and run.
+int print_experiment(const ReproduceArguments& arguments, const Invocation& invocation) {
+  if (arguments.name == kAll || arguments.name == kExtensions)
+    throw InvalidInput("--print: prints one experiment; name it");
+  invocation.console.print(text_of(arguments.name, arguments).text);
+  return kDone;
 }
 
 /// The command that makes the same studies and report again, wherever it was typed.
@@ -87,6 +102,7 @@ std::string command_again(const ReproduceArguments& arguments,
 }
 
 int reproduce(const ReproduceArguments& arguments, const Invocation& invocation) {
+  if (arguments.print) return print_experiment(arguments, invocation);
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
   const std::vector<StudyOrder> orders = read_orders(arguments);
@@ -110,7 +126,12 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
   }
   const FolderLock lock(arguments.out);
   const FolderReport report = read_folder_report(arguments.out, command, "");
-  const fs::path path = write_report(report, {page, arguments.jobs, invocation.disclosure}, lock);
+  const fs::path path = write_report(report,
+                                     {.page = page,
+                                      .jobs = arguments.jobs,
+                                      .disclosure = invocation.disclosure,
+                                      .progress = count_progress(invocation.console, "drawing")},
+                                     lock);
   object["figures"] = report.figures.size();
   object["scenes"] = report.scenes.size();
   object["report"] = path.string();
@@ -122,12 +143,14 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
 
 Action reproduce_command(CLI::App& app) {
   auto arguments = std::make_shared<ReproduceArguments>();
-  app.description("Run a known experiment and write its figures and report");
+  app.description("Run an experiment, a known one or your own, and write its figures and report");
   app.footer(
       "Examples:\n"
       "  mapproof reproduce yairi2007\n"
       "  mapproof reproduce yairi2007 --profile quick --out out/quick --jobs 2\n"
       "  mapproof reproduce boots2013 --plaza plaza --out out/boots2013\n"
+      "  mapproof reproduce yairi2007 --print > mine.json\n"
+      "  mapproof reproduce mine.json --out out/mine\n"
       "  mapproof reproduce all --plaza plaza --out out\n"
       "  mapproof reproduce mrclam --data MRCLAM --out out/mrclam\n\n"
       "\"all\" makes each study in a folder of its own below DIR and puts them into one report.\n"
@@ -138,17 +161,22 @@ Action reproduce_command(CLI::App& app) {
       "A study that was stopped is continued; a folder that holds another experiment is "
       "refused.\n");
   app.add_option("NAME", arguments->name,
-                 fmt::format("Experiment: {}, all (both papers), or extensions",
+                 fmt::format("An experiment's JSON file, or {}, all (both papers) or extensions",
                              fmt::join(experiment_names(), ", ")))
       ->required();
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->options.profile, "quick or full")->capture_default_str();
+  app.add_option("--profile", arguments->options.profile, "One of the profiles of the experiment, such as quick; full is all of it")
+      ->capture_default_str()
+      ->group("Experiment");
+  app.add_flag("--print", arguments->print, "Print the experiment's file, to be changed and run")
+      ->group("Output");
   add_jobs_option(app, arguments->jobs);
   add_experiment_options(app, arguments->options.changes);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates and experiments replace the embedded ones")
-      ->check(names_folder());
+      ->check(names_folder())
+      ->group("Output");
   add_data_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return reproduce(*arguments, invocation); };
 }

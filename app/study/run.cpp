@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "app/study/study_order.hpp"
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"
@@ -13,7 +15,7 @@ struct RunArguments {
   std::string experiment;
   std::string out;
   int jobs = 1;
-  OrderOptions options;
+  OrderOptions options{.profile = "full"};
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
@@ -35,6 +37,9 @@ int run(const RunArguments& arguments, const Invocation& invocation) {
              invocation.console);
   StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;
+  invocation.console.info(fmt::format(
+      "next: {} draws its figures and writes the report",
+      quoted_command({"mapproof", "report", arguments.out})));
   invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
   return kDone;
 }
@@ -46,14 +51,17 @@ Action run_command(CLI::App& app) {
   app.description("Run an experiment and write its records, nothing else");
   app.footer(
       "Examples:\n"
-      "  mapproof run experiments/yairi2007.json --profile quick --out out/study\n"
-      "  mapproof run experiments/boots2013.json --plaza plaza --out out/range\n\n"
-      "docs/file-formats.md says what an experiment's file holds.\n");
+      "  mapproof run yairi2007 --profile quick --out out/study\n"
+      "  mapproof run boots2013 --plaza plaza --out out/range\n\n"
+      "mapproof reproduce NAME --print prints an experiment to begin with. docs/file-formats.md "
+      "says what its file holds.\n");
   app.add_option("EXPERIMENT", arguments->experiment,
                  "The experiment's JSON file, or a name that reproduce takes")
       ->required();
   add_out_option(app, arguments->out, "Folder for the records")->required();
-  app.add_option("--profile", arguments->options.profile, "One of the profiles in the file");
+  app.add_option("--profile", arguments->options.profile, "One of the profiles in the file, such as quick; full is all of it")
+      ->capture_default_str()
+      ->group("Experiment");
   add_jobs_option(app, arguments->jobs);
   add_experiment_options(app, arguments->options.changes);
   add_data_options(app, arguments->options);

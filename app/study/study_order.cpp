@@ -29,10 +29,12 @@ std::string profile_of(const OrderOptions& options, const std::vector<std::strin
 
 void add_data_options(CLI::App& app, OrderOptions& options) {
   app.add_option("--plaza", options.plaza, "Folder of the Plaza data, for experiments on them")
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingDirectory)
+      ->group("Experiment");
   app.add_option("--data", options.data,
                  "Folder of data sets, or of one, for experiments made of them (mrclam)")
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingDirectory)
+      ->group("Experiment");
 }
 
 StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& options) {
@@ -78,7 +80,8 @@ void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& opt
 
 std::vector<std::string> words_of(std::span<const StudyOrder> orders, const OrderOptions& options) {
   std::vector<std::string> words;
-  if (!options.profile.empty()) words.insert(words.end(), {"--profile", options.profile});
+  if (!options.profile.empty() && options.profile != kFull)
+    words.insert(words.end(), {"--profile", options.profile});
   // Studies of several experiments have a seed each.
   if (orders.size() == 1 || options.changes.seed)
     words.insert(words.end(), {"--seed", std::to_string(orders.front().plan.seed)});

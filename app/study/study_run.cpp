@@ -51,6 +51,7 @@ void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
     copy_study(order.given, folder);
     return;
   }
+  say_when_stopped(kContinuesWord);
   const Stopwatch watch;
   for (const std::string& remark : order.plan.remarks) console.detail(remark);
   StudyWriter writer(folder, order.plan.start(build_provenance()));

@@ -221,6 +221,7 @@ int validate_files(const ValidateArguments& arguments, const Invocation& invocat
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
+  const WorkingLine working(invocation.console, "reading");
   for (const std::string& path : arguments.paths)
     for (const Finding& finding : validate_all(path, read_foreign, options)) {
       all_valid &= finding.problem.empty();
@@ -247,7 +248,8 @@ Action validate_command(CLI::App& app) {
   app.add_option("FILE", arguments->paths, "Files, or folders of studies and maps")->required();
   app.add_option("--sensor", arguments->sensor,
                  "What the values of tables are; without it, any that fits")
-      ->check(CLI::IsMember({"visibility", "bearing", "range", "range-bearing"}));
+      ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
+  group_options(app, {{"Input", {"--sensor"}}});
   add_table_options(app, arguments->table);
   return
       [arguments](const Invocation& invocation) { return validate_files(*arguments, invocation); };

@@ -35,8 +35,9 @@ Points grid_over(const Points& map, int side) {
   low.array() -= margin;
   high.array() += margin;
   for (int k = 0; k < side * side; ++k) {
+    const int row = k / side;
     const Eigen::RowVector2d share(static_cast<double>(k % side) / (side - 1),
-                                   static_cast<double>(k / side) / (side - 1));
+                                   static_cast<double>(row) / (side - 1));
     grid.row(k) = low.array() + share.array() * (high - low).array();
   }
   return grid;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,7 +12,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
-#include "core/json/json_document.hpp"
+#include "core/json/json_text_scan.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
@@ -59,7 +61,42 @@ double number_of(std::string_view token) {
   return token == "-0" ? 0.0 : value;  // An integer has no sign of zero.
 }
 
+/// The key that a person means who gives the value another unit or the thing another name; empty if
+/// there is none.
+std::string_view otherwise_called(std::string_view key, const std::vector<std::string_view>& keys) {
+  constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+      {"steps", "checkpoints"}, {"step", "checkpoints"},   {"runs", "layouts"},
+      {"worlds", "layouts"},    {"trajectories", "poses"}, {"starts", "poses"}};
+  const auto is_key = [&](std::string_view word) {
+    return std::ranges::find(keys, word) != keys.end();
+  };
+  const auto without_unit = [](std::string_view word) {
+    constexpr std::string_view kUnits[] = {"deg", "rad", "m",  "cm",     "mm",
+                                           "km",  "s",   "ms", "percent"};
+    const std::size_t at = word.rfind('_');
+    const bool has_unit = at != std::string_view::npos &&
+                          std::ranges::find(kUnits, word.substr(at + 1)) != std::end(kUnits);
+    return has_unit ? word.substr(0, at) : word;
+  };
+  for (const std::string_view candidate : keys)
+    if (without_unit(candidate) == without_unit(key)) return candidate;
+  for (const auto& [other, ours] : kOthers)
+    if (key == other && is_key(ours)) return ours;
+  return {};
+}
+
 }  // namespace
+
+JsonCursor JsonDocument::cursor() const {
+  return {*this, skip_blanks(text_, 0), nodes_.empty() ? JsonNode::kNone : 0};
+}
+
+nlohmann::json JsonDocument::tree() const {
+  if (text_.size() > kLargestJsonTree)
+    throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are compared or merged",
+                                      text_.size(), kLargestJsonTree));
+  return nlohmann::json::parse(text_);
+}
 
 const std::string& JsonCursor::source() const { return document_->source; }
 
@@ -161,9 +198,11 @@ void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
     const std::string key = item.key();
     if (const std::string_view now = replacement_of(NameKind::kKey, key, keys); !now.empty())
       fail(fmt::format("{}: this key is now called \"{}\"", in_quotes(key), now));
-    const std::string_view meant = likely_word(key, keys);
+    const std::string_view other = otherwise_called(key, keys);
+    const std::string_view meant = other.empty() ? likely_word(key, keys) : other;
     fail("unknown key " + in_quotes(key) +
-         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)));
+         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)) +
+         (!meant.empty() && key.ends_with("_deg") ? " Angles are in radians" : ""));
   }
 }
 

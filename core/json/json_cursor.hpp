@@ -1,10 +1,13 @@
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +18,49 @@
 
 namespace mapproof {
 
-class JsonDocument;
+class JsonCursor;
 class JsonItems;
+
+/// Of JSON that is held as a tree of values (JsonDocument::tree()), in bytes. Such a tree takes up
+/// to 25 times the size of its text.
+inline constexpr std::size_t kLargestJsonTree = std::size_t{1} << 25;
+
+/// An array or an object in the text of a JSON file. Plain values have none: they are read where
+/// they stand.
+struct JsonNode {
+  static constexpr std::uint32_t kNone = UINT32_MAX;
+
+  std::uint32_t begin = 0;       ///< Offset of its bracket.
+  std::uint32_t end = 0;         ///< Offset behind its last bracket.
+  std::uint32_t parent = kNone;  ///< What holds it.
+  std::uint32_t first = kNone;   ///< The first container in it.
+  std::uint32_t next = kNone;    ///< The next container of its parent.
+  std::uint32_t count = 0;       ///< Elements or members.
+};
+
+/// A whole JSON file: its text, checked, and an index of the arrays and objects in it, 24 bytes
+/// each. A file takes its size once and this index.
+class JsonDocument {
+ public:
+  std::string source;
+
+  JsonCursor cursor() const;
+
+  /// The file as a tree of values, for what no record describes.
+  /// @throws IoError if it holds more than kLargestJsonTree bytes.
+  nlohmann::json tree() const;
+
+ private:
+  friend class JsonCursor;
+  friend class JsonItems;
+  friend JsonDocument parse_json(std::string_view text, const std::string& source);
+  template <std::same_as<std::string> Text>
+  friend JsonDocument parse_json(Text&& text, const std::string& source);
+
+  std::unique_ptr<const std::string> owned_;
+  std::string_view text_;
+  std::deque<JsonNode> nodes_;
+};
 
 enum class JsonKind { kNull, kBoolean, kNumber, kString, kArray, kObject };
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/json/json_text_scan.hpp"
 #include "core/json/text_input.hpp"
 
 namespace mapproof {
@@ -236,45 +237,7 @@ class SchemaFinder : public nlohmann::json_sax<Json> {
   bool is_schema_ = false;  ///< The second level is the root's schema.
 };
 
-bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-
 }  // namespace
-
-namespace json_text_scan {
-
-std::uint32_t skip_blanks(std::string_view text, std::uint32_t offset) {
-  while (offset < text.size() && is_blank(text[offset])) ++offset;
-  return offset;
-}
-
-std::uint32_t skip_plain(std::string_view text, std::uint32_t offset) {
-  if (offset < text.size() && text[offset] == '"') {
-    for (++offset; text[offset] != '"'; ++offset)
-      if (text[offset] == '\\') ++offset;
-    return offset + 1;
-  }
-  const auto ends = [](char c) { return is_blank(c) || c == ',' || c == ']' || c == '}'; };
-  while (offset < text.size() && !ends(text[offset])) ++offset;
-  return offset;
-}
-
-std::string decoded(std::string_view quoted) {
-  if (quoted.find('\\') == quoted.npos) return std::string(quoted.substr(1, quoted.size() - 2));
-  return Json::parse(quoted).get<std::string>();
-}
-
-}  // namespace json_text_scan
-
-JsonCursor JsonDocument::cursor() const {
-  return {*this, skip_blanks(text_, 0), nodes_.empty() ? JsonNode::kNone : 0};
-}
-
-nlohmann::json JsonDocument::tree() const {
-  if (text_.size() > kLargestJsonTree)
-    throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are compared or merged",
-                                      text_.size(), kLargestJsonTree));
-  return Json::parse(text_);
-}
 
 JsonDocument parse_json(std::string_view text, const std::string& source) {
   text = checked_text(text, source);

@@ -44,7 +44,8 @@ void flatten(const nlohmann::ordered_json& value, const std::string& pointer,
     for (std::size_t i = 0; i < value.size(); ++i)
       flatten(value[i], fmt::format("{}/{}", pointer, i), out);
   } else {
-    for (const auto& [key, item] : value.items()) flatten(item, pointer + '/' + key, out);
+    for (const auto& [key, item] : value.items())
+      flatten(item, fmt::format("{}/{}", pointer, key), out);
   }
 }
 

@@ -189,26 +189,40 @@ void add_tile(const double* tile, const TilePosition& at, double sign, Block& ou
   }
 }
 
+/// Columns of A and B, packed for multiply_tile().
+struct Packed {
+  const std::vector<double>& rows;     ///< Of A.
+  const std::vector<double>& columns;  ///< Rows of B.
+  Index columns_count;
+  Index depth;
+  bool lower_only;
+};
+
+/// Adds the tiles of the packed rows from `block` on, times all packed columns.
+void add_block(const Packed& packed, Index block, Index end, double sign, Block& out) {
+  alignas(64) double tile[kTileRows * kTileColumns];
+  const Index last_column = packed.lower_only ? end : packed.columns_count;
+  for (Index column = 0; column < last_column; column += kTileColumns) {
+    // Whole tiles above the diagonal are left out.
+    const Index above = packed.lower_only ? std::max<Index>(0, (column - block) / kTileRows) : 0;
+    for (Index row = block + above * kTileRows; row < end; row += kTileRows) {
+      multiply_tile(packed.rows.data() + row * packed.depth,
+                    packed.columns.data() + column * packed.depth, packed.depth, tile);
+      add_tile(tile, {.row = row, .column = column, .lower_only = packed.lower_only}, sign, out);
+    }
+  }
+}
+
 void add(const ConstBlock& A, const ConstBlock& B, double sign, bool lower_only, Block& out) {
   static thread_local std::vector<double> rows;
   static thread_local std::vector<double> columns;
-  alignas(64) double tile[kTileRows * kTileColumns];
   for (Index first = 0; first < A.cols(); first += kDepth) {
     const Index depth = std::min(kDepth, A.cols() - first);
     pack<kTileRows>(A, first, depth, rows);
     pack<kTileColumns>(B, first, depth, columns);
-    for (Index block = 0; block < A.rows(); block += kBlockRows) {
-      const Index end = std::min(block + kBlockRows, A.rows());
-      const Index last_column = lower_only ? end : B.rows();
-      for (Index column = 0; column < last_column; column += kTileColumns) {
-        // Whole tiles above the diagonal are left out.
-        const Index above = lower_only ? std::max<Index>(0, (column - block) / kTileRows) : 0;
-        for (Index row = block + above * kTileRows; row < end; row += kTileRows) {
-          multiply_tile(rows.data() + row * depth, columns.data() + column * depth, depth, tile);
-          add_tile(tile, {.row = row, .column = column, .lower_only = lower_only}, sign, out);
-        }
-      }
-    }
+    const Packed packed{rows, columns, B.rows(), depth, lower_only};
+    for (Index block = 0; block < A.rows(); block += kBlockRows)
+      add_block(packed, block, std::min(block + kBlockRows, A.rows()), sign, out);
   }
 }
 

@@ -84,7 +84,7 @@ Embedding relative_stress_map(const Proximities& proximities, const SmacofOption
   const Eigen::Index M = distances.rows();
   if (M < 3) return failed(M, status_of<StatusReason::kTooFewLandmarks>(M));
   if (!distances.allFinite()) return failed(M, status_of<StatusReason::kTrustedPairsInPieces>());
-  const Embedding start = isomap(graph);
+  Embedding start = isomap(graph);
   if (distances.maxCoeff() <= 0.0) return start;
   Embedding result = smacof(distances, relative_weights(distances), start.coordinates, options);
   result.statuses.insert(result.statuses.begin(), start.statuses.begin(), start.statuses.end());

@@ -89,8 +89,9 @@ Eigen::RowVector2d polished(const LandmarkRanges& measurements, Eigen::RowVector
       value = next_value;
       damping *= 0.3;
       if (is_done) break;
-    } else if ((damping *= 10.0) > kMostDamping) {
-      break;
+    } else {
+      damping *= 10.0;
+      if (damping > kMostDamping) break;
     }
   }
   return position;

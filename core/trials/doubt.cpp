@@ -8,7 +8,7 @@
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
 #include "core/range_slam/fit/log_fit.hpp"
-#include "core/simulate/range_drive.hpp"
+#include "core/simulate/range_world.hpp"
 #include "core/trials/topics.hpp"
 
 namespace mapproof {

@@ -58,11 +58,11 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
 }
 
 /// What the program makes of the frames. @throws ProcessError.
-std::string encoded(std::span<const Image> frames, int frame_ms,
+std::string encoded(std::span<const Image> frames, const AnimationOptions& options,
                     const std::filesystem::path& program) {
   const Descriptor input = memory_file(kMemoryName);
-  bool whole = write_all(input, fmt::format("{} {} {} {}\n", frames[0].width, frames[0].height,
-                                            frames.size(), frame_ms));
+  bool whole = write_all(input, fmt::format("{} {} {} {} {}\n", frames[0].width, frames[0].height,
+                                            frames.size(), options.frame_ms, name(options.format)));
   for (const Image& frame : frames)
     whole = whole && write_all(input, {reinterpret_cast<const char*>(frame.pixels.data()),
                                        sizeof(frame.pixels[0]) * frame.pixels.size()});
@@ -71,6 +71,11 @@ std::string encoded(std::span<const Image> frames, int frame_ms,
 }
 
 }  // namespace
+
+std::string_view name(AnimationFormat format) {
+  constexpr std::string_view kNames[] = {"apng", "mp4", "gif"};
+  return kNames[static_cast<std::size_t>(format)];
+}
 
 void require_animation_size(int width, int height, std::size_t frames) {
   if (frames < 2) throw InvalidInput("an animation needs two frames");
@@ -90,17 +95,25 @@ std::filesystem::path animation_program() {
 std::string encode_animation(std::span<const Image> frames, const AnimationOptions& options,
                              const std::filesystem::path& program) {
   check(frames, options);
-  std::string png;
+  std::string file;
   try {
-    png = encoded(frames, options.frame_ms, program);
+    file = encoded(frames, options, program);
   } catch (const ProcessError& error) {
     fail(program, error.what());
   }
+  if (options.format == AnimationFormat::kMp4) {
+    if (file.size() < 8 || file.substr(4, 4) != "ftyp") fail(program, "it gave no MP4");
+    return file;
+  }
+  if (options.format == AnimationFormat::kGif) {
+    if (!file.starts_with("GIF8")) fail(program, "it gave no GIF");
+    return file;
+  }
   // After the signature of 8 bytes and the header of 25, where other PNG have their texts too.
   constexpr std::size_t kHeaderEnd = 33;
-  if (png.size() < kHeaderEnd || png.substr(1, 3) != "PNG") fail(program, "it gave no PNG");
-  png.insert(kHeaderEnd, png_texts(options.texts));
-  return png;
+  if (file.size() < kHeaderEnd || file.substr(1, 3) != "PNG") fail(program, "it gave no PNG");
+  file.insert(kHeaderEnd, png_texts(options.texts));
+  return file;
 }
 
 }  // namespace mapproof

@@ -51,6 +51,10 @@ struct Outline {
 
   void move_to(Point p) { add(PathCommand::kMove, p); }
   void line_to(Point p) { add(PathCommand::kLine, p); }
+  void cubic_to(Point a, Point b, Point p) {
+    commands.push_back(PathCommand::kCubic);
+    points.insert(points.end(), {a, b, p});
+  }
   void quad_to(Point control, Point p) {
     add(PathCommand::kQuad, control);
     points.push_back(p);

@@ -5,6 +5,7 @@
 #include <new>
 
 #include <cairo-pdf.h>
+#include <cairo-ps.h>
 
 #include "core/base/errors.hpp"
 #include "render/cairo/cairo_painter.hpp"
@@ -43,7 +44,13 @@ cairo_status_t append_to(void* bytes, const unsigned char* data, unsigned length
   }
 }
 
-void set_words(const Drawing& drawing, cairo_surface_t* surface) {
+/// The header of an EPS file; a line of it holds 255 bytes.
+void set_eps_words(const Drawing& drawing, cairo_surface_t* surface) {
+  cairo_ps_surface_set_eps(surface, 1);
+  cairo_ps_surface_dsc_comment(surface, ("%%Title: " + drawing.id).c_str());
+}
+
+void set_pdf_words(const Drawing& drawing, cairo_surface_t* surface) {
   const auto set = [surface](cairo_pdf_metadata_t what, const std::string& text) {
     cairo_pdf_surface_set_metadata(surface, what, text.c_str());
   };
@@ -56,9 +63,8 @@ void set_words(const Drawing& drawing, cairo_surface_t* surface) {
 }
 
 /// Draws the only page and closes the file.
-void draw_pdf(const Drawing& drawing, cairo_surface_t* surface,
-              std::vector<SurfaceHandle>& images) {
-  set_words(drawing, surface);
+void draw_page(const Drawing& drawing, cairo_surface_t* surface,
+               std::vector<SurfaceHandle>& images) {
   const ContextHandle context(cairo_create(surface));
   const Colour paper = drawing.background;
   cairo_set_source_rgb(context.get(), paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
@@ -111,19 +117,24 @@ std::string to_png(const Drawing& drawing) {
   return encode_png(to_image(drawing), {.dpi = drawing.dpi, .texts = png_words(drawing)});
 }
 
-std::string to_pdf(const Drawing& drawing) {
+namespace {
+
+/// The only page of a surface that writes to a stream.
+/// @param create  Of a kind of surface. @param set_words  What its file says of the drawing.
+std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_for_stream) create,
+                    void (*set_words)(const Drawing&, cairo_surface_t*)) {
   std::string bytes;
   errno = 0;
   std::vector<SurfaceHandle> images;
-  SurfaceHandle surface(
-      cairo_pdf_surface_create_for_stream(append_to, &bytes, drawing.width, drawing.height));
+  SurfaceHandle surface(create(append_to, &bytes, drawing.width, drawing.height));
   // Cairo 1.16 makes a copy of an image before it destroys it, and dies where it has no memory for
   // that. So the images stay: less than 1 KiB each, the pixels belong to the drawing.
   const auto keep = [&images] {
     for (SurfaceHandle& image : images) image.release();
   };
   try {
-    draw_pdf(drawing, surface.get(), images);
+    set_words(drawing, surface.get());
+    draw_page(drawing, surface.get(), images);
     // Nor does it report every piece of memory that it did not get.
     if (errno == ENOMEM) throw std::bad_alloc();
   } catch (...) {
@@ -134,6 +145,20 @@ std::string to_pdf(const Drawing& drawing) {
   }
   keep();
   return bytes;
+}
+
+}  // namespace
+
+std::string to_pdf(const Drawing& drawing) {
+  return page_of(drawing, cairo_pdf_surface_create_for_stream, set_pdf_words);
+}
+
+std::string to_eps(const Drawing& drawing) {
+  std::string bytes = page_of(drawing, cairo_ps_surface_create_for_stream, set_eps_words);
+  // Cairo writes the time of day, which the same drawing must not depend on.
+  const std::size_t date = bytes.find("%%CreationDate: ");
+  if (date == std::string::npos) return bytes;
+  return bytes.erase(date, bytes.find('\n', date) + 1 - date);
 }
 
 }  // namespace mapproof

@@ -22,4 +22,8 @@ std::string to_png(const Drawing& drawing);
 /// The drawing as a PDF file: text stays text, the date is fixed. The same bytes each time.
 std::string to_pdf(const Drawing& drawing);
 
+/// The drawing as an EPS file, without a date. Cairo makes pixels of what is translucent, which EPS
+/// does not know. The same bytes each time.
+std::string to_eps(const Drawing& drawing);
+
 }  // namespace mapproof

@@ -14,11 +14,12 @@ namespace {
 
 /// A face with a library of its own, so that Cairo may drop both whenever it is done with them.
 struct FreeTypeFace {
+  FontHandle font;  ///< The face reads its bytes.
   FT_Library library = nullptr;
   FT_Face face = nullptr;
 
-  FreeTypeFace() {
-    const std::string_view bytes = font_bytes();
+  explicit FreeTypeFace(FontHandle of) : font(std::move(of)) {
+    const std::string_view bytes = font ? font->bytes() : font_bytes();
     FT_Error error = FT_Init_FreeType(&library);
     if (error == 0)
       error = FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(bytes.data()),
@@ -26,7 +27,7 @@ struct FreeTypeFace {
     if (error == 0) return;
     FT_Done_FreeType(library);
     if (FT_ERROR_BASE(error) == FT_Err_Out_Of_Memory) throw std::bad_alloc();
-    throw std::runtime_error("the embedded font cannot be read");
+    throw std::runtime_error("the font cannot be read");
   }
   ~FreeTypeFace() {
     FT_Done_Face(face);
@@ -36,9 +37,9 @@ struct FreeTypeFace {
   FreeTypeFace& operator=(const FreeTypeFace&) = delete;
 };
 
-FontFaceHandle make_font_face() {
+FontFaceHandle make_font_face(const FontHandle& font) {
   static const cairo_user_data_key_t key{};
-  auto owned = std::make_unique<FreeTypeFace>();
+  auto owned = std::make_unique<FreeTypeFace>(font);
   FontFaceHandle made(cairo_ft_font_face_create_for_ft_face(owned->face, FT_LOAD_NO_HINTING));
   check(cairo_font_face_status(made.get()));
   check(cairo_font_face_set_user_data(made.get(), &key, owned.get(),
@@ -52,7 +53,8 @@ class Painter {
   Painter(const Drawing& drawing, cairo_t* context, bool keeps_text,
           std::vector<SurfaceHandle>& images)
       : drawing_(drawing), context_(context), keeps_text_(keeps_text), images_(images) {
-    cairo_set_font_face(context_, thread_font_face());
+    if (drawing.font) drawing_face_ = make_font_face(drawing.font);
+    cairo_set_font_face(context_, drawing_face_ ? drawing_face_.get() : thread_font_face());
     cairo_set_font_options(context_, plain_font_options().get());
     cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
   }
@@ -205,6 +207,7 @@ class Painter {
   cairo_t* context_;
   bool keeps_text_;
   std::vector<SurfaceHandle>& images_;
+  FontFaceHandle drawing_face_;
   bool clipped_ = false;
   std::size_t panel_ = 0;
 };
@@ -218,7 +221,7 @@ void check(cairo_status_t status) {
 }
 
 cairo_font_face_t* thread_font_face() {
-  static thread_local const FontFaceHandle face = make_font_face();
+  static thread_local const FontFaceHandle face = make_font_face(nullptr);
   return face.get();
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/base/files/output_folder.hpp"
+#include "render/output/file_format.hpp"
 #include "render/plot/figure.hpp"
 #include "render/theme/theme.hpp"
 
@@ -19,9 +20,11 @@ std::string figure_png(const Figure& figure, const Theme& theme);
 /// A PDF file with selectable text and a fixed date. Otherwise as figure_svg.
 std::string figure_pdf(const Figure& figure, const Theme& theme);
 
-/// Writes ID.svg, ID.png, ID.pdf and ID.figure.json, each at once or not at all.
-/// @return The SVG file's text, as of figure_svg.
+/// Writes ID.svg, ID.png, ID.pdf and ID.figure.json, or as the formats say ID.eps, ID.csv (see
+/// figure_csv()) and ID.py (see figure_script()), each at once or not at all.
+/// @return The SVG file's text, as of figure_svg; empty if it is none of the formats.
 /// @throws InvalidInput as figure_svg; IoError if a file cannot be written.
-std::string write_figure(const Figure& figure, const Theme& theme, const OutputFolder& folder);
+std::string write_figure(const Figure& figure, const Theme& theme, const OutputFolder& folder,
+                         const FileFormats& formats = usual_formats());
 
 }  // namespace mapproof

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/files/files.hpp"
+#include <fmt/format.h>
+
 #include "core/base/files/output_folder.hpp"
-#include "render/animation/animation.hpp"
 #include "render/cairo/cairo_backend.hpp"
+#include "render/export/figure_csv.hpp"
+#include "render/export/scene_script.hpp"
 #include "render/image/image.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/layout.hpp"
@@ -48,6 +50,11 @@ Box on_pixels(const Box& position, double per_point) {
   return {whole(position.x0), whole(position.y0), whole(position.x1), whole(position.y1)};
 }
 
+bool shows_pixels(FileFormat format) {
+  return format != FileFormat::kJson && format != FileFormat::kCsv &&
+         format != FileFormat::kMatplotlib;
+}
+
 /// How much finer the poster is; 1 where it would be larger than an image can be.
 int poster_scale(const Drawing& drawing) {
   const double longest = std::max(drawing.width, drawing.height) * drawing.dpi / 72.0;
@@ -57,7 +64,7 @@ int poster_scale(const Drawing& drawing) {
 }  // namespace
 
 void write_animation(const Film& film, const Theme& theme, const OutputFolder& folder,
-                     SceneClient& client) {
+                     SceneClient& client, const AnimationJob& job) {
   std::vector<Image> frames;
   AnimationOptions options;
   for (const Scene& scene : film.frames) {
@@ -67,8 +74,12 @@ void write_animation(const Film& film, const Theme& theme, const OutputFolder& f
       require_animation_size(frames[0].width, frames[0].height, film.frames.size());
     drawing.id = film.id;
     options.texts = png_words(drawing);
+    if (job.drawn) job.drawn(frames.size());
   }
-  folder.write(film.id + ".apng", encode_animation(frames, options));
+  for (const AnimationFormat format : job.formats) {
+    options.format = format;
+    folder.write(fmt::format("{}.{}", film.id, name(format)), encode_animation(frames, options));
+  }
 }
 
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client) {
@@ -95,13 +106,36 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
 }
 
 std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
-                        SceneClient& client) {
-  const SceneDrawing drawn = draw_scene(scene, theme, client);
-  std::string svg = to_svg(drawn.screen);
-  folder.write(scene.id + ".svg", svg);
-  write_drawn(folder, scene.id + ".png", [&] { return to_png(drawn.poster); });
-  write_drawn(folder, scene.id + ".pdf", [&] { return to_pdf(drawn.poster); });
-  folder.write(scene.id + ".scene.json", scene_to_json(scene));
+                        SceneClient& client, const FileFormats& formats) {
+  const bool has_pixels = std::ranges::any_of(formats, shows_pixels);
+  const SceneDrawing drawn = has_pixels ? draw_scene(scene, theme, client) : SceneDrawing{};
+  std::string svg;
+  for (const FileFormat format : formats) {
+    switch (format) {
+      case FileFormat::kSvg:
+        svg = to_svg(drawn.screen);
+        folder.write(scene.id + ".svg", svg);
+        break;
+      case FileFormat::kPng:
+        write_drawn(folder, scene.id + ".png", [&] { return to_png(drawn.poster); });
+        break;
+      case FileFormat::kPdf:
+        write_drawn(folder, scene.id + ".pdf", [&] { return to_pdf(drawn.poster); });
+        break;
+      case FileFormat::kEps:
+        write_drawn(folder, scene.id + ".eps", [&] { return to_eps(drawn.poster); });
+        break;
+      case FileFormat::kJson:
+        folder.write(scene.id + ".scene.json", scene_to_json(scene));
+        break;
+      case FileFormat::kCsv:
+        folder.write(scene.id + ".csv", scene_csv(scene));
+        break;
+      case FileFormat::kMatplotlib:
+        folder.write(scene.id + ".py", scene_script(scene, theme));
+        break;
+    }
+  }
   return svg;
 }
 

@@ -1,8 +1,13 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <set>
 #include <string>
 
 #include "core/base/files/output_folder.hpp"
+#include "render/animation/animation.hpp"
+#include "render/output/file_format.hpp"
 #include "render/plot/drawing.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
@@ -11,14 +16,19 @@
 
 namespace mapproof {
 
-/// Writes ID.apng at the theme's dpi, each frame drawn as the image in a scene's SVG is,
-/// with the titles and
-/// records of the last frame as its texts.
+/// How an animation is written.
+struct AnimationJob {
+  std::set<AnimationFormat> formats = {AnimationFormat::kApng};
+  std::function<void(std::size_t)> drawn = {};  ///< Called with the number of frames drawn so far.
+};
+
+/// Writes ID.apng, or ID.mp4 or ID.gif, at the theme's dpi, each frame drawn as the image in a
+/// scene's SVG is, with the titles and records of the last frame as its texts.
 /// @throws InvalidInput if a frame cannot be drawn, their sizes differ or they are too many (see
 ///         require_animation_size; checked after the first); IoError; SceneError;
 ///         AnimationError.
 void write_animation(const Film& film, const Theme& theme, const OutputFolder& folder,
-                     SceneClient& client);
+                     SceneClient& client, const AnimationJob& job = {});
 
 /// A scene laid out, its images drawn: at the theme's dpi, and at twice that unless a side would
 /// then have more than SceneClient::kLargestSide pixels.
@@ -31,10 +41,11 @@ struct SceneDrawing {
 SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client);
 
 /// Writes ID.svg with images at the theme's dpi, ID.png and ID.pdf at twice that, and
-/// ID.scene.json, each at once or not at all.
-/// @return The text of the SVG file.
+/// ID.scene.json, or as the formats say, each at once or not at all. The program that draws starts
+/// only if one of them shows pixels.
+/// @return The text of the SVG file; empty if it is none of the formats.
 /// @throws IoError; otherwise as draw_scene.
 std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
-                        SceneClient& client);
+                        SceneClient& client, const FileFormats& formats = usual_formats());
 
 }  // namespace mapproof

@@ -33,7 +33,7 @@ Bar bar_of(const Cells& cells, double height, const Theme& theme) {
   bar.ticks = cells.scale == Scale::kLog ? log_ticks(low, high, std::max(most, 3))
                                          : linear_ticks(low, high, tick_step(low, high, most));
   for (const std::string& text : bar.ticks.labels) {
-    bar.texts.push_back(shape_text(text));
+    bar.texts.push_back(shape_text(text, theme.font.get()));
     bar.widest_pt = std::max(bar.widest_pt, bar.texts.back().advance * em);
   }
   bar.gap_pt = 2.0 * theme.space_pt;
@@ -52,10 +52,10 @@ constexpr double kRowNameShare = 0.38;  // Of the frame's width.
 constexpr double kLabelLine = 1.55;     // From the foot of tick labels to the axis label's, em.
 
 /// Shortens names, which may come from anywhere.
-TickLabels shaped(Ticks ticks, double widest_em = kWidestName) {
+TickLabels shaped(Ticks ticks, const Theme& theme, double widest_em = kWidestName) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(shape_text_within(text, widest_em));
+    labels.texts.push_back(shape_text_within(text, widest_em, Elide::kEnd, theme.font.get()));
     labels.widest = std::max(labels.widest, labels.texts.back().advance);
   }
   return labels;
@@ -97,7 +97,7 @@ double colour_bar_label_room(const Panel& panel, double height, const Theme& the
   const Cells* cells = cells_with_bar(panel);
   if (cells == nullptr) return 0.0;
   const std::string label = whole_label(*cells, bar_of(*cells, height, theme).ticks);
-  return further_lines(upward_lines(label, height, theme.font_pt), theme.font_pt);
+  return further_lines(upward_lines(label, height, theme), theme.font_pt);
 }
 
 void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& frame,
@@ -138,7 +138,7 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
   const double em = theme.font_pt;
   const std::string whole = whole_label(*cells, bar.ticks);
   double x = box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em;
-  for (const ShapedText& line : upward_lines(whole, frame.height(), em)) {
+  for (const ShapedText& line : upward_lines(whole, frame.height(), theme)) {
     drawing.add_text(ItemClass::kLegendText, panel_index,
                      {.shaped = line,
                       .whole = whole,
@@ -154,9 +154,9 @@ std::string axis_title(const Axis& axis, const Ticks& ticks) {
   return ticks.factor.empty() ? axis.label : axis.label + " " + ticks.factor;
 }
 
-std::vector<ShapedText> upward_lines(const std::string& label, double height, double em) {
+std::vector<ShapedText> upward_lines(const std::string& label, double height, const Theme& theme) {
   constexpr std::size_t kMostLines = 3;
-  return wrap_text(label, std::max(height, 0.0) / em, kMostLines);
+  return wrap_text(label, std::max(height, 0.0) / theme.font_pt, kMostLines, theme.font.get());
 }
 
 double further_lines(const std::vector<ShapedText>& lines, double em) {
@@ -222,17 +222,17 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   if (panel_.equal_aspect) {
     choose_equal_ticks(axes, most_x, most_y);
   } else {
-    axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x));
+    axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x), theme_);
     const bool is_named = !panel_.y.names.empty();
     const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
                      : is_named ? std::max(2, static_cast<int>(axes.frame.height() / (1.6 * em)))
                                 : most_y;
     const double row_em =
         std::clamp(kRowNameShare * axes.frame.width() / em, kWidestName, kWidestRowName);
-    axes.y = shaped(ticks_for(panel_.y, limits_.y, most), is_named ? row_em : kWidestName);
+    axes.y = shaped(ticks_for(panel_.y, limits_.y, most), theme_, is_named ? row_em : kWidestName);
   }
   while (most_x > 2 && labels_touch(axes)) {
-    axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x));
+    axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x), theme_);
   }
 }
 
@@ -240,8 +240,8 @@ void AxesLayout::choose_ticks(Axes& axes) const {
 void AxesLayout::choose_equal_ticks(Axes& axes, int most_x, int most_y) const {
   const double step = std::max(tick_step(limits_.x.low, limits_.x.high, most_x),
                                tick_step(limits_.y.low, limits_.y.high, most_y));
-  axes.x = shaped(linear_ticks(limits_.x.low, limits_.x.high, step));
-  axes.y = shaped(linear_ticks(limits_.y.low, limits_.y.high, step));
+  axes.x = shaped(linear_ticks(limits_.x.low, limits_.x.high, step), theme_);
+  axes.y = shaped(linear_ticks(limits_.y.low, limits_.y.high, step), theme_);
 }
 
 bool AxesLayout::labels_touch(const Axes& axes) const {
@@ -263,7 +263,7 @@ Margins AxesLayout::margins(const Axes& axes) const {
   const double y_label =
       has_y_label()
           ? 1.5 * theme_.font_pt + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks),
-                                                              axes.frame.height(), theme_.font_pt),
+                                                              axes.frame.height(), theme_),
                                                  theme_.font_pt)
           : 0.0;
   const double y_ticks = axes.y.texts.empty() ? 0.0 : axes.y.widest * em + tick_gap();
@@ -280,7 +280,7 @@ double AxesLayout::label_lines(const Axes& axes) const {
   const double height = axes.frame.height(), em = theme_.font_pt;
   const double of_bar = colour_bar_label_room(panel_, height, theme_);
   if (!has_y_label()) return of_bar;
-  return of_bar + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, em), em);
+  return of_bar + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, theme_), em);
 }
 
 /// How far texts at points reach over the sides of the frame.

@@ -39,8 +39,7 @@ std::string axis_title(const Axis& axis, const Ticks& ticks);
 
 /// A label that is read from below to above, in one line, or more where one is longer than `height`
 /// points; what does not fit in the last one is elided. The first line is the leftmost.
-/// @param em  Size of its letters, in points.
-std::vector<ShapedText> upward_lines(const std::string& label, double height, double em);
+std::vector<ShapedText> upward_lines(const std::string& label, double height, const Theme& theme);
 
 /// What the lines after the first take across, in points.
 double further_lines(const std::vector<ShapedText>& lines, double em);

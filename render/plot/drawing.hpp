@@ -101,6 +101,7 @@ struct Drawing {
   double height = 0.0;
   double dpi = 72.0;
   Colour background;
+  FontHandle font = {};        ///< Of all texts; none: the embedded one.
   std::vector<Box> frames;     ///< One a panel.
   std::vector<Shape> symbols;  ///< About the origin.
   std::vector<Mark> marks;

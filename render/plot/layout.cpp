@@ -38,7 +38,8 @@ class Head {
  private:
   void add(const std::string& text, ItemClass item_class, double em, Colour colour) {
     constexpr std::size_t kMostLines = 2;
-    for (const ShapedText& line : wrap_text(text, page_.width() / em, kMostLines)) {
+    for (const ShapedText& line :
+         wrap_text(text, page_.width() / em, kMostLines, theme_.font.get())) {
       drawing_.add_text(item_class, 0,
                         {.shaped = line,
                          .whole = text,
@@ -73,6 +74,7 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   drawing.height = height;
   drawing.dpi = theme.dpi;
   drawing.background = theme.background;
+  drawing.font = theme.font;
 
   const double margin = theme.space_pt;
   const Box page{margin, margin, theme.width_pt - margin, height - margin};

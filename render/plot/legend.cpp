@@ -128,7 +128,9 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
         same->layers.push_back(&layer);
       continue;
     }
-    entries_.push_back({shape_text_within(label, most_text, Elide::kMiddle), label, {&layer}});
+    entries_.push_back({shape_text_within(label, most_text, Elide::kMiddle, theme.font.get()),
+                        label,
+                        {&layer}});
     const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
     entry_width_ = std::max(entry_width_, width);
   }

@@ -101,7 +101,7 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
       TextLine line{
-          .shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em, Elide::kMiddle),
+          .shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em, Elide::kMiddle, theme.font.get()),
           .size = em,
           .colour = theme.of(labels->colour)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];

@@ -163,7 +163,7 @@ std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const 
     if (shade < 0 || cells.text[i].empty()) continue;
     const Colour below = ramp_colour(cells, static_cast<double>(shade) / (kShades - 1), theme);
     constexpr Colour kDark = colour(0x000000), kLight = colour(0xFFFFFF);
-    TextLine line{.shaped = shape_text(cells.text[i]),
+    TextLine line{.shaped = shape_text(cells.text[i], theme.font.get()),
                   .size = em,
                   .colour = contrast(kDark, below) >= contrast(kLight, below) ? kDark : kLight};
     if (line.shaped.advance * em > kWidest * width) return {};
@@ -184,7 +184,7 @@ std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const Pan
   if (std::isnan(at.x + at.y)) return std::nullopt;
   const double em = theme.tick_font_pt;
   TextLine line{.shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em,
-                                            Elide::kMiddle),
+                                            Elide::kMiddle, theme.font.get()),
                 .size = em,
                 .colour = theme.of(texts.colour)};
   if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];

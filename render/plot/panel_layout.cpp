@@ -85,7 +85,8 @@ class AxesPainter {
     const double away = layout_.tick_length() + layout_.tick_gap();
     if (layout_.has_x_label()) {
       const std::string whole = axis_title(panel.x, axes_.x.ticks);
-      const ShapedText text = shape_text_within(whole, f.width() / em);
+      const ShapedText text =
+          shape_text_within(whole, f.width() / em, Elide::kEnd, theme_.font.get());
       drawing_.add_text(ItemClass::kAxisLabel, index_,
                         {.shaped = text,
                          .whole = whole,
@@ -96,7 +97,7 @@ class AxesPainter {
     }
     if (layout_.has_y_label()) {
       const std::string whole = axis_title(panel.y, axes_.y.ticks);
-      const std::vector<ShapedText> lines = upward_lines(whole, f.height(), em);
+      const std::vector<ShapedText> lines = upward_lines(whole, f.height(), theme_);
       double x =
           f.x0 - away - axes_.y.widest * theme_.tick_font_pt - 0.6 * em - further_lines(lines, em);
       for (const ShapedText& line : lines) {
@@ -221,12 +222,12 @@ class Arranger {
 
 }  // namespace
 
-std::vector<TitleLine> title_lines(const std::string& title, double most) {
+std::vector<TitleLine> title_lines(const std::string& title, double most, const Font* font) {
   std::vector<TitleLine> lines;
   for (std::size_t begin = 0; begin < title.size();) {
     const std::size_t end = std::min(title.find('\n', begin), title.size());
     const std::string whole = title.substr(begin, end - begin);
-    for (ShapedText& line : wrap_text(whole, most, kMostTitleLines))
+    for (ShapedText& line : wrap_text(whole, most, kMostTitleLines, font))
       lines.push_back({std::move(line), whole});
     begin = end + 1;
   }
@@ -238,7 +239,7 @@ Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, con
   if (panel.title.empty()) return cell;
   const double em = theme.font_pt;
   double y = cell.y0;
-  for (const TitleLine& line : title_lines(panel.title, cell.width() / em)) {
+  for (const TitleLine& line : title_lines(panel.title, cell.width() / em, theme.font.get())) {
     drawing.add_text(ItemClass::kPanelTitle, index,
                      {.shaped = line.shaped,
                       .whole = line.whole,

@@ -24,7 +24,7 @@ struct TitleLine {
 };
 
 /// The lines of a title, split at line feeds, each wrapped to at most two of `most` em.
-std::vector<TitleLine> title_lines(const std::string& title, double most);
+std::vector<TitleLine> title_lines(const std::string& title, double most, const Font* font);
 
 /// Draws the panel's title. @return The room left below.
 Box draw_panel_title(const Panel& panel, std::size_t index, const Box& cell, const Theme& theme,

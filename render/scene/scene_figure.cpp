@@ -22,7 +22,8 @@ namespace {
 class RuleLayers {
  public:
   /// @param em  Height of a tick's label in the units of the image (see Projection).
-  RuleLayers(const Projection& project, double em) : project_(project), em_(em) {}
+  RuleLayers(const Projection& project, double em, const Font* font)
+      : project_(project), em_(em), font_(font) {}
 
   /// The layers of one more axis; none if it is seen end on or from behind the eye.
   std::vector<Layer> add(const Rule& rule);
@@ -41,6 +42,7 @@ class RuleLayers {
 
   const Projection& project_;
   double em_;
+  const Font* font_;
   std::vector<Box> taken_;
 };
 
@@ -78,7 +80,7 @@ Align align_of(Point outward) {
 RuleLayers::Text RuleLayers::text_at(Point at, Point outward, double ems, Align align,
                                      const std::string& text) const {
   const Point position{at.x + ems * em_ * outward.x, at.y + ems * em_ * outward.y};
-  const double width = shape_text(text).advance * em_;
+  const double width = shape_text(text, font_).advance * em_;
   const double before = align == Align::kStart ? 0.0 : align == Align::kMiddle ? width / 2 : width;
   const double gap = kApart / 2.0 * em_;
   const Box box{position.x - before - gap, position.y - em_ / 2.0,
@@ -190,8 +192,12 @@ class LegendLayer {
 
 class ViewPanel {
  public:
-  ViewPanel(const Scene& scene, std::size_t index, double em)
-      : scene_(scene), view_(scene.views[index]), project_(view_.camera), em_(em) {
+  ViewPanel(const Scene& scene, std::size_t index, double em, const Font* font)
+      : scene_(scene),
+        view_(scene.views[index]),
+        project_(view_.camera),
+        em_(em),
+        font_(font) {
     const double aspect = view_.camera.aspect;
     panel_.title = view_.title;
     panel_.bare = panel_.equal_aspect = true;
@@ -204,7 +210,7 @@ class ViewPanel {
     for (std::size_t i = 0; i < scene_.parts.size(); ++i)
       if (shows(view_, i)) add_part(scene_.parts[i]);
     panel_.layers.insert(panel_.layers.begin(), image_);
-    RuleLayers rules(project_, em_);
+    RuleLayers rules(project_, em_, font_);
     for (const Rule& rule : view_.rules)
       for (Layer& layer : rules.add(rule)) panel_.layers.push_back(std::move(layer));
     for (const SceneLabels& labels : view_.labels) add_labels(labels);
@@ -260,12 +266,13 @@ class ViewPanel {
   const Shot& view_;
   Projection project_;
   double em_;
+  const Font* font_;
   ImageLayer image_;
   Panel panel_;
 };
 
 /// @param em  Height of a tick's label in the units of an image.
-Figure figure_with(const Scene& scene, double em) {
+Figure figure_with(const Scene& scene, double em, const Font* font) {
   Figure figure{.id = scene.id,
                 .title = scene.title,
                 .caption = scene.caption,
@@ -277,7 +284,7 @@ Figure figure_with(const Scene& scene, double em) {
                 .columns = scene.columns};
   figure.shared_x = figure.shared_y = scene.views.size() > 1;
   for (std::size_t i = 0; i < scene.views.size(); ++i)
-    figure.panels.push_back(ViewPanel(scene, i, em).make());
+    figure.panels.push_back(ViewPanel(scene, i, em, font).make());
   require_valid(figure);
   return figure;
 }
@@ -289,11 +296,11 @@ Figure scene_figure(const Scene& scene, const Theme& theme) {
   // How large the images become depends on what stands around them, and that on the labels'
   // distance: three times is enough.
   double em = 2.0 * theme.tick_font_pt / theme.height_pt;
-  Figure figure = figure_with(scene, em);
+  Figure figure = figure_with(scene, em, theme.font.get());
   for (int pass = 0; pass < 2; ++pass) {
     const double height = lay_out(figure, theme).frames[0].height();
     em = std::min(kMostEm, 2.0 * theme.tick_font_pt / std::max(height, theme.tick_font_pt));
-    figure = figure_with(scene, em);
+    figure = figure_with(scene, em, theme.font.get());
   }
   return figure;
 }

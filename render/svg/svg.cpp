@@ -118,7 +118,7 @@ class SvgWriter {
     out_ += "<defs>\n";
     for (const std::uint32_t glyph : used_glyphs()) {
       out_ += fmt::format("<path id=\"{}-g{}\" d=\"", drawing_.id, glyph);
-      append_path(out_, glyph_outline(glyph), 1.0);
+      append_path(out_, glyph_outline(glyph, drawing_.font.get()), 1.0);
       out_ += "\"/>\n";
     }
     for (std::size_t i = 0; i < drawing_.symbols.size(); ++i) {

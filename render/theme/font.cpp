@@ -8,6 +8,7 @@
 #include <hb-ot.h>
 #include <hb.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/utf8.hpp"
 
@@ -25,31 +26,46 @@ struct BufferDelete {
 };
 using Buffer = std::unique_ptr<hb_buffer_t, BufferDelete>;
 
-/// The font as HarfBuzz sees it: made once, never changed, so that threads may share it.
-hb_font_t* shared_font() {
+/// The font as HarfBuzz sees it, never changed, so that threads may share it; null if it cannot
+/// draw.
+hb_font_t* font_of(std::string_view bytes) {
+  hb_blob_t* blob = hb_blob_create(bytes.data(), static_cast<unsigned>(bytes.size()),
+                                   HB_MEMORY_MODE_READONLY, nullptr, nullptr);
+  hb_face_t* face = hb_face_create(blob, 0);
+  hb_blob_destroy(blob);
+  hb_font_t* made = hb_font_create(face);
+  hb_ot_font_set_funcs(made);
+  const int units = static_cast<int>(FontFacts::kUnitsPerEm);
+  hb_font_set_scale(made, units, units);
+  hb_font_make_immutable(made);
+  // What HarfBuzz finds no memory for is empty for good, in silence. These make its tables.
+  hb_codepoint_t glyph = 0;
+  hb_glyph_extents_t extents{};
+  hb_ot_layout_has_substitution(face);
+  hb_ot_layout_has_positioning(face);
+  const bool is_whole = hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
+                        hb_font_get_glyph_h_advance(made, glyph) > 0 &&
+                        hb_font_get_glyph_extents(made, glyph, &extents) != 0 && extents.width > 0;
+  hb_face_destroy(face);
+  if (is_whole) return made;
+  hb_font_destroy(made);
+  return nullptr;
+}
+
+hb_font_t* embedded_font() {
   static hb_font_t* const font = [] {
-    const std::string_view bytes = font_bytes();
-    hb_blob_t* blob = hb_blob_create(bytes.data(), static_cast<unsigned>(bytes.size()),
-                                     HB_MEMORY_MODE_READONLY, nullptr, nullptr);
-    hb_face_t* face = hb_face_create(blob, 0);
-    hb_blob_destroy(blob);
-    hb_font_t* made = hb_font_create(face);
-    hb_ot_font_set_funcs(made);
-    hb_font_make_immutable(made);
-    // What HarfBuzz finds no memory for is empty for good, in silence. These make its tables.
-    hb_codepoint_t glyph = 0;
-    hb_glyph_extents_t extents{};
-    const bool is_whole =
-        hb_ot_layout_has_substitution(face) && hb_ot_layout_has_positioning(face) &&
-        hb_font_get_nominal_glyph(made, 'A', &glyph) != 0 &&
-        hb_font_get_glyph_h_advance(made, glyph) > 0 &&
-        hb_font_get_glyph_extents(made, glyph, &extents) != 0 && extents.width > 0;
-    hb_face_destroy(face);
-    if (is_whole) return made;
+    hb_font_t* made = font_of(font_bytes());
+    if (made == nullptr) throw std::bad_alloc();
+    hb_face_t* face = hb_font_get_face(made);
+    if (hb_ot_layout_has_substitution(face) && hb_ot_layout_has_positioning(face)) return made;
     hb_font_destroy(made);
     throw std::bad_alloc();
   }();
   return font;
+}
+
+hb_font_t* handle_of(const Font* font) {
+  return font == nullptr ? embedded_font() : font->handle();
 }
 
 bool is_mark(char32_t code) {
@@ -59,7 +75,7 @@ bool is_mark(char32_t code) {
 }
 
 /// Whether a reader would see the code point as itself.
-bool is_seen(char32_t code) {
+bool is_seen(char32_t code, hb_font_t* font) {
   if (code < 0x20 || (code >= 0x7F && code < 0xA0)) return false;
   if (code < 0x7F) return true;
   switch (hb_unicode_general_category(hb_unicode_funcs_get_default(), code)) {
@@ -78,7 +94,7 @@ bool is_seen(char32_t code) {
                          (code >= 0x17B4 && code <= 0x17B5) || (code >= 0x180B && code <= 0x180F) ||
                          (code >= 0xFE00 && code <= 0xFE0F) || (code >= 0xE0000 && code <= 0xE0FFF);
   hb_codepoint_t glyph = 0;
-  return !invisible && hb_font_get_nominal_glyph(shared_font(), code, &glyph) != 0;
+  return !invisible && hb_font_get_nominal_glyph(font, code, &glyph) != 0;
 }
 
 bool reads_right_to_left(char32_t code) {
@@ -129,9 +145,9 @@ std::vector<Stretch> stretches(const std::string& text) {
   return found;
 }
 
-Box glyph_bounds(std::uint32_t glyph) {
+Box glyph_bounds(std::uint32_t glyph, hb_font_t* font) {
   hb_glyph_extents_t e{};
-  if (!hb_font_get_glyph_extents(shared_font(), glyph, &e) || e.width == 0 || e.height == 0)
+  if (!hb_font_get_glyph_extents(font, glyph, &e) || e.width == 0 || e.height == 0)
     return {};
   return {e.x_bearing / FontFacts::kUnitsPerEm, -e.y_bearing / FontFacts::kUnitsPerEm,
           (e.x_bearing + e.width) / FontFacts::kUnitsPerEm,
@@ -155,7 +171,8 @@ std::vector<Cluster> clusters_of(std::span<const hb_glyph_info_t> infos, const S
   return clusters;
 }
 
-void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shaped) {
+void shape_stretch(const Stretch& stretch, hb_font_t* font, hb_buffer_t* buffer,
+                   ShapedText& shaped) {
   static const std::array<hb_feature_t, 2> features = {
       {{HB_TAG('l', 'i', 'g', 'a'), 0, 0, HB_FEATURE_GLOBAL_END},
        {HB_TAG('c', 'l', 'i', 'g'), 0, 0, HB_FEATURE_GLOBAL_END}}};
@@ -166,7 +183,7 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
   hb_buffer_set_direction(buffer, stretch.right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
   hb_buffer_set_language(buffer, hb_language_from_string("en", 2));
   hb_buffer_guess_segment_properties(buffer);
-  if (!hb_shape_full(shared_font(), buffer, features.data(), features.size(), nullptr) ||
+  if (!hb_shape_full(font, buffer, features.data(), features.size(), nullptr) ||
       !hb_buffer_allocation_successful(buffer))
     throw std::bad_alloc();
 
@@ -179,7 +196,7 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
     const Glyph glyph{infos[i].codepoint,
                       shaped.advance + positions[i].x_offset / FontFacts::kUnitsPerEm,
                       -positions[i].y_offset / FontFacts::kUnitsPerEm};
-    const Box bounds = glyph_bounds(glyph.index);
+    const Box bounds = glyph_bounds(glyph.index, font);
     if (bounds.width() > 0.0) {
       const Box placed = bounds.moved(glyph.x, glyph.y);
       shaped.bounds = shaped.bounds.width() > 0.0 ? shaped.bounds.united(placed) : placed;
@@ -189,13 +206,13 @@ void shape_stretch(const Stretch& stretch, hb_buffer_t* buffer, ShapedText& shap
   }
 }
 
-ShapedText shape_visible(std::string text) {
+ShapedText shape_visible(std::string text, const Font* font) {
   static thread_local const Buffer buffer(hb_buffer_create());
   ShapedText shaped;
   shaped.text = std::move(text);
   shaped.glyphs.reserve(shaped.text.size());
   for (const Stretch& stretch : stretches(shaped.text))
-    shape_stretch(stretch, buffer.get(), shaped);
+    shape_stretch(stretch, handle_of(font), buffer.get(), shaped);
   return shaped;
 }
 
@@ -224,9 +241,30 @@ std::string shortened(std::string_view text) {
 
 }  // namespace
 
+Font::Font(std::string bytes, const std::string& name)
+    : bytes_(std::move(bytes)), handle_(font_of(bytes_)) {
+  const auto refuse = [&](const std::string& what) {
+    if (handle_ != nullptr) hb_font_destroy(handle_);
+    throw InvalidInput(printable(name) + ": " + what);
+  };
+  if (handle_ == nullptr) refuse("is not a TrueType or OpenType font that draws letters");
+  const auto has = [this](char32_t code) {
+    hb_codepoint_t glyph = 0;
+    return hb_font_get_nominal_glyph(handle_, code, &glyph) != 0;
+  };
+  std::string lacking;
+  for (char32_t code = ' '; code < 0x7F; ++code)
+    if (!has(code)) append_utf8(lacking, code);
+  for (const char32_t code : {U'\u2212', U'\u2026'})
+    if (!has(code)) append_utf8(lacking, code);
+  if (!lacking.empty()) refuse("this font lacks the characters " + lacking);
+}
+
+Font::~Font() { hb_font_destroy(handle_); }
+
 std::string_view font_bytes() { return font_resources().front().bytes; }
 
-std::string visible_text(std::string_view text) {
+std::string visible_text(std::string_view text, const Font* font) {
   std::string seen;
   seen.reserve(text.size());
   std::size_t marks = kMostMarks;  // A mark at the start has no letter to stand on.
@@ -240,7 +278,7 @@ std::string visible_text(std::string_view text) {
     }
     const bool mark = *code >= 0x300 && is_mark(*code);
     marks = mark ? marks + 1 : 0;
-    if (is_seen(*code) && marks <= kMostMarks)
+    if (is_seen(*code, handle_of(font)) && marks <= kMostMarks)
       append_utf8(seen, *code);
     else
       seen += fmt::format("[U+{:04X}]", static_cast<std::uint32_t>(*code));
@@ -257,12 +295,14 @@ std::string visible_lines(std::string_view text) {
   return seen + visible_text(text);
 }
 
-ShapedText shape_text(std::string_view text) { return shape_text_within(text, kInfinity); }
+ShapedText shape_text(std::string_view text, const Font* font) {
+  return shape_text_within(text, kInfinity, Elide::kEnd, font);
+}
 
-ShapedText shape_text_within(std::string_view text, double most, Elide elide) {
+ShapedText shape_text_within(std::string_view text, double most, Elide elide, const Font* font) {
   // A code point is at least a byte: of a longer text the middle never shows.
-  std::string whole = visible_text(shortened(text));
-  ShapedText shaped = shape_visible(whole);
+  std::string whole = visible_text(shortened(text), font);
+  ShapedText shaped = shape_visible(whole, font);
   if (shaped.advance <= most) return shaped;
   // The most code points whose text, with the dots, fits: bisection over their number.
   const std::size_t length = count_code_points(whole);
@@ -272,7 +312,7 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide) {
     const std::size_t tail = elide == Elide::kMiddle ? count / 2 : 0;
     std::string start = whole.substr(0, prefix_bytes(whole, count - tail));
     while (!start.empty() && start.back() == ' ') start.pop_back();
-    return shape_visible(start + "…" + whole.substr(prefix_bytes(whole, length - tail)));
+    return shape_visible(start + "…" + whole.substr(prefix_bytes(whole, length - tail)), font);
   };
   while (too_many - fits > 1) {
     const std::size_t middle = (fits + too_many) / 2;
@@ -281,28 +321,29 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide) {
   return elided(fits);
 }
 
-std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines) {
+std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
+                                  const Font* font) {
   std::vector<ShapedText> wrapped;
   while (!text.empty() && wrapped.size() < lines) {
-    if (wrapped.size() + 1 == lines || shape_text(text).advance <= most) {
-      wrapped.push_back(shape_text_within(text, most));
+    if (wrapped.size() + 1 == lines || shape_text(text, font).advance <= most) {
+      wrapped.push_back(shape_text_within(text, most, Elide::kEnd, font));
       break;
     }
     // The longest start that ends before a blank and fits; a word that never fits is elided.
     std::size_t end = std::string_view::npos;
     for (std::size_t blank = text.find(' '); blank != std::string_view::npos;
          blank = text.find(' ', blank + 1)) {
-      if (shape_text(text.substr(0, blank)).advance > most) break;
+      if (shape_text(text.substr(0, blank), font).advance > most) break;
       end = blank;
     }
     if (end == std::string_view::npos) end = std::min(text.find(' '), text.size());
-    wrapped.push_back(shape_text_within(text.substr(0, end), most));
+    wrapped.push_back(shape_text_within(text.substr(0, end), most, Elide::kEnd, font));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return wrapped;
 }
 
-Outline glyph_outline(std::uint32_t glyph) {
+Outline glyph_outline(std::uint32_t glyph, const Font* font) {
   static hb_draw_funcs_t* const pen = [] {
     hb_draw_funcs_t* made = hb_draw_funcs_create();
     hb_draw_funcs_set_move_to_func(
@@ -324,6 +365,13 @@ Outline glyph_outline(std::uint32_t glyph) {
           static_cast<Outline*>(path)->quad_to({cx, -cy}, {x, -y});
         },
         nullptr, nullptr);
+    hb_draw_funcs_set_cubic_to_func(
+        made,
+        [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, float ax, float ay, float bx, float by,
+           float x, float y, void*) {
+          static_cast<Outline*>(path)->cubic_to({ax, -ay}, {bx, -by}, {x, -y});
+        },
+        nullptr, nullptr);
     hb_draw_funcs_set_close_path_func(
         made,
         [](hb_draw_funcs_t*, void* path, hb_draw_state_t*, void*) {
@@ -335,9 +383,9 @@ Outline glyph_outline(std::uint32_t glyph) {
   }();
   Outline path;
 #if HB_VERSION_ATLEAST(7, 0, 0)
-  hb_font_draw_glyph(shared_font(), glyph, pen, &path);
+  hb_font_draw_glyph(handle_of(font), glyph, pen, &path);
 #else
-  hb_font_get_glyph_shape(shared_font(), glyph, pen, &path);
+  hb_font_get_glyph_shape(handle_of(font), glyph, pen, &path);
 #endif
   return path;
 }

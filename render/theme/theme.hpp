@@ -4,6 +4,7 @@
 #include <string>
 
 #include "render/theme/colour.hpp"
+#include "render/theme/font.hpp"
 #include "render/theme/theme_colour.hpp"
 
 namespace mapproof {
@@ -15,6 +16,7 @@ struct Theme {
   double height_pt = 0.0;
   double dpi = 72.0;  ///< Of the PNG.
 
+  FontHandle font = {};  ///< None: the embedded one.
   bool draws_title = true;
   double font_pt = 0.0;  ///< Axis labels, legend, notes.
   double tick_font_pt = 0.0;

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/out_of_memory.hpp"
+#include "core/base/parent_watch.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
 #include "render/vtk/scene_renderer.hpp"
@@ -80,6 +81,7 @@ static void keep_memory() {
 /// Reads requests, each one line (see SceneRequest) and one line of a scene, and answers each with
 /// one line (see SceneReply) and raw pixels. mapproof starts it; it is not meant for direct use.
 int main() {
+  mapproof::end_with_parent();
   keep_memory();
   mapproof::pin_driver();
   std::ios::sync_with_stdio(false);

@@ -10,7 +10,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
-#include "reports/html/escape.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -374,6 +373,17 @@ data block_data(const Block& block, const FigureContext& drawn, const HtmlOption
   BlockVisitor visitor(drawn, options);
   std::visit(visitor, block);
   return visitor.take();
+}
+
+std::string file_link(const std::string& path) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./";
+  std::string link = "./";  // Never taken for a scheme or a host.
+  for (const char c : path)
+    link += kPlain.find(c) != std::string_view::npos
+                ? std::string(1, c)
+                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return link;
 }
 
 }  // namespace mapproof

@@ -42,4 +42,7 @@ kainjow::mustache::data block_data(const Block& block, const FigureContext& draw
 /// The phrases of a paragraph, for the template of that name.
 kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptions& options);
 
+/// A path relative to the page as the target of a link: never with another scheme or host.
+std::string file_link(const std::string& path);
+
 }  // namespace mapproof

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/results/quantity.hpp"
-#include "render/figures/diagrams/fit_tests.hpp"
+#include "render/figures/diagrams/fit.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/wording.hpp"
 

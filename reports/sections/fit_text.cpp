@@ -163,20 +163,25 @@ std::string capital(std::string text) {
   return text;
 }
 
+/// A test that found nothing names no landmarks.
+std::string of_landmarks(const char* what, const std::string& names) {
+  return names.empty() ? what : what + (" of " + names);
+}
+
 std::string map_test_words(FitCode code, const std::string& names) {
   switch (code) {
     case FitCode::kStress:
       return "distances in the map";
     case FitCode::kAnchorMissed:
-      return "given position of " + names;
+      return of_landmarks("given position", names);
     case FitCode::kWeakBridge:
-      return "connection of " + names;
+      return of_landmarks("connection", names);
     case FitCode::kMirror:
-      return "reflection of " + names;
+      return of_landmarks("reflection", names);
     case FitCode::kFold:
-      return "fold of " + names;
+      return of_landmarks("fold", names);
     case FitCode::kWrongIds:
-      return names.empty() ? "data association" : "data association of " + names;
+      return of_landmarks("data association", names);
     case FitCode::kScatter:
       return "scatter of repeated measurements";
     case FitCode::kRobotRanges:

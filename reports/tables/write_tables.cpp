@@ -286,6 +286,19 @@ TableLines latex_lines(const Table& table) {
 
 std::string table_latex(const Table& table) { return joined(latex_lines(table)); }
 
+std::string figure_latex(const std::string& id, const std::string& caption, double width_pt) {
+  constexpr double kPointsPerInch = 72.0;
+  return fmt::format(
+      "% Needs \\usepackage{{graphicx}}.\n"
+      "\\begin{{figure}}\n"
+      "  \\centering\n"
+      "  \\includegraphics[width={:.6g}in]{{{}.pdf}}\n"
+      "  \\caption{{{}}}\n"
+      "  \\label{{fig:{}}}\n"
+      "\\end{{figure}}\n",
+      width_pt / kPointsPerInch, id, escaped_latex(caption), id);
+}
+
 std::string table_markdown(const Table& table) {
   std::string text = "**" + escaped_markdown(table.caption) + "**\n\n|";
   for (const Column& column : table.columns)

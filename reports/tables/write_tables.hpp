@@ -32,6 +32,10 @@ std::string table_csv(const Table& table);
 /// columns is set small, its headings stacked, and centred on the line even if it is wider.
 std::string table_latex(const Table& table);
 
+/// A floating figure that includes ID.pdf at that width in points, with caption and label "fig:ID",
+/// to be \input; needs \usepackage{graphicx} alone.
+std::string figure_latex(const std::string& id, const std::string& caption, double width_pt);
+
 /// A Markdown table as GitHub reads it, with the caption above and the notes below.
 std::string table_markdown(const Table& table);
 

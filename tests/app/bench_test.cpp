@@ -85,7 +85,7 @@ TEST_F(Bench, TheReferenceClientInPythonIsLpca) {
   EXPECT_TRUE(fs::exists(at("out") + "/report.html"));
   EXPECT_EQ(mapproof({"validate", at("out")}).exit_code, 0);
   ASSERT_EQ(bench({method("other", {"python3", "scaling.py"})}, "again").exit_code, 0);
-  const Outcome diff = mapproof({"diff", at("out"), at("again"), "--out", at("diff")});
+  const Outcome diff = mapproof({"diff", at("out"), at("again"), "--page", at("diff.html")});
   EXPECT_EQ(diff.exit_code, 0) << diff.out;
   EXPECT_EQ(mapproof({"nightly", at("out"), "--store", at("store")}).exit_code, 0);
 }

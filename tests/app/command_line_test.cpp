@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/files/files.hpp"
 #include "tests/app/range_logs.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {
@@ -18,7 +20,7 @@ std::vector<std::string> all_commands() {
   std::istringstream help(mapproof({"--help"}).out);
   std::vector<std::string> commands;
   std::string line;
-  while (std::getline(help, line) && line != "Subcommands:") {
+  while (std::getline(help, line) && line != "Commands") {
   }
   while (std::getline(help, line) && line.starts_with("  ")) {
     const std::string command = line.substr(2, line.find(' ', 2) - 2);
@@ -56,8 +58,8 @@ TEST(CommandLine, VersionNamesWhatItIsLinkedWithAndTheCommit) {
 
 TEST(CommandLine, WrongUsageIsTwoAndOneClearLine) {
   const std::vector<std::vector<std::string>> wrong = {
-      {},
       {"frobnicate"},
+      {"--json"},
       {"map"},
       {"reproduce", "yairi2007", "--jobs", "none"},
       {"reproduce", "yairi2007", "--jobs", "0"},
@@ -128,7 +130,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       << "a command without a call here";
 }
 
-TEST(CommandLine, JsonOfADiffIsAFileOfItsOwnFormAsHelpSays) {
+TEST(CommandLine, JsonOfADiffHasAFormOfItsOwn) {
   const TemporaryFolder folder;
   const std::string study = folder / "study";
   const std::string small = std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json";
@@ -136,20 +138,85 @@ TEST(CommandLine, JsonOfADiffIsAFileOfItsOwnFormAsHelpSays) {
   const std::vector<std::vector<std::string>> calls = {
       {"diff", study, study},
       {"check", small, "--profile", "tiny", "--baseline", study, "--out", folder / "check"}};
-  EXPECT_NE(mapproof({"--help"}).out.find("diff and check take\n--json FILE"), std::string::npos);
   for (std::vector<std::string> call : calls) {
-    EXPECT_NE(mapproof({call[0], "--help"}).out.find("--json TEXT"), std::string::npos);
-    call.insert(call.end(), {"--json", "-"});
+    call.emplace_back("--json");
     const Outcome printed = mapproof(call);
     const auto object = nlohmann::json::parse(printed.out, nullptr, false);
     ASSERT_TRUE(object.is_object()) << printed.out << printed.error;
     EXPECT_EQ(object["schema"].dump(), R"({"name":"mapproof.diff","version":1})");
-    call.back() = folder / "diff.json";
-    const Outcome written = mapproof(call);
-    EXPECT_FALSE(nlohmann::json::accept(written.out)) << "the verdict in words";
-    std::ifstream file(folder / "diff.json");
-    EXPECT_EQ(nlohmann::json::parse(file)["schema"], object["schema"]);
+    call.insert(call.begin(), "--json");
+    call.pop_back();
+    EXPECT_EQ(mapproof(call).out, printed.out) << "before the command's name";
+    call.erase(call.begin());
+    EXPECT_FALSE(nlohmann::json::accept(mapproof(call).out)) << "the verdict in words";
   }
+}
+
+TEST(CommandLine, AloneIsItsHelp) {
+  const Outcome alone = mapproof({});
+  EXPECT_EQ(alone.exit_code, 0);
+  EXPECT_EQ(alone.out, mapproof({"--help"}).out);
+  EXPECT_EQ(mapproof({"-V"}).out, mapproof({"--version"}).out);
+}
+
+TEST(CommandLine, UnknownOptionsAndValuesAreNamedWithTheNearestOnes) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> slips = {
+      {{"map", "a.csv", "--knd", "bearing", "--out", "o"}, "mapproof help map"},
+      {{"map", "a.csv", "--sensr", "bearing", "--out", "o"}, "did you mean --sensor?"},
+      {{"map", "a.csv", "--Sensor", "bearing", "--out", "o"}, "did you mean --sensor?"},
+      {{"map", "a.csv", "--sensor", "baering", "--out", "o"}, "did you mean \"bearing\"?"},
+      {{"render", "out", "--theme", "papr"}, "did you mean \"paper\"?"},
+      {{"reproduce", "yairi207"}, "did you mean \"yairi2007\"?"},
+      {{"Rendre", "out"}, "did you mean \"render\"?"},
+      {{"diff", "a", "b", "--out", "diff.html"}, "now called --page"},
+      {{"methods", "too", "many"}, "methods takes no \"too\" and \"many\""}};
+  for (const auto& [words, said] : slips) {
+    const Outcome outcome = mapproof(words);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_NE(outcome.error.find(said), std::string::npos) << outcome.error;
+  }
+  // Values are taken in any case: the file is looked for.
+  EXPECT_NE(
+      mapproof({"map", "none.csv", "--sensor", "Bearing", "--out", "o"}).error.find("none.csv"),
+      std::string::npos);
+}
+
+TEST(CommandLine, HelpIsWrappedAtTheWidthOfTheTerminalInGroupsOfPlainSentences) {
+  for (const auto& [columns, width] : {std::pair{"60", 60U}, {"80", 80U}, {"300", 100U}}) {
+    const Environment terminal{{"COLUMNS", columns}};
+    for (const std::string& command : all_commands()) {
+      const std::string help = mapproof({command, "--help"}).out;
+      for (const char* notation : {"TEXT:", " in [", "Excludes", "REQUIRED", " ..."})
+        EXPECT_EQ(help.find(notation), std::string::npos) << command << " " << notation;
+      EXPECT_NE(help.find("\nOther\n"), std::string::npos) << command;
+      std::istringstream lines(help.substr(0, help.find("\nExample")));
+      for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), width + 8) << line;
+    }
+  }
+}
+
+TEST(CommandLine, CompletionsAndManualPagesNameEveryCommandAndOption) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mapproof({"generate", "completions", "--out", folder / ""}).exit_code, 0);
+  ASSERT_EQ(mapproof({"generate", "man", "--out", folder / ""}).exit_code, 0);
+  const std::string bash = read_file(folder / "bash-completion/completions/mapproof");
+  EXPECT_EQ(run_program({"bash", "-n", folder / "bash-completion/completions/mapproof"}).exit_code,
+            0);
+  for (const std::string& command : all_commands()) {
+    for (const char* file : {"zsh/site-functions/_mapproof",
+                             "fish/vendor_completions.d/mapproof.fish", "man/man1/mapproof.1"})
+      EXPECT_NE(read_file(folder / file).find(command), std::string::npos) << file << command;
+    const std::string page = read_file(folder / ("man/man1/mapproof-" + command + ".1"));
+    EXPECT_NE(page.find("\\-\\-json"), std::string::npos) << command;
+    EXPECT_NE(bash.find("    " + command + ") words="), std::string::npos) << command;
+  }
+  const std::string completed =
+      run_program({"bash", "-c",
+                   "source \"$0\"; COMP_WORDS=(mapproof map --sensor b); COMP_CWORD=3; _mapproof; "
+                   "echo \"${COMPREPLY[@]}\"",
+                   folder / "bash-completion/completions/mapproof"})
+          .out;
+  EXPECT_EQ(completed, "bearing\n");
 }
 
 TEST(CommandLine, MethodsListsEachWithParameterRangeAndSource) {

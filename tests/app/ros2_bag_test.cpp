@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/files/files.hpp"
-#include "core/records/ranges/path_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "tests/support/program.hpp"
 
 namespace mapproof::test {

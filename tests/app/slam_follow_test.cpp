@@ -43,9 +43,9 @@ TEST(SlamFollow, MapsLandmarksExactlyWhereRangesAreExact) {
   const RangeTable table;
   const std::string ground_truth = folder.file("groundtruth.csv", table.positions(0, 7));
   for (const std::string& bytes : {"t,beacon,range\n" + table.rows, gzipped(table.rows)}) {
-    const Outcome outcome = followed(
-        "slam", folder, bytes,
-        {"--ground-truth-landmarks", ground_truth, "--every", "20", "--out", folder / "out"});
+    const Outcome outcome =
+        followed("slam", folder, bytes,
+                 {"--ground-truth", ground_truth, "--every", "20", "--out", folder / "out"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json result = json::parse(outcome.out);
     EXPECT_EQ(result.at("method"), "spectral");
@@ -61,7 +61,7 @@ TEST(SlamFollow, PutsTheMapIntoTheFrameOfKnownLandmarks) {
   for (const Eigen::Index count : {3, 4}) {
     const std::string known = folder.file("known.csv", table.positions(0, count));
     const Outcome outcome =
-        followed("slam", folder, table.rows, {"--known-landmarks", known, "--out", folder / "out"});
+        followed("slam", folder, table.rows, {"--anchors", known, "--out", folder / "out"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
     const json last = json::parse(outcome.out).at("landmarks").back();
     EXPECT_NEAR(last.at("x_m").get<double>(), table.landmarks_m(6, 0), 1e-3) << count;

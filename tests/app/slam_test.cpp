@@ -63,8 +63,8 @@ TEST(Slam, GroundTruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
             {.odometry = false, .ground_truth = false, .landmarks = false});
   const Outcome outcome =
       mapproof({"slam", folder / "log", "--odometry", folder / "whole/odometry.csv", "--truth",
-                folder / "whole/groundtruth.csv", "--known-landmarks",
-                folder / "whole/landmarks.csv", "--out", folder / "out", "--json"});
+                folder / "whole/groundtruth.csv", "--anchors", folder / "whole/landmarks.csv",
+                "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const json result = json::parse(outcome.out);
   EXPECT_LT(mean_error(result, "spectral-known"), 0.5);
@@ -140,7 +140,7 @@ TEST_P(BadSlamInput, IsOneClearLineAndNothingWritten) {
   if (!bad.odometry.empty()) write_file(folder / "log/odometry.csv", bad.odometry);
   std::vector<std::string> arguments = {"slam", folder / "log", "--out", folder / "out"};
   if (!bad.known.empty())
-    arguments.insert(arguments.end(), {"--known-landmarks", folder.file("known.csv", bad.known)});
+    arguments.insert(arguments.end(), {"--anchors", folder.file("known.csv", bad.known)});
   const Outcome outcome = mapproof(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
   EXPECT_NE(outcome.error.find(bad.message), std::string::npos) << outcome.error;

@@ -200,19 +200,18 @@ const std::vector<Reader>& readers() {
        kSlam},
       {"SlamOfPyfg", [] { return pyfg_of(sample_log()); }, slam, kSlam},
       {"Odometry", sample("set/odometry.csv"), "slam bare --odometry {} --out out", kSlam},
-      {"KnownLandmarks", sample("set/landmarks.csv"), "slam set --known-landmarks {} --out out",
-       kSlam},
+      {"KnownLandmarks", sample("set/landmarks.csv"), "slam set --anchors {} --out out", kSlam},
       {"TruePath", sample("set/groundtruth.csv"), "slam bare --truth {} --out out", kSlam},
-      {"TrueLandmarks", sample("set/landmarks.csv"),
-       "slam bare --ground-truth-landmarks {} --out out", kSlam},
-      {"DiffOfPng", sample("map/figures/map.png"), "diff map/figures/map.png {} --json -"},
-      {"DiffOfBaseline", sample("map/figures/map.png"), "diff {} map/figures/map.png --json -"},
-      {"DiffOfSvg", sample("map/figures/map.svg"), "diff map/figures/map.svg {} --json -"},
-      {"DiffOfPdf", sample("map/figures/map.pdf"), "diff map/figures/map.pdf {} --json -"},
+      {"TrueLandmarks", sample("set/landmarks.csv"), "slam bare --ground-truth {} --out out",
+       kSlam},
+      {"DiffOfPng", sample("map/figures/map.png"), "diff map/figures/map.png {} --json"},
+      {"DiffOfBaseline", sample("map/figures/map.png"), "diff {} map/figures/map.png --json"},
+      {"DiffOfSvg", sample("map/figures/map.svg"), "diff map/figures/map.svg {} --json"},
+      {"DiffOfPdf", sample("map/figures/map.pdf"), "diff map/figures/map.pdf {} --json"},
       {"DiffOfFigure", sample("map/figures/map.figure.json"),
-       "diff map/figures/map.figure.json {} --json -"},
-      {"DiffOfMap", sample("map/map.json"), "diff map/map.json {} --json -"},
-      {"DiffOfSlam", sample("slam/slam.json"), "diff slam/slam.json {} --json -"},
+       "diff map/figures/map.figure.json {} --json"},
+      {"DiffOfMap", sample("map/map.json"), "diff map/map.json {} --json"},
+      {"DiffOfSlam", sample("slam/slam.json"), "diff slam/slam.json {} --json"},
       {"ValidateWideCsv", [] { return wide_table(); }, "validate {} --json"},
       {"ValidateLongCsv", long_table, "validate {} --json"},
       {"ValidateDetections", scans_csv, "validate {} --json"},
@@ -352,10 +351,9 @@ TEST(Streams, AStreamIsNotGivenTwice) {
 TEST(Streams, AFolderIsNotReadFromStandardInput) {
   const TemporaryFolder folder;
   folder.file("seen.csv", wide_table(50));
-  for (const char* rest :
-       {"report -", "render -", "history - --list", "nightly yairi2007 --store -",
-        "check yairi2007 --baseline -", "approve - out", "approve base -",
-        "map seen.csv --sensor bearing --out -", "run yairi2007 --out -"}) {
+  for (const char* rest : {"report -", "render -", "history -", "nightly yairi2007 --store -",
+                           "check yairi2007 --baseline -", "approve - out", "approve base -",
+                           "map seen.csv --sensor bearing --out -", "run yairi2007 --out -"}) {
     const Outcome outcome = shell(folder.path(), fmt::format("$MAPPROOF {} < seen.csv", rest), 5.0);
     EXPECT_EQ(outcome.exit_code, 2) << rest;
     EXPECT_NE(outcome.error.find("standard input is not a folder"), std::string::npos)
@@ -424,7 +422,7 @@ TEST(Streams, ADiffOfPipesShowsBothOnItsPage) {
             0);
   const Outcome outcome = shell(folder.path(),
                                 "cat a.png | $MAPPROOF diff - <(cat other/figures/map.png) "
-                                "--out diff.html");
+                                "--page diff.html");
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
   const std::string page = read_file(folder / "diff.html");
   const std::string both = page.substr(page.find("data:image/png") + 1);

@@ -10,6 +10,7 @@
 #include <tbb/parallel_for.h>
 
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"

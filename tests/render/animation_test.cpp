@@ -67,6 +67,32 @@ TEST(Animation, IsTheSameBytesEachTimeAndCarriesItsTexts) {
   EXPECT_EQ(read_apng(once).frames.size(), 4U);
 }
 
+TEST(Animation, AsGifHasEveryFrameForItsTimeAndRepeats) {
+  const std::vector<Image> frames = frames_of(4, 33, 17);
+  const AnimationOptions options{.format = AnimationFormat::kGif, .frame_ms = 500};
+  const std::string gif = encode_animation(frames, options, kProgram);
+  EXPECT_TRUE(gif.starts_with("GIF89a"));
+  EXPECT_EQ(gif.substr(6, 4), std::string("\x21\0\x11\0", 4)) << "33 x 17 pixels";
+  EXPECT_NE(gif.find("NETSCAPE2.0"), std::string::npos);
+  std::size_t shown = 0;  // Blocks that say how long a frame is shown: 50 hundredths.
+  for (std::size_t at = 0; (at = gif.find("\x21\xF9\x04", at)) != std::string::npos; ++at)
+    shown += gif.substr(at + 4, 2) == std::string("\x32\0", 2) ? 1 : 0;
+  EXPECT_EQ(shown, 4U);
+  EXPECT_EQ(gif, encode_animation(frames, options, kProgram));
+}
+
+TEST(Animation, AsMp4HasEvenSidesAndIsTheSameBytesEachTime) {
+  const std::vector<Image> frames = frames_of(4, 65, 33);
+  const AnimationOptions options{.format = AnimationFormat::kMp4, .frame_ms = 500};
+  const std::string mp4 = encode_animation(frames, options, kProgram);
+  EXPECT_EQ(mp4.substr(4, 4), "ftyp");
+  // The header of the track ends with its width and height in 16.16: 66 x 34.
+  const std::size_t track = mp4.find("tkhd");
+  ASSERT_NE(track, std::string::npos);
+  EXPECT_EQ(mp4.substr(track + 80, 8), std::string("\0\x42\0\0\0\x22\0\0", 8));
+  EXPECT_EQ(mp4, encode_animation(frames, options, kProgram));
+}
+
 TEST(Animation, RefusesFramesThatDiffer) {
   const auto refused = [](std::vector<Image> frames, int frame_ms) {
     EXPECT_THROW(encode_animation(frames, {.frame_ms = frame_ms, .texts = {}}, kProgram),

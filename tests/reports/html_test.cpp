@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "reports/html/escape.hpp"
+#include "reports/html/block_data.hpp"
 #include "reports/html/sha256.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/study_report.hpp"

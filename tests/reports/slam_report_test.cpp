@@ -1,5 +1,5 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_sections.hpp"
+#include "reports/sections/slam/slam_contents.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"

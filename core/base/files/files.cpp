@@ -53,13 +53,6 @@ std::string read_file(const fs::path& path, std::size_t limit) {
 
 void require_file(const fs::path& path) { open_input(path); }
 
-void make_folder(const fs::path& path) {
-  std::error_code error;
-  fs::create_directories(path, error);
-  if (error) throw IoError(path.string(), "folder cannot be made: " + error.message());
-  if (!fs::is_directory(path, error)) throw IoError(path.string(), "is not a folder");
-}
-
 void write_file(const fs::path& path, std::string_view bytes) {
   const fs::path location = replaceable_path(path);
   OutputFolder(location.parent_path()).write(location.filename(), bytes);

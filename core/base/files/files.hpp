@@ -13,9 +13,6 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit = std
 /// @throws IoError if read_file() would refuse the path without reading it.
 void require_file(const std::filesystem::path& path);
 
-/// Makes the folder and those above it. @throws IoError if that cannot be done.
-void make_folder(const std::filesystem::path& path);
-
 /// Replaces a file that somebody named; if the path is a link, the file behind it. Otherwise as
 /// OutputFolder::write(), which is for files below a folder.
 /// @throws IoError, and leaves nothing behind.

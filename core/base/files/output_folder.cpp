@@ -15,7 +15,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/descriptor.hpp"
-#include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/paths.hpp"
 
@@ -123,6 +122,13 @@ void write_into(const Parent& parent, const std::string& name, std::string_view 
 }
 
 }  // namespace
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw IoError(path.string(), "folder cannot be made: " + error.message());
+  if (!fs::is_directory(path, error)) throw IoError(path.string(), "is not a folder");
+}
 
 OutputFolder OutputFolder::operator/(const fs::path& inner) const {
   OutputFolder folder = *this;

@@ -8,6 +8,9 @@
 
 namespace mapproof {
 
+/// Makes the folder and those above it. @throws IoError if that cannot be done.
+void make_folder(const std::filesystem::path& path);
+
 /// A folder that files are written to. Links are followed in the path that somebody named, and
 /// nowhere below it: a folder that was handed over cannot lead a write out of it. A file is written
 /// next to its target under a random name and renamed: after a kill or a full disk either the old

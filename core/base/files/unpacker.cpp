@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <cstdint>
 #include <limits>
@@ -137,7 +138,7 @@ class Utf16Decoder : public Decoder {
 
   explicit Utf16Decoder(const std::string& source)
       : source_(source), converter_(::iconv_open("UTF-8", "UTF-16")) {
-    if (converter_ == reinterpret_cast<iconv_t>(-1)) throw std::bad_alloc();
+    if (std::bit_cast<std::intptr_t>(converter_) == -1) throw std::bad_alloc();
   }
   ~Utf16Decoder() override { ::iconv_close(converter_); }
   Utf16Decoder(const Utf16Decoder&) = delete;

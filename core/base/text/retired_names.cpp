@@ -11,7 +11,10 @@ using enum NameKind;
 constexpr std::array kRetired = {
     RetiredName{kOption, "--kind", "--sensor"},
     RetiredName{kOption, "--with-kind", "--with-sensor"},
-    RetiredName{kOption, "--true-landmarks", "--ground-truth-landmarks"},
+    RetiredName{kOption, "--true-landmarks", "--ground-truth"},
+    RetiredName{kOption, "--ground-truth-landmarks", "--ground-truth"},
+    RetiredName{kOption, "--known-landmarks", "--anchors"},
+    RetiredName{kOption, "diff --out", "--page"},
     RetiredName{kOption, "--check-labels", "--check-ids"},
     RetiredName{kOption, "--repair-labels", "--repair-ids"},
     RetiredName{kOption, "--labels-unsure", "--uncertain-ids"},

@@ -7,7 +7,7 @@ namespace mapproof {
 
 /// What a name of the interface names.
 enum class NameKind {
-  kOption,      ///< Of the command line: "--kind".
+  kOption,      ///< Of the command line: "--kind", of one command alone: "diff --out".
   kValue,       ///< Of an option: a strategy.
   kKey,         ///< Of a JSON file: "landmarks".
   kExperiment,  ///< That `reproduce` knows: "labels".

@@ -55,8 +55,10 @@ struct Piece {
 double weighted_median(std::vector<Piece>& pieces, double total) {
   std::ranges::sort(pieces, {}, &Piece::scale);
   double below = 0.0;
-  for (const Piece& piece : pieces)
-    if ((below += piece.weight) >= 0.5 * total) return piece.scale;
+  for (const Piece& piece : pieces) {
+    below += piece.weight;
+    if (below >= 0.5 * total) return piece.scale;
+  }
   return 1.0;
 }
 

@@ -27,7 +27,7 @@ constexpr int kLengths = 16;
 /// Coverage is judged on about this many of the times.
 constexpr Eigen::Index kCoverageTimes = 500;
 /// A length is unusable if no window determines more than this share of held-out ranges.
-constexpr double kUndetermined_ = 0.02;
+constexpr double kMostUndetermined = 0.02;
 
 /// Sum of absolute errors over the determined ranges, and how many ranges were determined or not.
 struct HeldOut {
@@ -81,8 +81,8 @@ WindowTrial tried(const std::vector<LandmarkRanges>& measurements, const Traject
       hold_out(measurements[static_cast<std::size_t>(n)],
                {.turn = turn, .phase = n, .first_s = first_s}, options, held_out);
   const auto covered = windowed_ranges(measurements, path, some_s, options).columns.size();
-  const bool usable = held_out.observed > 0 &&
-                      double(held_out.undetermined) <= kUndetermined_ * double(held_out.observed);
+  const bool usable = held_out.observed > 0 && double(held_out.undetermined) <=
+                                                   kMostUndetermined * double(held_out.observed);
   return {.length_s = length_s,
           .range_scale = options.range_scale,
           .error_m = usable ? held_out.error_m / double(held_out.observed) : kNaN,

@@ -75,6 +75,125 @@ double clipped_square(double z) {
   return clipped * clipped;
 }
 
+/// A landmark with a given position, and where the free map has it.
+struct GivenLandmark {
+  Index row;
+  Eigen::Vector2d given, mapped;
+};
+
+/// A rigid motion of given positions onto mapped ones.
+struct RigidMotion {
+  Eigen::Vector2d from, to;  ///< Means.
+  Eigen::Matrix2d R;
+  double statistic = 0.0;  ///< Squared residuals by the covariances, the motion's part taken off.
+
+  double distance_m(const GivenLandmark& p) const {
+    return (to + R * (p.given - from) - p.mapped).norm();
+  }
+};
+
+/// Fits by the covariances of a map.
+class KnownLandmarksFit {
+ public:
+  KnownLandmarksFit(const Eigen::MatrixXd& covariance, double survey_sigma_m)
+      : covariance_(covariance), survey_sigma_m_(survey_sigma_m) {}
+
+  RigidMotion operator()(const std::vector<GivenLandmark>& points) const {
+    const auto count = std::ssize(points);
+    RigidMotion motion{.from = Eigen::Vector2d::Zero(), .to = Eigen::Vector2d::Zero(), .R = {}};
+    for (const GivenLandmark& p : points) {
+      motion.from += p.given / double(count);
+      motion.to += p.mapped / double(count);
+    }
+    double c = 0.0, s = 0.0;
+    for (const GivenLandmark& p : points) {
+      const Eigen::Vector2d a = p.given - motion.from, b = p.mapped - motion.to;
+      c += a.dot(b);
+      s += a(0) * b(1) - a(1) * b(0);
+    }
+    motion.R = Eigen::Rotation2Dd(std::atan2(s, c)).toRotationMatrix();
+    motion.statistic = statistic_of(points, motion);
+    return motion;
+  }
+
+ private:
+  double statistic_of(const std::vector<GivenLandmark>& points, const RigidMotion& motion) const {
+    const auto count = std::ssize(points);
+    Eigen::VectorXd r(2 * count);
+    Eigen::MatrixXd G(2 * count, 3), C(2 * count, 2 * count);
+    for (Index i = 0; i < count; ++i) {
+      const GivenLandmark& p = points[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d turned = motion.R * (p.given - motion.from);
+      r.segment<2>(2 * i) = p.mapped - motion.to - turned;
+      G.middleRows<2>(2 * i) << 1.0, 0.0, -turned(1), 0.0, 1.0, turned(0);
+      for (Index k = 0; k < count; ++k)
+        C.block<2, 2>(2 * i, 2 * k) =
+            covariance_.block<2, 2>(2 * p.row, 2 * points[static_cast<std::size_t>(k)].row);
+    }
+    C.diagonal().array() += survey_sigma_m_ * survey_sigma_m_;
+    const Eigen::LDLT<Eigen::MatrixXd> factor(C);
+    const Eigen::MatrixXd CG = factor.solve(G);
+    const Eigen::VectorXd Cr = factor.solve(r);
+    const Eigen::Vector3d move = (G.transpose() * CG).ldlt().solve(G.transpose() * Cr);
+    return std::max(0.0, r.dot(Cr) - (G.transpose() * Cr).dot(move));
+  }
+
+  const Eigen::MatrixXd& covariance_;
+  double survey_sigma_m_;
+};
+
+double known_landmarks_bound(std::size_t count) {
+  const double freedom = 2.0 * static_cast<double>(count) - 3.0;
+  return freedom + 4.5 * std::sqrt(2.0 * freedom) + 10.0;
+}
+
+/// What would make the given positions fit.
+struct KnownLandmarksCause {
+  FitCode code;
+  std::vector<Index> rows;
+  double rest, bound, distance_m;
+};
+
+/// One landmark left out, or two exchanged: those that leave no contradiction, the best first.
+std::vector<KnownLandmarksCause> causes_that_fit(const std::vector<GivenLandmark>& all,
+                                                 const KnownLandmarksFit& fit) {
+  std::vector<KnownLandmarksCause> found;
+  if (all.size() >= 3)
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      std::vector<GivenLandmark> rest = all;
+      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
+      const RigidMotion motion = fit(rest);
+      found.push_back({FitCode::kKnownLandmarkOff,
+                       {all[k].row},
+                       motion.statistic,
+                       known_landmarks_bound(rest.size()),
+                       motion.distance_m(all[k])});
+    }
+  for (std::size_t a = 0; a < all.size(); ++a)
+    for (std::size_t b = a + 1; b < all.size(); ++b) {
+      std::vector<GivenLandmark> swapped = all;
+      std::swap(swapped[a].given, swapped[b].given);
+      found.push_back({FitCode::kKnownLandmarksExchanged,
+                       {all[a].row, all[b].row},
+                       fit(swapped).statistic,
+                       known_landmarks_bound(all.size()),
+                       (all[a].given - all[b].given).norm()});
+    }
+  std::erase_if(found, [](const KnownLandmarksCause& f) { return f.rest > f.bound; });
+  // Nearly the same rest: which one it is cannot be determined; an exchange needs no freedom.
+  std::ranges::stable_sort(found, {}, [](const KnownLandmarksCause& f) {
+    return f.rest / f.bound + (f.code == FitCode::kKnownLandmarkOff ? 0.5 : 0.0);
+  });
+  return found;
+}
+
+/// Whether the first of the causes can be distinguished from the second.
+bool is_clear(const std::vector<KnownLandmarksCause>& found, std::size_t landmarks) {
+  if (found.size() < 2) return found.size() == 1;
+  return (landmarks > 3 || found[0].code == FitCode::kKnownLandmarksExchanged) &&
+         (found[0].code != found[1].code || found[0].rest + 6.0 < found[1].rest);
+}
+
 }  // namespace
 
 std::vector<OdometryGap> gaps_by_stamps(const RangeLog& log) {
@@ -305,117 +424,39 @@ std::vector<Index> mirrored_landmarks(const LogProblem& problem, const LogProble
 KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
                                         const std::vector<Eigen::Vector2d>& landmarks_m,
                                         const Eigen::MatrixXd& covariance, double survey_sigma_m) {
-  KnownLandmarksTest test;
-  struct Given {
-    Index row;
-    Eigen::Vector2d given, mapped;
-  };
-  std::vector<Given> all;
+  const KnownLandmarksFit fit(covariance, survey_sigma_m);
+  std::vector<GivenLandmark> all;
   for (std::size_t k = 0; k < known.rows.size(); ++k) {
     const Index row = known.rows[k];
     if (!std::isfinite(covariance(2 * row, 2 * row))) continue;
     all.push_back({row, known.positions_m.row(static_cast<Index>(k)).transpose(),
                    landmarks_m[static_cast<std::size_t>(row)]});
   }
-  const auto bound_of = [](std::size_t count) {
-    const double freedom = 2.0 * static_cast<double>(count) - 3.0;
-    return freedom + 4.5 * std::sqrt(2.0 * freedom) + 10.0;
-  };
-  // The statistic of a rigid fit by the covariances, and the residual of `asked`.
-  const auto fitted = [&](const std::vector<Given>& points, const Given* asked,
-                          double* distance_m) {
-    const auto count = std::ssize(points);
-    Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
-    for (const Given& p : points) {
-      from += p.given / double(count);
-      to += p.mapped / double(count);
-    }
-    double c = 0.0, s = 0.0;
-    for (const Given& p : points) {
-      const Eigen::Vector2d a = p.given - from, b = p.mapped - to;
-      c += a.dot(b);
-      s += a(0) * b(1) - a(1) * b(0);
-    }
-    const double angle = std::atan2(s, c);
-    const Eigen::Matrix2d R = Eigen::Rotation2Dd(angle).toRotationMatrix();
-    if (asked != nullptr) *distance_m = (to + R * (asked->given - from) - asked->mapped).norm();
-    Eigen::VectorXd r(2 * count);
-    Eigen::MatrixXd G(2 * count, 3), C(2 * count, 2 * count);
-    for (Index i = 0; i < count; ++i) {
-      const Given& p = points[static_cast<std::size_t>(i)];
-      const Eigen::Vector2d turned = R * (p.given - from);
-      r.segment<2>(2 * i) = p.mapped - to - turned;
-      G.middleRows<2>(2 * i) << 1.0, 0.0, -turned(1), 0.0, 1.0, turned(0);
-      for (Index k = 0; k < count; ++k)
-        C.block<2, 2>(2 * i, 2 * k) =
-            covariance.block<2, 2>(2 * p.row, 2 * points[static_cast<std::size_t>(k)].row);
-    }
-    C.diagonal().array() += survey_sigma_m * survey_sigma_m;
-    const Eigen::LDLT<Eigen::MatrixXd> factor(C);
-    const Eigen::MatrixXd CG = factor.solve(G);
-    const Eigen::VectorXd Cr = factor.solve(r);
-    const Eigen::Vector3d move = (G.transpose() * CG).ldlt().solve(G.transpose() * Cr);
-    return std::max(0.0, r.dot(Cr) - (G.transpose() * Cr).dot(move));
-  };
+  KnownLandmarksTest test;
   if (all.size() < 2) return test;
-  test.bound = bound_of(all.size());
-  double distance_m = 0.0;
-  test.statistic = fitted(all, nullptr, nullptr);
+  test.bound = known_landmarks_bound(all.size());
+  const RigidMotion whole = fit(all);
+  test.statistic = whole.statistic;
   if (!(test.statistic > test.bound)) return test;
-  struct Found {
-    FitCode code;
-    std::vector<Index> rows;
-    double rest, bound, distance_m;
+  const auto add = [&](FitCode code, std::vector<Index> rows, double distance_m) {
+    test.rows.push_back(std::move(rows));
+    test.causes.push_back({.code = code,
+                           .values = {{.id = "distance_m", .value = distance_m}},
+                           .statistic = test.statistic,
+                           .bound = test.bound});
   };
-  std::vector<Found> found;
-  if (all.size() >= 3)
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      std::vector<Given> rest = all;
-      rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-      const double left = fitted(rest, &all[k], &distance_m);
-      found.push_back(
-          {FitCode::kKnownLandmarkOff, {all[k].row}, left, bound_of(rest.size()), distance_m});
-    }
-  for (std::size_t a = 0; a < all.size(); ++a)
-    for (std::size_t b = a + 1; b < all.size(); ++b) {
-      std::vector<Given> swapped = all;
-      std::swap(swapped[a].given, swapped[b].given);
-      const double left = fitted(swapped, nullptr, nullptr);
-      found.push_back({FitCode::kKnownLandmarksExchanged,
-                       {all[a].row, all[b].row},
-                       left,
-                       test.bound,
-                       (all[a].given - all[b].given).norm()});
-    }
-  std::erase_if(found, [](const Found& f) { return f.rest > f.bound; });
-  // Nearly the same rest: which one it is cannot be determined; an exchange needs no freedom.
-  std::ranges::stable_sort(found, {}, [](const Found& f) {
-    return f.rest / f.bound + (f.code == FitCode::kKnownLandmarkOff ? 0.5 : 0.0);
-  });
-  const bool is_clear =
-      found.size() == 1 ||
-      (found.size() > 1 && (all.size() > 3 || found[0].code == FitCode::kKnownLandmarksExchanged) &&
-       (found[0].code != found[1].code || found[0].rest + 6.0 < found[1].rest));
-  if (is_clear) {
-    test.rows.push_back(found[0].rows);
-    test.causes.push_back({.code = found[0].code,
-                           .values = {{.id = "distance_m", .value = found[0].distance_m}},
-                           .statistic = test.statistic,
-                           .bound = test.bound});
-  } else {
-    std::vector<Index> rows;
-    double most = 0.0;
-    for (const Given& p : all) {
-      rows.push_back(p.row);
-      fitted(all, &p, &distance_m);
-      most = std::max(most, distance_m);
-    }
-    test.rows.push_back(rows);
-    test.causes.push_back({.code = FitCode::kKnownLandmarksAtOdds,
-                           .values = {{.id = "distance_m", .value = most}},
-                           .statistic = test.statistic,
-                           .bound = test.bound});
+  const std::vector<KnownLandmarksCause> found = causes_that_fit(all, fit);
+  if (is_clear(found, all.size())) {
+    add(found[0].code, found[0].rows, found[0].distance_m);
+    return test;
   }
+  std::vector<Index> rows;
+  double most_m = 0.0;
+  for (const GivenLandmark& p : all) {
+    rows.push_back(p.row);
+    most_m = std::max(most_m, whole.distance_m(p));
+  }
+  add(FitCode::kKnownLandmarksAtOdds, std::move(rows), most_m);
   return test;
 }
 

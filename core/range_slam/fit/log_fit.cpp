@@ -118,6 +118,8 @@ class LogTester {
   void judge(LogFit& result);
   void judge_gaps(Fit& fit) const;
   void judge_known(Fit& fit) const;
+  void take_best(LogFit& result) const;
+  void find_open_parts(Fit& fit) const;
   void finish(LogFit& result) const;
   SlamEstimate estimate_of(const LogProblem& problem, const LogProblem::Fit& fit) const;
   std::array<bool, 4> given() const {
@@ -653,6 +655,41 @@ void LogTester::judge_known(Fit& fit) const {
   }
 }
 
+void LogTester::take_best(LogFit& result) const {
+  // The hypothesis that explains most is the cause; what else it explains is not named again.
+  const TriedHypothesis* best = nullptr;
+  const auto gain = [](const TriedHypothesis& one) {
+    return one.statistic - rule_of(one.hypothesis.code).price;
+  };
+  for (const TriedHypothesis& one : tried_)
+    if (one.ratio() > 1.0 && (best == nullptr || gain(one) > gain(*best))) best = &one;
+  if (best == nullptr) return;
+  result.fit.causes.push_back(cause_of(*best));
+  result.cause = best->hypothesis;
+  result.repaired_cost = best->fit.cost;
+  if (best->hypothesis.code == FitCode::kOdometryFrozen) return;
+  LogProblem::Fit fit_of_cause = best->fit;
+  fit_of_cause.state.landmarks.resize(log_.landmarks.size());
+  fit_of_cause.state.offsets_m.resize(0);
+  result.repaired = estimate_of(*problem_, fit_of_cause);
+  result.repaired->landmark_cov_m2.clear();
+  result.repaired->position_cov_m2.clear();
+  result.repaired->position_cov_rows.clear();
+}
+
+void LogTester::find_open_parts(Fit& fit) const {
+  const std::vector<Index> mirrored = mirrored_landmarks(*problem_, plain_, inflation_);
+  if (mirrored.empty()) return;
+  std::vector<std::string> rest;
+  for (Index n = 0; n < problem_->landmarks(); ++n) {
+    if (std::ranges::find(mirrored, n) != mirrored.end())
+      fit.parts.push_back({named(n)});
+    else if (is_placed_[static_cast<std::size_t>(n)])
+      rest.push_back(named(n));
+  }
+  if (!rest.empty()) fit.parts.push_back(std::move(rest));
+}
+
 void LogTester::judge(LogFit& result) {
   Fit& fit = result.fit;
   try_offsets();
@@ -668,27 +705,7 @@ void LogTester::judge(LogFit& result) {
     fit.tests.push_back(std::move(test));
   }
   add_limits(problem_->scores(plain_, {}), fit.tests);
-  // The hypothesis that explains most is the cause; what else it explains is not named again.
-  const TriedHypothesis* best = nullptr;
-  const auto gain = [](const TriedHypothesis& one) {
-    return one.statistic - rule_of(one.hypothesis.code).price;
-  };
-  for (const TriedHypothesis& one : tried_)
-    if (one.ratio() > 1.0 && (best == nullptr || gain(one) > gain(*best))) best = &one;
-  if (best != nullptr) {
-    fit.causes.push_back(cause_of(*best));
-    result.cause = best->hypothesis;
-    result.repaired_cost = best->fit.cost;
-    if (best->hypothesis.code != FitCode::kOdometryFrozen) {
-      LogProblem::Fit fit_of_cause = best->fit;
-      fit_of_cause.state.landmarks.resize(log_.landmarks.size());
-      fit_of_cause.state.offsets_m.resize(0);
-      result.repaired = estimate_of(*problem_, fit_of_cause);
-      result.repaired->landmark_cov_m2.clear();
-      result.repaired->position_cov_m2.clear();
-      result.repaired->position_cov_rows.clear();
-    }
-  }
+  take_best(result);
   judge_gaps(fit);
   judge_known(fit);
   for (FitTest& test : residual_tests(log_, *problem_, plain_, inflation_)) {
@@ -701,17 +718,7 @@ void LogTester::judge(LogFit& result) {
     fit.tests.push_back(std::move(test));
   }
   std::ranges::stable_sort(fit.tests, {}, &FitTest::code);
-  const std::vector<Index> mirrored = mirrored_landmarks(*problem_, plain_, inflation_);
-  if (!mirrored.empty()) {
-    std::vector<std::string> rest;
-    for (Index n = 0; n < problem_->landmarks(); ++n) {
-      if (std::ranges::find(mirrored, n) != mirrored.end())
-        fit.parts.push_back({named(n)});
-      else if (is_placed_[static_cast<std::size_t>(n)])
-        rest.push_back(named(n));
-    }
-    if (!rest.empty()) fit.parts.push_back(std::move(rest));
-  }
+  find_open_parts(fit);
   const bool is_large =
       std::ranges::any_of(fit.causes, [](const FitCause& cause) { return !cause.is_small; });
   fit.verdict = is_large              ? FitVerdict::kDoesNotFit

@@ -86,6 +86,12 @@ MotionError error_of(const Eigen::Vector3d& step, const Eigen::Vector3d& first,
   return m;
 }
 
+/// Of the way, and of the heading per metre and per radian.
+Eigen::Array3d variances_of(const LogNoise& noise) {
+  return {noise.way_m * noise.way_m, noise.turn_per_metre * noise.turn_per_metre,
+          noise.turn_per_radian * noise.turn_per_radian};
+}
+
 }  // namespace
 
 /// Where the shared numbers stand; -1: held.
@@ -380,83 +386,114 @@ LogState LogProblem::moved(const LogState& state, const Columns& columns,
   return next;
 }
 
+/// A state with the covariance of its solution.
+struct LogProblem::Solved {
+  const LogHypothesis& hypothesis;
+  const Columns& columns;
+  const LogState& state;
+  const LogNoise& noise;
+  const ChainSystem::Covariance& covariance;
+};
+
+/// Of each part of the noise: its share in the squared errors, and in what they should be.
+struct LogProblem::ErrorSums {
+  Eigen::Array3d seen = Eigen::Array3d::Zero(), due = Eigen::Array3d::Zero();  ///< Of motions.
+  double squares = 0.0, freedom = 0.0;                                         ///< Of ranges.
+  double outliers = 0.5, count = 1.0;
+};
+
+void LogProblem::add_motion_errors(const Solved& solved, ErrorSums& sums) const {
+  const auto pose_at = [&](Index i) -> Eigen::Matrix3d {
+    return i < 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Zero())
+                 : solved.covariance.poses[static_cast<std::size_t>(i)];
+  };
+  const Eigen::Array3d weight = variances_of(solved.noise);
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    const Motion& motion = motions_[i];
+    const MotionError m = error_of(motion.step, solved.state.poses[i], solved.state.poses[i + 1]);
+    const Index first = static_cast<Index>(i) - 1;
+    Eigen::Matrix3d error = m.second * pose_at(first + 1) * m.second.transpose();
+    if (first >= 0) {
+      const Eigen::Matrix3d cross =
+          m.first * solved.covariance.next[static_cast<std::size_t>(first)] * m.second.transpose();
+      error += m.first * pose_at(first) * m.first.transpose() + cross + cross.transpose();
+    }
+    const Eigen::Matrix3d W = motion_covariance(motion, solved.noise).inverse();
+    const Eigen::Vector3d We = W * m.error;
+    const Eigen::Matrix3d* parts[] = {&motion.way, &motion.per_metre, &motion.per_radian};
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Matrix3d WP = W * *parts[k];
+      sums.seen(k) += weight(k) * We.dot(*parts[k] * We);
+      sums.due(k) += weight(k) * (WP.trace() - (WP * W * error).trace());
+    }
+  }
+}
+
+double LogProblem::prediction_variance(const Solved& solved, const Range& range,
+                                       const Term& term) const {
+  const Columns& columns = solved.columns;
+  const ChainSystem::Covariance& covariance = solved.covariance;
+  const Index first = term.before - 1;
+  Eigen::VectorXd shared = Eigen::VectorXd::Zero(columns.count);
+  const Index column = columns.landmarks[static_cast<std::size_t>(term.landmark)];
+  shared.segment<2>(column) = term.position.transpose();
+  shared(columns.scale) = term.distance_m;
+  if (columns.offset >= 0 && term.has_offset) shared(columns.offset) = 1.0;
+  if (columns.shift >= 0 && term.has_shift)
+    shared(columns.shift) = slope_in_time(range, term, solved.state);
+  if (columns.offsets >= 0) shared(columns.offsets + range.landmark) = 1.0;
+  double variance = shared.dot(covariance.shared * shared);
+  const auto second = static_cast<std::size_t>(first + 1);
+  variance += term.second * covariance.poses[second] * term.second.transpose();
+  variance += 2.0 * shared.dot(covariance.shared_pose[second] * term.second.transpose());
+  if (first >= 0) {
+    const auto at = static_cast<std::size_t>(first);
+    variance += term.first * covariance.poses[at] * term.first.transpose();
+    variance += 2.0 * term.first.dot(covariance.next[at] * term.second.transpose());
+    variance += 2.0 * shared.dot(covariance.shared_pose[at] * term.first.transpose());
+  }
+  return variance;
+}
+
+void LogProblem::add_range_errors(const Solved& solved, ErrorSums& sums) const {
+  const LogNoise& noise = solved.noise;
+  for (const Range& range : ranges_) {
+    if (range.in_gap) continue;
+    const Term term = term_of(range, solved.hypothesis, solved.state);
+    const double sigma = sigma_of(range, noise);
+    const Mixture mixture =
+        mixture_of(term.residual_m, sigma, noise.outlier_share, outlier_width_m_);
+    sums.outliers += 1.0 - mixture.inlier;
+    sums.count += 1.0;
+    if (range.sigma_m > 0.0) continue;
+    const double variance = prediction_variance(solved, range, term);
+    const double leverage = mixture.inlier * noise.range_information * variance / (sigma * sigma);
+    sums.squares += mixture.inlier * term.residual_m * term.residual_m;
+    sums.freedom += mixture.inlier * std::max(1e-3, 1.0 - leverage);
+  }
+}
+
 bool LogProblem::update_noise(const LogHypothesis& hypothesis, const Columns& columns,
                               const LogState& state, const ChainSystem& system,
                               LogNoise& noise) const {
   const auto covariance = system.covariance();
   if (!covariance) return false;
-  const auto pose_at = [&](Index i) -> Eigen::Matrix3d {
-    return i < 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Zero())
-                 : covariance->poses[static_cast<std::size_t>(i)];
-  };
-  // Of each part of the variance: its share in the squared errors, and in what they should be.
-  Eigen::Array3d seen = Eigen::Array3d::Zero(), due = Eigen::Array3d::Zero();
-  const Eigen::Array3d weight(noise.way_m * noise.way_m,
-                              noise.turn_per_metre * noise.turn_per_metre,
-                              noise.turn_per_radian * noise.turn_per_radian);
-  for (std::size_t i = 0; i < motions_.size(); ++i) {
-    const Motion& motion = motions_[i];
-    const MotionError m = error_of(motion.step, state.poses[i], state.poses[i + 1]);
-    const Index first = static_cast<Index>(i) - 1;
-    Eigen::Matrix3d error = m.second * pose_at(first + 1) * m.second.transpose();
-    if (first >= 0) {
-      const Eigen::Matrix3d cross =
-          m.first * covariance->next[static_cast<std::size_t>(first)] * m.second.transpose();
-      error += m.first * pose_at(first) * m.first.transpose() + cross + cross.transpose();
-    }
-    const Eigen::Matrix3d W = motion_covariance(motion, noise).inverse();
-    const Eigen::Vector3d We = W * m.error;
-    const Eigen::Matrix3d* parts[] = {&motion.way, &motion.per_metre, &motion.per_radian};
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Matrix3d WP = W * *parts[k];
-      seen(k) += weight(k) * We.dot(*parts[k] * We);
-      due(k) += weight(k) * (WP.trace() - (WP * W * error).trace());
-    }
-  }
-  double squares = 0.0, freedom = 0.0, outliers = 0.5, count = 1.0;
-  for (const Range& range : ranges_) {
-    if (range.in_gap) continue;
-    const Term term = term_of(range, hypothesis, state);
-    const double sigma = sigma_of(range, noise);
-    const Mixture mixture =
-        mixture_of(term.residual_m, sigma, noise.outlier_share, outlier_width_m_);
-    outliers += 1.0 - mixture.inlier;
-    count += 1.0;
-    if (range.sigma_m > 0.0) continue;
-    // The variance of the prediction.
-    const Index first = term.before - 1;
-    Eigen::VectorXd shared = Eigen::VectorXd::Zero(columns.count);
-    const Index column = columns.landmarks[static_cast<std::size_t>(term.landmark)];
-    shared.segment<2>(column) = term.position.transpose();
-    shared(columns.scale) = term.distance_m;
-    if (columns.offset >= 0 && term.has_offset) shared(columns.offset) = 1.0;
-    if (columns.shift >= 0 && term.has_shift)
-      shared(columns.shift) = slope_in_time(range, term, state);
-    if (columns.offsets >= 0) shared(columns.offsets + range.landmark) = 1.0;
-    double variance = shared.dot(covariance->shared * shared);
-    const auto second = static_cast<std::size_t>(first + 1);
-    variance += term.second * covariance->poses[second] * term.second.transpose();
-    variance += 2.0 * shared.dot(covariance->shared_pose[second] * term.second.transpose());
-    if (first >= 0) {
-      const auto at = static_cast<std::size_t>(first);
-      variance += term.first * covariance->poses[at] * term.first.transpose();
-      variance += 2.0 * term.first.dot(covariance->next[at] * term.second.transpose());
-      variance += 2.0 * shared.dot(covariance->shared_pose[at] * term.first.transpose());
-    }
-    const double leverage = mixture.inlier * noise.range_information * variance / (sigma * sigma);
-    squares += mixture.inlier * term.residual_m * term.residual_m;
-    freedom += mixture.inlier * std::max(1e-3, 1.0 - leverage);
-  }
+  ErrorSums sums;
+  const Solved solved{hypothesis, columns, state, noise, *covariance};
+  add_motion_errors(solved, sums);
+  add_range_errors(solved, sums);
   const auto grown = [](double sigma, double factor) {
     return sigma * std::sqrt(std::clamp(factor, 1.0 / kMostGrowth, kMostGrowth));
   };
+  const Eigen::Array3d weight = variances_of(noise);
   double* sigmas[] = {&noise.way_m, &noise.turn_per_metre, &noise.turn_per_radian};
   for (int k = 0; k < 3; ++k)
-    if (due(k) > 0.0 && weight(k) > 0.0 && !given_[static_cast<std::size_t>(k)])
-      *sigmas[k] = grown(*sigmas[k], seen(k) / due(k));
-  if (freedom > 1.0 && !given_[3])
-    noise.range_m = grown(noise.range_m, squares / freedom / (noise.range_m * noise.range_m));
-  noise.outlier_share = std::clamp(outliers / count, kLeastShare, kMostShare);
+    if (sums.due(k) > 0.0 && weight(k) > 0.0 && !given_[static_cast<std::size_t>(k)])
+      *sigmas[k] = grown(*sigmas[k], sums.seen(k) / sums.due(k));
+  if (sums.freedom > 1.0 && !given_[3])
+    noise.range_m =
+        grown(noise.range_m, sums.squares / sums.freedom / (noise.range_m * noise.range_m));
+  noise.outlier_share = std::clamp(sums.outliers / sums.count, kLeastShare, kMostShare);
   if (columns.offsets >= 0) {
     const double trace = covariance->shared.diagonal().segment(columns.offsets, landmarks_).sum();
     const double free = static_cast<double>(landmarks_) - trace / (noise.offset_m * noise.offset_m);
@@ -467,49 +504,34 @@ bool LogProblem::update_noise(const LogHypothesis& hypothesis, const Columns& co
   return true;
 }
 
-LogProblem::Fit LogProblem::fit(const LogHypothesis& hypothesis, LogState start, LogNoise noise,
-                                const Effort& effort) const {
-  if (noise.offset_m > 0.0 && start.offsets_m.size() == 0)
-    start.offsets_m = Eigen::VectorXd::Zero(landmarks_);
-  const Columns columns = columns_of(hypothesis, noise);
-  ChainSystem system(std::ssize(keys_.rows()) - 1, columns.count);
-  Fit fit{.state = std::move(start), .noise = noise};
-  double damping = 1e-4;
-  double before = kInfinity;
-  for (int round = 0; round < effort.rounds; ++round) {
-    double cost = cost_of(hypothesis, fit.state, fit.noise);
-    for (int step = 0; step < effort.steps; ++step) {
-      assemble(hypothesis, columns, fit.state, fit.noise, system);
-      ++fit.iterations;
-      const double old = cost;
-      // Levenberg and Marquardt's step: damped until the cost falls.
-      for (int attempt = 0; attempt < 8; ++attempt) {
-        const auto solution = system.solve(damping);
-        if (solution) {
-          LogState next = moved(fit.state, columns, *solution);
-          const double reached =
-              next.scale > 0.0 ? cost_of(hypothesis, next, fit.noise) : kInfinity;
-          if (reached <= cost + 1e-9 * std::abs(cost)) {
-            fit.state = std::move(next);
-            cost = reached;
-            damping = std::max(1e-9, 0.2 * damping);
-            break;
-          }
-        }
-        damping = std::min(1e6, 6.0 * damping);
-      }
-      if (!(old - cost > 0.1 * effort.tolerance)) break;
-    }
+double LogProblem::descend(const LogHypothesis& hypothesis, const Effort& effort,
+                           ChainSystem& system, Fit& fit, double& damping) const {
+  const Columns columns = columns_of(hypothesis, fit.noise);
+  double cost = cost_of(hypothesis, fit.state, fit.noise);
+  for (int step = 0; step < effort.steps; ++step) {
     assemble(hypothesis, columns, fit.state, fit.noise, system);
-    const auto solution = system.solve();
-    if (!solution) break;
-    fit.is_usable = true;
-    fit.cost = cost + solution->log_determinant;
-    fit.has_converged = std::abs(before - fit.cost) < effort.tolerance;
-    if (!effort.estimates_noise || fit.has_converged) break;
-    before = fit.cost;
-    if (!update_noise(hypothesis, columns, fit.state, system, fit.noise)) break;
+    ++fit.iterations;
+    const double old = cost;
+    // Damped until the cost falls.
+    for (int attempt = 0; attempt < 8; ++attempt) {
+      if (const auto solution = system.solve(damping)) {
+        LogState next = moved(fit.state, columns, *solution);
+        const double reached = next.scale > 0.0 ? cost_of(hypothesis, next, fit.noise) : kInfinity;
+        if (reached <= cost + 1e-9 * std::abs(cost)) {
+          fit.state = std::move(next);
+          cost = reached;
+          damping = std::max(1e-9, 0.2 * damping);
+          break;
+        }
+      }
+      damping = std::min(1e6, 6.0 * damping);
+    }
+    if (!(old - cost > 0.1 * effort.tolerance)) break;
   }
+  return cost;
+}
+
+void LogProblem::take_residuals(const LogHypothesis& hypothesis, Fit& fit) const {
   const Index count = std::ssize(ranges_);
   fit.normalised = Eigen::VectorXd::Zero(count);
   fit.inlier = Eigen::VectorXd::Zero(count);
@@ -522,6 +544,30 @@ LogProblem::Fit LogProblem::fit(const LogHypothesis& hypothesis, LogState start,
     fit.inlier(i) =
         mixture_of(term.residual_m, sigma, fit.noise.outlier_share, outlier_width_m_).inlier;
   }
+}
+
+LogProblem::Fit LogProblem::fit(const LogHypothesis& hypothesis, LogState start, LogNoise noise,
+                                const Effort& effort) const {
+  if (noise.offset_m > 0.0 && start.offsets_m.size() == 0)
+    start.offsets_m = Eigen::VectorXd::Zero(landmarks_);
+  const Columns columns = columns_of(hypothesis, noise);
+  ChainSystem system(std::ssize(keys_.rows()) - 1, columns.count);
+  Fit fit{.state = std::move(start), .noise = noise};
+  double damping = 1e-4;
+  double before = kInfinity;
+  for (int round = 0; round < effort.rounds; ++round) {
+    const double cost = descend(hypothesis, effort, system, fit, damping);
+    assemble(hypothesis, columns, fit.state, fit.noise, system);
+    const auto solution = system.solve();
+    if (!solution) break;
+    fit.is_usable = true;
+    fit.cost = cost + solution->log_determinant;
+    fit.has_converged = std::abs(before - fit.cost) < effort.tolerance;
+    if (!effort.estimates_noise || fit.has_converged) break;
+    before = fit.cost;
+    if (!update_noise(hypothesis, columns, fit.state, system, fit.noise)) break;
+  }
+  take_residuals(hypothesis, fit);
   return fit;
 }
 
@@ -557,12 +603,11 @@ LogNoise LogProblem::first_noise(const LogState& start) const {
   return noise;
 }
 
-LogProblem::Scores LogProblem::scores(const Fit& fit, const std::vector<double>& times_s) const {
+ChainSystem LogProblem::score_system(const Fit& fit, const std::vector<double>& times_s) const {
   const LogHypothesis plain;
   const Columns columns = columns_of(plain, fit.noise);
   const Index jumps = std::ssize(times_s);
-  const Index extra = 2 + landmarks_ + jumps;
-  ChainSystem system(std::ssize(keys_.rows()) - 1, columns.count + extra);
+  ChainSystem system(std::ssize(keys_.rows()) - 1, columns.count + 2 + landmarks_ + jumps);
   // The extra columns stand behind the others, so that the elimination of the poses is one.
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const MotionError m = error_of(motions_[i].step, fit.state.poses[i], fit.state.poses[i + 1]);
@@ -594,13 +639,19 @@ LogProblem::Scores LogProblem::scores(const Fit& fit, const std::vector<double>&
     system.add_range(term.before - 1, weight * term.first, weight * term.second, slopes,
                      weight * term.residual_m);
   }
+  return system;
+}
+
+LogProblem::Scores LogProblem::scores(const Fit& fit, const std::vector<double>& times_s) const {
+  const Index jumps = std::ssize(times_s);
+  const Index extra = 2 + landmarks_ + jumps;
   Scores scores{.landmark = Eigen::VectorXd::Zero(landmarks_),
                 .landmark_sigma_m = Eigen::VectorXd::Constant(landmarks_, kInfinity),
                 .jump = Eigen::VectorXd::Zero(jumps),
                 .jump_sigma_s = Eigen::VectorXd::Constant(jumps, kInfinity)};
-  const auto reduced = system.reduced();
+  const auto reduced = score_system(fit, times_s).reduced();
   if (!reduced) return scores;
-  const Index base = columns.count;
+  const Index base = columns_of(LogHypothesis(), fit.noise).count;
   const Eigen::LDLT<Eigen::MatrixXd> factor(reduced->C.topLeftCorner(base, base));
   const Eigen::MatrixXd across_base = reduced->C.topRightCorner(base, extra);
   const Eigen::MatrixXd solved = factor.solve(across_base);

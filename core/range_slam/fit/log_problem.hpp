@@ -145,6 +145,9 @@ class LogProblem {
   Covariances covariances(const Fit& fit) const;
 
  private:
+  /// The normal equations of a fit with the columns of a common offset, a time shift, the offset of
+  /// each landmark and the time jumps, behind the others.
+  ChainSystem score_system(const Fit& fit, const std::vector<double>& times_s) const;
   struct Motion {
     Eigen::Vector3d step;
     Eigen::Matrix3d way, per_metre, per_radian, given;  ///< Covariances at unit noise, and fixed.
@@ -152,6 +155,8 @@ class LogProblem {
   };
   struct Columns;
   struct Term;
+  struct Solved;
+  struct ErrorSums;
 
   Motion motion_between(Eigen::Index first, Eigen::Index last,
                         const std::vector<OdometryGap>& gaps) const;
@@ -167,8 +172,16 @@ class LogProblem {
                 const LogNoise& noise, ChainSystem& system) const;
   LogState moved(const LogState& state, const Columns& columns,
                  const ChainSystem::Solution& step) const;
+  /// Levenberg and Marquardt's steps at the noise of `fit`. @return The cost.
+  double descend(const LogHypothesis& hypothesis, const Effort& effort, ChainSystem& system,
+                 Fit& fit, double& damping) const;
+  void add_motion_errors(const Solved& solved, ErrorSums& sums) const;
+  void add_range_errors(const Solved& solved, ErrorSums& sums) const;
+  double prediction_variance(const Solved& solved, const Range& range, const Term& term) const;
   bool update_noise(const LogHypothesis& hypothesis, const Columns& columns, const LogState& state,
                     const ChainSystem& system, LogNoise& noise) const;
+  /// The normalised residual of each range, and the probability that it is not an outlier.
+  void take_residuals(const LogHypothesis& hypothesis, Fit& fit) const;
 
   const RangeLog* log_;
   KeyPoses keys_;

@@ -15,6 +15,9 @@
 
 namespace mapproof {
 
+/// Long CSV, as read_detections() has it.
+DetectionSource read_long_detections(ByteSource& source, const TableFormat& format);
+
 /// Detections from long CSV or mapproof's JSON (mapproof.detections).
 ///
 /// A row of CSV is a landmark in a scan: step or time, landmark, range, bearing, where a scan's

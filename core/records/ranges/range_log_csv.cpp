@@ -16,7 +16,6 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/path_text.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"

@@ -9,10 +9,8 @@
 
 #include "core/base/median.hpp"
 #include "core/statistics/intervals.hpp"
-#include "render/figures/curves/pareto.hpp"
 #include "render/figures/curves/spectrum.hpp"
-#include "render/figures/diagrams/critical_difference.hpp"
-#include "render/figures/diagrams/published_errors.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"

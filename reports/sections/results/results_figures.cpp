@@ -1,4 +1,4 @@
-#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_contents.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,8 @@
 #include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
-#include "render/figures/diagrams/critical_difference.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/maps/map.hpp"
-#include "reports/sections/results/results_heat_maps.hpp"
 
 namespace mapproof {
 namespace {

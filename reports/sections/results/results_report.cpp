@@ -12,7 +12,7 @@
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
-#include "reports/sections/results/results_tables.hpp"
+#include "reports/sections/results/results_contents.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/trials/trial_means.hpp"
 #include "reports/sections/wording.hpp"

@@ -1,4 +1,4 @@
-#include "reports/sections/results/results_tables.hpp"
+#include "reports/sections/results/results_contents.hpp"
 
 #include <algorithm>
 #include <map>

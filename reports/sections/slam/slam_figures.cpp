@@ -8,9 +8,9 @@
 
 #include "core/base/not_finite.hpp"
 #include "render/figures/curves/convergence.hpp"
-#include "render/figures/curves/fit_residuals.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
+#include "render/figures/diagrams/fit.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "render/scene/quadric_scene.hpp"

@@ -280,7 +280,7 @@ FaultCase check_case() {
                                                 "--profile",  "tiny",
                                                 "--baseline", folder + "/baseline",
                                                 "--out",      folder + "/out",
-                                                "--json",     folder + "/check.json"};
+                                                "--junit",    folder + "/check.xml"};
               },
           .varies = is_of_seconds,
           .samples = 8};
@@ -337,8 +337,8 @@ std::vector<FaultCase> make_cases() {
        .command =
            [](const std::string& folder) {
              return std::vector<std::string>{
-                 "diff",   folder + "/before",   folder + "/after", "--out", folder + "/diff.html",
-                 "--json", folder + "/diff.json"};
+                 "diff",    folder + "/before",  folder + "/after", "--page", folder + "/diff.html",
+                 "--junit", folder + "/diff.xml"};
            },
        .exit_code = 1},
       {.name = "approve",

@@ -34,7 +34,7 @@ TEST(LittleMemory, IsEnoughForWhatIsSmall) {
 
   const TwoStudies two;
   two.change_score();
-  const std::vector<std::string> diff = {"diff", two.before, two.after, "--json", "-"};
+  const std::vector<std::string> diff = {"diff", two.before, two.after, "--json"};
   EXPECT_EQ(within(kLimit, diff).exit_code, 1);
   EXPECT_EQ(within(kLimit, diff).out, mapproof(diff).out);
 }

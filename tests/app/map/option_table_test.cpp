@@ -43,8 +43,9 @@ const std::map<std::string_view, Words> kFailing = {
 
 /// Options that go with every other option. --with-sensor belongs to --with, and --truth is short
 /// for --ground-truth.
-const std::set<std::string> kFree = {"--out",   "--provenance", "--with-sensor", "--help",
-                                     "--truth", "--json",       "--quiet",       "--verbose"};
+const std::set<std::string> kFree = {"--out",         "--jobs",   "--force", "--provenance",
+                                     "--with-sensor", "--truth",  "--help",  "--json",
+                                     "--quiet",       "--verbose"};
 
 /// The parser of `mapproof map`, with the job that it fills in.
 struct Parser {
@@ -191,9 +192,9 @@ std::set<std::string> options_in_help(const std::string& help) {
     const std::size_t begin = line.find_first_not_of(' ');
     if (begin == std::string::npos || begin == 0 || begin > kDeepest || line[begin] != '-')
       continue;
-    std::istringstream aliases(line.substr(begin, line.find(' ', begin) - begin));
-    for (std::string name; std::getline(aliases, name, ',');)
-      if (name.starts_with("--")) names.insert(name);
+    std::istringstream words(line);
+    for (std::string word; words >> word && word[0] == '-';)
+      if (word.starts_with("--")) names.insert(word.substr(0, word.find(',')));
   }
   return names;
 }

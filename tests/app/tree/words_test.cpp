@@ -69,7 +69,7 @@ std::vector<fs::path> texts() {
          ++entry) {
       const std::string name = entry->path().filename().string();
       if (entry->is_directory() &&
-          (name == "node_modules" || name == "data" || name == "baselines"))
+          (name == "node_modules" || name == "data" || name == "baselines" || name == "languages"))
         entry.disable_recursion_pending();
       else if (entry->is_regular_file() && is_text(entry->path()))
         files.push_back(fs::relative(entry->path(), root));

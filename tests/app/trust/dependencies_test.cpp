@@ -21,8 +21,8 @@ const std::set<std::string> kTools = {
     "libvalijson-dev"};
 
 /// Other names of what is listed under its own.
-const std::set<std::string> kAliases = {"liblapack-dev", "libosmesa6-dev", "libavformat-dev",
-                                        "libavutil-dev"};
+const std::set<std::string> kAliases = {"liblapack-dev",   "libosmesa6-dev", "libavfilter-dev",
+                                        "libavformat-dev", "libavutil-dev",  "libswscale-dev"};
 
 /// The packages of the program's parts.
 std::set<std::string> packages() {

@@ -84,9 +84,10 @@ TEST(Provenance, OfStudiesAndComparisonsNamesNoUserHostOrHome) {
     expect_done({"report", out + study});
   }
   replace_in(out + "/b/runs/layout-1-pose-1.json", "\"mpe_m\": 0.", "\"mpe_m\": 0.9");
-  expect_done({"diff", out + "/a", out + "/b", "--out", out + "/diff.html", "--json",
-               out + "/diff.json", "--junit", out + "/diff.xml", "--markdown", out + "/diff.md"},
+  expect_done({"diff", out + "/a", out + "/b", "--page", out + "/diff.html", "--junit",
+               out + "/diff.xml", "--markdown", out + "/diff.md"},
               1);
+  write_file(out + "/diff.json", mapproof({"diff", out + "/a", out + "/b", "--json"}).out);
   expect_anonymous(out);
   EXPECT_NE(read_file(out + "/a/timings.jsonl").find("\"host\": \"host-"), std::string::npos);
 }

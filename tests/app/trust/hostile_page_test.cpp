@@ -89,7 +89,7 @@ TEST_F(HostilePage, TextsOfAStudyStayTexts) {
     ASSERT_EQ(recorded.exit_code, 0) << recorded.error;
   }
   const fs::path page = folder_ / "diff.html";
-  EXPECT_EQ(mapproof({"diff", first, second, "--out", page}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", first, second, "--page", page}).exit_code, 1);
   expect_not_fired(first / "report.html");
   expect_not_fired(page);
   expect_not_fired(store / "index.html");
@@ -111,9 +111,9 @@ TEST_F(HostilePage, ImagesOfABaselineStayImages) {
     write_file(after / (name + ".svg"), "<svg xmlns='http://www.w3.org/2000/svg'/>");
   }
   const fs::path page = folder_ / "diff.html";
-  EXPECT_EQ(mapproof({"diff", before, after, "--out", page}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", before, after, "--page", page}).exit_code, 1);
   expect_not_fired(page);
-  EXPECT_EQ(mapproof({"diff", after, before, "--out", page}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", after, before, "--page", page}).exit_code, 1);
   expect_not_fired(page);
 }
 

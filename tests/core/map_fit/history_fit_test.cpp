@@ -1,4 +1,4 @@
-#include "core/map_fit/history_fit.hpp"
+#include "core/map_fit/map_fit.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/map_fit/rigid_parts.hpp"
+#include "core/map_fit/pair_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
-#include "core/experiment/log_unit.hpp"
+#include "core/experiment/slam_run.hpp"
 #include "core/range_slam/fit/chain_system.hpp"
-#include "core/simulate/range_drive.hpp"
+#include "core/simulate/range_world.hpp"
 
 namespace mapproof {
 namespace {

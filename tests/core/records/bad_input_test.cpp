@@ -12,7 +12,7 @@
 #include "core/records/maps/map_json.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/ranges/path_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/topics/validate.hpp"

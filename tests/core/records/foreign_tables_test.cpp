@@ -12,7 +12,7 @@
 #include "core/records/detections/detections.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/ranges/path_text.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/tables/time_text.hpp"
 #include "tests/core/records/samples.hpp"
 

@@ -9,7 +9,6 @@
 
 #include "core/records/detections/detection_stream.hpp"
 #include "core/records/detections/detections.hpp"
-#include "core/records/detections/detections_long.hpp"
 #include "core/records/evaluations/space_path_text.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"

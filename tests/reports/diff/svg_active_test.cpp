@@ -1,11 +1,10 @@
-#include "reports/diff/svg/svg_active.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "reports/diff/svg/svg_parser.hpp"
 #include "tests/support/samples/active_svgs.hpp"
 
 namespace mapproof::test {

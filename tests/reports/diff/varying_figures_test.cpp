@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "render/figures/curves/pareto.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "tests/reports/diff/small_study.hpp"
 #include "tests/support/temporary_folder.hpp"

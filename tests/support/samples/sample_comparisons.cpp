@@ -9,8 +9,8 @@
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
-#include "render/figures/diagrams/fit_tests.hpp"
-#include "render/figures/diagrams/published_errors.hpp"
+#include "render/figures/diagrams/fit.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {

@@ -4,11 +4,10 @@
 
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/level_curve.hpp"
-#include "render/figures/curves/pareto.hpp"
 #include "render/figures/curves/spectrum.hpp"
-#include "render/figures/diagrams/critical_difference.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/measurement.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/occlusion.hpp"

@@ -123,7 +123,11 @@ Json SchemaMaker::take(Json choices) {
   return reference(type_);
 }
 
-Json columns_schema(Json record, const FieldRule& rule) {
+Json columns_schema(Json record, const FieldRule& rule, const Definitions& definitions) {
+  if (record.contains("$ref")) {
+    const auto path = record["$ref"].get<std::string>();
+    record = definitions.at(path.substr(path.rfind('/') + 1));
+  }
   for (auto& [key, schema] : record["properties"].items())
     schema = array_schema(std::move(schema), rule.min_items, rule.max_items);
   return record;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -45,9 +47,13 @@ class SchemaMaker : public FieldVisitor {
     put(key, {{"const", name}}, true);
   }
   template <typename T>
-  void field(std::string_view key, T&, const FieldRule& rule = {}) {
-    put(key, described(value_schema<T>(rule, definitions_), rule.description),
-        is_required(rule) && rule.when);
+  void field(std::string_view key, T& value, const FieldRule& rule = {}) {
+    Json schema = described(value_schema<T>(rule, definitions_), rule.description);
+    // What a key keeps that is left out; beside a reference nothing counts.
+    if constexpr (std::is_arithmetic_v<T>)
+      if (rule.key == Key::kOptional && rule.written && std::isfinite(static_cast<double>(value)))
+        schema["default"] = value;
+    put(key, std::move(schema), is_required(rule) && rule.when);
   }
 
   template <typename Fields>
@@ -135,8 +141,8 @@ Json record_schema(Definitions& definitions) {
   return maker.take(choices_schema(decisions));
 }
 
-/// Turns each property of a record's schema into an array.
-Json columns_schema(Json record, const FieldRule& rule);
+/// Turns each property of a record's schema, or of the definition that it refers to, into an array.
+Json columns_schema(Json record, const FieldRule& rule, const Definitions& definitions);
 
 template <typename... T>
 Json variant_schema(const std::variant<T...>*, Definitions& definitions) {
@@ -196,7 +202,7 @@ Json value_schema(const FieldRule& rule, Definitions& definitions) {
     return matrix_schema<T>(rule);
   } else if constexpr (List<T>) {
     Json item = of_items(static_cast<const typename T::value_type*>(nullptr));
-    if (rule.as_columns) return columns_schema(std::move(item), rule);
+    if (rule.as_columns) return columns_schema(std::move(item), rule, definitions);
     Json schema = array_schema(item, rule.min_items, rule.max_items);
     if (rule.unique || rule.ascending) schema["uniqueItems"] = true;
     return rule.or_one ? Json{{"oneOf", {std::move(item), std::move(schema)}}} : schema;

@@ -1,0 +1,84 @@
+#include "app/render/style_options.hpp"
+
+#include "core/base/errors.hpp"
+#include "render/style/style_file.hpp"
+#include "render/style/words.hpp"
+
+namespace mapproof {
+
+bool StyleArguments::changes_figures() const {
+  return file || theme.value_or("report") != "report" || title || no_title || font || language ||
+         width_in || height_in || dpi || !landmarks.empty() || !only_landmarks.empty();
+}
+
+void add_style_options(CLI::App& app, StyleArguments& arguments) {
+  const std::string group = "Style";
+  app.add_option("--theme", arguments.theme,
+                 "report: for screens, 8.33 in wide, with a title. paper: for a column of a "
+                 "journal, 3.25 in wide, 8 pt, 300 dpi, without a title. The default is report")
+      ->transform(one_of({"report", "paper"}))
+      ->group(group);
+  app.add_option("--width", arguments.width_in, "Width of the figure in inches")
+      ->check(CLI::Range(2.0, 20.0))
+      ->group(group);
+  app.add_option("--height", arguments.height_in,
+                 "Height of the figure in inches; of several panels, of one row")
+      ->check(CLI::Range(1.0, 20.0))
+      ->group(group);
+  app.add_option("--dpi", arguments.dpi, "Pixels per inch of PNG and of animations")
+      ->check(CLI::Range(30.0, 1200.0))
+      ->group(group);
+  auto* title =
+      app.add_option("--title", arguments.title, "Title of the figure, instead of its own")
+          ->group(group);
+  app.add_flag("--no-title", arguments.no_title, "Draw no title")->excludes(title)->group(group);
+  app.add_option("--landmarks", arguments.landmarks,
+                 "Landmarks that are named in maps: a list a,b,..., or all, or none. By default "
+                 "those with the largest errors")
+      ->delimiter(',')
+      ->type_name("NAMES")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--only-landmarks", arguments.only_landmarks,
+                 "Show these landmarks of maps and no others: a list a,b,...")
+      ->delimiter(',')
+      ->type_name("NAMES")
+      ->allow_extra_args(false)
+      ->group(group);
+  app.add_option("--font", arguments.font, "TrueType or OpenType file, instead of DejaVu Sans")
+      ->type_name("FILE")
+      ->group(group);
+  std::vector<std::string> known;
+  for (const std::string_view language : languages()) known.emplace_back(language);
+  app.add_option("--language", arguments.language, "Language of the words in figures")
+      ->transform(one_of(known))
+      ->group(group);
+  app.add_option("--style", arguments.file,
+                 "File of colours, sizes, font, language and words (docs/figures.md); what is "
+                 "typed replaces what is in it")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+FigureStyle style_of(const StyleArguments& arguments) {
+  FigureStyle style = arguments.file ? read_figure_style(*arguments.file) : FigureStyle{};
+  if (arguments.theme)
+    style.theme = *arguments.theme == "paper" ? BaseTheme::kPaper : BaseTheme::kReport;
+  if (arguments.width_in) style.width_in = arguments.width_in;
+  if (arguments.height_in) style.height_in = arguments.height_in;
+  if (arguments.dpi) style.dpi = arguments.dpi;
+  if (arguments.font) style.font = *arguments.font;
+  if (arguments.language) style.language = *arguments.language;
+  if (arguments.title) style.draws_title = true;
+  if (arguments.no_title) {
+    const bool drawn = style.draws_title.value_or(style.theme == BaseTheme::kReport);
+    if (!drawn)
+      throw InvalidInput(
+          "--no-title: no title is drawn anyway, neither by the theme paper nor with "
+          "this style");
+    style.draws_title = false;
+  }
+  return style;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,279 @@
+#include "render/export/figure_script.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "render/export/matplotlib_script.hpp"
+#include "render/export/python_text.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string line_style(Dash dash) {
+  switch (dash) {
+    case Dash::kSolid:
+      return "\"-\"";
+    case Dash::kDashed:
+      return "\"--\"";
+    case Dash::kDotted:
+      return "\":\"";
+    case Dash::kDashDot:
+      return "\"-.\"";
+    case Dash::kLongDash:
+      return "(0, (8, 3))";
+  }
+  return "\"-\"";
+}
+
+std::string marker_sign(Marker marker) {
+  constexpr const char* kSigns[] = {"", "o", "s", "^", "D", "v", "x", "+"};
+  return fmt::format("\"{}\"", kSigns[static_cast<std::size_t>(marker)]);
+}
+
+/// The calls that draw one layer on `ax`.
+class LayerCalls {
+ public:
+  LayerCalls(const Theme& theme, std::size_t order, std::string& out)
+      : theme_(theme), order_(order), out_(out) {}
+
+  void operator()(const Polyline& line) {
+    data("x", line.x);
+    data("y", line.y);
+    call("ax.plot(x, y, color={}, linestyle={}, linewidth={}, marker={}, markersize={}{})",
+         colour(line.colour), line_style(line.dash), width(line.width), marker_sign(line.marker),
+         python_number(theme_.marker_pt), common(line.label));
+  }
+  void operator()(const Band& band) {
+    data("x", band.x);
+    data("low", band.low);
+    data("high", band.high);
+    call("ax.fill_between(x, low, high, color={}, alpha=0.2, linewidth=0{})", colour(band.colour),
+         common(band.label));
+  }
+  void operator()(const Scatter& points) {
+    data("x", points.x);
+    data("y", points.y);
+    const bool crosses = points.marker == Marker::kCross || points.marker == Marker::kPlus;
+    call(
+        "ax.plot(x, y, linestyle=\"none\", marker={}, markersize={}, color={}, "
+        "markerfacecolor={}{})",
+        marker_sign(points.marker), python_number(theme_.marker_pt * points.size),
+        colour(points.colour), points.filled || crosses ? colour(points.colour) : "\"none\"",
+        common(points.label));
+  }
+  void operator()(const Segments& lines) {
+    data("x0", lines.x0);
+    data("y0", lines.y0);
+    data("x1", lines.x1);
+    data("y1", lines.y1);
+    if (lines.arrow)
+      call(
+          "ax.quiver(x0, y0, np.subtract(x1, x0), np.subtract(y1, y0), angles=\"xy\", "
+          "scale_units=\"xy\", scale=1, width=0.004, color={}{})",
+          colour(lines.colour), common(lines.label));
+    else
+      call(
+          "ax.add_collection(LineCollection(list(zip(zip(x0, y0), zip(x1, y1))), colors={}, "
+          "linestyles={}, linewidths={}{}))\nax.autoscale_view()",
+          colour(lines.colour), line_style(lines.dash), width(lines.width), common(lines.label));
+  }
+  void operator()(const PointLabels& labels) {
+    data("x", labels.x);
+    data("y", labels.y);
+    out_ += "texts = " + python_list(labels.text) + "\n";
+    call(
+        "for at_x, at_y, text in zip(x, y, texts):\n"
+        "    ax.annotate(text, (at_x, at_y), xytext=(4, 4), textcoords=\"offset points\", "
+        "color={}{})",
+        colour(labels.colour), common(""));
+  }
+  void operator()(const Texts& shown) {
+    constexpr const char* kAligned[] = {"left", "center", "right"};
+    data("x", shown.x);
+    data("y", shown.y);
+    out_ += "texts = " + python_list(shown.text) + "\n";
+    call(
+        "for at_x, at_y, text in zip(x, y, texts):\n"
+        "    ax.text(at_x, at_y, text, ha=\"{}\", va=\"center\", color={}{})",
+        kAligned[static_cast<std::size_t>(shown.align)], colour(shown.colour), common(""));
+  }
+  void operator()(const Area& area) {
+    data("x", area.x);
+    data("y", area.y);
+    call(
+        "for part_x, part_y in outlines(x, y):\n"
+        "    ax.fill(part_x, part_y, facecolor={}, edgecolor={}, linestyle={}, linewidth={}{})",
+        face(area.fill, area.colour), area.outlined ? colour(area.colour) : "\"none\"",
+        line_style(area.dash), width(area.width), common(area.label));
+  }
+  void operator()(const Ellipses& shapes) {
+    std::vector<double> turn_deg;
+    for (const double turn : shapes.rotation_rad)
+      turn_deg.push_back(turn * 180.0 / std::numbers::pi);
+    data("x", shapes.x);
+    data("y", shapes.y);
+    data("a", shapes.a);
+    data("b", shapes.b);
+    data("turn_deg", turn_deg);
+    call(
+        "for one in zip(x, y, a, b, turn_deg):\n"
+        "    ax.add_patch(Ellipse(one[:2], 2 * one[2], 2 * one[3], angle=one[4], facecolor={}, "
+        "edgecolor={}, linestyle={}, linewidth={}{}))\nax.autoscale_view()",
+        face(shapes.fill, shapes.colour), colour(shapes.colour), line_style(shapes.dash),
+        width(shapes.width), common(shapes.label));
+  }
+  void operator()(const Cells& cells) {
+    data("values", cells.values);
+    const std::string map =
+        cells.ramp == Ramp::kViridis
+            ? "\"viridis\""
+            : fmt::format("LinearSegmentedColormap.from_list(\"colour\", [\"{}\", {}])",
+                          hex(theme_.background), colour(cells.colour));
+    call(
+        "image = ax.imshow(np.reshape(values, (-1, {})), extent=({}, {}, {}, {}), cmap={}, "
+        "norm={}({}, {}, clip=True), aspect=\"auto\", interpolation=\"nearest\", zorder={})",
+        cells.columns, python_number(cells.x.low), python_number(cells.x.high),
+        python_number(cells.y.low), python_number(cells.y.high), map,
+        cells.scale == Scale::kLog ? "LogNorm" : "Normalize", python_number(cells.limits.low),
+        python_number(cells.limits.high), order_);
+    if (!cells.bar_label.empty())
+      call("fig.colorbar(image, ax=ax, label={})", python_text(cells.bar_label));
+    if (!cells.text.empty()) add_cell_texts(cells);
+  }
+  void operator()(const ImageLayer&) {}  // Of scenes alone.
+
+ private:
+  void add_cell_texts(const Cells& cells) {
+    out_ += "texts = " + python_list(cells.text) + "\n";
+    call(
+        "for i, text in enumerate(texts):\n"
+        "    row, column = divmod(i, {})\n"
+        "    ax.text({} + (column + 0.5) * {}, {} - (row + 0.5) * {}, text, ha=\"center\", "
+        "va=\"center\")",
+        cells.columns, python_number(cells.x.low),
+        python_number((cells.x.high - cells.x.low) / static_cast<double>(cells.columns)),
+        python_number(cells.y.high),
+        python_number((cells.y.high - cells.y.low) / static_cast<double>(cells.rows())));
+  }
+
+  std::string colour(ThemeColour of) const { return script_colour(theme_.of(of)); }
+  std::string width(double factor) const { return python_number(theme_.line_pt * factor); }
+
+  std::string face(Fill fill, ThemeColour of) const {
+    switch (fill) {
+      case Fill::kNone:
+        return "\"none\"";
+      case Fill::kTint:
+        // Opacity 0.2 as two digits: pairs of colour and opacity are of matplotlib 3.8.
+        return fmt::format("\"{}33\"", hex(theme_.of(of)));
+      case Fill::kSolid:
+        return colour(of);
+      case Fill::kPaper:
+        return script_colour(theme_.background);
+    }
+    return "\"none\"";
+  }
+
+  /// What every call ends with: order and label.
+  std::string common(const std::string& label) const {
+    return fmt::format(", zorder={}{}", order_,
+                       label.empty() ? "" : ", label=" + python_text(label));
+  }
+
+  void data(const char* name, const std::vector<double>& values) {
+    out_ += fmt::format("{} = {}\n", name, python_list(values));
+  }
+
+  template <typename... Words>
+  void call(fmt::format_string<Words...> form, Words&&... words) {
+    out_ += fmt::format(form, std::forward<Words>(words)...) + "\n";
+  }
+
+  const Theme& theme_;
+  std::size_t order_;
+  std::string& out_;
+};
+
+void add_axis(const Axis& axis, char name, std::string& out) {
+  if (!axis.label.empty())
+    out += fmt::format("ax.set_{}label({})\n", name, python_text(axis.label));
+  if (axis.scale == Scale::kLog) out += fmt::format("ax.set_{}scale(\"log\")\n", name);
+  if (axis.limits)
+    out += fmt::format("ax.set_{}lim({}, {})\n", name, python_number(axis.limits->low),
+                       python_number(axis.limits->high));
+  if (axis.whole)
+    out += fmt::format("ax.{}axis.set_major_locator(MaxNLocator(integer=True))\n", name);
+  if (!axis.names.empty())
+    out += fmt::format("ax.set_{0}ticks(range({1}))\nax.set_{0}ticklabels({2})\n", name,
+                       axis.names.size(), python_list(axis.names));
+}
+
+/// @param adjusts  What gives way to an equal aspect: "datalim", or "box" where both axes are
+///                 shared, which matplotlib asks for.
+void add_panel(const Panel& panel, const Theme& theme, std::string_view adjusts, std::string& out) {
+  for (std::size_t k = 0; k < panel.layers.size(); ++k)
+    std::visit(LayerCalls(theme, k + 2, out), panel.layers[k]);
+  if (!panel.title.empty()) out += fmt::format("ax.set_title({})\n", python_text(panel.title));
+  add_axis(panel.x, 'x', out);
+  add_axis(panel.y, 'y', out);
+  if (panel.equal_aspect)
+    out += fmt::format("ax.set_aspect(\"equal\", adjustable=\"{}\")\n", adjusts);
+  out += panel.bare ? "ax.set_axis_off()\n"
+                    : fmt::format("ax.grid(True, color={}, linewidth={}, zorder=0)\n",
+                                  script_colour(theme.grid), python_number(theme.hairline_pt));
+  out += "legend(ax)\n";
+}
+
+/// The columns that the layout would choose at most.
+std::size_t columns_of(const Figure& figure) {
+  constexpr std::size_t kMost = 4;
+  const std::size_t most = figure.columns == 0 ? kMost : figure.columns;
+  return std::min(figure.panels.size(), most);
+}
+
+}  // namespace
+
+std::string figure_script(const Figure& figure, const Theme& theme) {
+  require_valid(figure);
+  const std::size_t columns = columns_of(figure);
+  const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
+  std::string out = script_head(figure.id, figure.title, theme);
+  out +=
+      "from matplotlib.collections import LineCollection\n"
+      "from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize\n"
+      "from matplotlib.patches import ConnectionPatch, Ellipse\n"
+      "from matplotlib.ticker import MaxNLocator\n\n\n"
+      "def outlines(x, y):\n"
+      "    \"\"\"The closed outlines; nan ends one and begins the next.\"\"\"\n"
+      "    ends = [i for i, one in enumerate(x) if one != one] + [len(x)]\n"
+      "    begins = [0] + [end + 1 for end in ends[:-1]]\n"
+      "    return [(x[b:e], y[b:e]) for b, e in zip(begins, ends) if e > b]\n\n\n";
+  out += script_legend();
+  out += fmt::format(
+      "fig, grid = plt.subplots({}, {}, figsize=({}, {}), squeeze=False, sharex={}, sharey={},\n"
+      "                         layout=\"constrained\")\n"
+      "panels = list(grid.flat)\n"
+      "for ax in panels[{}:]:\n    ax.remove()\n",
+      rows, columns, python_number(theme.width_pt / 72.0),
+      python_number(static_cast<double>(rows) * theme.height_pt / 72.0),
+      figure.shared_x ? "True" : "False", figure.shared_y ? "True" : "False", figure.panels.size());
+  const char* adjusts = figure.shared_x && figure.shared_y ? "box" : "datalim";
+  for (std::size_t p = 0; p < figure.panels.size(); ++p) {
+    out += fmt::format("\n# Panel {}\nax = panels[{}]\n", p + 1, p);
+    add_panel(figure.panels[p], theme, adjusts, out);
+  }
+  for (const PanelArrow& arrow : figure.arrows)
+    out += fmt::format(
+        "fig.add_artist(ConnectionPatch((1.02, 0.5), (-0.02, 0.5), \"axes fraction\", \"axes "
+        "fraction\",\n    axesA=panels[{}], axesB=panels[{}], arrowstyle=\"->\"))\n"
+        "panels[{}].annotate({}, (1.05, 0.55), xycoords=\"axes fraction\")\n",
+        arrow.from, arrow.from + 1, arrow.from, python_text(arrow.label));
+  out += script_tail(figure.id, theme.draws_title ? figure.title : "", figure.notes);
+  return out;
+}
+
+}  // namespace mapproof

@@ -1,0 +1,162 @@
+#include "render/figures/diagrams/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostTestRows = 16;
+constexpr std::size_t kLongestTestLabel = 40;  ///< Characters; the rest of a name is cut.
+constexpr double kLeastRatio = 0.03;           ///< Smaller ratios are drawn here.
+
+/// Those that are drawn, in their order.
+std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
+  std::vector<FitTestRow> rows;
+  for (const FitTestRow& row : spec.rows)
+    if (std::isfinite(row.ratio)) rows.push_back(row);
+  if (rows.size() <= kMostTestRows) return rows;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return rows[i].ratio; });
+  order.resize(kMostTestRows);
+  std::ranges::sort(order);
+  std::vector<FitTestRow> greatest;
+  for (const std::size_t i : order) greatest.push_back(rows[i]);
+  return greatest;
+}
+
+Scatter test_marks(const std::vector<FitTestRow>& rows, bool above) {
+  Scatter points{.label = above ? "above its bound" : "within its bound",
+                 .colour = above ? ThemeColour::kSeries2 : ThemeColour::kSeries1,
+                 .marker = above ? Marker::kDiamond : Marker::kCircle,
+                 .filled = above};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((rows[i].ratio > 1.0) != above) continue;
+    add_point(points, {std::max(rows[i].ratio, kLeastRatio), static_cast<double>(i)});
+    points.marks.push_back({rows[i].key,
+                            {{"test", rows[i].label},
+                             {"ratio", data_number(rows[i].ratio)},
+                             {"cause", rows[i].is_cause ? "yes" : "no"}}});
+  }
+  return points;
+}
+
+constexpr double kMostSigmas = 6.0;
+constexpr std::size_t kMostRangesDrawn = 2000;
+constexpr std::size_t kMostColours = 6;
+
+Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_s) {
+  Panel panel;
+  panel.x = {.label = over_time ? "time [s]" : "range [m]"};
+  panel.y = {.label = "residual [sigma]", .limits = Range{-kMostSigmas - 0.5, kMostSigmas + 0.5}};
+  const bool has_colours = spec.landmarks.size() <= kMostColours;
+  std::vector<Scatter> points(has_colours ? spec.landmarks.size() : 1);
+  for (std::size_t n = 0; n < points.size(); ++n)
+    points[n] = {.label = has_colours ? printable(spec.landmarks[n], 20) : "ranges",
+                 .colour = series_colour(n),
+                 .size = 0.4};
+  const std::size_t step = (spec.ranges.size() + kMostRangesDrawn - 1) / kMostRangesDrawn;
+  double low = 0.0, high = 1.0;
+  bool is_first = true;
+  for (std::size_t i = 0; i < spec.ranges.size(); i += std::max<std::size_t>(step, 1)) {
+    const FittedRange& range = spec.ranges[i];
+    if (!std::isfinite(range.normalised)) continue;
+    const double x = over_time ? range.time_s - start_s : range.range_m;
+    low = is_first ? x : std::min(low, x);
+    high = is_first ? x : std::max(high, x);
+    is_first = false;
+    const auto n = has_colours ? static_cast<std::size_t>(range.landmark) : 0;
+    if (n < points.size())
+      add_point(points[n], {x, std::clamp(range.normalised, -kMostSigmas, kMostSigmas)});
+  }
+  Segments zero{.colour = ThemeColour::kText, .width = 0.6};
+  add_line(zero, {low, 0.0}, {std::max(high, low + 1e-9), 0.0});
+  panel.layers.emplace_back(std::move(zero));
+  for (Scatter& layer : points) panel.layers.emplace_back(std::move(layer));
+  std::erase_if(panel.layers, is_empty);
+  return panel;
+}
+
+}  // namespace
+
+Figure fit_tests_figure(const FitTestsSpec& spec) {
+  std::vector<FitTestRow> rows = drawn_rows(spec);
+  std::ranges::reverse(rows);  // The first one is uppermost.
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.notes.push_back(
+      {spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
+  Panel& panel = figure.panels.emplace_back();
+  panel.x = {.label = "statistic / bound", .scale = Scale::kLog};
+  panel.y = {.label = ""};
+  const double last = std::max(1.0, static_cast<double>(rows.size())) - 0.4;
+  panel.y.limits = Range{-0.6, last};
+  double most = 3.0;
+  std::vector<std::string> above;
+  Segments from_bound{.colour = ThemeColour::kMuted, .width = 0.6};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    panel.y.names.push_back(printable(rows[i].label, kLongestTestLabel));
+    most = std::max(most, 1.5 * rows[i].ratio);
+    const double y = static_cast<double>(i);
+    add_line(from_bound, {1.0, y}, {std::max(rows[i].ratio, kLeastRatio), y});
+    if (rows[i].ratio > 1.0)
+      above.push_back(fmt::format("{} {}", rows[i].label, significant(rows[i].ratio, 2)));
+  }
+  panel.x.limits = Range{kLeastRatio / 1.3, most};
+  Segments bound{.label = "bound", .colour = ThemeColour::kText, .dash = Dash::kDashed};
+  add_line(bound, {1.0, -0.6}, {1.0, last});
+  panel.layers = {from_bound, bound, test_marks(rows, false), test_marks(rows, true)};
+  std::erase_if(panel.layers, is_empty);
+  std::ranges::reverse(above);
+  if (rows.size() < spec.rows.size())
+    figure.notes.push_back(
+        {fmt::format("The {} greatest of {} tests.", rows.size(), spec.rows.size())});
+  figure.caption = fmt::format(
+      "Tests of the fit of the map to its data: the statistic of each over its bound, which sound "
+      "data exceed rarely. {}",
+      spec.verdict);
+  figure.alt =
+      fmt::format("{} of the fit. Above the bound: {}.", counted(std::ssize(spec.rows), "test"),
+                  above.empty() ? "none" : listed(above, 6));
+  require_valid(figure);
+  return figure;
+}
+
+Figure fit_residuals_figure(const FitResidualsSpec& spec) {
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = {spec.record_id};
+  figure.notes.push_back(
+      {spec.verdict, spec.is_alarm ? ThemeColour::kWarning : ThemeColour::kText});
+  const double start_s = spec.ranges.empty() ? 0.0 : spec.ranges.front().time_s;
+  figure.panels = {residual_panel(spec, true, start_s), residual_panel(spec, false, start_s)};
+  figure.columns = 1;
+  figure.shared_y = true;
+  std::size_t far = 0;
+  for (const FittedRange& range : spec.ranges) far += std::abs(range.normalised) > 3.0 ? 1 : 0;
+  const std::string shares =
+      fmt::format("{} of {} beyond 3 sigma", far, counted(std::ssize(spec.ranges), "range"));
+  figure.caption = fmt::format(
+      "Prediction less measured range over its standard deviation, over time from the first range "
+      "and over the range; {}. Residuals beyond {:g} stand there.",
+      shares, kMostSigmas);
+  figure.alt = fmt::format("Residuals of the ranges of the fit: {}. {}", shares, spec.verdict);
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

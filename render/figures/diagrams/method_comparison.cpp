@@ -1,0 +1,410 @@
+#include "render/figures/diagrams/method_comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+#include "core/statistics/nemenyi.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/figures/parts.hpp"
+#include "render/figures/words.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kLongestMethodLabel = 30;  ///< Characters; the rest of a name is cut.
+
+bool is_drawn(double error_m) { return std::isfinite(error_m) && error_m > 0.0; }
+
+/// Those that a logarithmic axis takes, the greatest error first: row 0 is lowest.
+std::vector<PublishedError> drawn_methods(const PublishedErrorsSpec::Sensor& sensor) {
+  std::vector<PublishedError> methods;
+  for (PublishedError method : sensor.methods) {
+    if (!is_drawn(method.mean_m)) continue;
+    if (method.published_m && !is_drawn(*method.published_m)) method.published_m.reset();
+    methods.push_back(std::move(method));
+  }
+  std::ranges::stable_sort(methods, std::greater<>(), &PublishedError::mean_m);
+  return methods;
+}
+
+/// How the published errors lie to our intervals.
+struct Agreement {
+  std::ptrdiff_t compared = 0;  ///< Methods with an interval and a published error.
+  std::ptrdiff_t within = 0;
+  std::ptrdiff_t ours_smaller = 0;  ///< Of those outside.
+};
+
+Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) {
+  Agreement all;
+  for (const PublishedErrorsSpec::Sensor& sensor : sensors)
+    for (const PublishedError& method : sensor.methods) {
+      if (!method.interval || !method.published_m) continue;
+      ++all.compared;
+      if (*method.published_m > method.interval->high)
+        ++all.ours_smaller;
+      else if (*method.published_m >= method.interval->low)
+        ++all.within;
+    }
+  return all;
+}
+
+std::string title_of(const Agreement& all) {
+  if (all.compared == 0) return "Errors of the methods, ours and published";
+  return fmt::format("{} of {} published errors lie within our 95 % intervals", all.within,
+                     all.compared);
+}
+
+std::string note_of(const Agreement& all) {
+  const std::ptrdiff_t outside = all.compared - all.within;
+  if (outside == 0) return "";
+  if (all.ours_smaller == outside)
+    return outside == 1 ? "In the other one our error is smaller."
+                        : fmt::format("In the other {} our error is smaller.", outside);
+  return fmt::format("Of the other {}, our error is smaller in {} and larger in {}.", outside,
+                     all.ours_smaller, outside - all.ours_smaller);
+}
+
+Mark mark_of(const PublishedError& method, std::size_t panel, const char* whose, double error_m) {
+  return {fmt::format("{}-{}-{}", whose, panel, method.key),
+          {{"method", method.label}, {"mpe", data_number(error_m)}}};
+}
+
+void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
+  const std::vector<PublishedError> methods = drawn_methods(sensor);
+  const std::size_t number = figure.panels.size();
+  Panel& panel = figure.panels.emplace_back();
+  panel.title = sensor.title;
+  panel.x = {.label = "MPE [m]", .scale = Scale::kLog};
+  panel.y = {.label = ""};
+  panel.y.limits = Range{-0.6, std::max(1.0, static_cast<double>(methods.size())) - 0.4};
+  Segments intervals{.label = "95 % interval", .colour = ThemeColour::kSeries1, .width = 2.5};
+  Scatter ours{.label = "ours", .colour = ThemeColour::kSeries1, .marker = Marker::kCircle};
+  Scatter published{.label = "published",
+                    .colour = ThemeColour::kSeries2,
+                    .marker = Marker::kDiamond,
+                    .filled = false,
+                    .size = 1.3};
+  for (std::size_t i = 0; i < methods.size(); ++i) {
+    const PublishedError& method = methods[i];
+    const double y = static_cast<double>(i);
+    panel.y.names.push_back(printable(method.label, kLongestMethodLabel));
+    if (method.interval && is_drawn(method.interval->low))
+      add_line(intervals, {method.interval->low, y}, {method.interval->high, y});
+    add_point(ours, {method.mean_m, y});
+    ours.marks.push_back(mark_of(method, number, "ours", method.mean_m));
+    if (!method.published_m) continue;
+    add_point(published, {*method.published_m, y});
+    published.marks.push_back(mark_of(method, number, "published", *method.published_m));
+  }
+  panel.layers = {intervals, ours, published};
+  std::erase_if(panel.layers, is_empty);
+}
+
+constexpr std::size_t kMostMethods = 30;
+constexpr double kBarStep = 0.4;  // Between bars, in rows of labels.
+
+void require_consistent(const CriticalDifferenceSpec& spec) {
+  const auto refuse = [&spec](const std::string& what) {
+    throw InvalidInput("figure " + printable(spec.id) + ": " + what);
+  };
+  if (spec.methods.size() > kMostMethods) refuse("more than 30 methods");
+  if (!(spec.critical_difference > 0.0) || !std::isfinite(spec.critical_difference))
+    refuse("the critical difference is not positive");
+  for (const RankedMethod& method : spec.methods)
+    if (!(method.mean_rank >= 1.0 && method.mean_rank <= static_cast<double>(spec.methods.size())))
+      refuse("the mean rank of " + printable(method.label) + " is out of range");
+}
+
+/// Draws in rows of labels: 0 is the axis of ranks, labels count downward.
+class Diagram {
+ public:
+  explicit Diagram(const CriticalDifferenceSpec& spec) : spec_(spec), methods_(spec.methods) {
+    std::ranges::stable_sort(methods_, {}, &RankedMethod::mean_rank);
+    std::vector<double> ranks;
+    for (const RankedMethod& method : methods_) ranks.push_back(method.mean_rank);
+    groups_ = alike_groups(ranks, spec.critical_difference);
+    highest_ = std::max(2.0, static_cast<double>(methods_.size()));
+  }
+
+  Panel panel() {
+    draw_axis();
+    draw_difference();
+    for (std::size_t g = 0; g < groups_.size(); ++g) draw_group(g);
+    for (std::size_t i = 0; i < methods_.size(); ++i) draw_method(i);
+    Panel panel;
+    panel.bare = true;
+    const double margin = 0.02 * (highest_ - 1.0);
+    panel.x.limits = Range{1.0 - margin, highest_ + margin};
+    panel.y.limits = Range{-first_row() - static_cast<double>(left_count()) + 0.4, 2.9};
+    panel.layers = {lines_, bars_, difference_, open_difference_, dots_, numbers_, left_, right_};
+    std::erase_if(panel.layers, is_empty);
+    return panel;
+  }
+
+  const std::vector<RankedMethod>& methods() const { return methods_; }
+  const std::vector<std::vector<int>>& groups() const { return groups_; }
+
+  /// No two mean ranks can then differ by the critical difference.
+  bool beyond_axis() const { return 1.0 + spec_.critical_difference > highest_; }
+
+ private:
+  void draw_axis() {
+    add_line(lines_, {1.0, 0.0}, {highest_, 0.0});
+    const int step = highest_ > 16.0 ? 5 : highest_ > 6.0 ? 2 : 1;
+    for (int rank = 1; rank <= static_cast<int>(highest_); ++rank) {
+      add_line(lines_, {static_cast<double>(rank), 0.0}, {static_cast<double>(rank), 0.25});
+      if ((rank - 1) % step == 0)
+        add_text(numbers_, {static_cast<double>(rank), 0.75}, std::to_string(rank));
+    }
+  }
+
+  /// The length of the critical difference above the axis; an arrow if it is longer than the axis.
+  void draw_difference() {
+    const double end = std::min(1.0 + spec_.critical_difference, highest_);
+    add_line(difference_, {1.0, 1.55}, {1.0, 1.85});
+    if (beyond_axis()) {
+      add_line(open_difference_, {1.0, 1.7}, {end, 1.7});
+    } else {
+      add_line(difference_, {1.0, 1.7}, {end, 1.7});
+      add_line(difference_, {end, 1.55}, {end, 1.85});
+    }
+    add_text(numbers_, {(1.0 + end) / 2.0, 2.4}, "CD = " + significant(spec_.critical_difference));
+  }
+
+  void draw_group(std::size_t g) {
+    const double y = -kBarStep * static_cast<double>(g + 1);
+    const double reach = 0.008 * (highest_ - 1.0);
+    add_line(bars_, {methods_[groups_[g].front()].mean_rank - reach, y},
+             {methods_[groups_[g].back()].mean_rank + reach, y});
+  }
+
+  /// Down from the axis, then out to the label: the better half to the left.
+  void draw_method(std::size_t i) {
+    const double rank = methods_[i].mean_rank;
+    const bool to_left = i < left_count();
+    const auto row = static_cast<double>(to_left ? i : methods_.size() - 1 - i);
+    const double y = -first_row() - row;
+    add_line(lines_, {rank, 0.0}, {rank, y});
+    add_line(lines_, {rank, y}, {to_left ? 1.0 : highest_, y});
+    add_point(dots_, {rank, 0.0});
+    dots_.marks.push_back({fmt::format("method-{}", i + 1),
+                           {{"method", methods_[i].label}, {"rank", data_number(rank)}}});
+    const std::string text = fmt::format("{} {:.2f}", methods_[i].label, rank);
+    const double side = 0.012 * (highest_ - 1.0);
+    if (to_left)
+      add_text(left_, {1.0 - side, y}, text);
+    else
+      add_text(right_, {highest_ + side, y}, text);
+  }
+
+  std::size_t left_count() const { return (methods_.size() + 1) / 2; }
+  /// Below all bars.
+  double first_row() const { return kBarStep * static_cast<double>(groups_.size()) + 0.8; }
+
+  const CriticalDifferenceSpec& spec_;
+  std::vector<RankedMethod> methods_;
+  std::vector<std::vector<int>> groups_;
+  double highest_ = 2.0;
+  Segments lines_{.colour = ThemeColour::kText, .width = 0.6};
+  Segments bars_{.colour = ThemeColour::kSeries2, .width = 3.0};
+  Segments difference_{.colour = ThemeColour::kText};
+  Segments open_difference_{.colour = ThemeColour::kText, .arrow = true};
+  Scatter dots_{.colour = ThemeColour::kText, .size = 0.7};
+  Texts numbers_;
+  Texts left_{.align = Align::kEnd};
+  Texts right_{.align = Align::kStart};
+};
+
+std::string words_of(const Diagram& diagram) {
+  std::string text;
+  for (const RankedMethod& method : diagram.methods())
+    text += fmt::format(" {} {:.2f};", method.label, method.mean_rank);
+  if (!text.empty()) text.back() = '.';
+  for (const std::vector<int>& group : diagram.groups()) {
+    std::vector<std::string> names;
+    for (const int i : group) names.push_back(diagram.methods()[i].label);
+    text += " No difference between " + listed(names, 12) + ".";
+  }
+  return text;
+}
+
+std::string probability(double p) { return p < 0.001 ? "p < 0.001" : "p = " + significant(p, 2); }
+
+constexpr int kMostNamedSettings = 14;  // Of more settings only those on the front are named.
+
+bool usable(const CostedSetting& setting) {
+  return setting.seconds > 0.0 && !std::isnan(setting.mpe_m);
+}
+
+/// "0.3 ms", "12 s".
+std::string duration(double seconds) {
+  if (seconds < 1e-3) return significant(1e6 * seconds, 2) + " µs";
+  if (seconds < 1.0) return significant(1e3 * seconds, 2) + " ms";
+  return significant(seconds, 2) + " s";
+}
+
+/// The points of a Pareto figure and the words on them.
+struct ParetoLayers {
+  Polyline steps{.label = "Pareto front",
+                 .colour = ThemeColour::kSeries2,
+                 .dash = Dash::kDashed,
+                 .mark = {"front", {}}};
+  Scatter best{
+      .label = "on the front", .colour = ThemeColour::kSeries2, .marker = Marker::kDiamond};
+  Scatter beaten{.label = "dominated", .colour = ThemeColour::kSeries1, .filled = false};
+  PointLabels names;
+  std::vector<std::string> words;  ///< Of those on the front.
+};
+
+void add_setting(Scatter& points, const CostedSetting& one, std::size_t i) {
+  add_point(points, {one.seconds, one.mpe_m});
+  points.marks.push_back({fmt::format("setting-{}", i + 1),
+                          {{"setting", one.label}, {"error", data_number(one.mpe_m)}}});
+}
+
+ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
+  ParetoLayers layers;
+  const std::vector<std::size_t> front = pareto_front(settings);
+  for (const std::size_t i : front) {
+    const CostedSetting& one = settings[i];
+    if (!layers.steps.x.empty()) add_point(layers.steps, {one.seconds, layers.steps.y.back()});
+    add_point(layers.steps, {one.seconds, one.mpe_m});
+    add_setting(layers.best, one, i);
+    add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+    layers.words.push_back(
+        fmt::format("{} ({} m in {})", one.label, significant(one.mpe_m), duration(one.seconds)));
+  }
+  const bool crowded = std::ranges::count_if(settings, usable) > kMostNamedSettings;
+  for (std::size_t i = 0; i < settings.size(); ++i) {
+    const CostedSetting& one = settings[i];
+    if (!usable(one) || std::ranges::find(front, i) != front.end()) continue;
+    add_setting(layers.beaten, one, i);
+    if (!crowded) add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+  }
+  return layers;
+}
+
+void require_costs(const ParetoSpec& spec) {
+  for (const CostedSetting& one : spec.settings)
+    if (std::isinf(one.seconds) || std::isinf(one.mpe_m) || one.seconds < 0.0 || one.mpe_m < 0.0)
+      throw InvalidInput("figure " + printable(spec.id) + ": " + printable(one.label) +
+                         ": a value is infinite or negative");
+}
+
+}  // namespace
+
+Figure published_errors_figure(const PublishedErrorsSpec& spec) {
+  const Agreement agreement = agreement_of(spec.sensors);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = title_of(agreement);
+  if (const std::string note = note_of(agreement); !note.empty()) figure.notes.push_back({note});
+  figure.record_ids = spec.record_ids;
+  std::vector<std::string> sources, errors;
+  for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors) {
+    add_panel(figure, sensor);
+    sources.push_back(sensor.source);
+    for (const PublishedError& method : sensor.methods)
+      if (method.published_m)
+        errors.push_back(fmt::format("{} {} (published {})", method.label,
+                                     significant(method.mean_m, 3),
+                                     significant(*method.published_m, 3)));
+  }
+  figure.caption = fmt::format(
+      "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "
+      "the mean, and the error printed in {}, which may belong to another parameter. The methods "
+      "are in the order of our errors.",
+      listed(sources, 4));
+  figure.alt = fmt::format("MPE in metres, ours and published: {}.",
+                           errors.empty() ? "none" : listed(errors, 12));
+  figure.shared_x = figure.panels.size() > 1;
+  require_valid(figure);
+  return figure;
+}
+
+Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
+  require_consistent(spec);
+  Diagram diagram(spec);
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.panels.push_back(diagram.panel());
+  const std::string units = counted(static_cast<std::size_t>(std::max(spec.units, 0)), spec.unit);
+  figure.notes.push_back(
+      {fmt::format("Mean ranks over {}; Friedman {}.", units, probability(spec.friedman_p))});
+  if (spec.friedman_p > spec.alpha)
+    figure.notes.push_back({"The Friedman test finds no difference: the bars have no meaning.",
+                            ThemeColour::kWarning});
+  if (!spec.methods.empty() && diagram.beyond_axis())
+    figure.notes.push_back(
+        {"CD is longer than the axis (arrow): with so few units no difference is significant.",
+         ThemeColour::kWarning});
+  if (spec.methods.empty())
+    figure.notes.push_back({"There are no methods.", ThemeColour::kWarning});
+  figure.caption = fmt::format(
+      "Mean ranks of {} over {}, the best to the left. Bars join methods that do not differ: their "
+      "ranks are less than the critical difference {} apart (Nemenyi, α = {}). Friedman test: {}.",
+      counted(spec.methods.size(), "method"), units, significant(spec.critical_difference),
+      data_number(spec.alpha), probability(spec.friedman_p));
+  figure.alt = fmt::format("Critical-difference diagram, CD {}. Mean ranks:{}",
+                           significant(spec.critical_difference), words_of(diagram));
+  require_valid(figure);
+  return figure;
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < settings.size(); ++i)
+    if (usable(settings[i])) order.push_back(i);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return std::pair(settings[a].seconds, settings[a].mpe_m) <
+           std::pair(settings[b].seconds, settings[b].mpe_m);
+  });
+  std::vector<std::size_t> front;
+  for (const std::size_t i : order)
+    if (front.empty() || settings[i].mpe_m < settings[front.back()].mpe_m) front.push_back(i);
+  return front;
+}
+
+Figure pareto_figure(const ParetoSpec& spec) {
+  require_costs(spec);
+  std::vector<double> errors;
+  for (const CostedSetting& one : spec.settings)
+    if (usable(one)) errors.push_back(one.mpe_m);
+  const ErrorAxis axis = error_axis(errors, {}, 8.0);
+  const ParetoLayers layers = layers_of(spec.settings);
+
+  Figure figure;
+  figure.id = spec.id;
+  figure.title = spec.title;
+  figure.record_ids = spec.record_ids;
+  figure.varies = true;
+  Panel& panel = figure.panels.emplace_back();
+  panel.x.label = "seconds a map";
+  panel.x.scale = Scale::kLog;
+  panel.y.label = spec.y_label;
+  panel.y.scale = axis.scale;
+  panel.y.limits = axis.limits;
+  panel.layers = {layers.steps, layers.beaten, layers.best, layers.names};
+  std::erase_if(panel.layers, is_empty);
+
+  figure.caption =
+      "Mean error against the median seconds of a map, those of the maps it starts from included, "
+      "a point a setting; filled: no other is both faster and better. Seconds are of one run of "
+      "the program and differ from run to run.";
+  figure.alt = fmt::format("{} against seconds a map for {}.", spec.y_label,
+                           counted(static_cast<long long>(errors.size()), "setting"));
+  if (!layers.words.empty())
+    figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";
+  if (errors.empty()) figure.notes.push_back({"There are no settings.", ThemeColour::kWarning});
+  require_valid(figure);
+  return figure;
+}
+
+}  // namespace mapproof

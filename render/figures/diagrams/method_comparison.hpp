@@ -1,0 +1,84 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+
+namespace mapproof {
+
+/// A method's error, ours and as published.
+struct PublishedError {
+  std::string label;              ///< "SMACOF, kNN weights".
+  std::string key;                ///< [a-z0-9-]+, unique in the panel.
+  double mean_m = 0.0;            ///< Ours, > 0; others are left out.
+  std::optional<Range> interval;  ///< 95 % interval of our mean [m].
+  std::optional<double> published_m;
+};
+
+struct PublishedErrorsSpec {
+  struct Sensor {
+    std::string title;   ///< "Visibility maps".
+    std::string source;  ///< "Yairi 2007, Table 1".
+    std::vector<PublishedError> methods;
+  };
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::vector<Sensor> sensors;
+  std::vector<std::string> record_ids;
+};
+
+/// A panel per sensor: each method's mean error with its interval, and the published one, on a
+/// logarithmic axis, least error uppermost. The title counts the published errors within our
+/// intervals.
+Figure published_errors_figure(const PublishedErrorsSpec& spec);
+
+struct RankedMethod {
+  std::string label;
+  double mean_rank = 1.0;  ///< 1 is best.
+};
+
+struct CriticalDifferenceSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::vector<RankedMethod> methods;  ///< In any order.
+  double critical_difference = 0.0;   ///< Of mean ranks, Nemenyi's [nemenyi1963].
+  double alpha = 0.05;
+  int units = 0;  ///< That the methods were ranked on.
+  std::string unit = "layout";
+  double friedman_p = 1.0;  ///< Of no difference at all.
+  std::vector<std::string> record_ids;
+};
+
+/// The critical-difference diagram [demsar2006, fig. 1]: methods at their mean ranks, the best to
+/// the left; thick bars join those that do not differ. An arrow stands for a critical
+/// difference longer than the axis, with a note.
+/// @throws InvalidInput unless ranks are finite and in 1 to the number of methods, the critical
+///         difference is positive and there are at most 30 methods.
+Figure critical_difference_figure(const CriticalDifferenceSpec& spec);
+
+/// What a setting of a method costs and how far its maps are off.
+struct CostedSetting {
+  std::string label;
+  double seconds = 0.0;  ///< A map, > 0.
+  double mpe_m = 0.0;
+};
+
+struct ParetoSpec {
+  std::string id;  ///< [a-z][a-z0-9-]*.
+  std::string title;
+  std::string y_label = "MPE [m]";
+  std::vector<CostedSetting> settings;  ///< Those with a NaN or without cost are left out.
+  std::vector<std::string> record_ids;
+};
+
+/// The settings that no other beats in both, by ascending seconds: indices. Of equal ones the
+/// first.
+std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings);
+
+/// Error against seconds a map, a point a setting, those on the front filled, named and joined.
+/// Seconds differ from run to run: the figure is marked so.
+/// @throws InvalidInput if a value is infinite or negative.
+Figure pareto_figure(const ParetoSpec& spec);
+
+}  // namespace mapproof

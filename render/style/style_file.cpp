@@ -1,0 +1,20 @@
+#include "render/style/style_file.hpp"
+
+#include "core/base/files/files.hpp"
+#include "core/json/record_reader.hpp"
+#include "render/style/figure_style_fields.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kLargestStyle = std::size_t{1} << 20;  // Bytes.
+
+}  // namespace
+
+FigureStyle read_figure_style(const std::filesystem::path& file) {
+  auto style = from_json_text<FigureStyle>(read_file(file, kLargestStyle), file.string());
+  if (!style.font.empty()) style.font = (file.parent_path() / style.font).string();
+  return style;
+}
+
+}  // namespace mapproof

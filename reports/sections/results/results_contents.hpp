@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/given_path.hpp"
+#include "core/model/map_record.hpp"
+#include "reports/model/report.hpp"
+#include "reports/sections/results/results_comparison.hpp"
+#include "reports/sections/results/results_view.hpp"
+#include "reports/sections/study_figures.hpp"
+
+namespace mapproof {
+
+/// The register of the parts of results_report(), each a pure function of the values.
+
+// results_figures.cpp
+
+/// The heat maps of setups with two factors of numbers, then one group of figures per overview and
+/// block, by their ids. Of an overview the curves of its blocks beside each other. Of a block of
+/// each quantity a curve over a factor of numbers, else the distribution over runs; of comparisons
+/// of three methods or more, their mean ranks with the critical difference.
+StudyFigures results_figures(const ResultsView& view,
+                             const std::vector<MethodComparison>& comparisons);
+
+/// Why results_figures() has no figure of a quantity of a block, a sentence; empty where it has
+/// one, and where runs are not repeats of each other and there is no axis for a curve.
+std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
+                          const Quantity& quantity);
+
+/// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
+/// theirs: maps as they were given, paths as their alignment says. Without either the group is
+/// empty.
+FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
+                          const std::vector<GivenPath>& paths);
+
+// results_heat_maps.cpp
+
+/// The group of heat maps of a setup whose conditions differ in two factors of numbers: one per
+/// quantity and method, the factor with more levels across. Its id is the setup's and "grid"; it is
+/// empty for other setups, and where runs are not repeats of each other.
+FigureGroup heat_maps(const ResultsView& view, const Label& setup);
+
+// results_tables.cpp
+
+/// The tables of a block: one per quantity with the levels as columns, or of a single level one
+/// with the quantities as columns; each mean with its interval. Where the study labels its runs,
+/// one per run with the quantities as columns. Ids begin with the block's.
+std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block);
+
+/// One per quantity that has values there: a method per row, a block of the overview per column.
+std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview);
+
+/// Methods, their mean ranks, and their paired differences from the best one.
+Table comparison_table(const ResultsView& view, const MethodComparison& comparison);
+
+}  // namespace mapproof

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files/files.hpp"
+#include "tests/support/program.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kExamples = MAPPROOF_SOURCE_DIR "/examples";
+
+/// A map of the examples' bearings.
+class RenderOfAMap : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string files = std::string(kExamples) + "/hall";
+    const Outcome made =
+        mapproof({"map", files + "/bearings.csv", "--sensor", "bearing", "--method", "lpca",
+                  "--anchors", files + "/anchors.csv", "--out", map_});
+    ASSERT_EQ(made.exit_code, 0) << made.error;
+  }
+
+  Outcome render(std::vector<std::string> words) {
+    words.insert(words.begin(), "render");
+    return mapproof(words);
+  }
+
+  std::string text_of(const std::string& file) { return read_file(folder_ / file); }
+
+  TemporaryFolder folder_;
+  std::string map_ = folder_ / "map";
+};
+
+TEST_F(RenderOfAMap, GivesTheSameBytesAsTheMapInItsOwnStyle) {
+  const Contents before = contents(map_);
+  const Outcome outcome = render({map_});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  expect_same(contents(map_), before);
+}
+
+TEST_F(RenderOfAMap, DrawsItForAColumnOfAPaper) {
+  const Outcome outcome =
+      render({map_, "--theme", "paper", "--width", "3.25", "--as", "pdf,eps,latex"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(text_of("map/figures-paper/map.pdf").find("/MediaBox [ 0 0 234 "), std::string::npos);
+  EXPECT_NE(text_of("map/figures-paper/map.tex").find("\\includegraphics[width=3.25in]{map.pdf}"),
+            std::string::npos);
+  EXPECT_TRUE(text_of("map/figures-paper/map.eps").starts_with("%!PS-Adobe"));
+  EXPECT_FALSE(fs::exists(folder_ / "map/figures-paper/map.svg"));
+}
+
+TEST_F(RenderOfAMap, TakesItsFileOrItsFolderOfFigures) {
+  for (const std::string& input :
+       {map_ + "/figures/map.figure.json", map_ + "/figures", map_ + "/map.json", map_}) {
+    const Outcome outcome =
+        render({input, "--width", "5", "--as", "svg", "--out", folder_ / "own"});
+    EXPECT_EQ(outcome.exit_code, 0) << input << outcome.error;
+    EXPECT_NE(text_of("own/map.svg").find("width=\"360"), std::string::npos) << input;
+    fs::remove_all(folder_ / "own");
+  }
+}
+
+TEST_F(RenderOfAMap, NamesLandmarksTitleAndWordsAsAsked) {
+  ASSERT_EQ(render({map_, "--figure", "map", "--landmarks", "all", "--title", "Halle 3",
+                    "--language", "de", "--as", "json", "--out", folder_ / "all"})
+                .exit_code,
+            0);
+  const auto all = nlohmann::json::parse(text_of("all/map.figure.json"));
+  EXPECT_EQ(all["title"], "Halle 3");
+  EXPECT_NE(all.dump().find("\"Schätzung\""), std::string::npos);
+  const auto named = [](const nlohmann::json& figure) {
+    std::size_t count = 0;
+    for (const auto& layer : figure["panels"][0]["layers"])
+      if (layer["kind"] == "labels") count += layer["text"].size();
+    return count;
+  };
+  const auto map = nlohmann::json::parse(read_file(map_ + "/map.json"));
+  EXPECT_EQ(named(all), map["names"].size());
+  ASSERT_EQ(
+      render({map_, "--landmarks", "none", "--as", "json", "--out", folder_ / "none"}).exit_code,
+      0);
+  EXPECT_EQ(named(nlohmann::json::parse(text_of("none/map.figure.json"))), 0U);
+}
+
+TEST_F(RenderOfAMap, PutsSeveralIntoOneFigure) {
+  const Outcome outcome = render({"--panel", map_, map_ + "/figures/map.figure.json", "--as",
+                                  "json,svg", "--out", folder_ / "both"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto figure = nlohmann::json::parse(text_of("both/panels.figure.json"));
+  EXPECT_EQ(figure["panels"].size(), 2U);
+  EXPECT_TRUE(figure["shared_x"].get<bool>());
+  EXPECT_NE(figure["panels"][0]["title"], figure["panels"][1]["title"]);
+}
+
+TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{map_, "--as", "csv", "--width", "5"}, "--width: has no effect on csv"},
+      {{map_, "--as", "pdf", "--dpi", "300"}, "--dpi: only png has pixels"},
+      {{map_, "--theme", "paper", "--no-title"}, "--no-title: no title is drawn anyway"},
+      {{map_, "--as", "mp4"}, "only what --animate names"},
+      {{map_, "--animate", "scene-x"}, "nothing moves"},
+      {{map_, "--figure", "mop"}, "did you mean \"map\"?"},
+      {{map_, "--landmarks", "nobody"}, "no landmark \"nobody\""},
+      {{map_, "--font", map_ + "/map.json"}, "is not a TrueType or OpenType font"},
+      {{map_, "--style", map_ + "/map.json"}, "map.json"},
+      {{folder_ / ""}, "holds nothing to draw"},
+      {{map_ + "/map.csv"}, "is not a figure"},
+      {{folder_ / "none"}, "there is no such file or folder"},
+      {{"--panel", map_, map_}, "name the folder for the figure by --out"},
+      {{}, "name what to draw"}};
+  for (const auto& [words, said] : wrong) {
+    const Outcome outcome = render(words);
+    EXPECT_EQ(outcome.exit_code, 2) << said;
+    EXPECT_NE(outcome.error.find(said), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  }
+}
+
+TEST_F(RenderOfAMap, ListsWhatCanBeDrawn) {
+  const Outcome outcome = render({map_, "--list"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.out.starts_with("map  figure: ")) << outcome.out;
+}
+
+TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {
+  const std::string files = std::string(kExamples) + "/hall";
+  std::vector<std::string> words = {
+      "map", files + "/bearings.csv", "--sensor", "bearing", "--method", "isomap", "--out", map_};
+  const Outcome refused = mapproof(words);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.error.find("--force"), std::string::npos) << refused.error;
+  words.emplace_back("--force");
+  EXPECT_EQ(mapproof(words).exit_code, 0);
+}
+
+TEST(RenderOfARangeMap, DrawsItsFiguresAgain) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(
+      mapproof({"slam", std::string(kExamples) + "/drive", "--out", folder / "slam"}).exit_code, 0);
+  const Outcome outcome = mapproof({"render", folder / "slam", "--theme", "paper", "--as", "pdf"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_FALSE(fs::is_empty(folder.path() / "slam/figures-paper"));
+}
+
+}  // namespace
+}  // namespace mapproof::test
