@@ -75,7 +75,7 @@ TEST_F(Trajectories, BecomeAStudyThatEveryCommandTakes) {
   ASSERT_EQ(evaluate("out").exit_code, 0);
   EXPECT_EQ(page, read_file(at("out") + "/report.html"));
   ASSERT_EQ(evaluate("again").exit_code, 0);
-  EXPECT_EQ(mapproof({"diff", at("out"), at("again"), "--out", at("diff")}).exit_code, 0);
+  EXPECT_EQ(mapproof({"diff", at("out"), at("again"), "--page", at("diff.html")}).exit_code, 0);
   const Outcome nightly = mapproof({"nightly", at("out"), "--store", at("store")});
   EXPECT_EQ(nightly.exit_code, 0) << nightly.error;
 }
@@ -87,7 +87,7 @@ TEST_F(Trajectories, OfAWorseSystemAreFoundByDiff) {
   for (int i = 0; i < 101; ++i) longer += fmt::format("{} {} 0 0 0 0 0 1\n", i, 1.02 * i);
   write_file(at("stretched") + "/line.txt", longer);
   ASSERT_EQ(evaluate("worse").exit_code, 0);
-  EXPECT_EQ(mapproof({"diff", at("out"), at("worse"), "--out", at("diff")}).exit_code, 1);
+  EXPECT_EQ(mapproof({"diff", at("out"), at("worse"), "--page", at("diff.html")}).exit_code, 1);
 }
 
 TEST_F(Trajectories, ALostSequenceIsLostAndNamed) {
