@@ -17,13 +17,13 @@ NAV = [
     ("Start", ["README.md", "docs/quick-start.md", "docs/which-command.md",
                "docs/troubleshooting.md", "examples/README.md"]),
     ("Use", ["docs/commands.md", "docs/file-formats.md", "docs/figures.md", "docs/report.md",
-             "docs/your-results.md", "docs/diff.md", "docs/diff-images.md", "docs/nightly.md",
-             "docs/limits.md"]),
+             "docs/your-results.md", "docs/evaluate.md", "docs/diff.md", "docs/diff-images.md",
+             "docs/nightly.md", "docs/limits.md"]),
     ("Methods", ["docs/methods-list.md", "docs/quantities.md"]),
     ("Schemas", ["docs/schemas/README.md"]),
     ("Project", ["docs/README.md", "docs/architecture.md", "docs/extending.md", "docs/testing.md",
                  "docs/stability.md", "docs/claims.md", "docs/decisions/README.md",
-                 "CONTRIBUTING.md", "CHANGELOG.md"]),
+                 "SECURITY.md", "CONTRIBUTING.md", "CHANGELOG.md"]),
 ]
 
 
@@ -103,9 +103,9 @@ def write(path, text):
 
 def collect(root, generated):
     """All pages by their path; those of folders without one are lists."""
-    found = {pathlib.Path(name): (root / name).read_text()
-             for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "examples/README.md")}
-    for file in sorted((root / "docs").rglob("*.md")):
+    found = {}
+    for file in [*sorted(root.glob("*.md")), *sorted((root / "examples").rglob("*.md")),
+                 *sorted((root / "docs").rglob("*.md"))]:
         found[file.relative_to(root)] = file.read_text()
     for file in sorted(generated.glob("*.md")):
         found[pathlib.Path("docs") / file.name] = file.read_text()

@@ -350,7 +350,7 @@ Action render_command(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof render out/map --theme paper --width 3.25\n"
-      "  mapproof render out/map --landmarks all --title \"Hall\" --as png --dpi 600\n"
+      "  mapproof render out/map --figure map --landmarks all --title \"Hall\" --as png --dpi 600\n"
       "  mapproof render out/map/figures/map.figure.json --style style.json\n"
       "  mapproof render --panel out/map1 out/map2 --out out/both\n"
       "  mapproof render out --figure map-bearing-isomap --as pdf,latex\n"

@@ -1,7 +1,7 @@
 #include "app/render/style_options.hpp"
 
 #include "core/base/errors.hpp"
-#include "render/style/style_file.hpp"
+#include "render/style/figure_style_fields.hpp"
 #include "render/style/words.hpp"
 
 namespace mapproof {

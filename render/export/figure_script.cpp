@@ -3,15 +3,26 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "render/export/matplotlib_script.hpp"
 #include "render/export/python_text.hpp"
 
 namespace mapproof {
 namespace {
+
+/// Names as a list. They may be of any length, and matplotlib fails on a line of more than 32,767
+/// pixels.
+std::string names_list(std::vector<std::string> names) {
+  constexpr std::size_t kLongest = 100;  // Characters.
+  for (std::string& name : names) name = printable(name, kLongest);
+  return python_list(names);
+}
 
 std::string line_style(Dash dash) {
   switch (dash) {
@@ -84,7 +95,7 @@ class LayerCalls {
   void operator()(const PointLabels& labels) {
     data("x", labels.x);
     data("y", labels.y);
-    out_ += "texts = " + python_list(labels.text) + "\n";
+    out_ += "texts = " + names_list(labels.text) + "\n";
     call(
         "for at_x, at_y, text in zip(x, y, texts):\n"
         "    ax.annotate(text, (at_x, at_y), xytext=(4, 4), textcoords=\"offset points\", "
@@ -95,7 +106,7 @@ class LayerCalls {
     constexpr const char* kAligned[] = {"left", "center", "right"};
     data("x", shown.x);
     data("y", shown.y);
-    out_ += "texts = " + python_list(shown.text) + "\n";
+    out_ += "texts = " + names_list(shown.text) + "\n";
     call(
         "for at_x, at_y, text in zip(x, y, texts):\n"
         "    ax.text(at_x, at_y, text, ha=\"{}\", va=\"center\", color={}{})",
@@ -209,7 +220,7 @@ void add_axis(const Axis& axis, char name, std::string& out) {
     out += fmt::format("ax.{}axis.set_major_locator(MaxNLocator(integer=True))\n", name);
   if (!axis.names.empty())
     out += fmt::format("ax.set_{0}ticks(range({1}))\nax.set_{0}ticklabels({2})\n", name,
-                       axis.names.size(), python_list(axis.names));
+                       axis.names.size(), names_list(axis.names));
 }
 
 /// @param adjusts  What gives way to an equal aspect: "datalim", or "box" where both axes are

@@ -49,7 +49,11 @@ class PartText {
     put_points(surface.points, at_, data_);
     put_triangles(surface.triangles);
     call_ += fmt::format("ax.plot_trisurf({}, triangles=faces{}, linewidth=0, {})\n", names_of(at_),
-                         at_, common_words(surface.style, theme_, surface.label));
+                         at_, common_words(surface.style, theme_, ""));
+    // The legend of matplotlib 3.6 takes no surface: an empty line stands for it.
+    if (!surface.label.empty())
+      call_ += fmt::format("ax.plot([], [], [], linewidth=5, {})\n",
+                           common_words(surface.style, theme_, surface.label));
   }
   void operator()(const Tube& tube) {
     put_points(tube.points, at_, data_);

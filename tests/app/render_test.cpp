@@ -81,9 +81,10 @@ TEST_F(RenderOfAMap, NamesLandmarksTitleAndWordsAsAsked) {
   };
   const auto map = nlohmann::json::parse(read_file(map_ + "/map.json"));
   EXPECT_EQ(named(all), map["names"].size());
-  ASSERT_EQ(
-      render({map_, "--landmarks", "none", "--as", "json", "--out", folder_ / "none"}).exit_code,
-      0);
+  ASSERT_EQ(render({map_, "--figure", "map", "--landmarks", "none", "--as", "json", "--out",
+                    folder_ / "none"})
+                .exit_code,
+            0);
   EXPECT_EQ(named(nlohmann::json::parse(text_of("none/map.figure.json"))), 0U);
 }
 

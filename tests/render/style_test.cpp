@@ -7,7 +7,7 @@
 #include "render/plot/layout.hpp"
 #include "render/style/edits.hpp"
 #include "render/style/figure_style.hpp"
-#include "render/style/style_file.hpp"
+#include "render/style/figure_style_fields.hpp"
 #include "render/style/words.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,8 +1,7 @@
-#include "render/style/style_file.hpp"
+#include "render/style/figure_style_fields.hpp"
 
 #include "core/base/files/files.hpp"
 #include "core/json/record_reader.hpp"
-#include "render/style/figure_style_fields.hpp"
 
 namespace mapproof {
 namespace {
