@@ -12,6 +12,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/parallel.hpp"
+#include "core/external/external_maps.hpp"
 #include "core/external/external_method.hpp"
 #include "core/external/method_process.hpp"
 

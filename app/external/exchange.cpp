@@ -19,6 +19,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/words.hpp"
+#include "core/external/external_maps.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectories.hpp"

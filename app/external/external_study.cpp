@@ -67,7 +67,7 @@ std::map<std::string, double> last_errors(const std::vector<Result>& rows,
 
 /// The study's own rows; of a method with a parameter the best value for the sensor, unless all are
 /// asked for.
-std::vector<Result> own_rows(const Results& results, bool all) {
+std::vector<Result> rows_of_study(const Results& results, bool all) {
   std::vector<Result> rows;
   std::set<std::string> setups;
   for (const Result& row : results.rows)
@@ -90,7 +90,7 @@ std::vector<Result> own_rows(const Results& results, bool all) {
   return rows;
 }
 
-MethodLabels own_labels(const Study& study, const std::vector<Result>& rows) {
+MethodLabels labels_of_study(const Study& study, const std::vector<Result>& rows) {
   std::set<std::string> used;
   for (const Result& row : rows) used.insert(row.method);
   MethodLabels labels;
@@ -126,8 +126,8 @@ ResultsStudy results_with(const Study& study, const std::vector<ExternalMap>& ma
                           const MethodLabels& methods, const ExternalOutputs& outputs) {
   ResultsStudy result;
   result.results.are_repeats = true;
-  result.results.rows = own_rows(results_of(study), outputs.all);
-  result.methods = own_labels(study, result.results.rows);
+  result.results.rows = rows_of_study(results_of(study), outputs.all);
+  result.methods = labels_of_study(study, result.results.rows);
   for (const Label& method : methods) result.methods.push_back(method);
   for (const ExternalMap& map : maps) add_rows(map, result.results.rows);
   for (const char* score : kScores) result.quantities.emplace_back(score);
