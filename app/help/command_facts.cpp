@@ -25,7 +25,7 @@ std::vector<std::string> choices_of(const std::string& type) {
 
 /// The kind of value in capitals: what the option was given, or by its type.
 std::string value_of(const std::string& type) {
-  const std::string first = type.substr(0, type.find(':'));
+  std::string first = type.substr(0, type.find(':'));
   for (const char* kind : {"DIR", "FILE"})
     if (type.find(kind) != std::string::npos) return kind;
   if (first == "INT" || first == "UINT") return "N";

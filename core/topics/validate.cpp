@@ -163,7 +163,7 @@ void check_table_once(const std::string& bytes, const std::string& name,
         check_detections(again, degrees, finding);
         finding.remarks.emplace_back(kDegreesRemark);
         return;
-      } catch (const IoError&) {
+      } catch (const IoError&) {  // In degrees, it has a problem as well: the first one is told.
       }
       throw;
     }
@@ -196,7 +196,9 @@ bool leave_out_line(std::string& bytes, std::string_view error) {
   for (std::size_t i = 1; i < line; ++i) {
     is_first = is_first && (bytes[begin] == '#' || bytes[begin] == '\n');
     begin = bytes.find('\n', begin);
-    if (begin == std::string::npos || ++begin == bytes.size()) return false;
+    if (begin == std::string::npos) return false;
+    ++begin;
+    if (begin == bytes.size()) return false;
   }
   if (is_first || bytes[begin] == '#') return false;
   bytes.insert(begin, "#");

@@ -255,7 +255,7 @@ std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
   Points known = Points::Constant(source.ground_truth_m->rows(), 2, kNaN);
   for (const Detection& seen : source.log.detections)
     known.row(seen.landmark) = source.ground_truth_m->row(seen.landmark);
-  const std::vector<Eigen::Index> anchors = diagonal_anchors(known);
+  std::vector<Eigen::Index> anchors = diagonal_anchors(known);
   if (anchors.size() < 3 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity) return {};
   return anchors;
 }

@@ -6,6 +6,8 @@
 
 #include <cairo-pdf.h>
 #include <cairo-ps.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "render/cairo/cairo_painter.hpp"
@@ -26,11 +28,10 @@ std::string joined(const std::vector<std::string>& parts) {
 /// "mapproof (Cairo 1.16.0, FreeType 2.12.1, HarfBuzz 6.0.0)": all that pixels depend on.
 const std::string& drawing_software() {
   static const std::string software = [] {
-    std::string versions;
+    std::vector<std::string> versions;
     for (const auto& [library, version] : render_library_versions())
-      if (library != "libdeflate")
-        versions += (versions.empty() ? "" : ", ") + library + " " + version;
-    return "mapproof (" + versions + ")";
+      if (library != "libdeflate") versions.push_back(fmt::format("{} {}", library, version));
+    return fmt::format("mapproof ({})", fmt::join(versions, ", "));
   }();
   return software;
 }
@@ -130,7 +131,7 @@ std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_f
   // Cairo 1.16 makes a copy of an image before it destroys it, and dies where it has no memory for
   // that. So the images stay: less than 1 KiB each, the pixels belong to the drawing.
   const auto keep = [&images] {
-    for (SurfaceHandle& image : images) image.release();
+    for (SurfaceHandle& image : images) static_cast<void>(image.release());
   };
   try {
     set_words(drawing, surface.get());
@@ -139,7 +140,7 @@ std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_f
     if (errno == ENOMEM) throw std::bad_alloc();
   } catch (...) {
     // Cairo goes on with what failed when such a surface is closed, up to an abort.
-    surface.release();
+    static_cast<void>(surface.release());
     keep();
     throw;
   }

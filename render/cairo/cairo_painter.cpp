@@ -44,7 +44,7 @@ FontFaceHandle make_font_face(const FontHandle& font) {
   check(cairo_font_face_status(made.get()));
   check(cairo_font_face_set_user_data(made.get(), &key, owned.get(),
                                       [](void* face) { delete static_cast<FreeTypeFace*>(face); }));
-  owned.release();
+  static_cast<void>(owned.release());
   return made;
 }
 

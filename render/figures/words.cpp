@@ -20,7 +20,7 @@ std::string significant(double value, int digits) {
 
 std::string rounded_text(double value, int decimals, int digits) {
   constexpr int kMostDecimals = 6;
-  const std::string text = number_text(value, decimals);
+  std::string text = number_text(value, decimals);
   if (value == 0.0 || text.find_first_of("123456789") != std::string::npos) return text;
   return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
 }

@@ -96,8 +96,8 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     screen->position = poster->position = on_pixels(screen->position, per_point);
     const auto width = static_cast<int>(std::lround(screen->position.width() * per_point));
     const auto height = static_cast<int>(std::lround(screen->position.height() * per_point));
-    auto fine = std::make_shared<Image>(
-        client.draw(scene, screen->source, scale * width, scale * height, kSamples, theme));
+    auto fine = std::make_shared<Image>(client.draw(
+        scene, scene_request(screen->source, scale * width, scale * height, kSamples, theme)));
     screen->image = scale == 1 ? fine : std::make_shared<Image>(halved(*fine));
     poster->image = std::move(fine);
   }

@@ -77,8 +77,8 @@ class SharedGrid {
     top -= 1.5 * theme_.space_pt;
     const double left = room_.x0 + outer_left_, right = left + grid_width();
     if (figure_.shared_x && !panels_.front().x.label.empty()) {
-      const ShapedText text = shape_text_within(panels_.front().x.label,
-                                                room_.width() / em, Elide::kEnd, theme_.font.get());
+      const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em,
+                                                Elide::kEnd, theme_.font.get());
       const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
       top += 0.5 * em;
       drawing_.add_text(ItemClass::kAxisLabel, 0,
@@ -127,9 +127,11 @@ class SharedGrid {
 
   double y_label_width() const {
     if (!figure_.shared_y || panels_.front().y.label.empty()) return 0.0;
-    const auto rows = static_cast<double>((panels_.size() + columns_ - 1) / columns_);
+    const std::size_t whole_rows = (panels_.size() + columns_ - 1) / columns_;
+    const auto rows = static_cast<double>(whole_rows);
     const double em = theme_.font_pt;
-    return 1.5 * em + further_lines(upward_lines(panels_.front().y.label, rows * height_, theme_), em);
+    return 1.5 * em +
+           further_lines(upward_lines(panels_.front().y.label, rows * height_, theme_), em);
   }
 
   double aspect() const {
@@ -152,8 +154,10 @@ class SharedGrid {
     double lines = 0.0;
     for (std::size_t p = begin; p < end; ++p)
       if (!panels_[p].title.empty())
-        lines = std::max(lines, static_cast<double>(
-                                    title_lines(panels_[p].title, width_ / theme_.font_pt, theme_.font.get()).size()));
+        lines = std::max(
+            lines,
+            static_cast<double>(
+                title_lines(panels_[p].title, width_ / theme_.font_pt, theme_.font.get()).size()));
     return lines * FontFacts::kLine * theme_.font_pt + 0.4 * theme_.tick_font_pt;
   }
 
@@ -262,7 +266,8 @@ class CellGrid {
   double gap_across() const {
     double widest = 0.0;
     for (const PanelArrow& arrow : figure_.arrows)
-      widest = std::max(widest, shape_text(arrow.label, theme_.font.get()).advance * theme_.tick_font_pt);
+      widest = std::max(widest,
+                        shape_text(arrow.label, theme_.font.get()).advance * theme_.tick_font_pt);
     return std::max(2.0 * theme_.space_pt, widest + 2.0 * theme_.space_pt);
   }
 

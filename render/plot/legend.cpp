@@ -128,9 +128,8 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
         same->layers.push_back(&layer);
       continue;
     }
-    entries_.push_back({shape_text_within(label, most_text, Elide::kMiddle, theme.font.get()),
-                        label,
-                        {&layer}});
+    entries_.push_back(
+        {shape_text_within(label, most_text, Elide::kMiddle, theme.font.get()), label, {&layer}});
     const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
     entry_width_ = std::max(entry_width_, width);
   }
@@ -186,8 +185,9 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const LegendEntry& entry = entries_[i];
-    const double x = at.x + static_cast<double>(i / rows) * (entry_width_ + kColumnGap * em);
-    const double y = at.y + static_cast<double>(i % rows) * row_height_;
+    const std::size_t column = i / rows, row = i % rows;
+    const double x = at.x + static_cast<double>(column) * (entry_width_ + kColumnGap * em);
+    const double y = at.y + static_cast<double>(row) * row_height_;
     const double half = (row_height_ - 0.25 * em) / 2.0;
     const double middle = y + row_height_ / 2.0;
     draw_sample(entry, {x, middle - half, x + kSampleWidth * em, middle + half}, panel_index,

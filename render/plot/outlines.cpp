@@ -167,8 +167,8 @@ std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const 
                   .size = em,
                   .colour = contrast(kDark, below) >= contrast(kLight, below) ? kDark : kLight};
     if (line.shaped.advance * em > kWidest * width) return {};
-    const double column = static_cast<double>(i % cells.columns) + 0.5;
-    const double row = static_cast<double>(i / cells.columns) + 0.5;
+    const std::size_t across = i % cells.columns, down = i / cells.columns;
+    const double column = static_cast<double>(across) + 0.5, row = static_cast<double>(down) + 0.5;
     line.at = {
         map.x(std::lerp(cells.x.low, cells.x.high, column / columns)) -
             line.shaped.advance * em / 2.0,

@@ -160,7 +160,7 @@ class Arranger {
   Arrangement choose(const Box& room) const {
     Arrangement inside{layout_.within(room), std::nullopt, 1};
     if (legend_.empty()) return inside;
-    const Arrangement right = beside(room);
+    Arrangement right = beside(room);
     if (area(right) >= 0.97 * area(inside)) return right;
     const Obstacles data = data_obstacles(panel_, layout_.map(inside.axes.frame), theme_);
     if (const auto position = legend_.free_place(inside.axes.frame, data);

@@ -15,7 +15,6 @@
 #include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
 #include "render/scene/scene_json.hpp"
-#include "render/scene/scene_request.hpp"
 
 namespace mapproof {
 namespace {
@@ -123,19 +122,19 @@ std::string SceneClient::read_line() {
   return line;
 }
 
-Image SceneClient::draw(const Scene& scene, std::size_t view, int width, int height, int samples,
-                        const Theme& theme) {
+Image SceneClient::draw(const Scene& scene, const SceneRequest& request) {
   require_valid(scene);
-  if (view >= scene.views.size())
-    throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, view));
-  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide)
-    throw InvalidInput(
-        fmt::format("scene {}: no image is {} x {} pixels", scene.id, width, height));
-  if (samples < 0 || samples > kMostSamples)
-    throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, samples));
+  if (request.view >= scene.views.size())
+    throw InvalidInput(fmt::format("scene {}: there is no view {}", scene.id, request.view));
+  if (std::min(request.width, request.height) < 1 ||
+      std::max(request.width, request.height) > kLargestSide)
+    throw InvalidInput(fmt::format("scene {}: no image is {} x {} pixels", scene.id, request.width,
+                                   request.height));
+  if (request.samples < 0 || request.samples > kMostSamples)
+    throw InvalidInput(fmt::format("scene {}: {} samples per pixel", scene.id, request.samples));
   const std::lock_guard lock(mutex_);
   try {
-    return ask(scene_request(view, width, height, samples, theme), scene);
+    return ask(request, scene);
   } catch (const ProcessError& error) {
     throw SceneError(printable(fmt::format("scenes cannot be drawn: {}", error.what()), 500));
   }

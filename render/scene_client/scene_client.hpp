@@ -11,11 +11,9 @@
 #include "core/base/files/descriptor.hpp"
 #include "render/image/image.hpp"
 #include "render/scene/scene.hpp"
-#include "render/theme/theme.hpp"
+#include "render/scene/scene_request.hpp"
 
 namespace mapproof {
-
-struct SceneRequest;
 
 /// A scene could not be drawn: the program that draws is missing, has no context, or ended. One
 /// line.
@@ -43,14 +41,13 @@ class SceneClient {
   SceneClient(const SceneClient&) = delete;
   SceneClient& operator=(const SceneClient&) = delete;
 
-  /// One view in the theme's colours; the same pixels each time.
-  /// @param width, height  Pixels, each in 1 to kLargestSide.
-  /// @param samples  Per pixel, in 0 to kMostSamples, rounded up to a square; 0: no antialiasing.
-  ///                 Fewer where the image would have more than 2^27, or 16384 along a side.
+  /// One view; the same pixels each time.
+  /// @param request  Sides in 1 to kLargestSide; samples in 0 to kMostSamples, fewer where the
+  /// image
+  ///                 would have more than 2^27, or 16384 along a side.
   /// @throws InvalidInput if the scene is not valid (see require_valid()), has no such view, or a
   ///         number is out of its bounds; SceneError.
-  Image draw(const Scene& scene, std::size_t view, int width, int height, int samples,
-             const Theme& theme);
+  Image draw(const Scene& scene, const SceneRequest& request);
 
   /// The names and versions of what drew the last image; empty before the first.
   std::string renderer();

@@ -154,7 +154,7 @@ std::string Database::damage() {
   try {
     Statement check(*this, "PRAGMA integrity_check(1)");
     if (!check.step()) return "its check returns nothing";
-    const std::string answer = check.text(0);
+    std::string answer = check.text(0);
     if (answer != "ok") return answer;
     Statement keys(*this, "PRAGMA foreign_key_check");
     return keys.step() ? "a row of " + keys.text(0) + " belongs to none of " + keys.text(2) : "";

@@ -65,8 +65,8 @@ std::string history_csv(HistoryStore& history) {
             fmt::format(",{},{}\r\n", csv_field(shown_setup(study.labels, series.sensor)),
                         csv_field(shown_method(study.labels, series.method)));
         for (const RunValue& run : values)
-          text += head + csv_field(run.run) + "," +
-                  (std::isfinite(run.value) ? fmt::format("{}", run.value) : "") + labels;
+          text += fmt::format("{}{},{}{}", head, csv_field(run.run),
+                              std::isfinite(run.value) ? fmt::format("{}", run.value) : "", labels);
       }
   return text;
 }

@@ -13,7 +13,7 @@ std::string shown_setting(const std::string& setting) {
   if (const auto slam = slam_method_named(setting)) return std::string(info(*slam).label);
   const std::optional<Method> known = method_named(base_method({}, setting));
   if (!known) return setting;
-  const std::string label(info(*known).label);
+  std::string label(info(*known).label);
   const std::string_view name = info(*known).name;
   const auto& parameter = info(*known).parameter;
   if (!parameter || setting.size() <= name.size() + 1 + parameter->symbol.size()) return label;

@@ -50,7 +50,8 @@ void draw(const fs::path& folder, int samples, int count, double since) {
   SceneClient client(MAPPROOF_SCENES_PROGRAM);
   double first = 0.0;
   for (int i = 0; i < count; ++i) {
-    const Image image = client.draw(scene, 0, kWidth, kHeight, samples, report_theme());
+    const Image image =
+        client.draw(scene, scene_request(0, kWidth, kHeight, samples, report_theme()));
     write_file(folder / fmt::format("mapproof-{}-{}.png", samples, i), encode_png(image, {}));
     if (i == 0) first = seconds_since(since);
     turn(scene.views[0].camera);
@@ -63,8 +64,8 @@ void repeat(int count) {
   SceneClient client(MAPPROOF_SCENES_PROGRAM);
   const std::vector<Scene> scenes = test::sample_scenes();
   for (int i = 0; i < count; ++i)
-    client.draw(scenes[static_cast<std::size_t>(i) % scenes.size()], 0, 320 + 16 * (i % 5), 240,
-                4 * (i % 2), report_theme());
+    client.draw(scenes[static_cast<std::size_t>(i) % scenes.size()],
+                scene_request(0, 320 + 16 * (i % 5), 240, 4 * (i % 2), report_theme()));
 }
 
 }  // namespace

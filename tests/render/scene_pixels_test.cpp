@@ -23,7 +23,7 @@ namespace mapproof::test {
 namespace {
 
 Image drawn(SceneClient& client, const Scene& scene, int samples = 4) {
-  return client.draw(scene, 0, 320, 240, samples, report_theme());
+  return client.draw(scene, scene_request(0, 320, 240, samples, report_theme()));
 }
 
 SceneClient client() { return SceneClient(MAPPROOF_SCENES_PROGRAM); }
@@ -85,7 +85,8 @@ TEST(ScenePixels, AreTheSameByEveryWayToAContext) {
 TEST_P(ScenePixelsByEachWay, DoNotDependOnWhatWasDrawnBefore) {
   SceneClient one = client(), other = client();
   const Image alone = drawn(one, small_scene());
-  for (const Scene& scene : sample_scenes()) other.draw(scene, 0, 200, 300, 0, report_theme());
+  for (const Scene& scene : sample_scenes())
+    other.draw(scene, scene_request(0, 200, 300, 0, report_theme()));
   EXPECT_EQ(drawn(other, small_scene()).pixels, alone.pixels);
 }
 
@@ -110,7 +111,7 @@ TEST(ScenePixels, StandWhereTheProjectionSays) {
       const std::vector<Point3> corners = {{-1, -1, -1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, -1}};
       scene.views[0].camera = fitted_camera(corners, {0.7, -1.0, 0.5}, parallel);
       const Point p = Projection(scene.views[0].camera)(at);
-      const Image image = one.draw(scene, 0, 960, 600, 0, report_theme());
+      const Image image = one.draw(scene, scene_request(0, 960, 600, 0, report_theme()));
       const Point middle = middle_of_marks(image);
       EXPECT_NEAR(middle.x, 300.0 * (1.6 + p.x), 0.6);
       EXPECT_NEAR(middle.y, 300.0 * (1.0 - p.y), 0.6);
@@ -146,7 +147,7 @@ TEST_P(ScenePixelsByEachWay, TwoHundredOfThemLeaveNothingBehind) {
   const Scene scene = small_scene();  // Has a part of every kind.
   const auto draw = [&](int images) {
     for (int i = 0; i < images; ++i)
-      one.draw(scene, 0, 320 + 16 * (i % 5), 240, 4 * (i % 2), report_theme());
+      one.draw(scene, scene_request(0, 320 + 16 * (i % 5), 240, 4 * (i % 2), report_theme()));
     return memory_of_child_mib();
   };
   const double before = draw(80);  // Shaders and buffers of every size and kind.
@@ -230,8 +231,8 @@ TEST(SceneClient, RefusesWhatCannotBeDrawnAndGoesOn) {
   Scene bad = small_scene();
   bad.views.clear();
   EXPECT_THROW(drawn(one, bad), InvalidInput);
-  EXPECT_THROW(one.draw(small_scene(), 0, 0, 10, 0, report_theme()), InvalidInput);
-  EXPECT_THROW(one.draw(small_scene(), 5, 10, 10, 0, report_theme()), InvalidInput);
+  EXPECT_THROW(one.draw(small_scene(), scene_request(0, 0, 10, 0, report_theme())), InvalidInput);
+  EXPECT_THROW(one.draw(small_scene(), scene_request(5, 10, 10, 0, report_theme())), InvalidInput);
   EXPECT_EQ(drawn(one, small_scene()).width, 320);
 }
 

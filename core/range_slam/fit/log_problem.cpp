@@ -513,19 +513,19 @@ double LogProblem::descend(const LogHypothesis& hypothesis, const Effort& effort
     ++fit.iterations;
     const double old = cost;
     // Damped until the cost falls.
-    for (int attempt = 0; attempt < 8; ++attempt) {
-      if (const auto solution = system.solve(damping)) {
-        LogState next = moved(fit.state, columns, *solution);
-        const double reached = next.scale > 0.0 ? cost_of(hypothesis, next, fit.noise) : kInfinity;
-        if (reached <= cost + 1e-9 * std::abs(cost)) {
-          fit.state = std::move(next);
-          cost = reached;
-          damping = std::max(1e-9, 0.2 * damping);
-          break;
-        }
-      }
+    const auto takes_step = [&] {
+      const auto solution = system.solve(damping);
+      if (!solution) return false;
+      LogState next = moved(fit.state, columns, *solution);
+      const double reached = next.scale > 0.0 ? cost_of(hypothesis, next, fit.noise) : kInfinity;
+      if (!(reached <= cost + 1e-9 * std::abs(cost))) return false;
+      fit.state = std::move(next);
+      cost = reached;
+      damping = std::max(1e-9, 0.2 * damping);
+      return true;
+    };
+    for (int attempt = 0; attempt < 8 && !takes_step(); ++attempt)
       damping = std::min(1e6, 6.0 * damping);
-    }
     if (!(old - cost > 0.1 * effort.tolerance)) break;
   }
   return cost;

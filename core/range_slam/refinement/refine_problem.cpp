@@ -25,7 +25,7 @@ std::optional<Matrix> factor(const Matrix& A, const Eigen::VectorXd& diagonal) {
   if (A.rows() == 0) return A;
   const Eigen::LLT<Matrix> llt(A);
   if (llt.info() != Eigen::Success) return std::nullopt;
-  const Matrix L = llt.matrixL();
+  Matrix L = llt.matrixL();
   const Eigen::ArrayXd pivots = L.diagonal().array().square();
   if (!(pivots > kLeastPivot * diagonal.array()).all()) return std::nullopt;
   return L;

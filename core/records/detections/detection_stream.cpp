@@ -1,6 +1,7 @@
 #include "core/records/detections/detection_stream.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,8 +26,7 @@ std::vector<std::string> ScanGatherer::remarks() const {
 void ScanGatherer::close(StreamedScan& scan) {
   if (scan.detections.empty()) return;
   std::ranges::sort(scan.detections, {}, &Detection::landmark);
-  complete_.push_back(std::move(scan));
-  scan.detections.clear();
+  complete_.push_back(std::exchange(scan, {}));
 }
 
 bool ScanGatherer::begins_scan(const OpenScan& open, const Row& row) const {

@@ -61,9 +61,10 @@ Form form_seen(ByteSource& source) {
     if (first_row_is(source, is_g2o, TableReader::kBlanks)) return Form::kG2o;
     if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
     if (first_row_is(source, is_ranges_text, TableReader::kBlanks)) return Form::kText;
-  } catch (const IoError&) {  // No text: its reader reports what is wrong.
+    return Form::kNone;
+  } catch (const IoError&) {
+    return Form::kNone;  // No text: its reader reports what is wrong.
   }
-  return Form::kNone;
 }
 
 Form form_of(ByteSource& source) {

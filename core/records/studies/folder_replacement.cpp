@@ -157,7 +157,7 @@ void remove_all_of(const fs::path& folder) noexcept {
     open_folders(folder);
     std::error_code error;
     fs::remove_all(folder, error);
-  } catch (const std::bad_alloc&) {
+  } catch (const std::bad_alloc&) {  // The next recover_folder() tries again.
   }
 }
 

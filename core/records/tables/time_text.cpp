@@ -193,7 +193,7 @@ std::string time_problem(std::string_view cell) {
   if (slashes == 2 && !cell.empty() && is_digit(cell.front()) &&
       cell.find_first_not_of("0123456789/-:., apmAPM") == std::string_view::npos)
     return in_quotes(cell) + " is not a time, or its day and month may be either; write 2026-11-03";
-  const std::string problem = number_problem(cell);
+  std::string problem = number_problem(cell);
   if (problem != in_quotes(cell) + " is not a number") return problem;
   return in_quotes(cell) + " is not a time: neither a number nor a date such as " +
          "2026-11-03 09:15:00.125";

@@ -49,7 +49,7 @@ double first_time(std::span<const SlamRecord* const> records) {
 }
 
 std::string label_with_error(const SlamRecord& record) {
-  const std::string label(info(record.method).label);
+  std::string label(info(record.method).label);
   if (record.errors.empty()) return label;
   const TrajectoryError& error = record.errors.front();
   return fmt::format("{}: {} m, {}", label, significant(error.mean_m, 2),

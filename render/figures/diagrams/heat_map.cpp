@@ -112,8 +112,8 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
   int count = 0;
   for (std::size_t i = 0; i < spec.values.size(); ++i) {
     if (std::isfinite(spec.values[i])) continue;
-    const auto x = static_cast<double>(i % spec.x_names.size());
-    const auto y = static_cast<double>(i / spec.x_names.size());
+    const std::size_t column = i % spec.x_names.size(), row = i / spec.x_names.size();
+    const auto x = static_cast<double>(column), y = static_cast<double>(row);
     add_box(missing, {x - 0.5, x + 0.5}, {y - 0.5, y + 0.5});
     hatch(x, y, hatching);
     ++count;

@@ -116,8 +116,8 @@ Grid grid_of(const PathErrorsSpec& spec, std::pair<Eigen::Index, Eigen::Index> p
 }
 
 /// Fills the cells that the way between two poses crosses with the greater of their errors.
-void add_way(const Grid& grid, Eigen::RowVector2d from, Eigen::RowVector2d to, double error_m,
-             std::vector<double>& values) {
+void add_way(const Grid& grid, const Eigen::RowVector2d& from, const Eigen::RowVector2d& to,
+             double error_m, std::vector<double>& values) {
   const double cell_m = (grid.x.high - grid.x.low) / static_cast<double>(grid.columns);
   const int steps = 1 + static_cast<int>(std::min(2.0 * (to - from).norm() / cell_m, 1e4));
   for (int i = 0; i <= steps; ++i) {

@@ -208,7 +208,7 @@ void require_same_kind(std::string_view before, std::string_view after, const fs
 std::string format_of(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) return "a folder";
-  const std::string kind = item_name(file, file.parent_path()).kind;
+  std::string kind = item_name(file, file.parent_path()).kind;
   if (!kind.empty()) return kind;
   const std::string extension = file.extension().string();
   return extension.size() < 2 ? "a file without an extension" : extension.substr(1);
@@ -418,7 +418,7 @@ class Planner {
       if (extension != ".png" && extension != ".svg") continue;
       require_plain(current_, path);
       require_readable(current_ / path);
-      const fs::path name = path.stem().string() + "@" + key + extension;
+      const fs::path name = fmt::format("{}@{}{}", path.stem().string(), key, extension);
       steps_.push_back({current_ / path, path.parent_path() / name});
     }
   }

@@ -38,7 +38,7 @@ std::string unit_of(const Axis& axis) {
 
 /// The unit of the axis along which a point moved, or of both.
 std::string unit_of_move(const Panel& panel, Point before, Point after) {
-  const std::string x = unit_of(panel.x), y = unit_of(panel.y);
+  std::string x = unit_of(panel.x), y = unit_of(panel.y);
   if (before.x == after.x) return y;
   return before.y == after.y || x == y ? x : "";
 }

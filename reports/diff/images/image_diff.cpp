@@ -370,25 +370,34 @@ std::vector<double> steps_up_to(double value, std::span<const double> steps) {
   return found;
 }
 
-/// Applies to the marks of a tile what the options allow and the judgement did not know.
-/// @param judged  The tolerances of the judgement: at least the options', if these are below the
-///                defaults, else at most theirs.
-void apply_tolerances(const Image& baseline, const Image& current, const PixelBox& tile,
-                      const ImageOptions& options, const ImageOptions& judged,
-                      const TileEvidence& evidence, TileMarks& marks) {
-  const bool is_flat_shift = evidence.flat_shift > 0.0;
-  const bool is_moved_too_far = options.displacement_px < judged.displacement_px &&
-                                evidence.displacement_px() > options.displacement_px;
+/// What the options allow of a tile and its judgement did not know.
+struct TileTolerance {
+  /// @param judged  The tolerances of the judgement: at least the options', if these are below the
+  ///                defaults, else at most theirs.
+  TileTolerance(const ImageOptions& options, const ImageOptions& judged,
+                const TileEvidence& evidence)
+      : noise(options.noise),
+        is_flat_shift(evidence.flat_shift > 0.0),
+        is_moved_too_far(options.displacement_px < judged.displacement_px &&
+                         evidence.displacement_px() > options.displacement_px) {}
+
+  double noise;
+  bool is_flat_shift;
+  bool is_moved_too_far;
+};
+
+void apply_tolerance(const Image& baseline, const Image& current, const PixelBox& tile,
+                     const TileTolerance& allowed, TileMarks& marks) {
   for (int y = 0; y < tile.height; ++y)
     for (int x = 0; x < tile.width; ++x) {
       PixelMark& mark = marks[y * kTile + x];
       if (mark == PixelMark::kEqual) continue;
       const int difference = largest_difference(baseline.row(tile.y + y)[tile.x + x],
                                                 current.row(tile.y + y)[tile.x + x]);
-      if (mark == PixelMark::kChanged && !is_flat_shift && difference <= options.noise)
+      if (mark == PixelMark::kChanged && !allowed.is_flat_shift && difference <= allowed.noise)
         mark = PixelMark::kNoise;
-      else if ((mark == PixelMark::kNoise && difference > options.noise) ||
-               (mark == PixelMark::kSmoothed && is_moved_too_far))
+      else if ((mark == PixelMark::kNoise && difference > allowed.noise) ||
+               (mark == PixelMark::kSmoothed && allowed.is_moved_too_far))
         mark = PixelMark::kChanged;
     }
 }
@@ -427,8 +436,8 @@ void judge_pixels(const Image& baseline, const Image& current, const ImageOption
   judge(tiles, evidence, texture, judged, diff.marks);
   if (options.noise != judged.noise || options.displacement_px != judged.displacement_px)
     parallel_for(tiles.size(), [&](std::size_t i) {
-      apply_tolerances(baseline, current, box_of(diff.marks, baseline, tiles[i]), options, judged,
-                       evidence[i], *diff.marks.tile(tiles[i]));
+      apply_tolerance(baseline, current, box_of(diff.marks, baseline, tiles[i]),
+                      {options, judged, evidence[i]}, *diff.marks.tile(tiles[i]));
     });
   mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);

@@ -242,7 +242,7 @@ class NumberComparer {
     const auto frame = a.find("frame");
     const bool is_shape = frame && frame->token() == R"("similarity")";
     for (const auto& [key, value] : a.members()) {
-      const std::string location = pointer + "/" + key;
+      const std::string location = fmt::format("{}/{}", pointer, key);
       const auto other = b.find(key);
       if (!other)
         beyond(shown(value), "missing", location, true);
@@ -250,7 +250,7 @@ class NumberComparer {
         compare(value, *other, location, tolerance_at(key, value, tolerance));
     }
     for (const auto& [key, value] : b.members())
-      if (!a.find(key)) beyond("missing", shown(value), pointer + "/" + key, true);
+      if (!a.find(key)) beyond("missing", shown(value), fmt::format("{}/{}", pointer, key), true);
   }
 
   Tolerance tolerance_at(const std::string& key, const JsonCursor& value,

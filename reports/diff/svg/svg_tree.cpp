@@ -286,7 +286,7 @@ std::string SvgTree::path(int element) const {
       step += "#" + one.id;
     else if (one.parent >= 0)
       step += fmt::format("[{}]", one.location);
-    path = path.empty() ? step : step + "/" + path;
+    path.insert(0, path.empty() ? step : step.append("/"));
   }
   return path;
 }
