@@ -163,7 +163,7 @@ void check_table_once(const std::string& bytes, const std::string& name,
         check_detections(again, degrees, finding);
         finding.remarks.emplace_back(kDegreesRemark);
         return;
-      } catch (const IoError&) {  // In degrees, it has a problem as well: the first one is told.
+      } catch (const IoError&) {  // In degrees, it has a problem as well: the first is reported.
       }
       throw;
     }
