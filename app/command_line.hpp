@@ -45,8 +45,8 @@ void add_jobs_option(CLI::App& app, int& jobs);
 /// --layouts and --poses to a command.
 void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
 
-/// Takes one of the words, in any case, and makes it that word; for CLI::Option::transform(). Others
-/// are refused with the nearest one.
+/// Takes one of the words, in any case, and makes it that word; for CLI::Option::transform().
+/// Others are refused with the nearest one.
 CLI::Validator one_of(std::vector<std::string> words);
 
 /// Refuses the empty name and "-": standard input is not a folder.

@@ -9,18 +9,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/exit_codes.hpp"
 #include "core/topics/study_plan.hpp"
 
 namespace mapproof {
-
-/// What every command ends with.
-enum ExitCode {
-  kDone = 0,      ///< Done.
-  kNo = 1,        ///< The check that was asked for says no, or there is no map.
-  kUsage = 2,     ///< Usage or input.
-  kInternal = 3,  ///< A fault of the program.
-  kCostGrew = 4,  ///< Of nightly: only seconds or memory got worse.
-};
 
 /// How many messages go to standard error.
 enum class Verbosity { kQuiet, kNormal, kVerbose };

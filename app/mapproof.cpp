@@ -17,6 +17,7 @@
 
 #include "app/build_facts.hpp"
 #include "app/commands.hpp"
+#include "app/exit_codes.hpp"
 #include "app/failures.hpp"
 #include "app/help/command_facts.hpp"
 #include "app/help/help_text.hpp"
@@ -28,13 +29,6 @@
 namespace mapproof {
 
 namespace {
-
-constexpr const char* kExitCodes =
-    "Exit codes:\n"
-    "  0  done\n"
-    "  1  the check that was asked for says no, or there is no map\n"
-    "  2  wrong usage or input\n"
-    "  3  internal error\n";
 
 constexpr const char* kFooter =
     "Every command takes --json (its result as one JSON object on standard output), --quiet and "

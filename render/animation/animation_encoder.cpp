@@ -11,41 +11,21 @@
 #include <utility>
 
 extern "C" {
-#include <libavcodec/avcodec.h>
 #include <libavfilter/avfilter.h>
 #include <libavfilter/buffersink.h>
 #include <libavfilter/buffersrc.h>
 #include <libavformat/avformat.h>
-#include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
 #include <libswscale/swscale.h>
 }
+
+#include "render/animation/ffmpeg.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr int kMillisecondsASecond = 1000;
 
-/// Returns FFmpeg's answer. @throws std::bad_alloc or std::runtime_error if it is an error.
-int checked(int answer, const char* what) {
-  if (answer >= 0) return answer;
-  // AVERROR_EXTERNAL is an error of zlib, which can fail here only for want of memory.
-  if (answer == AVERROR(ENOMEM) || answer == AVERROR_EXTERNAL) throw std::bad_alloc();
-  std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
-  av_strerror(answer, words.data(), words.size());
-  throw std::runtime_error(std::string(what) + ": " + words.data());
-}
-
-/// An object that FFmpeg made. @throws std::bad_alloc if it had no memory for it.
-template <typename Kind>
-Kind* made(Kind* pointer) {
-  if (pointer == nullptr) throw std::bad_alloc();
-  return pointer;
-}
-
-struct FreeCodec {
-  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-};
 struct FreeFormat {
   void operator()(AVFormatContext* format) const {
     if (format->pb != nullptr) av_freep(&format->pb->buffer);
@@ -53,17 +33,8 @@ struct FreeFormat {
     avformat_free_context(format);
   }
 };
-struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
 struct FreeGraph {
   void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
-};
-struct FreeConverter {
-  void operator()(SwsContext* converter) const { sws_freeContext(converter); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
 };
 
 /// A file in memory. FFmpeg's own dynamic buffer appends padding at the current offset, which is
@@ -108,24 +79,13 @@ AVIOContext* opened(MemoryFile& file) {
   return made(context);
 }
 
-using Frame = std::unique_ptr<AVFrame, FreeFrame>;
-
-Frame new_frame(AVPixelFormat format, int width, int height) {
-  Frame frame(made(av_frame_alloc()));
-  frame->format = format;
-  frame->width = width;
-  frame->height = height;
-  checked(av_frame_get_buffer(frame.get(), 0), "frame");
-  return frame;
-}
-
 /// What differs between the formats.
 struct FormatTraits {
   const char* muxer;
   AVPixelFormat pixels;
   int ticks_a_second;
-  bool even;             ///< Both sides are even.
-  const char* loop;      ///< Option of the muxer for endless play; null: it has none.
+  bool even;         ///< Both sides are even.
+  const char* loop;  ///< Option of the muxer for endless play; null: it has none.
 };
 
 FormatTraits traits_of(const std::string& format) {
@@ -186,11 +146,11 @@ PaletteGraph palette_graph(int width, int height, int ticks_a_second) {
   outputs->filter_ctx = palette.source;
   inputs->name = av_strdup("out");
   inputs->filter_ctx = palette.sink;
-  const int answer = avfilter_graph_parse_ptr(
-      graph,
-      "split[one][two];[one]palettegen=reserve_transparent=0[colours];"
-      "[two][colours]paletteuse=dither=sierra2_4a",
-      &inputs, &outputs, nullptr);
+  const int answer =
+      avfilter_graph_parse_ptr(graph,
+                               "split[one][two];[one]palettegen=reserve_transparent=0[colours];"
+                               "[two][colours]paletteuse=dither=sierra2_4a",
+                               &inputs, &outputs, nullptr);
   avfilter_inout_free(&inputs);
   avfilter_inout_free(&outputs);
   checked(answer, "palette");
@@ -203,16 +163,16 @@ PaletteGraph palette_graph(int width, int height, int ticks_a_second) {
 struct AnimationEncoder::State {
   MemoryFile file;
   FormatTraits traits{};
-  std::unique_ptr<AVCodecContext, FreeCodec> codec;
+  Codec codec;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   Frame frame;  ///< RGB.
-  std::unique_ptr<AVPacket, FreePacket> packet;
-  std::unique_ptr<SwsContext, FreeConverter> converter;  ///< Of MP4.
-  Frame converted;                                       ///< Likewise.
-  PaletteGraph palette;                                  ///< Of GIF.
-  int width = 0, height = 0;                             ///< Of the input.
-  std::int64_t ticks = 0;                                ///< How long each frame is shown.
-  std::int64_t next = 0;                                 ///< Frames that were added.
+  Packet packet;
+  Converter converter;        ///< Of MP4.
+  Frame converted;            ///< Likewise.
+  PaletteGraph palette;       ///< Of GIF.
+  int width = 0, height = 0;  ///< Of the input.
+  std::int64_t ticks = 0;     ///< How long each frame is shown.
+  std::int64_t next = 0;      ///< Frames that were added.
 };
 
 namespace {
@@ -249,8 +209,8 @@ AnimationEncoder::AnimationEncoder(const AnimationInput& input)
   State& state = *state_;
   state.traits = traits_of(input.format);
   const int a_second = state.traits.ticks_a_second;
-  state.ticks = std::max<std::int64_t>(1, std::int64_t{input.frame_ms} * a_second /
-                                              kMillisecondsASecond);
+  state.ticks =
+      std::max<std::int64_t>(1, std::int64_t{input.frame_ms} * a_second / kMillisecondsASecond);
   state.width = input.width;
   state.height = input.height;
   const AVCodec* kind = encoder_of(input.format);

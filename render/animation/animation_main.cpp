@@ -1,14 +1,19 @@
+#include <sys/resource.h>
+
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/out_of_memory.hpp"
 #include "core/base/parent_watch.hpp"
 #include "render/animation/animation_encoder.hpp"
+#include "render/animation/picture_decoder.hpp"
 
 namespace mapproof {
 namespace {
@@ -27,7 +32,7 @@ AnimationInput read_header() {
   return input;
 }
 
-void run() {
+void encode() {
   const AnimationInput input = read_header();
   AnimationEncoder encoder(input);
   std::vector<std::uint32_t> pixels(static_cast<std::size_t>(input.width) *
@@ -42,15 +47,51 @@ void run() {
     throw std::runtime_error("the file cannot be written");
 }
 
+/// A file of a stranger may ask for more than any image needs.
+void set_limits() {
+  constexpr rlimit kMemory{rlim_t{4} << 30, rlim_t{4} << 30};
+  constexpr rlimit kSeconds{60, 60};
+  ::setrlimit(RLIMIT_AS, &kMemory);
+  ::setrlimit(RLIMIT_CPU, &kSeconds);
+}
+
+void write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size())
+    throw std::runtime_error("the pixels cannot be written");
+}
+
+/// Writes of each frame "WIDTH HEIGHT MILLISECONDS", a line feed and its pixels, RGBA; "end" last.
+void decode(std::string_view format) {
+  set_limits();
+  std::string bytes;
+  std::array<char, 1 << 16> block{};
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin))
+    bytes.append(block.data(), got);
+  decode_picture(bytes, format, [](const DecodedFrame& frame) {
+    std::array<char, 64> head{};
+    const int length = std::snprintf(head.data(), head.size(), "%d %d %d\n", frame.width,
+                                     frame.height, frame.duration_ms);
+    write({head.data(), static_cast<std::size_t>(length)});
+    write(frame.rgba);
+  });
+  write("end\n");
+  if (std::fflush(stdout) != 0) throw std::runtime_error("the pixels cannot be written");
+}
+
+void run(std::span<char*> words) {
+  if (words.size() == 3 && std::string_view(words[1]) == "decode") return decode(words[2]);
+  encode();
+}
+
 }  // namespace
 }  // namespace mapproof
 
-/// Reads an AnimationInput with its frames and writes an animation. mapproof starts it; it is
-/// not meant for direct use.
-int main() {
+/// Reads an AnimationInput with its frames and writes an animation; "decode FORMAT": reads an image
+/// file and writes its frames. mapproof starts it; it is not meant for direct use.
+int main(int argc, char** argv) {
   mapproof::end_with_parent();
   try {
-    mapproof::run();
+    mapproof::run({argv, static_cast<std::size_t>(argc)});
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "%s\n", mapproof::kOutOfMemory);
     return 1;

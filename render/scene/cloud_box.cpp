@@ -62,14 +62,14 @@ std::vector<Rule> CloudBox::rules(const std::array<std::string, 3>& labels) cons
            .away = -Point3::UnitX()}};
 }
 
-Camera CloudBox::camera(double aspect) const {
+Camera CloudBox::camera(const Point3& direction, double aspect) const {
   const double room = kBoxLabelRoom * size();
   std::vector<Point3> shown;
   for (const Point3& corner : corners()) shown.push_back(corner);
   shown.emplace_back(low.x() - room, low.y() - room, low.z() - 0.5 * room);
   shown.emplace_back(high.x() + room, low.y() - room, low.z() - 0.5 * room);
   shown.emplace_back(high.x() + room, high.y(), low.z());
-  return fitted_camera(shown, {0.55, -1.0, 0.62}, false, aspect);
+  return fitted_camera(shown, direction, false, aspect);
 }
 
 }  // namespace mapproof

@@ -24,7 +24,8 @@ struct CloudBox {
   /// Axes along the three edges that a camera to the south-east of the box, above it, sees first.
   std::vector<Rule> rules(const std::array<std::string, 3>& labels) const;
   /// Such a camera, with room for the labels of the axes.
-  Camera camera(double aspect = 1.6) const;
+  /// @param direction  To the camera.
+  Camera camera(const Point3& direction, double aspect) const;
 };
 
 }  // namespace mapproof

@@ -114,6 +114,7 @@ Surface surface_of(const Sheet& sheet) {
 }
 
 constexpr double kQuadricAspect = 1.25;
+const Point3 kToQuadricCamera{0.55, -1.0, 0.62};
 constexpr double kTallness = 0.6;  // Height of the drawn paraboloid, of its width.
 
 double height_of(const SpacePoints& points) {
@@ -178,7 +179,9 @@ class QuadricScene {
     std::vector<Point3> shown = quadric.sheet.points;
     for (const auto& point : cloud.points.rowwise()) shown.emplace_back(point.transpose());
     const CloudBox box(shown);
-    Shot view{.title = title, .camera = box.camera(kQuadricAspect), .rules = box.rules(labels)};
+    Shot view{.title = title,
+              .camera = box.camera(kToQuadricCamera, kQuadricAspect),
+              .rules = box.rules(labels)};
     view.rules[2].range = {view.rules[2].range.low / lift, view.rules[2].range.high / lift};
     const auto add = [&](Part part) {
       view.parts.push_back(scene_.parts.size());

@@ -193,11 +193,7 @@ class LegendLayer {
 class ViewPanel {
  public:
   ViewPanel(const Scene& scene, std::size_t index, double em, const Font* font)
-      : scene_(scene),
-        view_(scene.views[index]),
-        project_(view_.camera),
-        em_(em),
-        font_(font) {
+      : scene_(scene), view_(scene.views[index]), project_(view_.camera), em_(em), font_(font) {
     const double aspect = view_.camera.aspect;
     panel_.title = view_.title;
     panel_.bare = panel_.equal_aspect = true;

@@ -18,7 +18,8 @@ namespace mapproof {
 namespace {
 
 constexpr double kSpaceAspect = 2.0;  // One view under the other.
-constexpr double kSeen = 0.035;       // A rod this long is seen, of the box.
+const Point3 kToSpaceCamera{0.55, -1.0, 0.62};
+constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
 void require_usable(const SpaceRun& run) {
   if (!has_space_scene(run)) throw InvalidInput("space_scene: nothing that can be shown");
@@ -113,7 +114,7 @@ class SpaceScene {
                      ? fmt::format("{} known",
                                    counted(static_cast<long long>(run_.known.size()), "landmark"))
                      : "No landmark known",
-        .camera = box_.camera(kSpaceAspect),
+        .camera = box_.camera(kToSpaceCamera, kSpaceAspect),
         .rules = box_.rules({"x [m]", "y [m]", "z [m]"})};
     for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
     const auto add = [&](Part part) {

@@ -78,8 +78,8 @@ inline constexpr Eigen::Index kMostInteriorPairs = 5000;
 
 /// When to stop.
 struct InteriorPointOptions {
-  double relative_gap = 1e-8;
-  double constraint_residual = 1e-8;
+  double relative_gap;
+  double constraint_residual;
   int max_iterations = 60;
 };
 
@@ -94,6 +94,6 @@ struct InteriorPointOptions {
 /// @return The last iterate, whether or not it meets the options.
 /// @note O(m^3 / 3 + n^3) time an iteration, O(m^2) memory for m pairs. Deterministic.
 CertifiedSolution solve_by_interior_point(const Problem& problem, const Eigen::MatrixXd& gram,
-                                          const InteriorPointOptions& options = {});
+                                          const InteriorPointOptions& options);
 
 }  // namespace mapproof::unfolding

@@ -1,0 +1,28 @@
+#include "render/animation/ffmpeg.hpp"
+
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+#include <string>
+
+namespace mapproof {
+
+int checked(int answer, const char* what) {
+  if (answer >= 0) return answer;
+  // AVERROR_EXTERNAL is an error of zlib, which can fail here only for want of memory.
+  if (answer == AVERROR(ENOMEM) || answer == AVERROR_EXTERNAL) throw std::bad_alloc();
+  std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
+  av_strerror(answer, words.data(), words.size());
+  throw std::runtime_error(std::string(what) + ": " + words.data());
+}
+
+Frame new_frame(AVPixelFormat format, int width, int height) {
+  Frame frame(made(av_frame_alloc()));
+  frame->format = format;
+  frame->width = width;
+  frame->height = height;
+  checked(av_frame_get_buffer(frame.get(), 0), "frame");
+  return frame;
+}
+
+}  // namespace mapproof

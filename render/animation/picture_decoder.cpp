@@ -1,0 +1,235 @@
+#include "render/animation/picture_decoder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+extern "C" {
+#include <libavformat/avformat.h>
+#include <libavutil/pixdesc.h>
+}
+
+#include "render/animation/ffmpeg.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+
+/// What the formats differ in.
+struct Traits {
+  std::string_view name;
+  AVCodecID codec;
+  const char* demuxer;  ///< Of animations; null: the file is one packet.
+};
+
+constexpr std::array kTraits = {
+    Traits{"apng", AV_CODEC_ID_APNG, "apng"},  Traits{"bmp", AV_CODEC_ID_BMP, nullptr},
+    Traits{"gif", AV_CODEC_ID_GIF, "gif"},     Traits{"jpeg", AV_CODEC_ID_MJPEG, nullptr},
+    Traits{"tiff", AV_CODEC_ID_TIFF, nullptr}, Traits{"webp", AV_CODEC_ID_WEBP, nullptr}};
+
+const Traits& traits_of(std::string_view format) {
+  const auto found = std::ranges::find(kTraits, format, &Traits::name);
+  if (found == kTraits.end()) throw std::runtime_error("no such format");
+  return *found;
+}
+
+/// @throws std::bad_alloc; std::runtime_error: the file is not what its first bytes say.
+int decoded(int answer) {
+  if (answer >= 0) return answer;
+  if (answer == AVERROR(ENOMEM)) throw std::bad_alloc();
+  if (answer == AVERROR_PATCHWELCOME) throw std::runtime_error("FFmpeg does not read this kind");
+  throw std::runtime_error("it is damaged");
+}
+
+Codec opened_codec(const Traits& traits, const AVCodecParameters* facts) {
+  const AVCodec* kind = avcodec_find_decoder(traits.codec);
+  if (kind == nullptr) throw std::runtime_error("FFmpeg has no decoder of it");
+  Codec codec(made(avcodec_alloc_context3(kind)));
+  if (facts != nullptr) decoded(avcodec_parameters_to_context(codec.get(), facts));
+  codec->thread_count = 1;
+  codec->max_pixels = kMostPixels;
+  // What cannot be decoded whole is refused, not guessed.
+  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  codec->error_concealment = 0;
+  checked(avcodec_open2(codec.get(), kind, nullptr), "decoder");
+  return codec;
+}
+
+/// Converts frames to RGBA.
+class RgbaFrame {
+ public:
+  std::string_view of(const AVFrame& frame) {
+    const auto format = static_cast<AVPixelFormat>(frame.format);
+    const Converter converter(made(sws_getContext(
+        frame.width, frame.height, format, frame.width, frame.height, AV_PIX_FMT_RGBA,
+        SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT, nullptr, nullptr, nullptr)));
+    // JPEG and WebP hold BT.601; JPEG in full range, which its pixel format says.
+    const int* bt601 = sws_getCoefficients(SWS_CS_ITU601);
+    const bool is_full = frame.color_range == AVCOL_RANGE_JPEG;
+    sws_setColorspaceDetails(converter.get(), bt601, is_full ? 1 : 0, bt601, 1, 0, 1 << 16,
+                             1 << 16);
+    if (!frame_ || frame_->width != frame.width || frame_->height != frame.height)
+      frame_ = new_frame(AV_PIX_FMT_RGBA, frame.width, frame.height);
+    checked(sws_scale(converter.get(), frame.data, frame.linesize, 0, frame.height, frame_->data,
+                      frame_->linesize),
+            "conversion");
+    const auto row = static_cast<std::size_t>(frame.width) * 4;
+    bytes_.resize(row * static_cast<std::size_t>(frame.height));
+    for (int y = 0; y < frame.height; ++y)
+      std::memcpy(bytes_.data() + row * static_cast<std::size_t>(y),
+                  frame_->data[0] + static_cast<std::ptrdiff_t>(y) * frame_->linesize[0], row);
+    return bytes_;
+  }
+
+ private:
+  Frame frame_;
+  std::string bytes_;
+};
+
+using Take = std::function<void(const DecodedFrame&)>;
+
+/// Gives a codec its packets, and hands on the frames that it makes of them.
+class FrameSource {
+ public:
+  FrameSource(Codec codec, AVRational time_base, const Take& take)
+      : codec_(std::move(codec)),
+        time_base_(time_base),
+        frame_(made(av_frame_alloc())),
+        take_(take) {}
+
+  /// @param packet  Null: there are no more.
+  void send(const AVPacket* packet) {
+    if (packet != nullptr && packet->duration > 0) duration_ = packet->duration;
+    decoded(avcodec_send_packet(codec_.get(), packet));
+    while (true) {
+      const int answer = avcodec_receive_frame(codec_.get(), frame_.get());
+      if (answer == AVERROR(EAGAIN) || answer == AVERROR_EOF) return;
+      decoded(answer);
+      if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
+        throw std::runtime_error("it is damaged");
+      ++frames_;
+      take_({.width = frame_->width,
+             .height = frame_->height,
+             .duration_ms = static_cast<int>(
+                 std::min<std::int64_t>(av_rescale_q(duration_, time_base_, {1, 1000}), 1 << 30)),
+             .rgba = rgba_.of(*frame_)});
+    }
+  }
+
+  int frames() const { return frames_; }
+
+ private:
+  Codec codec_;
+  AVRational time_base_;
+  Frame frame_;
+  const Take& take_;
+  RgbaFrame rgba_;
+  std::int64_t duration_ = 0;
+  int frames_ = 0;
+};
+
+void decode_still(const std::string& bytes, const Traits& traits, const Take& take) {
+  const Packet packet(made(av_packet_alloc()));
+  checked(av_new_packet(packet.get(), static_cast<int>(bytes.size())), "packet");
+  std::memcpy(packet->data, bytes.data(), bytes.size());
+  FrameSource source(opened_codec(traits, nullptr), {1, 1000}, take);
+  source.send(packet.get());
+  source.send(nullptr);
+  if (source.frames() == 0) throw std::runtime_error("it holds no image");
+}
+
+/// A file in memory, as FFmpeg reads it.
+struct MemoryInput {
+  const std::string& bytes;
+  std::size_t at = 0;
+};
+
+int read_memory(void* opaque, std::uint8_t* to, int size) {
+  auto& input = *static_cast<MemoryInput*>(opaque);
+  const std::size_t count = std::min(static_cast<std::size_t>(size), input.bytes.size() - input.at);
+  if (count == 0) return AVERROR_EOF;
+  std::memcpy(to, input.bytes.data() + input.at, count);
+  input.at += count;
+  return static_cast<int>(count);
+}
+
+std::int64_t seek_memory(void* opaque, std::int64_t offset, int whence) {
+  auto& input = *static_cast<MemoryInput*>(opaque);
+  const auto size = static_cast<std::int64_t>(input.bytes.size());
+  if (whence == AVSEEK_SIZE) return size;
+  if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(input.at);
+  if (whence == SEEK_END) offset += size;
+  if (offset < 0 || offset > size) return AVERROR(EINVAL);
+  input.at = static_cast<std::size_t>(offset);
+  return offset;
+}
+
+struct CloseInput {
+  void operator()(AVFormatContext* format) const {
+    AVIOContext* io = format->pb;
+    avformat_close_input(&format);
+    if (io != nullptr) av_freep(&io->buffer);
+    avio_context_free(&io);
+  }
+};
+using Input = std::unique_ptr<AVFormatContext, CloseInput>;
+
+Input opened_input(MemoryInput& memory, const char* demuxer) {
+  constexpr int kBlock = 1 << 16;
+  Input input(made(avformat_alloc_context()));
+  auto* block = static_cast<std::uint8_t*>(made(av_malloc(kBlock)));
+  input->pb = avio_alloc_context(block, kBlock, 0, &memory, read_memory, nullptr, seek_memory);
+  if (input->pb == nullptr) av_free(block);
+  made(input->pb);
+  AVDictionary* options = nullptr;
+  av_dict_set(&options, "min_delay", "0", 0);  // Of GIF: times as they stand in the file.
+  AVFormatContext* format = input.get();
+  AVIOContext* io = format->pb;
+  const int answer = avformat_open_input(&format, nullptr, av_find_input_format(demuxer), &options);
+  av_dict_free(&options);
+  if (answer < 0) {  // It freed the context, but not what it reads from.
+    static_cast<void>(input.release());
+    av_freep(&io->buffer);
+    avio_context_free(&io);
+    decoded(answer);
+  }
+  return input;
+}
+
+void decode_animation(const std::string& bytes, const Traits& traits, const Take& take) {
+  MemoryInput memory{bytes};
+  const Input input = opened_input(memory, traits.demuxer);
+  if (input->nb_streams == 0) throw std::runtime_error("it holds no image");
+  const AVStream& stream = *input->streams[0];
+  FrameSource source(opened_codec(traits, stream.codecpar), stream.time_base, take);
+  const Packet packet(made(av_packet_alloc()));
+  while (true) {
+    const int answer = av_read_frame(input.get(), packet.get());
+    if (answer == AVERROR_EOF) break;
+    decoded(answer);
+    source.send(packet.get());
+    av_packet_unref(packet.get());
+  }
+  source.send(nullptr);
+  if (source.frames() == 0) throw std::runtime_error("it holds no image");
+}
+
+}  // namespace
+
+void decode_picture(const std::string& bytes, std::string_view format, const Take& take) {
+  av_log_set_level(AV_LOG_QUIET);
+  const Traits& traits = traits_of(format);
+  if (traits.demuxer == nullptr)
+    decode_still(bytes, traits, take);
+  else
+    decode_animation(bytes, traits, take);
+}
+
+}  // namespace mapproof
