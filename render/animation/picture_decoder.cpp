@@ -30,9 +30,10 @@ struct Traits {
 };
 
 constexpr std::array kTraits = {
-    Traits{"apng", AV_CODEC_ID_APNG, "apng"},  Traits{"bmp", AV_CODEC_ID_BMP, nullptr},
-    Traits{"gif", AV_CODEC_ID_GIF, "gif"},     Traits{"jpeg", AV_CODEC_ID_MJPEG, nullptr},
-    Traits{"tiff", AV_CODEC_ID_TIFF, nullptr}, Traits{"webp", AV_CODEC_ID_WEBP, nullptr}};
+    Traits{"apng", AV_CODEC_ID_APNG, "apng"}, Traits{"bmp", AV_CODEC_ID_BMP, nullptr},
+    Traits{"gif", AV_CODEC_ID_GIF, "gif"},    Traits{"jpeg", AV_CODEC_ID_MJPEG, nullptr},
+    Traits{"png", AV_CODEC_ID_PNG, nullptr},  Traits{"tiff", AV_CODEC_ID_TIFF, nullptr},
+    Traits{"webp", AV_CODEC_ID_WEBP, nullptr}};
 
 const Traits& traits_of(std::string_view format) {
   const auto found = std::ranges::find(kTraits, format, &Traits::name);

@@ -26,7 +26,8 @@ using namespace std::string_view_literals;
 
 /// What the program that decodes calls it.
 std::string_view name(PictureFormat format) {
-  constexpr std::string_view kNames[] = {"apng", "bmp", "gif", "jpeg", "pdf", "tiff", "webp"};
+  constexpr std::string_view kNames[] = {"apng", "bmp", "gif",  "jpeg",
+                                         "pdf",  "png", "tiff", "webp"};
   return kNames[static_cast<std::size_t>(format)];
 }
 
@@ -106,8 +107,8 @@ bool is_opaque(std::string_view rgba) {
 }  // namespace
 
 std::string_view label(PictureFormat format) {
-  constexpr std::string_view kLabels[] = {"animated PNG", "BMP",  "GIF", "JPEG",
-                                          "PDF",          "TIFF", "WebP"};
+  constexpr std::string_view kLabels[] = {"animated PNG", "BMP", "GIF",  "JPEG",
+                                          "PDF",          "PNG", "TIFF", "WebP"};
   return kLabels[static_cast<std::size_t>(format)];
 }
 

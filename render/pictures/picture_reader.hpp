@@ -12,12 +12,13 @@
 namespace mapproof {
 
 /// Formats of images that other programs decode: those of FFmpeg's libraries, and PDF.
-enum class PictureFormat { kApng, kBmp, kGif, kJpeg, kPdf, kTiff, kWebp };
+enum class PictureFormat { kApng, kBmp, kGif, kJpeg, kPdf, kPng, kTiff, kWebp };
 
 /// "JPEG": for readers.
 std::string_view label(PictureFormat format);
 
-/// The format by the first bytes, whatever the name of the file; empty: none of these.
+/// The format by the first bytes, whatever the name of the file; empty: none of these, or a PNG
+/// that is not animated.
 std::optional<PictureFormat> picture_format(std::string_view bytes);
 
 /// One frame of an animation, one page of a PDF, or a whole image.

@@ -83,10 +83,7 @@ std::string words_alone(const std::vector<ImageFile>& files) {
     for (const ImageFile& file : files) {
       if (!is_visible(file) || (file.format == "svg") != is_svg) continue;
       if (words.empty())
-        words = fmt::format("{}, by its {} alone: {}", file.format,
-                            is_svg                 ? "elements"
-                            : file.format == "png" ? "pixels"
-                                                   : "bytes",
+        words = fmt::format("{}, by its {} alone: {}", file.format, is_svg ? "elements" : "pixels",
                             file.diff.reason);
       else
         words += fmt::format("; {}: {}", file.format, file.diff.reason);

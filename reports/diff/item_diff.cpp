@@ -218,10 +218,12 @@ ImageDiff bytes_diff(const std::string& format, const std::filesystem::path& bas
 /// Compares two files. A file that cannot be read makes its image unreadable and stops nothing
 /// else.
 ImageDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
-                        const std::filesystem::path& current, const ImageOptions& options) {
+                        const std::filesystem::path& current, const ImageOptions& options,
+                        bool has_value) {
   try {
     if (is_not_compared(format)) return bytes_diff(format, baseline, current);
-    return format == "pdf" ? pdf_diff(baseline, current) : image_diff(baseline, current, options);
+    return format == "pdf" && has_value ? pdf_diff(baseline, current)
+                                        : image_diff(baseline, current, options);
   } catch (const IoError& error) {
     ImageDiff diff;
     diff.state = ImageState::kUnreadable;
@@ -233,7 +235,8 @@ ImageDiff readable_diff(const std::string& format, const std::filesystem::path& 
 /// Compares with the plain baseline and the other valid ones, and keeps the one that differs least.
 ImageFile compare_image(const std::string& format,
                         const std::map<std::string, std::filesystem::path>& baselines,
-                        const std::filesystem::path& current, const ImageOptions& options) {
+                        const std::filesystem::path& current, const ImageOptions& options,
+                        bool has_value) {
   ImageFile best;
   bool first = true;
   for (const auto& [key, baseline] : baselines) {
@@ -241,7 +244,7 @@ ImageFile compare_image(const std::string& format,
                    .baseline_key = key,
                    .baseline = baseline,
                    .current = current,
-                   .diff = readable_diff(format, baseline, current, options)};
+                   .diff = readable_diff(format, baseline, current, options, has_value)};
     if (first || file.diff.state < best.diff.state) best = std::move(file);
     first = false;
     if (best.diff.state == ImageState::kIdentical) break;
@@ -252,6 +255,7 @@ ImageFile compare_image(const std::string& format,
 /// Compares the images of both sides, format by format.
 std::vector<ImageFile> compare_images(const ItemFiles& baseline, const ItemFiles& current,
                                       const ImageOptions& options) {
+  const bool has_value = !baseline.figure.empty() && !current.figure.empty();
   std::vector<ImageFile> files;
   std::set<std::string> formats;
   for (const ItemFiles* side : {&baseline, &current})
@@ -260,7 +264,7 @@ std::vector<ImageFile> compare_images(const ItemFiles& baseline, const ItemFiles
     const auto before = baseline.images.find(format), after = current.images.find(format);
     if (before != baseline.images.end() && after != current.images.end())
       files.push_back(
-          compare_image(format, before->second, after->second.begin()->second, options));
+          compare_image(format, before->second, after->second.begin()->second, options, has_value));
     else if (before != baseline.images.end())
       files.push_back({format, "", before->second.begin()->second, {}, {}});
     else if (after != current.images.end())

@@ -18,7 +18,7 @@ constexpr std::size_t kMostFiles = 100'000;
 enum class KindClass {
   kFigure,    ///< The value from which an image was drawn.
   kImage,     ///< An image that is compared.
-  kOther,     ///< An image that nothing here decodes.
+  kOther,     ///< An image that nothing here draws.
   kDocument,  ///< A table or a page, which follows from records.
 };
 
@@ -32,10 +32,10 @@ struct Kind {
 constexpr std::array kKinds = {
     Kind{"figure.json", KindClass::kFigure},   Kind{"scene.json", KindClass::kFigure},
     Kind{"png", KindClass::kImage, "\x89PNG"}, Kind{"svg", KindClass::kImage, "<"},
-    Kind{"pdf", KindClass::kImage, "%PDF-"},   Kind{"jpg", KindClass::kOther, "\xFF\xD8\xFF"},
-    Kind{"jpeg", KindClass::kOther},           Kind{"gif", KindClass::kOther, "GIF8"},
-    Kind{"webp", KindClass::kOther, "RIFF"},   Kind{"tif", KindClass::kOther, "II*"},
-    Kind{"tiff", KindClass::kOther},           Kind{"bmp", KindClass::kOther},
+    Kind{"pdf", KindClass::kImage, "%PDF-"},   Kind{"jpg", KindClass::kImage, "\xFF\xD8\xFF"},
+    Kind{"jpeg", KindClass::kImage},           Kind{"gif", KindClass::kImage, "GIF8"},
+    Kind{"webp", KindClass::kImage, "RIFF"},   Kind{"tif", KindClass::kImage, "II*"},
+    Kind{"tiff", KindClass::kImage, "MM"},     Kind{"bmp", KindClass::kImage, "BM"},
     Kind{"eps", KindClass::kOther, "%!PS"}};
 
 KindClass class_of(std::string_view kind) {

@@ -26,6 +26,7 @@
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
 #include "render/image/png_read.hpp"
+#include "render/pictures/picture_reader.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_settings.hpp"
@@ -52,6 +53,13 @@ void add_records(ApprovalFiles& files, const std::string& id, const fs::path& lo
     files[id].insert((location / "timings.jsonl").lexically_relative(root));
 }
 
+/// Whether files of the kind hold an image that is compared.
+bool is_decoded(std::string_view kind) {
+  constexpr std::array<std::string_view, 8> kKinds = {"bmp", "gif",  "jpeg", "jpg",
+                                                      "pdf", "tif", "tiff", "webp"};
+  return std::ranges::find(kKinds, kind) != kKinds.end();
+}
+
 void read_as_what_it_is(const fs::path& file) {
   const std::string name = file.filename().string();
   const std::string kind = item_name(file, file.parent_path()).kind;
@@ -63,10 +71,15 @@ void read_as_what_it_is(const fs::path& file) {
   } else if (name.ends_with(".json")) {
     for (const Finding& finding : validate(file))
       if (!finding.problem.empty()) throw InvalidInput(finding.problem);
+  } else if (const std::string bytes = read_file(file); const auto format = picture_format(bytes)) {
+    PictureReader pictures(bytes, *format);
+    while (pictures.next()) continue;
   } else if (kind == "png") {
-    read_png(read_file(file));
+    read_png(bytes);
   } else if (kind == "svg") {
-    parse_svg(read_file(file));
+    parse_svg(bytes);
+  } else if (is_decoded(kind)) {
+    throw IoError(file.string(), "is no " + kind + " that can be read");
   }
 }
 

@@ -19,6 +19,7 @@
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
+#include "render/pictures/picture_reader.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/flat_ground.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
@@ -28,139 +29,6 @@
 namespace mapproof {
 
 namespace {
-
-// An image has noise everywhere if this share of its pixels differ by no more than noise.
-constexpr double kNoisyShare = 0.2;
-
-// Of 255: a contrast above any allowed noise.
-constexpr double kContrast = 16.0;
-
-/// The result of the first pass over a tile.
-struct TileStyle {
-  bool differs = false;
-  bool is_textured = false;   ///< Not of one colour.
-  bool has_contrast = false;  ///< It has colours further apart than kContrast.
-  int within_noise = 0;       ///< Pixels that differ by no more than noise.
-};
-
-/// The pixels of a tile, cut off at the image's edge.
-PixelBox box_of(const ChangeMap& marks, const Image& image, int tile) {
-  const int x0 = tile % marks.across() * kTile, y0 = tile / marks.across() * kTile;
-  return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
-}
-
-/// Makes `current` equal to the baseline in the boxes. @return The number of pixels in them.
-std::int64_t ignore(const Image& baseline, Image& current, const std::vector<PixelBox>& boxes) {
-  std::vector<bool> is_ignored(boxes.empty() ? 0 : baseline.pixels.size());
-  for (const PixelBox& box : boxes) {
-    const std::int64_t right =
-        std::min<std::int64_t>(std::int64_t{box.x} + box.width, baseline.width);
-    const std::int64_t end =
-        std::min<std::int64_t>(std::int64_t{box.y} + box.height, baseline.height);
-    for (std::int64_t y = std::max(box.y, 0); y < end; ++y)
-      for (std::int64_t x = std::max(box.x, 0); x < right; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y * baseline.width + x);
-        current.pixels[i] = baseline.pixels[i];
-        is_ignored[i] = true;
-      }
-  }
-  return std::ranges::count(is_ignored, true);
-}
-
-bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
-  return largest_difference(a, b) <= noise;
-}
-
-TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double noise) {
-  TileStyle style;
-  const std::uint32_t first = a.row(box.y)[box.x];
-  for (int y = box.y; y < box.y + box.height; ++y) {
-    const std::uint32_t *p = a.row(y) + box.x, *q = b.row(y) + box.x;
-    style.is_textured =
-        style.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
-    style.has_contrast =
-        style.has_contrast || (style.is_textured && std::any_of(p, p + box.width, [=](auto v) {
-                                 return !is_within(v, first, kContrast);
-                               }));
-    if (std::memcmp(p, q, sizeof *p * static_cast<std::size_t>(box.width)) == 0) continue;
-    style.differs = true;
-    for (int x = 0; x < box.width; ++x)
-      style.within_noise += p[x] != q[x] && is_within(p[x], q[x], noise);
-  }
-  return style;
-}
-
-std::vector<TileStyle> styles_at(const Image& baseline, const Image& current,
-                                 const ChangeMap& marks, double noise) {
-  std::vector<TileStyle> styles(static_cast<std::size_t>(marks.across()) * marks.down());
-  parallel_for(static_cast<std::size_t>(marks.down()), [&](std::size_t i) {
-    const int row = static_cast<int>(i);
-    for (int tile = row * marks.across(); tile < (row + 1) * marks.across(); ++tile)
-      styles[tile] = look_at(baseline, current, box_of(marks, baseline, tile), noise);
-  });
-  return styles;
-}
-
-/// Sums the evidence of all tiles.
-void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
-            const ChangeMap& marks, PixelDiff& pixels) {
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const TileEvidence& tile = evidence[i];
-    const TileMarks& tile_marks = *marks.tile(tiles[i]);
-    const std::int64_t changed = std::ranges::count(tile_marks, PixelMark::kChanged);
-    pixels.differing += tile.differing;
-    pixels.changed += changed;
-    pixels.antialiased += std::ranges::count(tile_marks, PixelMark::kSmoothed);
-    pixels.largest_colour_difference =
-        std::max(pixels.largest_colour_difference, tile.largest_colour_difference);
-    pixels.largest_mean_shift = std::max(pixels.largest_mean_shift, tile.flat_shift);
-    if (tile.moved_share > 0.7 && changed > 0)
-      pixels.largest_displacement_px =
-          std::max(pixels.largest_displacement_px, tile.displacement_px());
-    if (tile.least_structure < pixels.least_structure) {
-      pixels.least_structure = tile.least_structure;
-      pixels.least_structure_at = tile.least_structure_at;
-    }
-  }
-  const double all = static_cast<double>(pixels.baseline.width) * pixels.baseline.height;
-  pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
-}
-
-/// The changed pixels of a group of tiles.
-struct Cluster {
-  std::int64_t pixels = 0;
-  int left = INT_MAX, top = INT_MAX, right = 0, bottom = 0;
-
-  PixelBox box() const { return {left, top, right - left, bottom - top}; }
-};
-
-Cluster cluster_of(const std::vector<int>& group, const ChangeMap& marks) {
-  Cluster found;
-  for (const int tile : group)
-    for (int i = 0; i < kTile * kTile; ++i) {
-      if ((*marks.tile(tile))[i] != PixelMark::kChanged) continue;
-      const int x = tile % marks.across() * kTile + i % kTile;
-      const int y = tile / marks.across() * kTile + i / kTile;
-      found.left = std::min(found.left, x), found.right = std::max(found.right, x + 1);
-      found.top = std::min(found.top, y), found.bottom = std::max(found.bottom, y + 1);
-      ++found.pixels;
-    }
-  return found;
-}
-
-void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff& pixels) {
-  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
-  for (const int tile : tiles)
-    is_changed[tile] =
-        std::ranges::find(*marks.tile(tile), PixelMark::kChanged) != marks.tile(tile)->end();
-  for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
-    ++pixels.clusters;
-    const Cluster cluster = cluster_of(group, marks);
-    if (cluster.pixels <= pixels.largest_cluster_pixels) continue;
-    pixels.largest_cluster_pixels = cluster.pixels;
-    pixels.largest_cluster = cluster.box();
-  }
-}
 
 constexpr std::size_t kMostImageBytes = std::size_t{1} << 28;
 
@@ -200,6 +68,16 @@ ImageState state_of(const PixelDiff& pixels, const ImageOptions& options) {
   return pixels.differing > 0 ? ImageState::kWithinTolerance : ImageState::kIdentical;
 }
 
+/// Whether the first result differs more than the second.
+bool differs_more(ImageState state, const PixelDiff& pixels, ImageState than,
+                  const PixelDiff& than_pixels) {
+  if (state != than) return state > than;
+  return std::pair(pixels.changed, pixels.differing) >
+         std::pair(than_pixels.changed, than_pixels.differing);
+}
+
+constexpr const char* kFinerAlone = "the pixels differ only in alpha or below 8 bits";
+
 std::string words(const PixelDiff& found, bool finer_differs) {
   if (found.baseline != found.current)
     return fmt::format("{} x {} pixels became {} x {}", found.baseline.width, found.baseline.height,
@@ -211,7 +89,7 @@ std::string words(const PixelDiff& found, bool finer_differs) {
   if (found.differing > 0)
     return fmt::format("{} pixels differ by no more than noise and anti-aliasing explain",
                        found.differing);
-  if (finer_differs) return "the pixels differ only in alpha or below 8 bits";
+  if (finer_differs) return kFinerAlone;
   return "the pixels are equal";
 }
 
@@ -271,14 +149,147 @@ void compare_decoded(std::string_view before, std::string_view after, const Imag
     *heat = heat_map(std::move(baseline.png.image), found.marks);
 }
 
+/// The pictures of one side, or the reason why they cannot be read.
+class PictureSide {
+ public:
+  PictureSide(std::string_view bytes, PictureFormat format) {
+    guarded([&] { reader_.emplace(bytes, format); });
+  }
+
+  /// Empty after the last, and if it cannot be read.
+  std::optional<Picture> next() {
+    std::optional<Picture> picture;
+    if (reader_) guarded([&] { picture = reader_->next(); });
+    return picture;
+  }
+
+  const std::string& reason() const { return reason_; }
+
+ private:
+  template <typename Work>
+  void guarded(const Work& work) {
+    try {
+      work();
+    } catch (const InvalidInput& error) {
+      reason_ = error.what();
+      reader_.reset();
+    }
+  }
+
+  std::optional<PictureReader> reader_;
+  std::string reason_;
+};
+
+/// What two pictures show, over white or over black, whichever differs more.
+struct PictureComparison {
+  ImageState state = ImageState::kIdentical;
+  PixelComparison found;
+  Image baseline;  ///< Over that ground.
+};
+
+PictureComparison compared_over(const Image& baseline, const Image& current,
+                                const ImageOptions& options) {
+  PixelComparison found = pixel_diff(baseline, current, options);
+  const ImageState state = state_of(found.pixels, options);
+  return {state, std::move(found), baseline};
+}
+
+PictureComparison compared(const Picture& baseline, const Picture& current,
+                           const ImageOptions& options) {
+  PictureComparison white = compared_over(baseline.over_white, current.over_white, options);
+  if (!baseline.over_black && !current.over_black) return white;
+  PictureComparison black =
+      compared_over(baseline.over_black ? *baseline.over_black : baseline.over_white,
+                    current.over_black ? *current.over_black : current.over_white, options);
+  return differs_more(black.state, black.found.pixels, white.state, white.found.pixels) ? black
+                                                                                        : white;
+}
+
+/// Compares files picture by picture, and keeps the result of the one that differs most.
+class PictureComparer {
+ public:
+  PictureComparer(const ImageOptions& options, PictureFormat format)
+      : options_(options), noun_(format == PictureFormat::kPdf ? "page" : "frame") {}
+
+  void add(const Picture& baseline, const Picture& current) {
+    ++count_;
+    PictureComparison next = compared(baseline, current, options_);
+    if (count_ == 1 ||
+        differs_more(next.state, next.found.pixels, worst_.state, worst_.found.pixels)) {
+      worst_ = std::move(next);
+      worst_number_ = count_;
+    }
+    if (baseline.duration_ms != current.duration_ms && durations_.empty())
+      durations_ = fmt::format("frame {} is shown for {} ms, and was for {} ms", count_,
+                               current.duration_ms, baseline.duration_ms);
+  }
+
+  /// @param more  Pictures that the baseline alone has, less those that the current alone has.
+  void conclude(int more, Image* heat, ImageDiff& diff) {
+    diff.pixels = worst_.found.pixels;
+    diff.state = worst_.state;
+    diff.reason = words(worst_.found.pixels, false);
+    if (count_ > 1 && diff.state != ImageState::kIdentical)
+      diff.reason = fmt::format("{} {} of {}: {}", noun_, worst_number_, count_, diff.reason);
+    std::string others = durations_;
+    if (more != 0)
+      others = fmt::format("{} became {}", counted(count_ + std::max(more, 0), noun_),
+                           counted(count_ + std::max(-more, 0), noun_));
+    if (!others.empty()) {
+      diff.reason = diff.state == ImageState::kIdentical ? others : others + "; " + diff.reason;
+      diff.state = ImageState::kDifferent;
+    }
+    const PixelDiff& pixels = worst_.found.pixels;
+    if (heat && pixels.baseline == pixels.current && pixels.differing > 0)
+      *heat = heat_map(std::move(worst_.baseline), worst_.found.marks);
+  }
+
+ private:
+  const ImageOptions& options_;
+  const char* noun_;
+  int count_ = 0;
+  PictureComparison worst_;
+  int worst_number_ = 0;
+  std::string durations_;
+};
+
+void compare_pictures(std::string_view before, std::string_view after, PictureFormat format,
+                      const ImageOptions& options, Image* heat, ImageDiff& diff) {
+  PictureSide baseline(before, format), current(after, format);
+  PictureComparer comparer(options, format);
+  int more = 0;
+  while (true) {
+    const std::optional<Picture> was = baseline.next(), is = current.next();
+    if (!was && !is) break;
+    if (was && is)
+      comparer.add(*was, *is);
+    else
+      more += was ? 1 : -1;
+  }
+  diff.reason = unreadable(baseline.reason(), current.reason());
+  if (diff.reason.empty()) comparer.conclude(more, heat, diff);
+}
+
+/// What is seen over black only, where PNGs of equal pixels over white differ in transparency.
+void compare_over_black(std::string_view before, std::string_view after,
+                        const ImageOptions& options, Image* heat, ImageDiff& diff) {
+  ImageDiff over_black;
+  compare_pictures(before, after, PictureFormat::kPng, options, heat, over_black);
+  if (over_black.state != ImageState::kDifferent) return;
+  diff.state = over_black.state;
+  diff.pixels = over_black.pixels;
+  diff.reason = over_black.reason + ", seen over black";
+}
+
 void compare_pngs(std::string_view before, std::string_view after, const ImageOptions& options,
                   Image* heat, ImageDiff& diff) {
   if (are_same_pngs(before, after, diff)) return;
   // A waiting thread takes no other pair meanwhile: it would hold the pixels of both.
   run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
+  if (diff.reason == kFinerAlone) compare_over_black(before, after, options, heat, diff);
 }
 
-enum class ImageFormat { kPng, kSvg, kEmpty, kOther };
+enum class ImageFormat { kPng, kSvg, kPicture, kEmpty, kPointer, kOther };
 
 /// Whether the bytes begin as UTF-16 does, with its mark or with "<" in two bytes.
 bool is_utf16(std::string_view bytes) {
@@ -290,7 +301,9 @@ bool is_utf16(std::string_view bytes) {
 /// The kind by the first bytes of the content, whatever the name of the file.
 ImageFormat kind_of(std::string_view bytes) {
   if (bytes.empty()) return ImageFormat::kEmpty;
+  if (picture_format(bytes)) return ImageFormat::kPicture;
   if (bytes.starts_with("\x89PNG")) return ImageFormat::kPng;
+  if (bytes.starts_with("version https://git-lfs")) return ImageFormat::kPointer;
   if (is_utf16(bytes)) return ImageFormat::kSvg;
   if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");
@@ -300,7 +313,9 @@ ImageFormat kind_of(std::string_view bytes) {
 
 std::string kind_problem(ImageFormat kind) {
   if (kind == ImageFormat::kEmpty) return "is empty";
-  return kind == ImageFormat::kOther ? "is neither PNG nor SVG" : "";
+  if (kind == ImageFormat::kPointer)
+    return "is a pointer of Git LFS, not the image: run git lfs pull";
+  return kind == ImageFormat::kOther ? "is no image of a format that is compared" : "";
 }
 
 /// An SVG file, or the reason why it cannot be read.
@@ -342,133 +357,18 @@ void compare_svgs(std::string_view before, std::string_view after, const ImageOp
   diff.reason = words(*diff.svg);
 }
 
-// The tolerances at which a judgement is made, from the defaults on.
-constexpr std::array kNoiseSteps{
-    ImageTolerances::kNoise, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0};
-constexpr std::array kDisplacementSteps{ImageTolerances::kDisplacement_px,
-                                        0.5,
-                                        0.6,
-                                        0.7,
-                                        0.8,
-                                        0.9,
-                                        1.0,
-                                        1.25,
-                                        1.5,
-                                        1.75,
-                                        2.0,
-                                        2.5,
-                                        3.0,
-                                        3.5,
-                                        4.0};
-
-/// The steps up to a value, the largest first; the first step if the value is below all.
-std::vector<double> steps_up_to(double value, std::span<const double> steps) {
-  std::vector<double> found;
-  for (const double step : steps)
-    if (step <= value) found.insert(found.begin(), step);
-  if (found.empty()) found.push_back(steps.front());
-  return found;
+void set_equal(ImageDiff& diff) {
+  diff.state = ImageState::kIdentical;
+  diff.reason = "the files are equal";
 }
 
-/// What the options allow of a tile and its judgement did not know.
-struct TileTolerance {
-  /// @param judged  The tolerances of the judgement: at least the options', if these are below the
-  ///                defaults, else at most theirs.
-  TileTolerance(const ImageOptions& options, const ImageOptions& judged,
-                const TileEvidence& evidence)
-      : noise(options.noise),
-        is_flat_shift(evidence.flat_shift > 0.0),
-        is_moved_too_far(options.displacement_px < judged.displacement_px &&
-                         evidence.displacement_px() > options.displacement_px) {}
-
-  double noise;
-  bool is_flat_shift;
-  bool is_moved_too_far;
-};
-
-void apply_tolerance(const Image& baseline, const Image& current, const PixelBox& tile,
-                     const TileTolerance& allowed, TileMarks& marks) {
-  for (int y = 0; y < tile.height; ++y)
-    for (int x = 0; x < tile.width; ++x) {
-      PixelMark& mark = marks[y * kTile + x];
-      if (mark == PixelMark::kEqual) continue;
-      const int difference = largest_difference(baseline.row(tile.y + y)[tile.x + x],
-                                                current.row(tile.y + y)[tile.x + x]);
-      if (mark == PixelMark::kChanged && !allowed.is_flat_shift && difference <= allowed.noise)
-        mark = PixelMark::kNoise;
-      else if ((mark == PixelMark::kNoise && difference > allowed.noise) ||
-               (mark == PixelMark::kSmoothed && allowed.is_moved_too_far))
-        mark = PixelMark::kChanged;
-    }
-}
-
-/// Fills in the marks and the sums of two images of one size.
-/// @param judged  The tolerances of the judgement; what else the options allow is applied to its
-///                marks.
-void judge_pixels(const Image& baseline, const Image& current, const ImageOptions& options,
-                  const ImageOptions& judged, PixelComparison& diff) {
-  diff.marks = ChangeMap(baseline.width, baseline.height);
-
-  // First pass: which tiles differ, and whether there is noise everywhere.
-  const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, judged.noise);
-  std::vector<int> tiles;
-  Texture texture;
-  double within_noise = 0.0;
-  for (std::size_t i = 0; i < styles.size(); ++i) {
-    if (styles[i].differs) tiles.push_back(static_cast<int>(i));
-    within_noise += styles[i].within_noise;
-    texture.tiles += styles[i].is_textured;
-    if (!styles[i].has_contrast) continue;
-    texture.bounds.add(static_cast<int>(i) % diff.marks.across(),
-                       static_cast<int>(i) / diff.marks.across());
-  }
-  const double pixels = static_cast<double>(baseline.width) * baseline.height;
-  const EvidenceBounds bounds{judged.noise, judged.mean_noise, judged.displacement_px,
-                              within_noise > kNoisyShare * pixels};
-  diff.marks.keep(tiles);
-
-  // Second pass: the evidence of each differing tile, then the judgement of all together.
-  std::vector<TileEvidence> evidence(tiles.size());
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
-    evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
-  });
-  judge(tiles, evidence, texture, judged, diff.marks);
-  if (options.noise != judged.noise || options.displacement_px != judged.displacement_px)
-    parallel_for(tiles.size(), [&](std::size_t i) {
-      apply_tolerance(baseline, current, box_of(diff.marks, baseline, tiles[i]),
-                      {options, judged, evidence[i]}, *diff.marks.tile(tiles[i]));
-    });
-  mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
-  sum_up(tiles, evidence, diff.marks, diff.pixels);
-  find_clusters(tiles, diff.marks, diff.pixels);
+/// "animated PNG", "JPEG".
+std::string_view words(ImageFormat kind, std::string_view bytes) {
+  if (kind == ImageFormat::kPicture) return label(*picture_format(bytes));
+  return kind == ImageFormat::kPng ? "PNG" : "SVG";
 }
 
 }  // namespace
-
-PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
-  if (const std::string problem = problem_of(options); !problem.empty())
-    throw InvalidInput(problem);
-  PixelComparison diff;
-  diff.pixels.baseline = {baseline.width, baseline.height};
-  diff.pixels.current = {current.width, current.height};
-  if (diff.pixels.baseline != diff.pixels.current) return diff;
-  diff.pixels.ignored = ignore(baseline, current, options.ignored);
-  // The judgement weighs shares of what differs, which a larger tolerance changes in either
-  // direction. The judgement that finds least at any tolerance up to the allowed one cannot find
-  // more if more is allowed.
-  std::optional<PixelComparison> least;
-  for (const double noise : steps_up_to(options.noise, kNoiseSteps))
-    for (const double displacement_px : steps_up_to(options.displacement_px, kDisplacementSteps)) {
-      ImageOptions judged = options;
-      judged.noise = noise, judged.displacement_px = displacement_px;
-      PixelComparison found = diff;
-      judge_pixels(baseline, current, options, judged, found);
-      if (!least || found.pixels.changed < least->pixels.changed) least = std::move(found);
-      if (least->pixels.changed == 0) return *std::move(least);
-    }
-  return *std::move(least);
-}
 
 ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
                      const ImageOptions& options, Image* heat) {
@@ -483,9 +383,15 @@ ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesyste
   const ImageFormat first = kind_of(before), second = kind_of(after);
   diff.reason = unreadable(kind_problem(first), kind_problem(second));
   if (!diff.reason.empty()) return diff;
-  if (first != second) {
+  if (words(first, before) != words(second, after)) {
     diff.state = ImageState::kDifferent;
-    diff.reason = "one file is a PNG, the other an SVG";
+    diff.reason =
+        fmt::format("the format changed: {} \u2192 {}", words(first, before), words(second, after));
+  } else if (first == ImageFormat::kPicture) {
+    if (before == after)
+      set_equal(diff);
+    else
+      compare_pictures(before, after, *picture_format(before), options, heat, diff);
   } else if (first == ImageFormat::kPng) {
     compare_pngs(before, after, options, heat, diff);
   } else {

@@ -42,10 +42,25 @@ constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 bool has_both(const ImageFile& file) { return !file.baseline.empty() && !file.current.empty(); }
 
+/// The type of an image that browsers show; empty: none.
+std::string_view media_type(std::string_view format) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
+      {{"png", "image/png"},
+       {"svg", "image/svg+xml"},
+       {"jpg", "image/jpeg"},
+       {"jpeg", "image/jpeg"},
+       {"gif", "image/gif"},
+       {"webp", "image/webp"},
+       {"bmp", "image/bmp"}}};
+  for (const auto& [known, type] : kTypes)
+    if (known == format) return type;
+  return {};
+}
+
 /// The priority of an image on the page; 0: nothing to show.
 int interest(const ImageFile& file) {
   const int of_format = file.format == "png" ? 1 : 0;
-  if (file.format != "png" && file.format != "svg") return 0;
+  if (media_type(file.format).empty()) return 0;
   if (!has_both(file)) return 2 + of_format;
   switch (file.diff.state) {
     case ImageState::kDifferent:
@@ -88,8 +103,7 @@ ShownImage read_image(const fs::path& path, const std::string& format, const std
   ShownImage image;
   image.renderer = renderer;
   if (format == "png") image.size = png_size(bytes, path);
-  image.uri =
-      (format == "png" ? "data:image/png;base64," : "data:image/svg+xml;base64,") + base64(bytes);
+  image.uri = fmt::format("data:{};base64,{}", media_type(format), base64(bytes));
   return image;
 }
 
@@ -104,6 +118,9 @@ std::string unreadable_reason(const DiffItem& item) {
   for (const ImageFile& file : item.images)
     if (has_both(file) && file.diff.state == ImageState::kUnreadable)
       return "Not shown: " + file.format + " cannot be read.";
+  for (const ImageFile& file : item.images)
+    if (media_type(file.format).empty())
+      return "Not shown: browsers show no " + file.format + " in a page.";
   return "";
 }
 
@@ -135,7 +152,7 @@ std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
     if (plan.file != nullptr) {
       used += bytes_of(*plan.file);
       plan.heat =
-          plan.file->format == "png" && has_both(*plan.file) && heat_maps < budget.heat_maps;
+          plan.file->format != "svg" && has_both(*plan.file) && heat_maps < budget.heat_maps;
       heat_maps += plan.heat ? 1 : 0;
     }
     all.push_back(std::move(plan));
@@ -145,7 +162,7 @@ std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
 
 /// Why two images are shown without a heat map.
 std::string no_heat_reason(const Plan& plan) {
-  if (plan.file->format != "png") return "No heat map: only PNGs have one.";
+  if (plan.file->format == "svg") return "No heat map: SVGs have none.";
   return plan.heat ? "No heat map: the sizes differ."
                    : "No heat map: the page already holds its maximum number of heat maps.";
 }

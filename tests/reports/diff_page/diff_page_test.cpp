@@ -63,7 +63,7 @@ TEST(DiffPage, MakesAHeatMapOnlyOfPngsOfOneSizeThatDiffer) {
   const std::string page = page_of(test::compared_folders(folder.path()));
   EXPECT_EQ(count_of(page, "class=\"pane heat\""), 1);
   EXPECT_NE(page.find("alt=\"Heat map of moved\""), std::string::npos);
-  EXPECT_EQ(count_of(page, "No heat map: only PNGs have one."), 1);
+  EXPECT_EQ(count_of(page, "No heat map: SVGs have none."), 1);
   EXPECT_EQ(count_of(page, "No heat map: the sizes differ."), 1);
 }
 

@@ -1,0 +1,285 @@
+#include "reports/diff/images/pixel_diff.hpp"
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/base/errors.hpp"
+#include "core/base/parallel.hpp"
+#include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/flat_ground.hpp"
+#include "reports/diff/images/pixel_judgement.hpp"
+#include "reports/diff/images/tile_evidence.hpp"
+
+namespace mapproof {
+
+namespace {
+
+// An image has noise everywhere if this share of its pixels differ by no more than noise.
+constexpr double kNoisyShare = 0.2;
+
+// Of 255: a contrast above any allowed noise.
+constexpr double kContrast = 16.0;
+
+/// The result of the first pass over a tile.
+struct TileStyle {
+  bool differs = false;
+  bool is_textured = false;   ///< Not of one colour.
+  bool has_contrast = false;  ///< It has colours further apart than kContrast.
+  int within_noise = 0;       ///< Pixels that differ by no more than noise.
+};
+
+/// The pixels of a tile, cut off at the image's edge.
+PixelBox box_of(const ChangeMap& marks, const Image& image, int tile) {
+  const int x0 = tile % marks.across() * kTile, y0 = tile / marks.across() * kTile;
+  return {x0, y0, std::min(kTile, image.width - x0), std::min(kTile, image.height - y0)};
+}
+
+/// Makes `current` equal to the baseline in the boxes. @return The number of pixels in them.
+std::int64_t ignore(const Image& baseline, Image& current, const std::vector<PixelBox>& boxes) {
+  std::vector<bool> is_ignored(boxes.empty() ? 0 : baseline.pixels.size());
+  for (const PixelBox& box : boxes) {
+    const std::int64_t right =
+        std::min<std::int64_t>(std::int64_t{box.x} + box.width, baseline.width);
+    const std::int64_t end =
+        std::min<std::int64_t>(std::int64_t{box.y} + box.height, baseline.height);
+    for (std::int64_t y = std::max(box.y, 0); y < end; ++y)
+      for (std::int64_t x = std::max(box.x, 0); x < right; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y * baseline.width + x);
+        current.pixels[i] = baseline.pixels[i];
+        is_ignored[i] = true;
+      }
+  }
+  return std::ranges::count(is_ignored, true);
+}
+
+bool is_within(std::uint32_t a, std::uint32_t b, double noise) {
+  return largest_difference(a, b) <= noise;
+}
+
+TileStyle look_at(const Image& a, const Image& b, const PixelBox& box, double noise) {
+  TileStyle style;
+  const std::uint32_t first = a.row(box.y)[box.x];
+  for (int y = box.y; y < box.y + box.height; ++y) {
+    const std::uint32_t *p = a.row(y) + box.x, *q = b.row(y) + box.x;
+    style.is_textured =
+        style.is_textured || std::any_of(p, p + box.width, [=](auto v) { return v != first; });
+    style.has_contrast =
+        style.has_contrast || (style.is_textured && std::any_of(p, p + box.width, [=](auto v) {
+                                 return !is_within(v, first, kContrast);
+                               }));
+    if (std::memcmp(p, q, sizeof *p * static_cast<std::size_t>(box.width)) == 0) continue;
+    style.differs = true;
+    for (int x = 0; x < box.width; ++x)
+      style.within_noise += p[x] != q[x] && is_within(p[x], q[x], noise);
+  }
+  return style;
+}
+
+std::vector<TileStyle> styles_at(const Image& baseline, const Image& current,
+                                 const ChangeMap& marks, double noise) {
+  std::vector<TileStyle> styles(static_cast<std::size_t>(marks.across()) * marks.down());
+  parallel_for(static_cast<std::size_t>(marks.down()), [&](std::size_t i) {
+    const int row = static_cast<int>(i);
+    for (int tile = row * marks.across(); tile < (row + 1) * marks.across(); ++tile)
+      styles[tile] = look_at(baseline, current, box_of(marks, baseline, tile), noise);
+  });
+  return styles;
+}
+
+/// Sums the evidence of all tiles.
+void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
+            const ChangeMap& marks, PixelDiff& pixels) {
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const TileEvidence& tile = evidence[i];
+    const TileMarks& tile_marks = *marks.tile(tiles[i]);
+    const std::int64_t changed = std::ranges::count(tile_marks, PixelMark::kChanged);
+    pixels.differing += tile.differing;
+    pixels.changed += changed;
+    pixels.antialiased += std::ranges::count(tile_marks, PixelMark::kSmoothed);
+    pixels.largest_colour_difference =
+        std::max(pixels.largest_colour_difference, tile.largest_colour_difference);
+    pixels.largest_mean_shift = std::max(pixels.largest_mean_shift, tile.flat_shift);
+    if (tile.moved_share > 0.7 && changed > 0)
+      pixels.largest_displacement_px =
+          std::max(pixels.largest_displacement_px, tile.displacement_px());
+    if (tile.least_structure < pixels.least_structure) {
+      pixels.least_structure = tile.least_structure;
+      pixels.least_structure_at = tile.least_structure_at;
+    }
+  }
+  const double all = static_cast<double>(pixels.baseline.width) * pixels.baseline.height;
+  pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
+}
+
+/// The changed pixels of a group of tiles.
+struct Cluster {
+  std::int64_t pixels = 0;
+  int left = INT_MAX, top = INT_MAX, right = 0, bottom = 0;
+
+  PixelBox box() const { return {left, top, right - left, bottom - top}; }
+};
+
+Cluster cluster_of(const std::vector<int>& group, const ChangeMap& marks) {
+  Cluster found;
+  for (const int tile : group)
+    for (int i = 0; i < kTile * kTile; ++i) {
+      if ((*marks.tile(tile))[i] != PixelMark::kChanged) continue;
+      const int x = tile % marks.across() * kTile + i % kTile;
+      const int y = tile / marks.across() * kTile + i / kTile;
+      found.left = std::min(found.left, x), found.right = std::max(found.right, x + 1);
+      found.top = std::min(found.top, y), found.bottom = std::max(found.bottom, y + 1);
+      ++found.pixels;
+    }
+  return found;
+}
+
+void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff& pixels) {
+  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
+  for (const int tile : tiles)
+    is_changed[tile] =
+        std::ranges::find(*marks.tile(tile), PixelMark::kChanged) != marks.tile(tile)->end();
+  for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
+    ++pixels.clusters;
+    const Cluster cluster = cluster_of(group, marks);
+    if (cluster.pixels <= pixels.largest_cluster_pixels) continue;
+    pixels.largest_cluster_pixels = cluster.pixels;
+    pixels.largest_cluster = cluster.box();
+  }
+}
+
+// The tolerances at which a judgement is made, from the defaults on.
+constexpr std::array kNoiseSteps{
+    ImageTolerances::kNoise, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0};
+constexpr std::array kDisplacementSteps{ImageTolerances::kDisplacement_px,
+                                        0.5,
+                                        0.6,
+                                        0.7,
+                                        0.8,
+                                        0.9,
+                                        1.0,
+                                        1.25,
+                                        1.5,
+                                        1.75,
+                                        2.0,
+                                        2.5,
+                                        3.0,
+                                        3.5,
+                                        4.0};
+
+/// The steps up to a value, the largest first; the first step if the value is below all.
+std::vector<double> steps_up_to(double value, std::span<const double> steps) {
+  std::vector<double> found;
+  for (const double step : steps)
+    if (step <= value) found.insert(found.begin(), step);
+  if (found.empty()) found.push_back(steps.front());
+  return found;
+}
+
+/// What the options allow of a tile and its judgement did not know.
+struct TileTolerance {
+  /// @param judged  The tolerances of the judgement: at least the options', if these are below the
+  ///                defaults, else at most theirs.
+  TileTolerance(const ImageOptions& options, const ImageOptions& judged,
+                const TileEvidence& evidence)
+      : noise(options.noise),
+        is_flat_shift(evidence.flat_shift > 0.0),
+        is_moved_too_far(options.displacement_px < judged.displacement_px &&
+                         evidence.displacement_px() > options.displacement_px) {}
+
+  double noise;
+  bool is_flat_shift;
+  bool is_moved_too_far;
+};
+
+void apply_tolerance(const Image& baseline, const Image& current, const PixelBox& tile,
+                     const TileTolerance& allowed, TileMarks& marks) {
+  for (int y = 0; y < tile.height; ++y)
+    for (int x = 0; x < tile.width; ++x) {
+      PixelMark& mark = marks[y * kTile + x];
+      if (mark == PixelMark::kEqual) continue;
+      const int difference = largest_difference(baseline.row(tile.y + y)[tile.x + x],
+                                                current.row(tile.y + y)[tile.x + x]);
+      if (mark == PixelMark::kChanged && !allowed.is_flat_shift && difference <= allowed.noise)
+        mark = PixelMark::kNoise;
+      else if ((mark == PixelMark::kNoise && difference > allowed.noise) ||
+               (mark == PixelMark::kSmoothed && allowed.is_moved_too_far))
+        mark = PixelMark::kChanged;
+    }
+}
+
+/// Fills in the marks and the sums of two images of one size.
+/// @param judged  The tolerances of the judgement; what else the options allow is applied to its
+///                marks.
+void judge_pixels(const Image& baseline, const Image& current, const ImageOptions& options,
+                  const ImageOptions& judged, PixelComparison& diff) {
+  diff.marks = ChangeMap(baseline.width, baseline.height);
+
+  // First pass: which tiles differ, and whether there is noise everywhere.
+  const std::vector<TileStyle> styles = styles_at(baseline, current, diff.marks, judged.noise);
+  std::vector<int> tiles;
+  Texture texture;
+  double within_noise = 0.0;
+  for (std::size_t i = 0; i < styles.size(); ++i) {
+    if (styles[i].differs) tiles.push_back(static_cast<int>(i));
+    within_noise += styles[i].within_noise;
+    texture.tiles += styles[i].is_textured;
+    if (!styles[i].has_contrast) continue;
+    texture.bounds.add(static_cast<int>(i) % diff.marks.across(),
+                       static_cast<int>(i) / diff.marks.across());
+  }
+  const double pixels = static_cast<double>(baseline.width) * baseline.height;
+  const EvidenceBounds bounds{judged.noise, judged.mean_noise, judged.displacement_px,
+                              within_noise > kNoisyShare * pixels};
+  diff.marks.keep(tiles);
+
+  // Second pass: the evidence of each differing tile, then the judgement of all together.
+  std::vector<TileEvidence> evidence(tiles.size());
+  parallel_for(tiles.size(), [&](std::size_t i) {
+    const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
+    evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
+  });
+  judge(tiles, evidence, texture, judged, diff.marks);
+  if (options.noise != judged.noise || options.displacement_px != judged.displacement_px)
+    parallel_for(tiles.size(), [&](std::size_t i) {
+      apply_tolerance(baseline, current, box_of(diff.marks, baseline, tiles[i]),
+                      {options, judged, evidence[i]}, *diff.marks.tile(tiles[i]));
+    });
+  mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
+  sum_up(tiles, evidence, diff.marks, diff.pixels);
+  find_clusters(tiles, diff.marks, diff.pixels);
+}
+
+}  // namespace
+
+PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
+  if (const std::string problem = problem_of(options); !problem.empty())
+    throw InvalidInput(problem);
+  PixelComparison diff;
+  diff.pixels.baseline = {baseline.width, baseline.height};
+  diff.pixels.current = {current.width, current.height};
+  if (diff.pixels.baseline != diff.pixels.current) return diff;
+  diff.pixels.ignored = ignore(baseline, current, options.ignored);
+  // The judgement weighs shares of what differs, which a larger tolerance changes in either
+  // direction. The judgement that finds least at any tolerance up to the allowed one cannot find
+  // more if more is allowed.
+  std::optional<PixelComparison> least;
+  for (const double noise : steps_up_to(options.noise, kNoiseSteps))
+    for (const double displacement_px : steps_up_to(options.displacement_px, kDisplacementSteps)) {
+      ImageOptions judged = options;
+      judged.noise = noise, judged.displacement_px = displacement_px;
+      PixelComparison found = diff;
+      judge_pixels(baseline, current, options, judged, found);
+      if (!least || found.pixels.changed < least->pixels.changed) least = std::move(found);
+      if (least->pixels.changed == 0) return *std::move(least);
+    }
+  return *std::move(least);
+}
+
+}  // namespace mapproof

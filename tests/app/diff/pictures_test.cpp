@@ -1,0 +1,109 @@
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/base/files/files.hpp"
+#include "tests/support/program.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Made by Pillow and matplotlib: tests/data/pictures/make.py.
+const fs::path kPictures = fs::path(MAPPROOF_TEST_DATA) / "pictures";
+
+/// The first item of a comparison.
+nlohmann::json compared(const fs::path& baseline, const fs::path& current) {
+  const Outcome outcome = mapproof({"diff", baseline.string(), current.string(), "--json"});
+  EXPECT_LE(outcome.exit_code, 1) << outcome.error;
+  return nlohmann::json::parse(outcome.out).at("items").at(0);
+}
+
+std::string cause(const nlohmann::json& item) { return item.at("cause").get<std::string>(); }
+
+class PictureFormats : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+    if (std::string_view(GetParam()).ends_with(".pdf") && !fs::exists("/usr/bin/pdftoppm"))
+      GTEST_SKIP() << "pdftoppm is not installed";
+  }
+};
+
+TEST_P(PictureFormats, AreIdenticalToThemselves) {
+  const fs::path file = kPictures / "before" / GetParam();
+  EXPECT_EQ(compared(file, file).at("verdict"), "identical");
+}
+
+TEST_P(PictureFormats, ShowAMovedPointByTheirPixels) {
+  const nlohmann::json item =
+      compared(kPictures / "before" / GetParam(), kPictures / "after" / GetParam());
+  EXPECT_EQ(item.at("verdict"), "changed") << item;
+  EXPECT_NE(cause(item).find("by its pixels alone"), std::string::npos) << cause(item);
+  EXPECT_NE(cause(item).find("pixels changed"), std::string::npos) << cause(item);
+}
+
+TEST_P(PictureFormats, AreUnreadableIfTheyAreCut) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / GetParam();
+  const std::string whole = read_file(kPictures / "before" / GetParam());
+  write_file(file, whole.substr(0, whole.size() * 2 / 3));
+  const nlohmann::json item = compared(kPictures / "before" / GetParam(), file);
+  EXPECT_EQ(item.at("verdict"), "unreadable") << item;
+  EXPECT_NE(cause(item).find("the current file: "), std::string::npos) << cause(item);
+}
+
+TEST_P(PictureFormats, AreNotApprovedIfTheyAreCut) {
+  const TemporaryFolder folder;
+  fs::create_directories(folder / "baseline");
+  fs::create_directories(folder / "current");
+  const std::string whole = read_file(kPictures / "before" / GetParam());
+  write_file(folder / "baseline" / GetParam(), whole);
+  write_file(folder / "current" / GetParam(), whole.substr(0, whole.size() * 2 / 3));
+  const Outcome outcome =
+      mapproof({"approve", (folder / "baseline").string(), (folder / "current").string(), "--all"});
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_EQ(read_file(folder / "baseline" / GetParam()), whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfOthers, PictureFormats,
+                         ::testing::Values("plot.jpg", "plot.webp", "plot.tiff", "plot.gif",
+                                           "plot.bmp", "plot.pdf"),
+                         [](const auto& file) {
+                           return std::string(file.param).substr(std::string_view("plot.").size());
+                         });
+
+TEST(AnimatedPictures, AreComparedFrameByFrame) {
+  if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  for (const char* film : {"film.gif", "film.png"}) {
+    const nlohmann::json item = compared(kPictures / "before" / film, kPictures / "after" / film);
+    EXPECT_EQ(item.at("verdict"), "changed") << film;
+    EXPECT_NE(cause(item).find("frame 2 of 3"), std::string::npos) << cause(item);
+  }
+}
+
+TEST(TransparentPictures, AreComparedOverBlackToo) {
+  if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  const nlohmann::json item =
+      compared(kPictures / "before/transparent.png", kPictures / "after/transparent.png");
+  EXPECT_EQ(item.at("verdict"), "changed");
+  EXPECT_NE(cause(item).find("seen over black"), std::string::npos) << cause(item);
+}
+
+TEST(PictureFile, ThatIsAPointerOfGitLfsIsNamed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "plot.png";
+  write_file(file, "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12345\n");
+  const nlohmann::json item = compared(kPictures / "before/film.png", file);
+  EXPECT_EQ(item.at("verdict"), "unreadable");
+  EXPECT_NE(cause(item).find("git lfs pull"), std::string::npos) << cause(item);
+}
+
+}  // namespace
+}  // namespace mapproof::test
