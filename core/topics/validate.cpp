@@ -315,6 +315,9 @@ void check_source(ByteSource& source, const ForeignReader& foreign, const Valida
     if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
         text != results_csv(study.results.rows))
       throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
+  } else if (const std::string companion = is_stated ? "" : check_range_companion(source);
+             !companion.empty()) {
+    finding.kind = companion;
   } else {
     respell(source);
     if (is_json(source))
