@@ -30,6 +30,7 @@
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_table.hpp"

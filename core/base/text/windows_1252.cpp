@@ -27,7 +27,7 @@ std::size_t ascii_length(std::string_view text) {
   return at;
 }
 
-bool looks_windows_1252(std::string_view text) {
+bool is_windows_1252(std::string_view text) {
   constexpr std::size_t kLongestCharacter = 4;
   std::string_view rest = text.substr(ascii_length(text));
   // A character that is cut off may be either.

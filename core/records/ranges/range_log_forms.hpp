@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -27,6 +28,12 @@ std::filesystem::path text_stem(const std::filesystem::path& path);
 
 /// Reads the files that the options name in place of what was gathered. @throws IoError.
 void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
+
+/// Checks a file that goes with ranges: a path as TUM or KITTI have it, and tables of odometry or
+/// of a true path.
+/// @return What it is: "path, TUM". Empty: it is none of them, and unread.
+/// @throws IoError as read_range_log().
+std::string check_range_companion(ByteSource& source);
 
 // range_log_path.cpp: the ground truth's path.
 

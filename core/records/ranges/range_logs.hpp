@@ -37,10 +37,4 @@ bool is_range_log_folder(const std::filesystem::path& folder);
 /// @throws IoError if it cannot be read.
 bool is_range_log(ByteSource& source);
 
-/// Checks a file that goes with ranges: a path as TUM or KITTI have it, and tables of odometry or
-/// of a true path.
-/// @return What it is: "path, TUM". Empty: it is none of them, and unread.
-/// @throws IoError as read_range_log().
-std::string check_range_companion(ByteSource& source);
-
 }  // namespace mapproof

@@ -47,7 +47,7 @@ bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& r
     const std::size_t whole = is_all ? start.size() : whole_rows(start);
     if (whole > 0 || is_all) {
       const std::string decoded =
-          looks_windows_1252(start) ? from_windows_1252(start.substr(0, whole)) : std::string();
+          is_windows_1252(start) ? from_windows_1252(start.substr(0, whole)) : std::string();
       const std::string_view text =
           checked_text(decoded.empty() ? start.substr(0, whole) : decoded, source.name());
       TableReader reader(text, source.name(), separator.value_or(TableReader::separator_in(text)));
