@@ -116,7 +116,11 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
     // "-K6", "-jx": a short name with its value.
     if (name[1] != '-' && std::ranges::find(names, name.substr(0, 2)) != names.end()) continue;
     const std::vector<std::string_view> known(names.begin(), names.end());
-    const std::string_view meant = likely_word(lower_case(name), known);
+    std::string meant(likely_word(lower_case(name), known));
+    // Of an option with several names the first one.
+    if (const CLI::Option* option = meant.empty() ? nullptr : command.get_option_no_throw(meant);
+        option != nullptr && meant.starts_with("--") && !option->get_lnames().empty())
+      meant = "--" + option->get_lnames().front();
     throw InvalidInput(fmt::format("{}: {} has no such option; {}\"mapproof help {}\" lists them",
                                    printable(name), command.get_name(),
                                    meant.empty() ? "" : fmt::format("did you mean {}? ", meant),

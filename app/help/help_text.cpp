@@ -43,7 +43,11 @@ std::string footer_text(const std::string& footer, std::size_t width) {
       continue;
     }
     end_paragraph();
-    out += line + "\n";
+    const bool is_command = line.find("mapproof ") != std::string::npos;
+    const bool is_wrapped = line.size() > width && line.starts_with("  ") && !is_command;
+    // An item of a list goes on two columns further in.
+    out += is_wrapped ? wrapped(line.substr(line.find_first_not_of(' ')), width, 4).substr(2)
+                      : line + "\n";
   }
   end_paragraph();
   return out;

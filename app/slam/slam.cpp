@@ -50,6 +50,7 @@ struct SlamArguments {
   bool repair = false;
   bool follow = false;
   std::string every = "1s";
+  std::vector<std::string> columns;
   int jobs = 1;
 };
 
@@ -199,7 +200,8 @@ int follow_ranges(const SlamArguments& arguments, const Templates& page,
                   const Invocation& invocation) {
   require_followable(arguments);
   return write_followed({.path = arguments.data,
-                         .table = {.anchors = read_points(arguments.known),
+                         .table = {.format = {.columns = column_names(arguments.columns)},
+                                   .anchors = read_points(arguments.known),
                                    .ground_truth = read_points(arguments.true_landmarks),
                                    .fit = {.is_metric = true, .is_rigid = true}},
                          .follower = range_follower,
@@ -222,6 +224,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
     return follow_ranges(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
+  arguments.log.columns = column_names(arguments.columns, kRangeLogRoles);
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
@@ -263,6 +266,13 @@ void add_input_options(CLI::App& app, SlamArguments& arguments) {
   app.add_option("--odometry", arguments.odometry,
                  "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
   app.get_option("--odometry")->type_name("FILE");
+  app.add_option(
+         "--columns", arguments.columns,
+         "Headers or numbers of the columns of tables, as in time=Zeit,landmark=Bake,"
+         "range=3; also nanoseconds, robot; of odometry distance, heading_change, sideways; "
+         "of the ground truth x, y, heading")
+      ->type_name("NAME=COLUMN")
+      ->delimiter(',');
 }
 
 void add_fit_options(CLI::App& app, SlamArguments& arguments) {
@@ -322,7 +332,7 @@ Action slam_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
-  group_options(app, {{"Input", {"DATA", "--odometry", "--name"}},
+  group_options(app, {{"Input", {"DATA", "--odometry", "--columns", "--name"}},
                       {"Known positions", {"--anchors", "--ground-truth"}},
                       {"Fit",
                        {"--range-sigma", "--odometry-sigma", "--heading-sigma",

@@ -214,7 +214,7 @@ void parameter_fields(Visitor& v, const std::optional<ParameterInfo>& own,
 /// A method and the value of its parameter, if it has one: keys of the object that they describe.
 template <typename Visitor>
 void setting_fields(Visitor& v, MethodSetting& setting) {
-  v.field("method", setting.method, {.decides = true});
+  v.field("method", setting.method, {.description = "The mapping method.", .decides = true});
   parameter_fields(v, info(setting.method).parameter, setting.parameter);
 }
 

@@ -30,6 +30,7 @@
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_table.hpp"
@@ -317,6 +318,9 @@ void check_source(ByteSource& source, const ForeignReader& foreign, const Valida
     if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
         text != results_csv(study.results.rows))
       throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
+  } else if (const std::string companion = is_stated ? "" : check_range_companion(source);
+             !companion.empty()) {
+    finding.kind = companion;
   } else {
     respell(source);
     if (is_json(source))

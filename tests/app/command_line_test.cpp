@@ -167,6 +167,8 @@ TEST(CommandLine, UnknownOptionsAndValuesAreNamedWithTheNearestOnes) {
       {{"render", "out", "--theme", "papr"}, "did you mean \"paper\"?"},
       {{"reproduce", "yairi207"}, "did you mean \"yairi2007\"?"},
       {{"Rendre", "out"}, "did you mean \"render\"?"},
+      {{"mpa", "a.csv"}, "did you mean \"map\"?"},
+      {{"map", "a.csv", "--trueth", "b.csv"}, "did you mean --ground-truth?"},
       {{"diff", "a", "b", "--out", "diff.html"}, "now called --page"},
       {{"methods", "too", "many"}, "methods takes no \"too\" and \"many\""}};
   for (const auto& [words, said] : slips) {
@@ -188,8 +190,11 @@ TEST(CommandLine, HelpIsWrappedAtTheWidthOfTheTerminalInGroupsOfPlainSentences) 
       for (const char* notation : {"TEXT:", " in [", "Excludes", "REQUIRED", " ..."})
         EXPECT_EQ(help.find(notation), std::string::npos) << command << " " << notation;
       EXPECT_NE(help.find("\nOther\n"), std::string::npos) << command;
-      std::istringstream lines(help.substr(0, help.find("\nExample")));
-      for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), width + 8) << line;
+      // Commands stand as they are, to be copied; so do the schemas of JSON.
+      std::istringstream lines(help);
+      for (std::string line; std::getline(lines, line);)
+        if (line.find("mapproof ") == std::string::npos && line.find('{') == std::string::npos)
+          EXPECT_LE(line.size(), width + 8) << line;
     }
   }
 }

@@ -11,6 +11,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/text/utf8.hpp"
+#include "core/base/text/windows_1252.hpp"
 
 namespace mapproof {
 namespace {
@@ -42,8 +44,56 @@ ByteSource::ByteSource(const std::filesystem::path& path)
 ByteSource::ByteSource(std::string name, ReadBytes read)
     : name_(std::move(name)), read_(std::move(read)), unpacker_(name_) {}
 
+/// Bytes as the text that they are; decides what it is at the first character beyond ASCII.
+std::string ByteSource::decoded(std::string bytes) {
+  if (text_ == Text::kAscii) {
+    const std::size_t ascii = ascii_length(bytes);
+    if (ascii == bytes.size()) return bytes;
+    constexpr std::size_t kLongestCharacter = 4;
+    while (bytes.size() < ascii + kLongestCharacter &&
+           fill_unpacked(bytes, ascii + kLongestCharacter - bytes.size()) > 0) {
+    }
+    std::string_view character = std::string_view(bytes).substr(ascii);
+    text_ = take_code_point(character) ? Text::kUtf8 : Text::kWindows1252;
+  }
+  return text_ == Text::kWindows1252 ? from_windows_1252(bytes) : bytes;
+}
+
+void ByteSource::take_text() {
+  if (text_ != Text::kBytes) return;
+  text_ = Text::kAscii;
+  std::string start;
+  for (const std::string& block : std::exchange(ahead_, {})) start += block;
+  start.erase(0, std::exchange(at_, 0));
+  if (!start.empty()) ahead_.push_back(decoded(std::move(start)));
+}
+
+std::string ByteSource::form() const {
+  std::string form(unpacker_.packing());
+  if (text_ != Text::kWindows1252) return form;
+  return form.empty() ? "Windows-1252" : form + ", Windows-1252";
+}
+
 /// Appends `count` bytes behind the peeked ones; fewer only at the end.
 std::size_t ByteSource::fill(std::string& bytes, std::size_t count) {
+  if (text_ == Text::kBytes || (text_ == Text::kUtf8 && decoded_.empty()))
+    return fill_unpacked(bytes, count);
+  const std::size_t before = bytes.size();
+  for (std::size_t filled = 0; filled < count; filled = bytes.size() - before) {
+    if (decoded_.empty()) {
+      std::string block;
+      if (fill_unpacked(block, count - filled) == 0) break;
+      decoded_ = decoded(std::move(block));
+    }
+    const std::size_t part = std::min(decoded_.size(), count - filled);
+    bytes.append(decoded_, 0, part);
+    decoded_.erase(0, part);
+  }
+  return bytes.size() - before;
+}
+
+/// Appends `count` bytes that follow those read so far; fewer only at the end.
+std::size_t ByteSource::fill_unpacked(std::string& bytes, std::size_t count) {
   const std::size_t before = bytes.size();
   std::string block;
   for (std::size_t filled = 0; filled < count; filled = bytes.size() - before) {

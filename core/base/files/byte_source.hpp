@@ -42,6 +42,10 @@ class ByteSource {
   /// The path of the file, to find others next to it; empty for a stream.
   const std::filesystem::path& path() const { return path_; }
 
+  /// The unread bytes are a text: if its first character beyond ASCII is not UTF-8, they are taken
+  /// as Windows-1252, and given as UTF-8 from here on.
+  void take_text();
+
   /// The next `count` bytes, fewer only at the end; they stay unread.
   /// @note Valid until the next call of a member that is not const.
   std::string_view peek(std::size_t count = kPeek);
@@ -60,12 +64,21 @@ class ByteSource {
   /// "gzip", "xz" or "UTF-16"; empty if the input is none, or not begun.
   std::string_view packing() const { return unpacker_.packing(); }
 
+  /// The packing of what was read so far, and "Windows-1252" of a text that is: "gzip,
+  /// Windows-1252".
+  std::string form() const;
+
   /// Bytes of the whole input, estimated from the bytes so far if it is packed; empty for a
   /// stream.
   std::optional<double> expected_size() const;
 
  private:
+  /// What take_text() found out.
+  enum class Text { kBytes, kAscii, kUtf8, kWindows1252 };
+
   std::size_t fill(std::string& bytes, std::size_t count);
+  std::size_t fill_unpacked(std::string& bytes, std::size_t count);
+  std::string decoded(std::string bytes);
   std::size_t fill_plain(std::string& bytes, std::size_t count);
   std::size_t ahead() const;
 
@@ -78,6 +91,8 @@ class ByteSource {
   std::deque<std::string> ahead_;  ///< Peeked blocks; of the first one the bytes from at_ on.
   std::size_t at_ = 0;
   std::size_t taken_ = 0;  ///< Bytes that were read.
+  Text text_ = Text::kBytes;
+  std::string decoded_;  ///< Text behind the peeked bytes.
 };
 
 /// The whole input, unpacked. @throws IoError as ByteSource, or if it has more than `limit` bytes.

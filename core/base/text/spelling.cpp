@@ -25,6 +25,15 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// Whether two neighbouring letters have changed places.
+bool is_swapped(std::string_view a, std::string_view b) {
+  if (a.size() != b.size()) return false;
+  const auto [first, other] = std::ranges::mismatch(a, b);
+  const auto at = static_cast<std::size_t>(first - a.begin());
+  return at + 1 < a.size() && a[at] == b[at + 1] && a[at + 1] == b[at] &&
+         a.substr(at + 2) == b.substr(at + 2);
+}
+
 }  // namespace
 
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates) {
@@ -39,6 +48,8 @@ std::string_view likely_word(std::string_view word, std::span<const std::string_
     if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word) &&
         candidate[word.size()] == '_')
       return candidate;
+  for (const std::string_view candidate : candidates)
+    if (is_swapped(word, candidate)) return candidate;
   const std::string_view nearest = nearest_word(word, candidates);
   if (word.size() > kCompared || nearest.empty()) return {};
   const std::size_t allowed = std::max<std::size_t>(1, std::min(word.size(), nearest.size()) / 3);

@@ -311,7 +311,8 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   if (format.layout == Layout::kAuto && is_detections(source, format)) {
     if (!kind)
       throw IoError(
-          name, "holds detections: range-bearing, range, bearing or visibility has to be given");
+          name,
+          "holds detections: --sensor range-bearing, range, bearing or visibility states which");
     return observations_of(read_detections(source, format), *kind);
   }
   const bool holds_json = is_json(source);
@@ -320,8 +321,10 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   if (holds_json && format.scan_window_s) refuse_window(name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
-    throw IoError(name,
-                  "does not state what it holds: visibility, bearing or range has to be given");
+    throw IoError(
+        name,
+        "does not state what its values are: --sensor bearing (radians, counter-clockwise "
+        "from the heading; --degrees for degrees), range (metres) or visibility (0 or 1)");
   const bool is_long =
       format.layout == Layout::kLong ||
       (format.layout == Layout::kAuto &&
@@ -329,7 +332,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   if (!is_long && format.scan_window_s) refuse_window(name);
   ObservationSource result =
       is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
-  result.reading.packing = source.packing();
+  result.reading.packing = source.form();
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
 }

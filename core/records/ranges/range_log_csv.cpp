@@ -1,10 +1,6 @@
 #include "core/records/ranges/range_log_forms.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -14,133 +10,31 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
-#include "core/json/text_input.hpp"
-#include "core/records/limits.hpp"
+#include "core/records/ranges/range_columns.hpp"
 #include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_tables.hpp"
-#include "core/records/tables/table_reader.hpp"
+#include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_stream.hpp"
-#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kTimes = "times";
-
-/// A column that a table names in its header.
-struct CsvColumn {
-  std::string_view label;               ///< For errors.
-  std::vector<std::string_view> words;  ///< What the header may call it, in lower case.
-  bool is_needed = true;
-};
-
-bool is_called(const CsvColumn& column, std::string_view cell) {
-  return std::ranges::find(column.words, lower_case(cell)) != column.words.end();
-}
-
-/// Which cell of the rows holds the column.
-/// @throws IoError if it is needed but not there, or there twice.
-std::optional<std::size_t> cell_of(const CsvColumn& column, const TableRow& header,
-                                   const std::string& source) {
-  std::optional<std::size_t> found;
-  const std::string location = fmt::format("line {}", header.line);
-  for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    if (!is_called(column, header.cells[i])) continue;
-    if (found) throw IoError(source, location, fmt::format("two columns of {}", column.label));
-    found = i;
-  }
-  if (!found && column.is_needed)
-    throw IoError(source, location,
-                  fmt::format("no column of {}: expected {} in the header", column.label,
-                              fmt::join(column.words, ", ")));
-  return found;
-}
-
-/// @param is_time  A date does as well.
-double number_at(const TableRow& row, std::size_t cell, bool is_time, const std::string& source) {
-  const std::optional<double> value =
-      is_time ? time_in(row.cells[cell]) : number_in(row.cells[cell]);
-  if (!value || !std::isfinite(*value))
-    throw IoError(source, fmt::format("line {}", row.line),
-                  is_time ? time_problem(row.cells[cell]) : number_problem(row.cells[cell]));
-  return *value;
-}
-
-std::string name_at(const TableRow& row, std::size_t cell, const std::string& source) {
-  const std::string_view name = row.cells[cell];
-  if (name.empty() || name.size() > kLongestName)
-    throw IoError(source, fmt::format("line {}", row.line),
-                  name.empty() ? "a landmark without a name" : "a name that is too long");
-  return std::string(name);
-}
-
-/// The columns of a CSV table in the order asked for, whatever their order there; others are
-/// passed over, and so are those that are neither needed nor there.
-///
-/// @param names  A column of landmarks' names to read as well; nullptr: none.
-/// @throws IoError naming the line if there is no such header, a needed column is not there or
-///         twice, or a cell of one is not a finite number or an empty name.
-NumberTable read_columns(ByteSource& input, const std::vector<CsvColumn>& numbers,
-                         const CsvColumn* names = nullptr) {
-  const std::string& source = input.name();
-  const std::string bytes = input.rest();
-  TableReader reader(checked_text(bytes, source), source);
-  TableRow row;
-  if (!reader.next(row)) throw IoError(source, "is empty");
-  const std::size_t width = row.cells.size();
-  // Times come first, and are always there.
-  std::vector<std::size_t> cells;
-  for (const CsvColumn& column : numbers)
-    if (const auto cell = cell_of(column, row, source)) cells.push_back(*cell);
-  const auto name_cell = names == nullptr ? std::nullopt : cell_of(*names, row, source);
-
-  NumberTable table{.source = source};
-  std::vector<double> values;
-  while (reader.next(row)) {
-    if (row.cells.size() != width)
-      throw IoError(source, fmt::format("line {}", row.line),
-                    fmt::format("has {} cells, expected {}", row.cells.size(), width));
-    if (table.rows.size() == kMostSteps)
-      throw IoError(source, fmt::format("more than {} rows", kMostSteps));
-    table.rows.push_back(row.line);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      values.push_back(number_at(row, cells[i], numbers[i].label == kTimes, source));
-    if (name_cell) table.names.push_back(name_at(row, *name_cell, source));
-  }
-  table.set_values(values, std::ssize(cells));
-  if (numbers[0].label == kTimes && table.values.rows() > 0) {
-    const Eigen::VectorXd times = table.values.col(0);
-    table.values.col(0) *=
-        time_scale({times.data(), static_cast<std::size_t>(times.size())}).seconds;
-  }
-  return table;
-}
-
-/// Whether a table's first row names all the columns that are needed.
-bool names_columns(const TableRow& row, const std::vector<CsvColumn>& columns) {
-  return std::ranges::all_of(columns, [&](const CsvColumn& column) {
-    return !column.is_needed ||
-           std::ranges::any_of(row.cells, [&](auto cell) { return is_called(column, cell); });
-  });
-}
-
-const CsvColumn kTime{.label = kTimes,
-                      .words = {"t", "time", "time_s", "timestamp", "stamp", "datetime"}};
-const CsvColumn kX{.label = "x", .words = {"x", "x_m"}};
-const CsvColumn kY{.label = "y", .words = {"y", "y_m"}};
-const CsvColumn kHeading{.label = "headings", .words = {"heading", "heading_rad", "theta"}};
-const CsvColumn kDistance{.label = "distances", .words = {"ddist", "distance", "distance_m"}};
-const CsvColumn kHeadingChange{.label = "heading changes",
-                               .words = {"dheading", "turn", "turn_rad"}};
-const CsvColumn kSideways{
-    .label = "ways sideways", .words = {"dside", "sideways", "sideways_m"}, .is_needed = false};
-const CsvColumn kLandmark{.label = "landmarks",
-                          .words = {"beacon", "landmark", "id", "name", "object"}};
-const CsvColumn kRange{.label = "ranges", .words = {"range", "range_m"}};
-const CsvColumn kRobot{.label = "robots", .words = {"robot", "sender"}, .is_needed = false};
+const RangeColumn kTime{ColumnRole::kTime, "times", {}};
+const RangeColumn kRange{ColumnRole::kRange, "ranges", {}};
+const RangeColumn kRobot{ColumnRole::kRobot, "robots", {"sender"}, false};
+const RangeColumn kX{ColumnRole::kX, "x", {}};
+const RangeColumn kY{ColumnRole::kY, "y", {}};
+const RangeColumn kHeading{
+    ColumnRole::kHeading, "headings", {"heading", "theta", "yaw", "richtung", "kurs"}};
+const RangeColumn kDistance{
+    ColumnRole::kDistance, "distances", {"ddist", "distance", "weg", "strecke"}};
+const RangeColumn kHeadingChange{ColumnRole::kHeadingChange,
+                                 "heading changes",
+                                 {"dheading", "turn", "headingchange", "drehung"}};
+const RangeColumn kSideways{ColumnRole::kSideways, "ways sideways", {"dside", "sideways"}, false};
 
 /// The file of that name in a folder, packed or not; empty if there is none.
 fs::path file_in(const fs::path& folder, const std::string& name) {
@@ -149,14 +43,16 @@ fs::path file_in(const fs::path& folder, const std::string& name) {
   return fs::exists(path, error) ? path : fs::path();
 }
 
-NumberTable read_table(const fs::path& path, const std::vector<CsvColumn>& numbers,
-                       const CsvColumn* names = nullptr) {
+/// An unread table in any form, see respell(). @throws IoError.
+ByteSource table_source(const fs::path& path) {
   ByteSource source(path);
-  return read_columns(source, numbers, names);
+  respell(source);
+  return source;
 }
 
-StartPose read_start(const fs::path& path) {
-  const NumberTable table = read_table(path, {kTime, kX, kY, kHeading});
+StartPose read_start(const fs::path& path, const ColumnNames& names) {
+  ByteSource source = table_source(path);
+  const NumberTable table = read_range_columns(source, {kTime, kX, kY, kHeading}, false, names);
   if (table.values.rows() != 1) throw IoError(table.source, "expected one row, that of the start");
   const Trajectory pose = trajectory_in(table);
   return {.time_s = pose.time_s(0),
@@ -165,8 +61,10 @@ StartPose read_start(const fs::path& path) {
           .heading_rad = pose.heading_rad(0)};
 }
 
-std::vector<Motion> read_motions(const fs::path& path) {
-  return motions_in(read_table(path, {kTime, kDistance, kHeadingChange, kSideways}));
+std::vector<Motion> read_motions(const fs::path& path, const ColumnNames& names) {
+  ByteSource source = table_source(path);
+  return motions_in(
+      read_range_columns(source, {kTime, kDistance, kHeadingChange, kSideways}, false, names));
 }
 
 /// Whether the rows are records of a pose graph, as of g2o.
@@ -179,19 +77,22 @@ bool is_graph(ByteSource& source) {
 }
 
 /// @param times_s  Of the poses of the odometry, for a path without times.
-Trajectory read_ground_truth(const fs::path& path, const Eigen::VectorXd& times_s) {
+Trajectory read_ground_truth(const fs::path& path, const Eigen::VectorXd& times_s,
+                             const ColumnNames& names) {
   ByteSource source(path);
   if (is_path_text(source)) return read_path_text(source, times_s);
   if (is_graph(source)) return read_g2o_path(source);
-  CsvColumn heading = kHeading;
+  RangeColumn heading = kHeading;
   heading.is_needed = false;
-  return trajectory_in(read_columns(source, {kTime, kX, kY, heading}));
+  respell(source);
+  return trajectory_in(read_range_columns(source, {kTime, kX, kY, heading}, false, names));
 }
 
-NamedPoints read_true_landmarks(const fs::path& path) {
+NamedPoints read_true_landmarks(const fs::path& path, const ColumnNames& names) {
   ByteSource source(path);
   if (is_graph(source)) return read_g2o_landmarks(source);
-  return landmarks_in(read_columns(source, {kX, kY}, &kLandmark));
+  respell(source);
+  return landmarks_in(read_range_columns(source, {kX, kY}, true, names));
 }
 
 /// Of the poses of the odometry: its start, then the end of each motion.
@@ -207,51 +108,105 @@ Eigen::VectorXd pose_times(const RangeLogParts& parts) {
 }
 
 /// The files next to ranges.csv.
-void take_folder(const fs::path& folder, OdometrySource wanted, RangeLogParts& parts) {
+void take_folder(const fs::path& folder, const RangeLogOptions& options, RangeLogParts& parts) {
+  const ColumnNames& names = options.columns;
   const fs::path recovered = file_in(folder, "odometry_drp.csv");
   const fs::path given = file_in(folder, "odometry.csv");
   const bool takes_recovered =
-      !recovered.empty() && (wanted == OdometrySource::kRecovered || given.empty());
+      !recovered.empty() && (options.odometry == OdometrySource::kRecovered || given.empty());
   if (takes_recovered)
     parts.remarks.push_back(
         "The odometry is that of odometry_drp.csv, recovered from the dead-reckoned path.");
   if (const fs::path& odometry = takes_recovered ? recovered : given; !odometry.empty())
-    parts.odometry = read_motions(odometry);
+    parts.odometry = read_motions(odometry, names);
   const std::string start_name = takes_recovered ? "odometry_drp_start.csv" : "odometry_start.csv";
   if (const fs::path start = file_in(folder, start_name);
       !start.empty() && (takes_recovered || !given.empty()))
-    parts.start = read_start(start);
+    parts.start = read_start(start, names);
   if (const fs::path ground_truth = file_in(folder, "groundtruth.csv"); !ground_truth.empty())
-    parts.ground_truth = read_ground_truth(ground_truth, pose_times(parts));
+    parts.ground_truth = read_ground_truth(ground_truth, pose_times(parts), names);
   if (const fs::path landmarks = file_in(folder, "landmarks.csv"); !landmarks.empty())
-    parts.true_landmarks = read_true_landmarks(landmarks);
+    parts.true_landmarks = read_true_landmarks(landmarks, names);
+}
+
+/// Whether a header names all the columns that are needed, and no landmarks.
+bool names_columns(ByteSource& source, const std::vector<RangeColumn>& columns) {
+  return first_row_is(source, [&](const TableRow& row) {
+    return missing_columns(row, columns).empty() &&
+           missing_columns(row, {RangeColumn{ColumnRole::kLandmark, "", {}}}).size() == 1;
+  });
+}
+
+/// Refuses landmarks and ranges that the user names and the table of ranges does not have. Other
+/// columns may be those of the tables beside it.
+void require_named_columns(ByteSource& source, const ColumnNames& names) {
+  for (const NamedColumn& column : names) {
+    if (column.role != ColumnRole::kLandmark && column.role != ColumnRole::kRange) continue;
+    const bool is_there = first_row_is(source, [&](const TableRow& header) {
+      for (std::size_t i = 0; i < header.cells.size(); ++i)
+        if (is_named(column, header.cells[i], i)) return true;
+      return false;
+    });
+    if (!is_there)
+      throw IoError(source.name(), fmt::format("no column {}, which --columns names for {}",
+                                               in_quotes(column.header), name(column.role)));
+  }
 }
 
 }  // namespace
 
-bool names_range_columns(const TableRow& row) {
-  return names_columns(row, {kTime, kLandmark, kRange});
+std::string check_range_companion(ByteSource& source) {
+  const std::vector<RangeColumn> motions = {kTime, kDistance, kHeadingChange, kSideways};
+  std::vector<RangeColumn> poses = {kTime, kX, kY, kHeading};
+  poses.back().is_needed = false;
+  std::string form;
+  try {
+    form = path_form(source);
+    if (form.empty() && names_columns(source, motions)) form = "odometry";
+    if (form.empty() && names_columns(source, poses)) form = "CSV";
+  } catch (const IoError&) {  // No text: other readers report what is wrong.
+  }
+  if (form.empty()) return "";
+  if (form == "odometry") {
+    motions_in(read_range_columns(source, motions, false, {}));
+    return "odometry of a range log, CSV";
+  }
+  if (form == "TUM")
+    read_path_text(source, {});
+  else if (form == "KITTI")
+    read_number_table(source, 12);
+  else
+    trajectory_in(read_range_columns(source, poses, false, {}));
+  return "path, " + form;
 }
 
 RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options) {
+  const fs::path path = source.path();
   RangeLogParts parts{.source = source.name(), .name = options.name};
-  const NumberTable ranges = read_columns(source, {kTime, kRange, kRobot}, &kLandmark);
+  respell(source);
+  require_named_columns(source, options.columns);
+  const NumberTable ranges =
+      read_range_columns(source, {kTime, kRange, kRobot}, true, options.columns);
   if (ranges.values.cols() > 2) check_one_sender(ranges, 2);
+  if (ranges.left_out > 0)
+    parts.remarks.push_back(
+        fmt::format("{} without a range: left out.", counted(ranges.left_out, "row")));
   parts.measurements = measurements_in(ranges);
-  if (unpacked_name(source.path()).filename() == "ranges.csv")
-    take_folder(source.path().parent_path(), options.odometry, parts);
+  if (unpacked_name(path).filename() == "ranges.csv")
+    take_folder(path.parent_path(), options, parts);
   return assemble(std::move(parts), options);
 }
 
 void take_named_files(const RangeLogOptions& options, RangeLogParts& parts) {
   if (!options.odometry_file.empty()) {
-    parts.odometry = read_motions(options.odometry_file);
+    parts.odometry = read_motions(options.odometry_file, options.columns);
     parts.start.reset();
   }
   if (!options.ground_truth_file.empty())
-    parts.ground_truth = read_ground_truth(options.ground_truth_file, pose_times(parts));
+    parts.ground_truth =
+        read_ground_truth(options.ground_truth_file, pose_times(parts), options.columns);
   if (!options.landmarks_file.empty())
-    parts.true_landmarks = read_true_landmarks(options.landmarks_file);
+    parts.true_landmarks = read_true_landmarks(options.landmarks_file, options.columns);
 }
 
 }  // namespace mapproof

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -20,9 +22,6 @@ RangeLog read_range_log_mat(ByteSource& source, const RangeLogOptions& options);
 RangeLog read_range_log_pyfg(ByteSource& source, const RangeLogOptions& options);
 RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options);
 
-/// Whether a table's first row names the columns of ranges: time, landmark, range. Of the form csv.
-bool names_range_columns(const TableRow& row);
-
 /// The path of NAME_TD.txt or NAME_DR.txt, packed or not, without that end; empty for others. Of
 /// the form text.
 std::filesystem::path text_stem(const std::filesystem::path& path);
@@ -30,11 +29,21 @@ std::filesystem::path text_stem(const std::filesystem::path& path);
 /// Reads the files that the options name in place of what was gathered. @throws IoError.
 void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
 
+/// Checks a file that goes with ranges: a path as TUM or KITTI have it, and tables of odometry or
+/// of a true path.
+/// @return What it is: "path, TUM". Empty: it is none of them, and unread.
+/// @throws IoError as read_range_log().
+std::string check_range_companion(ByteSource& source);
+
 // range_log_path.cpp: the ground truth's path.
 
 /// Whether a source, which stays unread, is a path as TUM or KITTI write it: 8 or 12 numbers
 /// between blanks in its first row.
 bool is_path_text(ByteSource& source);
+
+/// "TUM" or "KITTI" if the first row holds a pose: a quaternion or the rows of a matrix have unit
+/// length. Empty: it is none. The source stays unread.
+std::string_view path_form(ByteSource& source);
 
 /// Such a path in the plane.
 ///

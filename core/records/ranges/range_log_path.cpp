@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/ranges/range_tables.hpp"
 #include "core/records/tables/table_stream.hpp"
@@ -70,6 +73,28 @@ Eigen::VectorXd times_beside(const ByteSource& source) {
 }
 
 }  // namespace
+
+std::string_view path_form(ByteSource& source) {
+  constexpr double kRounding = 1e-2;  // Of numbers with three digits.
+  const auto is_unit = [](double square) { return std::abs(square - 1.0) < kRounding; };
+  std::string_view form;
+  const auto see = [&](const TableRow& row) {
+    std::vector<double> numbers;
+    for (const std::string_view cell : row.cells) numbers.push_back(number_in(cell).value_or(kNaN));
+    const auto square = [&](std::size_t first, std::size_t count) {
+      double sum = 0.0;
+      for (std::size_t i = first; i < first + count; ++i) sum += numbers[i] * numbers[i];
+      return sum;
+    };
+    if (numbers.size() == kTumWidth && is_unit(square(4, 4))) form = "TUM";
+    if (numbers.size() == kKittiWidth && is_unit(square(0, 3)) && is_unit(square(4, 3)) &&
+        is_unit(square(8, 3)))
+      form = "KITTI";
+    return true;
+  };
+  first_row_is(source, see, TableReader::kBlanks);
+  return form;
+}
 
 bool is_path_text(ByteSource& source) {
   const std::size_t width = path_width(source);

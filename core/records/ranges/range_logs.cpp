@@ -4,12 +4,17 @@
 #include <array>
 #include <string_view>
 #include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
+#include "core/records/ranges/range_columns.hpp"
 #include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/tables/respelling.hpp"
@@ -52,12 +57,18 @@ bool is_ranges_text(const TableRow& row) {
          std::ranges::all_of(row.cells, [](auto cell) { return number_in(cell).has_value(); });
 }
 
+/// A table whose header names times, landmarks and ranges.
+bool is_table_of_ranges(ByteSource& source, const ColumnNames& names) {
+  return first_row_is(
+      source, [&](const TableRow& row) { return missing_range_columns(row, names).empty(); });
+}
+
 /// The form that the first bytes show.
-Form form_seen(ByteSource& source) {
+Form form_seen(ByteSource& source, const ColumnNames& names = {}) {
   if (source.peek().starts_with("MATLAB")) return Form::kMat;
   refuse_other_kind(source.peek(), source.name());
   try {
-    if (first_row_is(source, names_range_columns)) return Form::kCsv;
+    if (is_table_of_ranges(source, names)) return Form::kCsv;
     if (first_row_is(source, is_g2o, TableReader::kBlanks)) return Form::kG2o;
     if (first_row_is(source, is_pyfg, TableReader::kBlanks)) return Form::kPyfg;
     if (first_row_is(source, is_ranges_text, TableReader::kBlanks)) return Form::kText;
@@ -67,8 +78,13 @@ Form form_seen(ByteSource& source) {
   }
 }
 
-Form form_of(ByteSource& source) {
-  const Form seen = form_seen(source);
+/// A table of NumPy or JSON becomes one of CSV.
+Form form_of(ByteSource& source, const ColumnNames& names) {
+  Form seen = form_seen(source, names);
+  if (seen == Form::kNone && form_named(source.path()) == Form::kNone) {
+    respell(source);
+    if (is_table_of_ranges(source, names)) seen = Form::kCsv;
+  }
   return seen == Form::kNone ? form_named(source.path()) : seen;
 }
 
@@ -82,6 +98,18 @@ std::string log_name(const fs::path& path) {
                                          : stem.filename().string();
   while (name.size() > 1 && name.back() == '_') name.pop_back();
   return name;
+}
+
+/// Of a table with a header: the columns that are not known by their names.
+[[noreturn]] void refuse_table(const std::string& source, const std::string& header,
+                               const std::vector<ColumnRole>& missing) {
+  std::vector<std::string> words, options;
+  for (const ColumnRole role : missing) {
+    words.push_back(fmt::format("{}s", name(role)));
+    options.push_back(fmt::format("{}=HEADER", name(role)));
+  }
+  throw IoError(source, fmt::format("its header {} names no {}: --columns {} does", header,
+                                    fmt::join(words, " and no "), fmt::join(options, ",")));
 }
 
 [[noreturn]] void refuse_log(const std::string& source) {
@@ -102,7 +130,7 @@ bool names_beacons(const TableRow& row) {
 RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
   RangeLogOptions named = options;
   if (named.name.empty()) named.name = log_name(source.path());
-  switch (form_of(source)) {
+  switch (form_of(source, options.columns)) {
     case Form::kCsv:
       return read_range_log_csv(source, named);
     case Form::kMat:
@@ -116,7 +144,19 @@ RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
     case Form::kNone:
       break;
   }
-  refuse_log(source.name());
+  std::string header;
+  std::vector<ColumnRole> missing;
+  first_row_is(source,
+               [&](const TableRow& row) {
+                 header = in_quotes(fmt::format("{}", fmt::join(row.cells, ", ")));
+                 missing = missing_range_columns(row, options.columns);
+                 return row.cells.size() > 2 &&
+                        std::ranges::none_of(row.cells, [](std::string_view cell) {
+                          return number_in(cell).has_value();
+                        });
+               })
+      ? refuse_table(source.name(), header, missing)
+      : refuse_log(source.name());
 }
 
 RangeLog read_range_log(const fs::path& path, const RangeLogOptions& options) {

@@ -18,6 +18,7 @@ struct NumberTable {
   std::vector<std::size_t> rows = {};   ///< n, from 1.
   std::vector<std::string> names = {};  ///< n, of landmarks; or empty.
   Eigen::MatrixXd values = {};          ///< n x k, finite.
+  std::size_t left_out = 0;             ///< Rows that were, since their range is missing.
 
   /// Takes `values` row by row, as many rows as `rows`.
   void set_values(const std::vector<double>& by_row, Eigen::Index columns);

@@ -236,9 +236,11 @@ void fields(Visitor& v, RefinementStart& start) {
 
 template <typename Visitor>
 void fields(Visitor& v, PublishedDrive& drive) {
-  v.field("length_km", drive.length_km, {.minimum = 0.0});
-  v.field("poses", drive.poses, {.minimum = 0, .maximum = 1e9});
-  v.field("measurements", drive.measurements, {.minimum = 0, .maximum = 1e9});
+  v.field("length_km", drive.length_km,
+          {.description = "Length of the drive, km.", .minimum = 0.0});
+  v.field("poses", drive.poses, {.description = "Number of poses.", .minimum = 0, .maximum = 1e9});
+  v.field("measurements", drive.measurements,
+          {.description = "Number of ranges.", .minimum = 0, .maximum = 1e9});
 }
 
 template <typename Visitor>

@@ -69,10 +69,15 @@ void trial_head_fields(Visitor& v, TrialExperiment& experiment) {
       "topic", experiment.topic,
       {.description = "The question of the study; it determines the options.", .max_bytes = 100});
   run_fields(v, experiment);
-  v.field("steps", experiment.steps, record_rules::of_factor(Factor::kSteps));
-  v.field("world", experiment.world, {.key = Key::kOptional});
-  v.field("walk", experiment.walk, {.key = Key::kOptional});
-  v.field("anchors", experiment.anchors, record_rules::of_factor(Factor::kAnchors));
+  v.field("steps", experiment.steps,
+          record_rules::described("Observations of each run.", record_rules::of_factor(Factor::kSteps)));
+  v.field("world", experiment.world,
+          {.description = "The room and its landmarks.", .key = Key::kOptional});
+  v.field("walk", experiment.walk, {.description = "How the robot moves.", .key = Key::kOptional});
+  v.field(
+      "anchors", experiment.anchors,
+      record_rules::described("Number of anchors: landmarks with known positions, which the map is aligned to.",
+                record_rules::of_factor(Factor::kAnchors)));
 }
 
 /// @param rule  Of both keys.

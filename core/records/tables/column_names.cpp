@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -54,6 +55,7 @@ constexpr Word kWords[] = {
     {"marker", ColumnRole::kLandmark},
     {"subject", ColumnRole::kLandmark},
     {"beacon", ColumnRole::kLandmark},
+    {"bake", ColumnRole::kLandmark},
     {"objekt", ColumnRole::kLandmark},
     {"landmarke", ColumnRole::kLandmark},
     {"range", ColumnRole::kRange},
@@ -125,8 +127,12 @@ std::optional<Kind> unit_kind(ColumnRole role) {
     case ColumnRole::kX:
     case ColumnRole::kY:
     case ColumnRole::kRight:
+    case ColumnRole::kDistance:
+    case ColumnRole::kSideways:
       return Kind::kLength;
     case ColumnRole::kBearing:
+    case ColumnRole::kHeading:
+    case ColumnRole::kHeadingChange:
       return Kind::kAngle;
     default:
       return std::nullopt;
@@ -188,6 +194,10 @@ ColumnHeading understood(std::string_view cell) {
   return heading;
 }
 
+double factor_of(const ColumnHeading& heading) {
+  return heading.unit == AngleUnit::kDegrees ? std::numbers::pi / 180.0 : heading.factor;
+}
+
 bool is_number(std::string_view text, std::size_t number) {
   std::size_t value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -195,26 +205,28 @@ bool is_number(std::string_view text, std::size_t number) {
 }
 
 constexpr std::array<std::string_view, kColumnRoles> kRoleNames = {
-    "step",    "time",  "nanoseconds", "robot", "landmark", "range",
-    "bearing", "value", "x",           "y",     "right"};
+    "step", "time", "nanoseconds", "robot",   "landmark", "range",          "bearing", "value",
+    "x",    "y",    "right",       "heading", "distance", "heading_change", "sideways"};
 
 }  // namespace
 
 std::string_view name(ColumnRole role) { return kRoleNames[static_cast<std::size_t>(role)]; }
 
-ColumnNames column_names(const std::vector<std::string>& parts) {
+ColumnNames column_names(const std::vector<std::string>& parts, std::span<const ColumnRole> roles) {
   ColumnNames columns;
   for (const std::string& part : parts) {
     const std::size_t sign = part.find('=');
     const std::string_view role = std::string_view(part).substr(0, sign);
-    const auto found = std::ranges::find(kRoleNames, role);
-    if (sign == std::string::npos || sign + 1 == part.size() || found == kRoleNames.end())
+    const auto found = std::ranges::find(roles, role, [](ColumnRole known) { return name(known); });
+    if (sign == std::string::npos || sign + 1 == part.size() || found == roles.end()) {
+      std::vector<std::string_view> known;
+      for (const ColumnRole one : roles) known.push_back(name(one));
       throw InvalidInput(fmt::format("--columns: {:?} is not ROLE=HEADER; the roles are {}",
-                                     printable(part), fmt::join(kRoleNames, ", ")));
-    const auto known = static_cast<ColumnRole>(found - kRoleNames.begin());
-    if (std::ranges::find(columns, known, &NamedColumn::role) != columns.end())
+                                     printable(part), fmt::join(known, ", ")));
+    }
+    if (std::ranges::find(columns, *found, &NamedColumn::role) != columns.end())
       throw InvalidInput(fmt::format("--columns: {} is given twice", role));
-    columns.push_back({known, part.substr(sign + 1)});
+    columns.push_back({*found, part.substr(sign + 1)});
   }
   return columns;
 }
@@ -222,10 +234,8 @@ ColumnNames column_names(const std::vector<std::string>& parts) {
 ColumnHeading column_heading(std::string_view cell, std::size_t number,
                              const ColumnNames& columns) {
   const std::string text = lower_case(trimmed(cell));
-  const auto asked = std::ranges::find_if(columns, [&](const NamedColumn& column) {
-    const std::string header = lower_case(trimmed(column.header));
-    return header == text || is_number(header, number + 1);
-  });
+  const auto asked = std::ranges::find_if(
+      columns, [&](const NamedColumn& column) { return is_named(column, cell, number); });
   ColumnHeading heading = understood(cell);
   if (asked != columns.end()) {
     heading = {.role = asked->role};
@@ -238,6 +248,34 @@ ColumnHeading column_heading(std::string_view cell, std::size_t number,
       std::ranges::find(columns, *heading.role, &NamedColumn::role) != columns.end())
     return {.role = std::nullopt};
   return heading;
+}
+
+bool is_named(const NamedColumn& column, std::string_view cell, std::size_t number) {
+  const std::string header = lower_case(trimmed(column.header));
+  return header == lower_case(trimmed(cell)) || is_number(header, number + 1);
+}
+
+std::optional<double> column_factor(std::string_view cell, ColumnRole role,
+                                    std::span<const std::string_view> words) {
+  const std::string text = lower_case(trimmed(cell));
+  const auto is_word = [&](std::string_view part) {
+    return std::ranges::find(words, joined(part)) != words.end();
+  };
+  if (is_word(text)) return 1.0;
+  const std::size_t open = text.find_first_of("[({");
+  const std::size_t end = open != std::string::npos ? open : text.find_last_of("_ .");
+  if (end == std::string::npos || !is_word(text.substr(0, end))) return std::nullopt;
+  ColumnHeading heading{.role = role};
+  if (!take_unit(joined(text.substr(end)), heading)) return std::nullopt;
+  return factor_of(heading);
+}
+
+double named_column_factor(std::string_view cell, ColumnRole role) {
+  const std::string text = lower_case(trimmed(cell));
+  ColumnHeading heading{.role = role};
+  if (const std::size_t open = text.find_first_of("[({_ "); open != std::string::npos)
+    take_unit(joined(text.substr(open)), heading);
+  return factor_of(heading);
 }
 
 bool names_steps(std::string_view cell, const ColumnNames& columns) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +25,13 @@ enum class ColumnRole {
   kX,      ///< Of the landmark in the robot's frame: ahead, m.
   kY,      ///< To the left, m.
   kRight,  ///< The same to the right, as in a camera's frame.
+  // Of range logs alone:
+  kHeading,
+  kDistance,       ///< Of a motion.
+  kHeadingChange,  ///< Of a motion.
+  kSideways,       ///< Of a motion, to the left.
 };
-inline constexpr std::size_t kColumnRoles = 11;
+inline constexpr std::size_t kColumnRoles = 15;
 
 /// "landmark", as options, messages and headers call it.
 std::string_view name(ColumnRole role);
@@ -39,9 +45,20 @@ struct NamedColumn {
 };
 using ColumnNames = std::vector<NamedColumn>;
 
+/// The roles in tables of observations, and in the tables of a range log.
+inline constexpr std::array kTableRoles = {
+    ColumnRole::kStep,     ColumnRole::kTime,  ColumnRole::kNanoseconds, ColumnRole::kRobot,
+    ColumnRole::kLandmark, ColumnRole::kRange, ColumnRole::kBearing,     ColumnRole::kValue,
+    ColumnRole::kX,        ColumnRole::kY,     ColumnRole::kRight};
+inline constexpr std::array kRangeLogRoles = {
+    ColumnRole::kTime,  ColumnRole::kNanoseconds, ColumnRole::kRobot,         ColumnRole::kLandmark,
+    ColumnRole::kRange, ColumnRole::kDistance,    ColumnRole::kHeadingChange, ColumnRole::kSideways,
+    ColumnRole::kX,     ColumnRole::kY,           ColumnRole::kHeading};
+
 /// "time=Zeit,landmark=Objekt" in parts, "landmark=Objekt" each.
-/// @throws InvalidInput for what names no role, or one twice.
-ColumnNames column_names(const std::vector<std::string>& parts);
+/// @throws InvalidInput for what names none of the roles, or one twice.
+ColumnNames column_names(const std::vector<std::string>& parts,
+                         std::span<const ColumnRole> roles = kTableRoles);
 
 /// What a header's cell says of its column.
 struct ColumnHeading {
@@ -55,6 +72,18 @@ struct ColumnHeading {
 /// "bearing_deg", "tag_id", "header.stamp.sec".
 /// @param number  Of the column, from 0.
 ColumnHeading column_heading(std::string_view cell, std::size_t number, const ColumnNames& columns);
+
+/// Whether the user names that column of the table, by its header's cell or its number from 0.
+bool is_named(const NamedColumn& column, std::string_view cell, std::size_t number);
+
+/// The factor to metres, seconds or radians of a column whose header's cell is one of the words, in
+/// any case, with a unit of the role or without. Empty: it is none of them, or of another unit.
+/// @param words  In small letters, without blanks, dots and underscores.
+std::optional<double> column_factor(std::string_view cell, ColumnRole role,
+                                    std::span<const std::string_view> words);
+
+/// The same of a column that the user names: of the unit behind the first word, if there is one.
+double named_column_factor(std::string_view cell, ColumnRole role);
 
 /// Whether a header's cell names steps, scans or times.
 bool names_steps(std::string_view cell, const ColumnNames& columns = {});

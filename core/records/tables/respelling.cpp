@@ -99,8 +99,10 @@ void respell(ByteSource& source) {
     source = source_of(called, json_rows_csv(checked_text(bytes, name), name));
   } else {
     refuse_other_kind(start, name);
-    if (start.starts_with("VERTEX") || start.starts_with("EDGE_") || start.starts_with("BR ") ||
-        start.starts_with("LANDMARK ")) {
+    const bool may_be_graph = start.starts_with("VERTEX") || start.starts_with("EDGE_") ||
+                              start.starts_with("BR ") || start.starts_with("LANDMARK ");
+    if (!is_json(source)) source.take_text();
+    if (may_be_graph) {
       const bool is_known = first_row_is(source, is_graph, TableReader::kBlanks);
       if (!is_known) return;
       const std::string bytes = source.rest();

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/windows_1252.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 
@@ -45,7 +46,10 @@ bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& r
     const bool is_all = start.size() < count;
     const std::size_t whole = is_all ? start.size() : whole_rows(start);
     if (whole > 0 || is_all) {
-      const std::string_view text = checked_text(start.substr(0, whole), source.name());
+      const std::string decoded =
+          is_windows_1252(start) ? from_windows_1252(start.substr(0, whole)) : std::string();
+      const std::string_view text =
+          checked_text(decoded.empty() ? start.substr(0, whole) : decoded, source.name());
       TableReader reader(text, source.name(), separator.value_or(TableReader::separator_in(text)));
       if (TableRow row; reader.next(row)) return sort(row);
     }

@@ -33,7 +33,7 @@ class TableStream {
   bool is_cut() const { return is_cut_; }
 
   /// After the first row, see ByteSource and TableReader.
-  std::string packing() const { return std::string(source_.packing()); }
+  std::string packing() const { return source_.form(); }
   char separator() const { return separator_; }
   bool has_decimal_commas() const {
     return had_decimal_commas_ || (reader_ && reader_->has_decimal_commas());

@@ -95,8 +95,10 @@ class DateCursor {
     const int second = is_named ? month_by_name() : number(1, 2);
     if (!take(separator)) return std::nullopt;
     if (count == 4) return days_of(first, second, number(1, 2));
-    if (digits() != 4) return std::nullopt;
-    const int year = number(4, 4);
+    // With points the day comes first, even with a year of two digits: 03.11.26.
+    const bool has_century = digits() == 4;
+    if (!has_century && !(separator == '.' && count == 2 && digits() == 2)) return std::nullopt;
+    const int year = has_century ? number(4, 4) : 2000 + number(2, 2);
     if (separator == '.' || is_named || first > 12 || first == second)
       return days_of(year, second, first);
     if (second > 12) return days_of(year, first, second);

@@ -10,9 +10,10 @@ namespace mapproof {
 /// A date with or without a time of day, or a time of day alone, in seconds since 1970-01-01 UTC
 /// (since midnight). Empty if the cell is none.
 ///
-/// Dates: 2026-11-03, 2026/11/03, 20261103, 03.11.2026, 03-Nov-2026, and 11/13/2026 or 13/11/2026
-/// where one number is above 12. Times: 09:15, 09:15:00, 09:15:00.125, 09:15:00,125, 091500, with
-/// AM or PM; a zone may follow: Z, UTC, +01:00, +0100. A time without a zone is taken as UTC.
+/// Dates: 2026-11-03, 2026/11/03, 20261103, 03.11.2026, 03.11.26, 03-Nov-2026, and 11/13/2026 or
+/// 13/11/2026 where one number is above 12. Times: 09:15, 09:15:00, 09:15:00.125, 09:15:00,125,
+/// 091500, with AM or PM; a zone may follow: Z, UTC, +01:00, +0100. A time without a zone is taken
+/// as UTC.
 std::optional<double> date_in(std::string_view cell);
 
 /// A number, or as date_in(). Empty if the cell is neither, or not finite.

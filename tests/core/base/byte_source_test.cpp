@@ -34,6 +34,33 @@ const std::vector<std::string>& samples() {
   return packed;
 }
 
+TEST(ByteSource, GivesATextOfWindows1252AsUtf8HoweverItsBytesCome) {
+  for (const std::size_t ascii : {std::size_t{0}, std::size_t{5}, std::size_t{70'000}}) {
+    const std::string start(ascii, 'a');
+    const std::string bytes = start + "\xFC\xDF\x80 b\xB0", text = start + "üß€ b°";
+    for (const std::string& packed : packings(bytes))
+      for (const std::size_t piece : {1, 3, 100'000}) {
+        for (const bool is_peeked : {false, true}) {
+          ByteSource source = source_of(packed, piece);
+          if (is_peeked) source.peek(ascii + 1);
+          source.take_text();
+          EXPECT_TRUE(source.rest() == text);
+          EXPECT_TRUE(source.form().ends_with("Windows-1252"));
+        }
+      }
+  }
+  for (const char* utf8 : {"a\u00FCb\u00FF", "a€b", "abc", ""}) {
+    ByteSource source = source_of(utf8, 1);
+    source.take_text();
+    EXPECT_EQ(source.rest(), utf8);
+    EXPECT_EQ(source.form(), "");
+  }
+  // A broken character of UTF-8 behind others stays, to be refused.
+  ByteSource source = source_of("ü\xFC", 1);
+  source.take_text();
+  EXPECT_EQ(source.rest(), "ü\xFC");
+}
+
 // Not by EXPECT_EQ, which would look for the least edit between megabytes.
 
 TEST(ByteSource, GivesTheSameBytesHoweverTheyComeAndArePacked) {

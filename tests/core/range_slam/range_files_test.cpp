@@ -19,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using test::csv_folder;
 using test::expect_same;
+using test::ground_truth_csv_of;
+using test::odometry_csv_of;
+using test::ranges_csv_of;
 using test::remarks_hold;
 using test::sample_log;
 
@@ -48,6 +51,99 @@ void expect_same_ground_truth(const RangeLog& log, const RangeLog& expected) {
   EXPECT_EQ(log.ground_truth->positions_m, expected.ground_truth->positions_m);
   EXPECT_EQ(log.ground_truth->heading_rad, expected.ground_truth->heading_rad);
   EXPECT_EQ(*log.true_landmarks, *expected.true_landmarks);
+}
+
+/// The text with the first row replaced.
+std::string with_header(const std::string& header, const std::string& table) {
+  return header + table.substr(table.find('\n'));
+}
+
+TEST(RangeLogFiles, ColumnsMayHaveTheNamesOfOtherTables) {
+  const RangeLog log = sample_log();
+  const test::TemporaryFolder folder;
+  const std::string ranges = ranges_csv_of(log);
+  for (const char* header :
+       {"time,tag_id,range,raw_row", "Zeit,Objekt,Entfernung,raw_row",
+        "header.stamp,Landmark ID,Range [m],raw_row", "stamp,subject,dist,raw_row"}) {
+    SCOPED_TRACE(header);
+    expect_same(read_range_log(folder.file("log.csv", with_header(header, ranges))),
+                read_range_log(folder.file("usual.csv", ranges)), 0.0);
+  }
+  // In other units, with bearings that are not used, with a row that has no range.
+  const RangeLog units = read_range_log(folder.file(
+      "units.csv", "time_ms,id,bearing,range_cm\n500,a,0.1,150\n1000,b,0.2,NA\n1500,b,0,250\n"));
+  ASSERT_EQ(units.ranges.size(), 2U);
+  EXPECT_DOUBLE_EQ(units.ranges[1].time_s, 1.5);
+  EXPECT_DOUBLE_EQ(units.ranges[1].range_m, 2.5);
+  EXPECT_TRUE(remarks_hold(units, "1 row without a range: left out."));
+  const RangeLog stamps = read_range_log(folder.file(
+      "stamps.csv", "header.stamp.sec,header.stamp.nanosec,id,range\n5,500000000,a,1\n6,0,b,2\n"));
+  EXPECT_DOUBLE_EQ(stamps.ranges[0].time_s, 5.5);
+  // Of Windows, with decimal commas.
+  const RangeLog german = read_range_log(
+      folder.file("german.csv", "Zeit;Bake;Entfernung\n0,5;T\xFCr;1,5\n1;S\xE4ule;2\n"));
+  EXPECT_EQ(german.landmarks, (std::vector<std::string>{"Tür", "Säule"}));
+  EXPECT_DOUBLE_EQ(german.ranges[0].range_m, 1.5);
+}
+
+TEST(RangeLogFiles, ColumnsMayBeNamed) {
+  const RangeLog log = sample_log();
+  const test::TemporaryFolder folder;
+  const fs::path set = csv_folder(folder, log);
+  write_file(set / "ranges.csv", with_header("Uhr,Kennung,3D,raw_row", ranges_csv_of(log)));
+  EXPECT_EQ(
+      error_of(set / "ranges.csv"),
+      "line 1: no column of times: expected t, time, timestamp, stamp, datetime in the header; "
+      "--columns time=HEADER names another");
+  fs::rename(set / "ranges.csv", set / "log.csv");
+  EXPECT_EQ(
+      error_of(set / "log.csv"),
+      "its header \"Uhr, Kennung, 3D, raw_row\" names no times and no landmarks and no ranges: "
+      "--columns time=HEADER,landmark=HEADER,range=HEADER does");
+  write_file(set / "odometry.csv", with_header("dpsi,Uhr,s", odometry_csv_of(log)));
+  const RangeLogOptions options{.odometry_file = set / "odometry.csv",
+                                .columns = column_names({"time=Uhr", "landmark=Kennung", "range=3",
+                                                         "distance=s", "heading_change=dpsi"},
+                                                        kRangeLogRoles)};
+  const RangeLog read = read_range_log(set / "log.csv", options);
+  EXPECT_EQ(read.ranges.size(), log.ranges.size());
+  EXPECT_EQ(read.odometry.size(), log.odometry.size());
+  const RangeLogOptions slip{.columns = column_names({"range=rnge"}, kRangeLogRoles)};
+  EXPECT_THROW(read_range_log(folder.file("usual.csv", ranges_csv_of(log)), slip), IoError);
+  EXPECT_THROW(column_names({"bearing=b"}, kRangeLogRoles), InvalidInput);
+  EXPECT_THROW(column_names({"heading=b"}), InvalidInput);
+}
+
+TEST(RangeLogFiles, TablesOfRangesMayBeJsonLines) {
+  const test::TemporaryFolder folder;
+  const RangeLog log =
+      read_range_log(folder.file("log.jsonl",
+                                 "{\"t\": 0, \"tag\": 7, \"range\": 1.5}\n{\"t\": 1, \"tag\": 8, "
+                                 "\"range\": 2}\n"));
+  EXPECT_EQ(log.landmarks, (std::vector<std::string>{"7", "8"}));
+  EXPECT_DOUBLE_EQ(log.ranges[0].range_m, 1.5);
+}
+
+TEST(RangeLogFiles, WhatGoesWithRangesIsKnownToValidate) {
+  const RangeLog log = sample_log();
+  const test::TemporaryFolder folder;
+  const auto finding = [&](const std::string& bytes) {
+    return validate(folder.file("file.csv", bytes)).at(0);
+  };
+  EXPECT_EQ(finding(odometry_csv_of(log)).kind, "odometry of a range log, CSV");
+  EXPECT_EQ(finding("Zeit;Weg;Drehung\n1;0,5;0,1\n2;0,5;0\n").kind, "odometry of a range log, CSV");
+  EXPECT_EQ(finding(ground_truth_csv_of(log)).kind, "path, CSV");
+  std::string tum, kitti;
+  for (int i = 0; i < 20; ++i) {
+    tum += std::to_string(i) + " 1 2 0 0 0 0.6 0.8\n";
+    kitti += "1 0 0 5 0 1 0 6 0 0 1 0\n";
+  }
+  EXPECT_EQ(finding(tum).kind, "path, TUM");
+  EXPECT_EQ(finding(kitti).kind, "path, KITTI");
+  EXPECT_NE(finding(tum + "20 1 2 x 0 0 0 1\n").problem.find("line 21"), std::string::npos);
+  // Eight steps of three landmarks are no path.
+  EXPECT_EQ(finding("1 2 3 1 2 1 2 3\n1 2 3 1 2 1 2 3\n3 2 1 3 2 1 1 2\n").kind,
+            "wide CSV observations");
 }
 
 TEST(RangeLogFiles, EveryFormatGivesTheSameLog) {
@@ -159,14 +255,17 @@ TEST(RangeLogFiles, WhatIsWrongInACsvIsNamedWithItsLine) {
     return error_of(set).substr(ranges.string().size() + 2);
   };
   EXPECT_EQ(with("t,beacon,range\n1,a,2\n2,a\n"), "line 3: has 2 cells, expected 3");
-  EXPECT_EQ(with("t,beacon,range\n1,a,nan\n"), "line 2: \"nan\" is not finite");
+  EXPECT_EQ(with("t,beacon,range\n1,a,inf\n"), "line 2: \"inf\" is not finite");
   EXPECT_EQ(with("t,beacon,range\n1,a,-2\n"), "line 2: a range cannot be negative, got -2");
   EXPECT_EQ(with("t,beacon,range\n1,,2\n"), "line 2: a landmark without a name");
   EXPECT_EQ(with("t,beacon,range\n1e300,a,2\n"),
             "line 2: a time in seconds is at most 1e+12, got 1e+300");
-  EXPECT_EQ(with("t,t,range,beacon\n"), "line 1: two columns of times");
-  EXPECT_EQ(with("t,beacon\n1,a\n"),
-            "line 1: no column of ranges: expected range, range_m in the header");
+  EXPECT_EQ(with("t,t,range,beacon\n"),
+            "line 1: two columns of times: --columns time=HEADER names the one to read");
+  EXPECT_EQ(
+      with("t,beacon\n1,a\n"),
+      "line 1: no column of ranges: expected range in the header; --columns range=HEADER names "
+      "another");
   EXPECT_EQ(with("t,beacon,range\n"), "holds no ranges");
   EXPECT_EQ(with("t,robot,beacon,range\n1,1,a,2\n2,2,a,2\n"),
             "line 3: a measurement of robot 2 after those of robot 1: give the measurements of one "
@@ -307,8 +406,10 @@ TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {
   EXPECT_FALSE(shows_ranges(folder.file("ranges.csv", "name,1,2\na,1,1\n")));
   EXPECT_TRUE(is_range_log_folder(folder.path()));
   // A path that was named is read as what it is called, and the error is the reader's.
-  EXPECT_EQ(error_of(folder.file("ranges.csv", "t,beacon\n1,1\n")),
-            "line 1: no column of ranges: expected range, range_m in the header");
+  EXPECT_EQ(
+      error_of(folder.file("ranges.csv", "t,beacon\n1,1\n")),
+      "line 1: no column of ranges: expected range in the header; --columns range=HEADER names "
+      "another");
   EXPECT_EQ(error_of(folder / "nothing"), "cannot be opened: No such file or directory");
   EXPECT_EQ(error_of(folder.file("a.mat", "no")), "is not a MATLAB file");
   EXPECT_TRUE(error_of(folder.file("a.csv", "x")).starts_with("holds no ranges"));

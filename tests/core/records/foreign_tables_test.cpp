@@ -66,6 +66,31 @@ void expect_ranges(const std::string& bytes, const TableFormat& format = {},
   expect_equal(source.history.values, expected_ranges());
 }
 
+TEST(ForeignTables, OfWindows1252AreReadAndSaidToBe) {
+  const ObservationSource wide =
+      values_of("name;a;b;c\nT\xFCr;1,5;2;3\nS\xE4ule;4;5;6\n\x80;7;8;9\n");
+  EXPECT_EQ(wide.history.names, (std::vector<std::string>{"Tür", "Säule", "€"}));
+  EXPECT_EQ(wide.reading.packing, "Windows-1252");
+  const DetectionSource list = detections_of("step,landmark,range\n0,T\xFCr,1\n1,T\xFCr,2\n");
+  EXPECT_EQ(list.log.names, (std::vector<std::string>{"Tür"}));
+  EXPECT_EQ(list.reading.packing, "Windows-1252");
+  // Far behind the first block, and in a header's unit.
+  std::string late = "step,landmark,range,bearing [\xB0]\n";
+  for (int i = 0; i < 20'000; ++i) late += fmt::format("{},L{},1,90\n", i / 3, i % 3);
+  EXPECT_NEAR(detections_of(late).log.detections.back().bearing_rad, std::numbers::pi / 2, 1e-12);
+  std::string names = "step,landmark,range\n";
+  for (int i = 0; i < 200'000; ++i) names += fmt::format("{},L{},1\n", i / 3, i % 3);
+  EXPECT_EQ(detections_of(names + "70000,T\xFCr,1\n").log.names.back(), "Tür");
+  const TemporaryFolder folder;
+  EXPECT_EQ(read_landmarks(folder.file("a.csv", "name,x,y\nT\xFCr,1,2\n")).names[0], "Tür");
+}
+
+TEST(ForeignTables, OfUtf8WithABrokenCharacterAreNotTakenForWindows1252) {
+  EXPECT_EQ(table_error("name,a,b\nTür,1,2\nT\xFCr,3,4\n"), "line 3: byte 0xFC is not UTF-8");
+  // Not defined in Windows-1252 either.
+  EXPECT_EQ(table_error("name,a,b\nT\x81r,1,2\n"), "line 2: byte 0x81 is not UTF-8");
+}
+
 TEST(ForeignTables, WithTimesAsRowsAreRecognisedByHeaderOrFirstColumn) {
   // A header that names the times, in several languages of programs.
   expect_ranges("time,door,desk,plant\n0,1.5,0.25,7\n1,2,1,8\n2,,2,9\n3,4,3,10\n");
@@ -154,8 +179,8 @@ TEST(ForeignTimes, AreTheSameInstantInEverySpelling) {
   for (const char* text :
        {"2026-11-03T09:15:00.125Z", "2026-11-03 09:15:00.125", "2026-11-03T10:15:00.125+01:00",
         "2026-11-03 04:15:00,125-0500", "20261103T091500.125Z", "2026/11/03 09:15:00.125",
-        "03.11.2026 09:15:00,125", "03-Nov-2026 09:15:00.125", "2026-11-03 9:15:00.125 AM",
-        "2026-11-03 09:15:00.125 UTC", "1793697300.125"})
+        "03.11.2026 09:15:00,125", "03.11.26 09:15:00,125", "03-Nov-2026 09:15:00.125",
+        "2026-11-03 9:15:00.125 AM", "2026-11-03 09:15:00.125 UTC", "1793697300.125"})
     EXPECT_NEAR(time_in(text).value_or(kNaN), instant, 1e-6) << text;
   EXPECT_EQ(time_in("13/11/2026"), time_in("11/13/2026"));
   EXPECT_EQ(time_in("09:15:00"), 33300.0);

@@ -39,6 +39,31 @@ TEST(Schemas, AreThoseOfTheCode) {
         << "cmake --build build --target write_schemas";
 }
 
+/// The keys below a node of a schema that say nothing of themselves, by their pointers.
+void gather_silent_keys(const json& node, const std::string& at, std::vector<std::string>& silent) {
+  if (node.is_array())
+    for (std::size_t i = 0; i < node.size(); ++i)
+      gather_silent_keys(node[i], at + "/" + std::to_string(i), silent);
+  if (!node.is_object()) return;
+  for (const auto& [key, value] : node.items()) {
+    // Conditions on keys that are described elsewhere.
+    if (key == "anyOf" || key == "oneOf" || key == "allOf" || key == "not") continue;
+    if (key == "properties")
+      for (const auto& [name, child] : value.items())
+        if (child.is_object() && !child.contains("description")) silent.push_back(at + "/" + name);
+    gather_silent_keys(value, at + "/" + key, silent);
+  }
+}
+
+TEST(Schemas, DescribeEveryKeyOfAnExperiment) {
+  for (const char* name : {"experiment", "slam_experiment", "trial_experiment"}) {
+    std::vector<std::string> silent;
+    gather_silent_keys(json::parse(test::file_schemas().at(std::string(name) + ".schema.json")),
+                       name, silent);
+    EXPECT_TRUE(silent.empty()) << silent.front();
+  }
+}
+
 TEST(Schemas, HoldForEveryFileOfAStudy) {
   const test::TemporaryFolder folder;
   {

@@ -83,6 +83,10 @@ with open("pandas_string.txt", "w") as file:
 made("pandas_string.txt", "pandas to_string", "bearings", TABLE)
 detections.to_csv("pandas_long.csv")
 made("pandas_long.csv", "pandas to_csv, long", "detections", LIST)
+angles = detections.assign(bearing=detections.bearing.map(math.degrees).round(4))
+angles.rename(columns={"time": "Zeit", "range": "Entfernung", "bearing": "Peilung [°]"}).to_csv(
+    "pandas_cp1252.csv", sep=";", decimal=",", index=False, encoding="cp1252")
+made("pandas_cp1252.csv", 'pandas to_csv(encoding="cp1252")', "detections", LIST)
 bearings.to_pickle("pandas.pkl", protocol=4)
 made("pandas.pkl", "pandas to_pickle", "refused", TABLE, 2)
 

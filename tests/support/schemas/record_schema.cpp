@@ -61,10 +61,13 @@ Json enum_schema(const EnumNames& names, Definitions& definitions) {
 }
 
 Json SchemaMaker::file_head(std::string_view name) {
-  return {{"type", "object"},
+  return {{"description", "The format of the file."},
+          {"type", "object"},
           {"additionalProperties", false},
           {"required", {"name", "version"}},
-          {"properties", {{"name", {{"const", name}}}, {"version", {{"const", 1}}}}}};
+          {"properties",
+           {{"name", {{"description", "Of the format."}, {"const", name}}},
+            {"version", {{"description", "Of the format."}, {"const", 1}}}}}};
 }
 
 void SchemaMaker::put(std::string_view key, Json schema, bool is_required) {

@@ -44,7 +44,7 @@ class SchemaMaker : public FieldVisitor {
   }
   void tag(std::string_view key, std::string_view name) {
     type_ = name;
-    put(key, {{"const", name}}, true);
+    put(key, {{"description", "The kind of the object."}, {"const", name}}, true);
   }
   template <typename T>
   void field(std::string_view key, T& value, const FieldRule& rule = {}) {
