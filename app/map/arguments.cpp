@@ -87,7 +87,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
                  "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--submaps", job.submaps,
-                 "Map overlapping groups of at most N landmarks separately, and join them")
+                 "Map overlapping groups of at most N landmarks (6 to 5000) separately, and join them")
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", job.overlap,
                  "Share of each sub-map that it has in common with its neighbours (default: 0.5)")

@@ -59,7 +59,7 @@ TrialDesign doubt_design(const TrialExperiment& experiment) {
   design.quantities = {
       study_quantity("reported_percent", "Faults reported", "%", Better::kHigher),
       study_quantity("named_percent", "Causes named right", "%", Better::kHigher),
-      study_quantity("alarm_percent", "Alarms on sound logs", "%", Better::kLower),
+      study_quantity("alarm_percent", "Alarms on fault-free logs", "%", Better::kLower),
       study_quantity("denied_percent", "Sound logs that do not fit", "%", Better::kLower),
       study_quantity("inside_percent", "Landmarks in their 95 % ellipse", "%", Better::kNeither),
       study_quantity("nees", "Squared error over its variance", "", Better::kNeither),
