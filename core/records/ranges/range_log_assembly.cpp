@@ -20,7 +20,7 @@
 namespace mapproof {
 namespace {
 
-/// Mean cosine of heading and travel below which headings are off by half a turn.
+/// Mean cosine of heading and travel below which headings are off by 180 degrees.
 constexpr double kTurnedAbout = -0.5;
 /// Heading changes that differ by less are the same to the last digit.
 constexpr double kSameHeadingChange_rad = 1e-9;
