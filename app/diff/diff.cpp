@@ -47,9 +47,9 @@ Action diff_command(CLI::App& app) {
       "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
       "  mapproof diff old.png new.png\n"
       "  mapproof diff <(git show HEAD:map.png) map.png\n\n"
-      "Exit code 0 if all is identical, within tolerance, or drawn otherwise without being seen;\n"
-      "1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
-      "docs/diff.md says what the verdicts mean.\n");
+      "Exit code 0 if all is identical, within tolerance, or rendered differently without a visible\n"
+      "change; 1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
+      "docs/diff.md explains the verdicts.\n");
   app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
       ->required();
   app.add_option("CURRENT", arguments->current, "The one that is compared")->required();

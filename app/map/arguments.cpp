@@ -87,7 +87,8 @@ void add_capability_options(CLI::App& app, MapJob& job) {
                  "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
       ->check(CLI::Range(1, 1000));
   app.add_option("--submaps", job.submaps,
-                 "Map overlapping groups of at most N landmarks separately, and join them")
+                 "Map overlapping groups of at most N landmarks separately, and join them (N from 6 "
+                 "to 5000)")
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", job.overlap,
                  "Share of each sub-map that it has in common with its neighbours (default: 0.5)")
@@ -105,9 +106,9 @@ void add_incremental_options(CLI::App& app, MapJob& job) {
   app.add_flag(
       "--follow", job.follow,
       "Read long CSV or detections while the file grows (-: standard input), and update map "
-      "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, "
-      "--ellipses, --missing, --submaps, --steps, --drop-unseen, --check-ids or "
-      "--repair-ids");
+      "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, --with, "
+      "--ellipses, --missing, --submaps, --steps, --drop-unseen, --layout wide, --check-ids, "
+      "--repair-ids or --uncertain-ids");
   app.add_option("--every", job.every,
                  "With --follow: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();

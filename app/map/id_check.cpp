@@ -19,7 +19,7 @@
 namespace mapproof {
 namespace {
 
-/// Known positions may be missed by so many times the loss: on sound logs by less than the loss.
+/// Known positions may be missed by so many times the loss: on fault-free logs by less than the loss.
 constexpr double kMissed = 3.0;
 
 std::string label(const DetectionLog& log, int landmark) {
@@ -128,7 +128,7 @@ DetectionLog check_scans(AssociationOutcome& outcome, bool repair) {
   return check_shared(outcome, check_pairs(outcome, repair), repair);
 }
 
-/// Whether corrected IDs foretell held-out scans at least as well as the given ones. If not, they
+/// Whether corrected IDs predict held-out scans at least as well as the given ones. If not, they
 /// stay as they are, and a warning says so.
 bool keeps_repair(AssociationOutcome& outcome, const DetectionLog& corrected) {
   if (outcome.facts.empty()) return true;

@@ -38,6 +38,12 @@ bool is_filled_in(Job job) {
   return job.missing == "ppca" || job.missing == "pca" || job.missing == "auto";
 }
 
+/// Whether a file has bearings, or may have them: the columns of detections name the sensor.
+bool has_bearings(Job job) {
+  return (job.kind != "range" && job.kind != "visibility") ||
+         std::ranges::find(job.with_kind, "bearing") != job.with_kind.end();
+}
+
 /// All options, and what they come to.
 const std::vector<MapOption> kOptions = {
     {"--sensor", [](Job job) { return !job.kind.empty(); }},
@@ -70,7 +76,11 @@ const std::vector<MapOption> kOptions = {
        const std::optional<Method> method = method_of(job);
        return method == Method::kSmacof || method == Method::kSmacofKnn || job.chooses_method();
      }},
-    {"--with", [](Job job) { return !job.with.empty() || !job.with_kind.empty(); }, {"--with"}},
+    {"--sensor with bearings", has_bearings},
+    {"--with", [](Job job) { return !job.with.empty(); }, {"--with"}},
+    {"--with-sensor",
+     [](Job job) { return !job.with_kind.empty(); },
+     {"--with-sensor", "bearing"}},
     {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
     {"--degrees", [](Job job) { return job.table.degrees; }, {"--degrees"}},
     {"--layout wide", [](Job job) { return job.table.layout == "wide"; }, {"--layout", "wide"}},
@@ -119,6 +129,9 @@ constexpr std::string_view kNoParameter = "the method pairs has no parameter";
 constexpr std::string_view kChosen = "it chooses the parameter, too; leave out the parameter";
 constexpr std::string_view kOneSensor =
     "a map of several sensors uses the distances of each sensor and nothing else";
+constexpr std::string_view kDetected =
+    "it is for visibility: other sensors do not show which landmarks were seen together";
+constexpr std::string_view kNoBearings = "it is for bearings, and --sensor {sensor} has none";
 constexpr std::string_view kAllScans =
     "landmark IDs are checked by all scans together; check the whole file instead";
 constexpr std::string_view kComplete =
@@ -151,6 +164,9 @@ constexpr OptionPair kApart[] = {
     {"--submaps", "--ellipses", "bootstrap resamples are mapped without sub-maps"},
     {"--missing covisible", "--sensor visibility",
      "it is for bearings and ranges; with visibility, every entry shows what was seen"},
+    {"--only-seen-together", "--sensor bearing", kDetected},
+    {"--only-seen-together", "--sensor range", kDetected},
+    {"--only-seen-together", "--sensor range-bearing", kDetected},
 
     {"--with", "--method auto", kOneSensor},
     {"--with", "--submaps", kOneSensor},
@@ -192,6 +208,10 @@ constexpr OptionPair kNeeded[] = {
     {"--fit rigid", "--sensor range-bearing",
      "only a map of --sensor range-bearing has its own scale"},
     {"--with", "a --with-sensor for each", "each file needs its own --with-sensor"},
+    {"--with-sensor", "--with", "it is the sensor of another file; add --with FILE"},
+    {"--degrees", "--sensor with bearings", kNoBearings},
+    {"--bearing-convention", "--sensor with bearings", kNoBearings},
+    {"--every", "--follow", "it is the interval of the updates of --follow; add --follow"},
     {"--parameter", "a method with a parameter", "the method {method} has {has}"},
     {"-K", "a method with K", "the method {method} has {has}"},
     {"--sigma2", "a method with sigma2", "the method {method} has {has}"},
@@ -220,7 +240,8 @@ std::string reason(const OptionPair& pair, Job job) {
   const std::optional<Method> method = method_of(job);
   return fmt::format(fmt::runtime(pair.why),
                      fmt::arg("method", method ? info(*method).name : std::string_view("pairs")),
-                     fmt::arg("has", parameter_words(job)), fmt::arg("missing", job.missing));
+                     fmt::arg("has", parameter_words(job)), fmt::arg("missing", job.missing),
+                     fmt::arg("sensor", job.kind));
 }
 
 }  // namespace

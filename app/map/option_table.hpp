@@ -23,7 +23,7 @@ struct MapOption {
 /// with the other.
 struct OptionPair {
   std::string_view option, other;
-  /// {method}, {missing}: their values; {has}: what the method has for a parameter.
+  /// {method}, {missing}, {sensor}: their values; {has}: what the method has for a parameter.
   std::string_view why;
 };
 

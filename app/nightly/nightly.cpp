@@ -223,18 +223,18 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
 
 Action nightly_command(CLI::App& app) {
   auto arguments = std::make_shared<NightlyArguments>();
-  app.description("Run experiments, add them to a history, and say what got worse");
+  app.description("Run experiments, add them to a history, and report what got worse");
   app.footer(
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
       "Exit codes:\n"
-      "  0  nothing got worse, or there was nothing to compare with, which is said\n"
+      "  0  nothing got worse, or there was no run to compare with\n"
       "  1  accuracy got worse, or results are lost\n"
       "  2  wrong usage or input\n"
       "  3  internal error\n"
       "  4  only seconds or memory grew\n\n"
-      "docs/nightly.md says by which rules, and how to run it by a timer.\n");
+      "docs/nightly.md has the rules, and shows how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,
          fmt::format("Experiments' JSON files, folders with a results.csv of your own, or {}",

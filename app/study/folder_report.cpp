@@ -102,7 +102,7 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   FolderReport all{.folder = folder};
   all.report.title = "Maps from what a robot observed";
   all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
-                            ? "Two papers, made again"
+                            ? "Two papers reproduced"
                             : fmt::format("{} studies", parts.size());
   if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
     all.report.subtitle += ": " + parts[0].report.subtitle + "; " + parts[1].report.subtitle;

@@ -346,6 +346,9 @@ SchemaId schema_of(const JsonCursor& document) {
 
 void expect_schema(const JsonCursor& document, std::string_view name) {
   const SchemaId found = schema_of(document);
+  if (const std::string_view now = replacement_of(NameKind::kFormat, found.name); !now.empty())
+    document.at("schema").at("name").fail(
+        fmt::format("{}: this format is now called \"{}\"", in_quotes(found.name), now));
   if (found.name != name)
     document.at("schema").at("name").fail(
         fmt::format("expected \"{}\", got {}", name, in_quotes(found.name)));

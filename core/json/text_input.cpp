@@ -87,7 +87,7 @@ std::string number_problem(std::string_view cell) {
   if (result.ec == std::errc() && result.ptr == end) return in_quotes(cell) + " is not finite";
   const bool has_comma = result.ec == std::errc() && result.ptr != end && *result.ptr == ',';
   return in_quotes(cell) + " is not a number" +
-         (has_comma ? ": decimals stand behind a point" : "");
+         (has_comma ? ": the decimal separator is a point" : "");
 }
 
 bool is_missing(std::string_view cell) {

@@ -47,7 +47,7 @@ constexpr DoubtFault kDoubtFaults[] = {
 
 TrialDesign doubt_design(const TrialExperiment& experiment) {
   TrialDesign design;
-  design.setups.push_back({"sound", "Sound logs", {}});
+  design.setups.push_back({"sound", "Fault-free logs", {}});
   for (const DoubtFault& fault : kDoubtFaults)
     design.setups.push_back({fault.id,
                              fault.title,
@@ -59,8 +59,8 @@ TrialDesign doubt_design(const TrialExperiment& experiment) {
   design.quantities = {
       study_quantity("reported_percent", "Faults reported", "%", Better::kHigher),
       study_quantity("named_percent", "Causes named right", "%", Better::kHigher),
-      study_quantity("alarm_percent", "Alarms on sound logs", "%", Better::kLower),
-      study_quantity("denied_percent", "Sound logs that do not fit", "%", Better::kLower),
+      study_quantity("alarm_percent", "Alarms on fault-free logs", "%", Better::kLower),
+      study_quantity("denied_percent", "Fault-free logs that do not fit", "%", Better::kLower),
       study_quantity("inside_percent", "Landmarks in their 95 % ellipse", "%", Better::kNeither),
       study_quantity("nees", "Squared error over its variance", "", Better::kNeither),
       study_quantity("landmarks_m", "Landmark error", "m", Better::kLower)};

@@ -160,8 +160,8 @@ class SpaceScene {
   }
 
   std::string rods_label() const {
-    if (factor_ == 1.0) return "true to estimated place";
-    return fmt::format("true to estimated place, {:g} \u00D7 as long", factor_);
+    if (factor_ == 1.0) return "true to estimated position";
+    return fmt::format("true to estimated position, {:g} \u00D7 as long", factor_);
   }
 
   /// To the estimates, which then stand where lengthened errors put them.

@@ -118,14 +118,14 @@ std::string doubts_text(const AssociationCheck& check, const DetectionLog& log) 
 
 std::string repair_kept_text(const HeldOutFit& held_out) {
   return fmt::format(
-      "The corrected landmark IDs make a map that foretells held-out scans as well or better: mean "
+      "The corrected landmark IDs make a map that predicts held-out scans as well or better: mean "
       "log-likelihood {:.3f} instead of {:.3f} over {}.",
       held_out.repaired, held_out.given, counted(held_out.pairs, "pair"));
 }
 
 std::string repair_dropped_text(const HeldOutFit& held_out) {
   return fmt::format(
-      "The corrections of landmark IDs are not made: their map foretells held-out scans worse, "
+      "The corrections of landmark IDs are not made: their map predicts held-out scans worse, "
       "with a mean log-likelihood of {:.3f} instead of {:.3f} over {}. The landmark IDs are wrong "
       "in a way that cannot be repaired.",
       held_out.repaired, held_out.given, counted(held_out.pairs, "pair"));

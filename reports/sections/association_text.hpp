@@ -38,7 +38,7 @@ std::string undetermined_text(const SharedId& shared, const std::string& first, 
 /// That the scans do not fit one map, and with which landmarks they fit worst.
 std::string doubts_text(const AssociationCheck& check, const DetectionLog& log);
 
-/// That corrected IDs are used, or not, by what their map foretells of held-out scans.
+/// That corrected IDs are used, or not, by how well their map predicts held-out scans.
 std::string repair_kept_text(const HeldOutFit& held_out);
 std::string repair_dropped_text(const HeldOutFit& held_out);
 

@@ -87,6 +87,23 @@ TEST(RetiredNames, OfKeysAreRefusedWithTheNewNameWhereThatIsAKey) {
   }
 }
 
+TEST(RetiredNames, OfFormatsAreRefusedWithTheNewName) {
+  const test::TemporaryFolder folder;
+  for (const RetiredName& format : retired(NameKind::kFormat)) {
+    const std::string file = folder.file(
+        "old.json", "{\"schema\": {\"name\": \"" + std::string(format.name) +
+                        "\", \"version\": 1}, \"landmarks\": [\"a\", \"b\", \"c\"]}");
+    for (const char* sensor : {"bearing", "range-bearing"}) {
+      const test::Outcome outcome =
+          test::mapproof({"map", file, "--sensor", sensor, "--out", folder / "map"});
+      EXPECT_EQ(outcome.exit_code, 2);
+      EXPECT_NE(outcome.error.find("this format is now called \"" + std::string(format.now) + "\""),
+                std::string::npos)
+          << outcome.error;
+    }
+  }
+}
+
 TEST(RetiredNames, GroundTruthHasItsShortName) {
   for (const char* command : {"map", "slam"})
     EXPECT_NE(test::mapproof({command, "--help"}).out.find("--ground-truth, --truth FILE"),

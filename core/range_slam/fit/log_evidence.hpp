@@ -18,7 +18,8 @@ std::vector<OdometryGap> gaps_by_stamps(const RangeLog& log);
 std::vector<OdometryGap> frozen_stretches(const RangeLog& log, std::size_t most);
 
 /// How much the variance of a mean of residuals grows through their dependence in time, >= 1:
-/// 1 + 2 sum of the correlations of each landmark's residuals, with Bartlett's weights.
+/// 1 + 2 sum of the correlations of each landmark's residuals, with Bartlett's
+/// weights [bartlett1950].
 double inflation_of(const LogProblem& problem, const LogProblem::Fit& fit);
 
 /// Tests of the residuals by themselves: all, of each landmark, over time, over range.

@@ -20,7 +20,7 @@
 namespace mapproof {
 namespace {
 
-/// Mean cosine of heading and travel below which headings are off by half a turn.
+/// Mean cosine of heading and travel below which headings are off by 180 degrees.
 constexpr double kTurnedAbout = -0.5;
 /// Heading changes that differ by less are the same to the last digit.
 constexpr double kSameHeadingChange_rad = 1e-9;
@@ -159,7 +159,7 @@ void check_true_heading(RangeLog& log) {
   if (cosine >= kTurnedAbout) return;
   log.ground_truth->heading_rad.array() += std::numbers::pi;
   log.remarks.push_back(
-      "The true heading is off by half a turn from the direction of travel: it is turned.");
+      "The true heading is off by 180 degrees from the direction of travel: it was rotated.");
 }
 
 void take_start(const RangeLogParts& parts, RangeLog& log) {
@@ -233,7 +233,7 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
   if (log.ground_truth && turns_are_the_ground_truths(log.odometry, *log.ground_truth))
     log.remarks.push_back(
         "The heading changes of the odometry are those of the true heading: a result "
-        "that uses them is not honest.");
+        "that uses them is optimistic: they contain ground truth.");
   check_true_heading(log);
   if (!log.ground_truth) log.remarks.push_back("The true path is not known.");
   return log;

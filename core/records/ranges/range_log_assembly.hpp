@@ -24,7 +24,7 @@ struct RangeLogParts {
 
 /// Puts the landmarks in order (of the letters of their names and then of the number behind them if
 /// all names end in a number, else as they first come), sorts the measurements by time, turns true
-/// headings that are off by half a turn, and remarks on all of it and on what is missing or not to
+/// headings that are off by 180 degrees, and remarks on all of it and on what is missing or not to
 /// be trusted.
 /// @param options  Whose files stand in for what was gathered.
 /// @throws IoError if there is no measurement, there are more than 5000 landmarks with measurements

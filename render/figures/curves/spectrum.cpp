@@ -127,8 +127,8 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
   figure.record_ids = spec.record_ids;
   figure.shared_x = figure.shared_y = shown.size() > 1;
   figure.caption =
-      "Singular values of the matrix of squared ranges; filled: those of the rank that the model "
-      "tells; dashed: the level of noise, or the greatest value that is dropped.";
+      "Singular values of the matrix of squared ranges; filled: those of the rank of the model; "
+      "dashed: the level of noise, or the greatest value that is dropped.";
   figure.alt = "Singular values, logarithmic.";
   const Range y = limits_of(shown);
   for (const SingularValues* one : shown) {

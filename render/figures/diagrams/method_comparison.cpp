@@ -37,13 +37,15 @@ struct Agreement {
   std::ptrdiff_t compared = 0;  ///< Methods with an interval and a published error.
   std::ptrdiff_t within = 0;
   std::ptrdiff_t ours_smaller = 0;  ///< Of those outside.
+  std::ptrdiff_t apart = 0;         ///< Published errors that cannot be compared.
 };
 
 Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) {
   Agreement all;
   for (const PublishedErrorsSpec::Sensor& sensor : sensors)
     for (const PublishedError& method : sensor.methods) {
-      if (!method.interval || !method.published_m) continue;
+      if (method.published_m && !method.can_compare) ++all.apart;
+      if (!method.interval || !method.published_m || !method.can_compare) continue;
       ++all.compared;
       if (*method.published_m > method.interval->high)
         ++all.ours_smaller;
@@ -55,8 +57,8 @@ Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) 
 
 std::string title_of(const Agreement& all) {
   if (all.compared == 0) return "Errors of the methods, ours and published";
-  return fmt::format("{} of {} published errors lie within our 95 % intervals", all.within,
-                     all.compared);
+  return fmt::format("{} of {}{} published errors lie within our 95 % intervals", all.within,
+                     all.compared, all.apart > 0 ? " comparable" : "");
 }
 
 std::string note_of(const Agreement& all) {
@@ -89,6 +91,9 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
                     .marker = Marker::kDiamond,
                     .filled = false,
                     .size = 1.3};
+  Scatter apart = published;
+  apart.label = "published, not comparable";
+  apart.colour = ThemeColour::kMuted;
   for (std::size_t i = 0; i < methods.size(); ++i) {
     const PublishedError& method = methods[i];
     const double y = static_cast<double>(i);
@@ -98,10 +103,11 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
     add_point(ours, {method.mean_m, y});
     ours.marks.push_back(mark_of(method, number, "ours", method.mean_m));
     if (!method.published_m) continue;
-    add_point(published, {*method.published_m, y});
-    published.marks.push_back(mark_of(method, number, "published", *method.published_m));
+    Scatter& theirs = method.can_compare ? published : apart;
+    add_point(theirs, {*method.published_m, y});
+    theirs.marks.push_back(mark_of(method, number, "published", *method.published_m));
   }
-  panel.layers = {intervals, ours, published};
+  panel.layers = {intervals, ours, published, apart};
   std::erase_if(panel.layers, is_empty);
 }
 
@@ -317,9 +323,12 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
   }
   figure.caption = fmt::format(
       "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "
-      "the mean, and the error printed in {}, which may belong to another parameter. The methods "
+      "the mean, and the error printed in {}, which may belong to another parameter. {}The methods "
       "are in the order of our errors.",
-      listed(sources, 4));
+      listed(sources, 4),
+      agreement.apart > 0 ? "Printed errors in grey cannot be compared, for reasons in the tables "
+                            "of the study, and are not counted. "
+                          : "");
   figure.alt = fmt::format("MPE in metres, ours and published: {}.",
                            errors.empty() ? "none" : listed(errors, 12));
   figure.shared_x = figure.panels.size() > 1;

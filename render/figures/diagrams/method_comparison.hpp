@@ -15,6 +15,7 @@ struct PublishedError {
   double mean_m = 0.0;            ///< Ours, > 0; others are left out.
   std::optional<Range> interval;  ///< 95 % interval of our mean [m].
   std::optional<double> published_m;
+  bool can_compare = true;  ///< False: the published error is of another map, and is not counted.
 };
 
 struct PublishedErrorsSpec {
@@ -30,7 +31,7 @@ struct PublishedErrorsSpec {
 
 /// A panel per sensor: each method's mean error with its interval, and the published one, on a
 /// logarithmic axis, least error uppermost. The title counts the published errors within our
-/// intervals.
+/// intervals; those that cannot be compared are grey and not counted.
 Figure published_errors_figure(const PublishedErrorsSpec& spec);
 
 struct RankedMethod {

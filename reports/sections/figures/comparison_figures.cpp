@@ -36,7 +36,10 @@ void add_published(FigureSource& source, std::vector<Figure>& figures) {
       method.mean_m = best.mpe_m->mean;
       if (const auto interval = interval_of(best.mpe_m))
         method.interval = Range{interval->low, interval->high};
-      if (best.published) method.published_m = best.published->mpe_m;
+      if (best.published) {
+        method.published_m = best.published->mpe_m;
+        method.can_compare = best.published->note.empty();
+      }
       spec.record_ids.push_back(source_of(best));
     }
   }

@@ -31,6 +31,7 @@ const std::map<std::string_view, Words> kFulfilling = {
     {"a method with d", {"--method", "kpca-polynomial"}},
     {"a method of least stress", {"--method", "smacof"}},
     {"a --with-sensor for each", {"--with-sensor", "bearing"}},
+    {"--sensor with bearings", {"--sensor", "bearing"}},
     {"--missing ppca, pca or auto", {"--missing", "ppca"}},
     {"--find-moved without range-bearing", {"--find-moved"}},
 };
@@ -39,13 +40,12 @@ const std::map<std::string_view, Words> kFulfilling = {
 const std::map<std::string_view, Words> kFailing = {
     {"a method with a parameter", {"--method", "lpca"}},
     {"a method with K", {"--method", "lpca"}},
+    {"--sensor with bearings", {"--sensor", "range"}},
 };
 
-/// Options that go with every other option. --with-sensor belongs to --with, and --truth is short
-/// for --ground-truth.
-const std::set<std::string> kFree = {"--out",         "--jobs",   "--force", "--provenance",
-                                     "--with-sensor", "--truth",  "--help",  "--json",
-                                     "--quiet",       "--verbose"};
+/// Options that go with every other option. --truth is short for --ground-truth.
+const std::set<std::string> kFree = {"--out",  "--jobs", "--force", "--provenance", "--truth",
+                                     "--help", "--json", "--quiet", "--verbose"};
 
 /// The parser of `mapproof map`, with the job that it fills in.
 struct Parser {
@@ -208,6 +208,22 @@ TEST(OptionTable, NamesEveryOptionOfTheHelpThatMayConflict) {
     EXPECT_TRUE(known.contains(name)) << name << " is neither in the table nor free";
   for (const std::string& name : known)
     EXPECT_TRUE(listed.contains(name)) << name << " is not in the help";
+}
+
+TEST(OptionTable, TheHelpOfFollowNamesTheOptionsThatItRefuses) {
+  Parser parser;
+  const std::string help = parser.app.get_option("--follow")->get_description();
+  const std::string refused = help.substr(help.find("Not with"));
+  for (const OptionPair& row : options_apart())
+    if (row.other == "--follow" && !is_condition(option_named(row.option))) {
+      EXPECT_NE(refused.find(option_word(row.option)), std::string::npos) << row.option;
+    }
+}
+
+TEST(OptionTable, AcceptsBearingsInDegreesOfTheSecondSensor) {
+  EXPECT_EQ(said_of(job_of({"--sensor", "range", "--with", "b.csv", "--with-sensor", "bearing",
+                            "--degrees"})),
+            "");
 }
 
 TEST(OptionTable, HoldsNoOptionTwiceAndNoUnknownOption) {

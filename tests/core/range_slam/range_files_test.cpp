@@ -203,7 +203,7 @@ TEST(RangeLogFiles, ATrueHeadingAgainstTheTravelIsTurned) {
   log.ground_truth->heading_rad.array() += std::numbers::pi;
   const test::TemporaryFolder folder;
   const RangeLog read = read_range_log(csv_folder(folder, log));
-  EXPECT_TRUE(remarks_hold(read, "off by half a turn"));
+  EXPECT_TRUE(remarks_hold(read, "off by 180 degrees"));
   EXPECT_NEAR(
       std::cos(read.ground_truth->heading_rad(3) - sample_log().ground_truth->heading_rad(3)), 1.0,
       1e-12);
@@ -213,12 +213,12 @@ TEST(RangeLogFiles, OdometryWithTheGroundTruthsTurnsIsNamed) {
   const RangeLog log =
       sample_log();  // Without noise the heading changes are those of the ground truth.
   const test::TemporaryFolder folder;
-  EXPECT_TRUE(remarks_hold(read_range_log(csv_folder(folder, log)), "is not honest"));
+  EXPECT_TRUE(remarks_hold(read_range_log(csv_folder(folder, log)), "is optimistic"));
   test::write_mat(log, folder / "a.mat", true);
   EXPECT_TRUE(remarks_hold(read_range_log(folder / "a.mat"), "increments of DR are those"));
   RangeLog noisy = log;
   for (Motion& motion : noisy.odometry) motion.heading_change_rad += 0.001;
-  EXPECT_FALSE(remarks_hold(read_range_log(csv_folder(folder, noisy)), "is not honest"));
+  EXPECT_FALSE(remarks_hold(read_range_log(csv_folder(folder, noisy)), "is optimistic"));
 }
 
 TEST(RangeLogFiles, OdometryIsRecoveredFromTheDeadReckonedPath) {

@@ -111,7 +111,7 @@ TEST(WideObservations, NameTheCellThatIsWrong) {
   EXPECT_EQ(error_with("a,1,inf\n", Sensor::kRange), "line 1, column 3: an infinite value");
   EXPECT_EQ(error_with("a,1,x1\n", Sensor::kRange), "line 1, column 3: \"x1\" is not a number");
   EXPECT_EQ(error_with("a,1,\"1,5\"\n", Sensor::kRange),
-            "line 1, column 3: \"1,5\" is not a number: decimals stand behind a point");
+            "line 1, column 3: \"1,5\" is not a number: the decimal separator is a point");
 }
 
 TEST(WideObservations, NameBothLinesOfARepeatedName) {
