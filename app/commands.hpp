@@ -14,7 +14,6 @@ Action report_command(CLI::App& app);
 Action map_command(CLI::App& app);
 Action slam_command(CLI::App& app);
 Action evaluate_command(CLI::App& app);
-Action bench_command(CLI::App& app);
 Action export_command(CLI::App& app);
 Action import_command(CLI::App& app);
 Action diff_command(CLI::App& app);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/words.hpp"
-#include "core/external/external_maps.hpp"
+#include "core/experiment/observed_checkpoint.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectories.hpp"
@@ -95,7 +96,8 @@ int export_study(const ExportArguments& arguments, const Invocation& invocation)
   const auto asks_for = [&](std::string_view what) {
     return std::ranges::find(arguments.what, what) != arguments.what.end();
   };
-  std::size_t files = 0;
+  std::size_t files = 1;
+  std::string checkpoints = "run,sensor,steps,seed\r\n";
   for (const Run& run : study.runs) {
     bool is_first = true;
     observe_run(study.experiment, run.id, [&](const ObservedCheckpoint& checkpoint) {
@@ -108,9 +110,11 @@ int export_study(const ExportArguments& arguments, const Invocation& invocation)
         files += asks_for("ground-truth") ? 2 : 1;
         is_first = false;
       }
+      checkpoints += fmt::format("{},{},{},{}\r\n", slug(run.id), name(checkpoint.sensor),
+                                 checkpoint.steps, checkpoint.seed);
       for (const ExternalInput input : kInputs) {
         if (!asks_for(name(input))) continue;
-        const Eigen::MatrixXd matrix = external_input(checkpoint, input);
+        const Eigen::MatrixXd matrix = external_input(checkpoint.history, checkpoint.steps, input);
         const fs::path file =
             folder_of(checkpoint) / fmt::format("{}.{}", name(input), arguments.format);
         out.write(file, arguments.format == "npy" ? npy_bytes(matrix) : matrix_csv(matrix));
@@ -118,6 +122,7 @@ int export_study(const ExportArguments& arguments, const Invocation& invocation)
       }
     });
   }
+  out.write("checkpoints.csv", checkpoints);
   invocation.console.result(
       fmt::format("{}: {} of {}\n", arguments.out, counted(static_cast<long long>(files), "file"),
                   counted(std::ssize(study.runs), "run")),
@@ -161,7 +166,9 @@ Points positions_of(const fs::path& file, const ObservedCheckpoint& checkpoint) 
     const auto row = rows.find(map.names[i]);
     if (row == rows.end())
       throw IoError(file.string(), fmt::format("{} is not a landmark of {}",
-                                               in_quotes(map.names[i]), checkpoint.id));
+                                               in_quotes(map.names[i]),
+                                               checkpoint_id(checkpoint.run, checkpoint.sensor,
+                                                             checkpoint.steps)));
     positions.row(row->second) = map.estimate.row(static_cast<Eigen::Index>(i));
   }
   return positions;
@@ -187,10 +194,11 @@ std::vector<ExternalMap> maps_of_run(const Experiment& experiment, const RunId& 
 /// Adds the maps that a method has not given where another map of it is: they are lost.
 void add_lost(const Experiment& experiment, const std::vector<Run>& runs,
               const std::set<std::string>& methods, std::vector<ExternalMap>& maps) {
-  std::set<std::pair<std::string, std::string>> there;
+  using Checkpoint = std::tuple<std::string, RunId, Sensor, int>;
+  std::set<Checkpoint> there;
   std::set<std::pair<std::string, Sensor>> sensors;
   for (const ExternalMap& map : maps) {
-    there.emplace(map.method, map.id);
+    there.emplace(map.method, map.run, map.sensor, map.steps);
     sensors.emplace(map.method, map.sensor);
   }
   for (const std::string& method : methods)
@@ -198,13 +206,12 @@ void add_lost(const Experiment& experiment, const std::vector<Run>& runs,
       for (const SensorStudy& study : experiment.sensors)
         for (const int steps : study.checkpoints) {
           const Sensor sensor = study.sensor.sensor;
-          const std::string id = fmt::format("{}/{}/{}", slug(run.id), name(sensor), steps);
-          if (sensors.contains({method, sensor}) && !there.contains({method, id}))
+          if (sensors.contains({method, sensor}) &&
+              !there.contains({method, run.id, sensor, steps}))
             maps.push_back({.method = method,
                             .run = run.id,
                             .sensor = sensor,
                             .steps = steps,
-                            .id = id,
                             .failure = "there is no file of it"});
         }
 }

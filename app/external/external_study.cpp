@@ -21,6 +21,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
+#include "core/experiment/scored_map.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/results_study_json.hpp"
@@ -37,6 +38,25 @@ namespace fs = std::filesystem;
 
 constexpr std::array kScores = {"mpe_m", "moe_percent", "mpe_all_fitted_m",
                                 "moe_unmirrored_percent"};
+
+/// Adds the scores of a map under the condition, run and group that the study's own have; those of
+/// a map that there is not are lost.
+void add_rows(const ExternalMap& map, std::vector<Result>& rows) {
+  const std::optional<Score> score = map.map ? map.map->score : std::nullopt;
+  const auto add = [&](const char* quantity, double Score::*value) {
+    rows.push_back({.at = condition(std::string(name(map.sensor)),
+                                    {{std::string(kStepsFactor), static_cast<double>(map.steps)}}),
+                    .method = map.method,
+                    .quantity = quantity,
+                    .run = slug(map.run),
+                    .group = fmt::format("layout-{}", map.run.layout),
+                    .value = score ? (*score).*value : kNaN});
+  };
+  add("mpe_m", &Score::mpe_m);
+  add("moe_percent", &Score::moe_percent);
+  add("mpe_all_fitted_m", &Score::mpe_all_fitted_m);
+  add("moe_unmirrored_percent", &Score::moe_unmirrored_percent);
+}
 
 /// Errors of maps over the checkpoints alone.
 bool is_score(const Result& row) {
@@ -106,7 +126,7 @@ std::string lost_text(const std::vector<ExternalMap>& maps) {
   for (const ExternalMap& map : maps) {
     if (map.failure.empty()) continue;
     auto& [count, example] = losses[{map.method, map.failure}];
-    if (count++ == 0) example = map.id;
+    if (count++ == 0) example = checkpoint_id(map.run, map.sensor, map.steps);
   }
   std::string text;
   constexpr std::size_t kMostSentences = 10;
@@ -176,6 +196,29 @@ std::string text_of(const ResultsStudy& study, const MethodLabels& methods,
 }
 
 }  // namespace
+
+ExternalMap scored_external_map(const Experiment& experiment, const ObservedCheckpoint& checkpoint,
+                                const std::string& method, const Points& coordinates) {
+  if (coordinates.rows() != checkpoint.ground_truth_m.rows())
+    throw InvalidInput("a map has one row per landmark");
+  Embedding embedding;
+  embedding.coordinates = coordinates;
+  ScoredMap scored =
+      scored_map(embedding, checkpoint.ground_truth_m, checkpoint.anchors, experiment.affine_fit);
+  ExternalMap map{.method = method,
+                  .run = checkpoint.run,
+                  .sensor = checkpoint.sensor,
+                  .steps = checkpoint.steps};
+  if (!scored.score) map.failure = "the map cannot be aligned to the anchors";
+  map.map = map_record({.id = fmt::format("{}-{}", slug(checkpoint.run), method),
+                        .origin = {},
+                        .step = checkpoint.steps,
+                        .names = checkpoint.history.names,
+                        .ground_truth_m = checkpoint.ground_truth_m,
+                        .anchors = checkpoint.anchors},
+                       std::move(scored));
+  return map;
+}
 
 Study read_mapping_study(const fs::path& folder) {
   require_study(folder);

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/command_line.hpp"
-#include "core/external/external_maps.hpp"
+#include "core/experiment/observed_checkpoint.hpp"
+#include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
 #include "core/results/results_study.hpp"
 #include "reports/html/templates.hpp"
@@ -15,6 +17,21 @@ namespace mapproof {
 /// A study of the mapping methods, with its records. @throws IoError if the folder holds another
 /// kind of study.
 Study read_mapping_study(const std::filesystem::path& folder);
+
+/// One map of somebody else, aligned and scored as the study's own are.
+struct ExternalMap {
+  std::string method;
+  RunId run;
+  Sensor sensor = Sensor::kVisibility;
+  int steps = 0;
+  std::optional<MapRecord> map = {};  ///< Empty if there is none.
+  std::string failure = {};           ///< Why, one line.
+};
+
+/// Aligns coordinates to the anchors and scores them against the ground truth.
+/// @param coordinates  M x 2, any frame; NaN rows: no position.
+ExternalMap scored_external_map(const Experiment& experiment, const ObservedCheckpoint& checkpoint,
+                                const std::string& method, const Points& coordinates);
 
 /// The methods of others, in their order.
 using MethodLabels = std::vector<Label>;

@@ -11,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <list>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -34,9 +36,12 @@ constexpr int kProtocol = 1;
 constexpr std::size_t kLongestReply = std::size_t{1} << 26;
 constexpr std::size_t kMostMessages = 4096;
 
-ExternalReply failed(ExternalFailure failure, const std::string& detail) {
+/// @param detail  One line for readers, without its full stop.
+template <StatusReason kReason>
+ExternalReply failed(std::string detail) {
   constexpr std::size_t kLongestDetail = 300;
-  return {.coordinates = {}, .failure = failure, .detail = printable(detail, kLongestDetail)};
+  while (detail.ends_with('.')) detail.pop_back();
+  return {.coordinates = {}, .failure = status_of<kReason>({printable(detail, kLongestDetail)})};
 }
 
 void set_non_blocking(const Descriptor& descriptor) {
@@ -116,13 +121,6 @@ class Exchange {
 
 }  // namespace
 
-std::string_view name(ExternalFailure failure) {
-  constexpr std::array<std::string_view, 6> kNames = {
-      "cannot be started",    "timed out",          "gave no answer",
-      "gave no valid answer", "gave wrong numbers", "reports that it has no map"};
-  return kNames[static_cast<std::size_t>(failure)];
-}
-
 std::string request_bytes(const ExternalRequest& request, ExternalInput input) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const RowMajor rows = request.input;
@@ -151,35 +149,32 @@ ExternalReply parse_reply(std::string_view line, const ExternalRequest& request)
     // Python's json writes them, JSON has neither.
     if (line.find("NaN") != std::string_view::npos ||
         line.find("Infinity") != std::string_view::npos)
-      return failed(ExternalFailure::kNumbers, "a coordinate is NaN or infinite");
-    return failed(ExternalFailure::kReply, "the answer is not a JSON object");
+      return failed<StatusReason::kMethodNumbers>("a coordinate is NaN or infinite");
+    return failed<StatusReason::kMethodReply>("the answer is not a JSON object");
   }
   const auto id = reply.find("id");
   if (id == reply.end() || *id != request.id)
-    return failed(ExternalFailure::kReply, "the answer has another id than the request");
+    return failed<StatusReason::kMethodReply>("the answer has another id than the request");
   if (const auto error = reply.find("error"); error != reply.end() && error->is_string())
-    return failed(ExternalFailure::kRefused, error->get<std::string>());
+    return failed<StatusReason::kMethodRefused>(error->get<std::string>());
   const auto found = reply.find("coordinates");
   if (found == reply.end() || !found->is_array() || std::ssize(*found) != landmarks)
-    return failed(ExternalFailure::kReply,
-                  fmt::format("\"coordinates\" must be an array of {} rows", landmarks));
-  ExternalReply result{
-      .coordinates = Points::Constant(landmarks, 2, kNaN), .failure = {}, .detail = {}};
+    return failed<StatusReason::kMethodReply>(fmt::format("\"coordinates\" must be an array of {} rows", landmarks));
+  ExternalReply result{.coordinates = Points::Constant(landmarks, 2, kNaN), .failure = {}};
   bool any = false;
   for (Eigen::Index i = 0; i < landmarks; ++i) {
     const ordered_json& row = (*found)[static_cast<std::size_t>(i)];
     if (row.is_null()) continue;
     if (!row.is_array() || row.size() != 2)
-      return failed(ExternalFailure::kReply,
-                    fmt::format("row {} of \"coordinates\" is neither two numbers nor null", i));
+      return failed<StatusReason::kMethodReply>(fmt::format("row {} of \"coordinates\" is neither two numbers nor null", i));
     if (!row[0].is_number() || !row[1].is_number() || !std::isfinite(row[0].get<double>()) ||
         !std::isfinite(row[1].get<double>()))
-      return failed(ExternalFailure::kNumbers,
+      return failed<StatusReason::kMethodNumbers>(
                     fmt::format("row {} of \"coordinates\" is not finite", i));
     result.coordinates.row(i) << row[0].get<double>(), row[1].get<double>();
     any = true;
   }
-  if (!any) return failed(ExternalFailure::kNumbers, "no landmark has a position");
+  if (!any) return failed<StatusReason::kMethodNumbers>("no landmark has a position");
   return result;
 }
 
@@ -190,8 +185,10 @@ struct MethodProcess::Running {
   std::string received = {};
 };
 
-MethodProcess::MethodProcess(const ExternalMethod& method, std::filesystem::path folder)
-    : method_(method), folder_(std::move(folder)) {}
+MethodProcess::MethodProcess(const ExternalMethod& method) : method_(method) {
+  if (!method.folder)
+    throw InvalidInput(method.name + ": its command is named by records alone and is not started");
+}
 MethodProcess::~MethodProcess() = default;
 MethodProcess::MethodProcess(MethodProcess&&) noexcept = default;
 
@@ -200,9 +197,10 @@ ExternalReply MethodProcess::map(const ExternalRequest& request) {
     auto [ours, theirs] = stream_pair();
     set_non_blocking(ours);
     Descriptor messages = memory_file("messages");
+    const std::filesystem::path& folder = *method_.folder;
     // env finds the program by PATH and starts it in the folder.
     ProgramCall call{.program = "/usr/bin/env",
-                     .arguments = {"-C", folder_.empty() ? "." : folder_.string(), "--"}};
+                     .arguments = {"-C", folder.empty() ? "." : folder.string(), "--"}};
     call.arguments.insert(call.arguments.end(), method_.command.begin(), method_.command.end());
     ChildProcess process(call, {theirs.get(), theirs.get(), messages.get()});
     running_ = std::make_unique<Running>(
@@ -215,26 +213,65 @@ ExternalReply MethodProcess::map(const ExternalRequest& request) {
   ExternalReply reply;
   if (end == End::kLine) {
     reply = parse_reply(line, request);
-    if (!reply.failure || *reply.failure == ExternalFailure::kRefused) return reply;
+    if (!reply.failure || reply.failure->reason == StatusReason::kMethodRefused) return reply;
   }
   // Whatever it would still say belongs to no request: the next one gets a new process.
   const std::string said = last_line(content_of(running_->messages, kMostMessages));
   if (end == End::kTimeout) {
-    reply =
-        failed(ExternalFailure::kTimeout, fmt::format("no answer in {:g} s", method_.timeout_s));
+    reply = {.coordinates = {},
+             .failure = status_of<StatusReason::kMethodTimeout>(method_.timeout_s)};
   } else if (end == End::kTooLong) {
-    reply = failed(ExternalFailure::kReply, "an answer without an end");
+    reply = failed<StatusReason::kMethodReply>("an answer without an end");
   } else if (end == End::kClosed) {
     running_->stream.close();
     const ProcessEnd ended = running_->process.wait();
     constexpr int kNotFound = 127, kNotRun = 126, kEnvFailed = 125;
     const bool never_began =
         ended.exit_code == kNotFound || ended.exit_code == kNotRun || ended.exit_code == kEnvFailed;
-    reply = failed(never_began ? ExternalFailure::kStart : ExternalFailure::kEnded,
-                   ended.text() + (said.empty() ? "" : ": " + said));
+    const std::string detail = ended.text() + (said.empty() ? "" : ": " + said);
+    reply = never_began ? failed<StatusReason::kMethodNotStarted>(detail)
+                        : failed<StatusReason::kMethodEnded>(detail);
   }
   running_.reset();
   return reply;
+}
+
+/// Processes of one method, those that are at work aside.
+struct MethodProcesses::Pool {
+  explicit Pool(const ExternalMethod& one) : method(one) {}
+
+  ExternalReply map(const ExternalRequest& request) {
+    std::list<MethodProcess> mine;
+    {
+      const std::lock_guard lock(mutex);
+      if (free.empty())
+        mine.emplace_back(method);
+      else
+        mine.splice(mine.begin(), free, free.begin());
+    }
+    ExternalReply reply = mine.front().map(request);
+    const std::lock_guard lock(mutex);
+    free.splice(free.begin(), mine);
+    return reply;
+  }
+
+  const ExternalMethod method;
+  std::mutex mutex = {};
+  std::list<MethodProcess> free = {};
+};
+
+MethodProcesses::MethodProcesses(const std::vector<ExternalMethod>& methods) {
+  for (const ExternalMethod& method : methods) {
+    const MethodProcess is_allowed(method);
+    pools_.push_back(std::make_unique<Pool>(method));
+  }
+}
+MethodProcesses::~MethodProcesses() = default;
+
+ExternalReply MethodProcesses::map(const std::string& method, const ExternalRequest& request) {
+  for (const std::unique_ptr<Pool>& pool : pools_)
+    if (pool->method.name == method) return pool->map(request);
+  throw InvalidInput(method + ": its command was not named to be started");
 }
 
 }  // namespace mapproof

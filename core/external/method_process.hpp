@@ -8,8 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "core/external/external_method.hpp"
+#include "core/model/external_method.hpp"
 #include "core/model/points.hpp"
+#include "core/model/status.hpp"
 
 namespace mapproof {
 
@@ -24,32 +25,18 @@ struct ExternalRequest {
   std::uint64_t seed = 0;  ///< Below 2^53.
 };
 
-/// How a request ended other than with a map.
-enum class ExternalFailure {
-  kStart,    ///< The command could not be started.
-  kTimeout,  ///< No answer in time; the process was killed.
-  kEnded,    ///< The process ended without an answer.
-  kReply,    ///< The answer is not one of the protocol: no JSON, another id, a wrong shape.
-  kNumbers,  ///< A coordinate is not a finite number, or no landmark has a position.
-  kRefused,  ///< The method says that it has no map.
-};
-
-/// "cannot be started", "timed out", …
-std::string_view name(ExternalFailure failure);
-
 /// What a method answered.
 struct ExternalReply {
-  Points coordinates;                      ///< M x 2, any frame; NaN rows: no position.
-  std::optional<ExternalFailure> failure;  ///< Then there are no coordinates.
-  std::string detail;                      ///< One line for readers, such as the last of stderr.
+  Points coordinates;             ///< M x 2, any frame; NaN rows: no position.
+  std::optional<Status> failure;  ///< kFailed: then there are no coordinates.
 };
 
 /// A method's process, which answers one request after another: it is started by the first one,
 /// and again after a failure. Protocol 1 is in docs/external-methods.md.
 class MethodProcess {
  public:
-  /// @param folder  Where the command is started.
-  MethodProcess(const ExternalMethod& method, std::filesystem::path folder);
+  /// @param method  Outlives the process. @throws InvalidInput if it has no folder.
+  explicit MethodProcess(const ExternalMethod& method);
   ~MethodProcess();
   MethodProcess(MethodProcess&&) noexcept;
 
@@ -59,8 +46,24 @@ class MethodProcess {
  private:
   struct Running;
   const ExternalMethod& method_;
-  std::filesystem::path folder_;
   std::unique_ptr<Running> running_;
+};
+
+/// The processes of some methods: as many of each as threads ask at a time.
+class MethodProcesses {
+ public:
+  /// @throws InvalidInput if a method has no folder, so that nobody named it to be started.
+  explicit MethodProcesses(const std::vector<ExternalMethod>& methods);
+  ~MethodProcesses();
+  MethodProcesses(const MethodProcesses&) = delete;
+  MethodProcesses& operator=(const MethodProcesses&) = delete;
+
+  /// Thread-safe. @param method  The name of one of the methods. @throws as MethodProcess::map().
+  ExternalReply map(const std::string& method, const ExternalRequest& request);
+
+ private:
+  struct Pool;
+  std::vector<std::unique_ptr<Pool>> pools_;
 };
 
 /// The line and the bytes of a request, as the process reads them.

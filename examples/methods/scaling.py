@@ -4,6 +4,26 @@ import struct
 import sys
 
 
+def eigenpairs(B):
+    """Eigenvalues and eigenvectors (rows) of a symmetric matrix, by Jacobi's rotations."""
+    n = len(B)
+    V = [[float(i == k) for k in range(n)] for i in range(n)]
+    while sum(B[p][q] ** 2 for p in range(n) for q in range(p)) > 1e-28 * sum(
+            B[p][p] ** 2 for p in range(n)):
+        for p in range(n):
+            for q in (q for q in range(p) if B[p][q] != 0):
+                angle = (B[q][q] - B[p][p]) / (2 * B[p][q])
+                t = (1 if angle >= 0 else -1) / (abs(angle) + (angle * angle + 1) ** 0.5)
+                c = 1 / (t * t + 1) ** 0.5
+                s = t * c
+                for row in B:
+                    row[p], row[q] = c * row[p] - s * row[q], s * row[p] + c * row[q]
+                for M in (B, V):
+                    M[p], M[q] = ([c * a - s * b for a, b in zip(M[p], M[q])],
+                                  [s * a + c * b for a, b in zip(M[p], M[q])])
+    return sorted(((B[i][i], V[i]) for i in range(n)), reverse=True)
+
+
 def scaled(distances):
     """The first two principal coordinates, one row per landmark; None if a distance is unknown."""
     n = len(distances)
@@ -15,19 +35,10 @@ def scaled(distances):
     means = [sum(row) / m for row in squares]
     mean = sum(means) / m
     B = [[-0.5 * (squares[i][k] - means[i] - means[k] + mean) for k in range(m)] for i in range(m)]
-    columns = []
-    for start in range(2):  # Power iteration, then deflation.
-        v = [1.0 + (i * (start + 2)) % 7 for i in range(m)]
-        value = 0.0
-        for _ in range(1000):
-            w = [sum(b * x for b, x in zip(row, v)) for row in B]
-            value = sum(x * x for x in w) ** 0.5
-            v = [x / value for x in w]
-        columns.append([x * value ** 0.5 for x in v])
-        B = [[B[i][k] - value * v[i] * v[k] for k in range(m)] for i in range(m)]
+    (first, u), (second, v) = eigenpairs(B)[:2]
     rows = [None] * n
     for i, row in enumerate(known):
-        rows[row] = [columns[0][i], columns[1][i]]
+        rows[row] = [u[i] * first ** 0.5, v[i] * second ** 0.5]
     return rows
 
 

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/model/experiment.hpp"
+#include "core/records/experiments/external_methods.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,12 +29,13 @@ ExternalMethod shell(const std::string& script, double timeout_s = 20.0) {
   method.name = "test";
   method.command = {"sh", "-c", script};
   method.timeout_s = timeout_s;
+  method.folder = "";
   return method;
 }
 
 ExternalReply answer_of(const std::string& script, double timeout_s = 20.0) {
   const ExternalMethod method = shell(script, timeout_s);
-  return MethodProcess(method, "").map(request());
+  return MethodProcess(method).map(request());
 }
 
 constexpr const char* kGood =
@@ -38,26 +43,28 @@ constexpr const char* kGood =
 
 TEST(MethodReply, HasOneRowPerLandmark) {
   const ExternalReply reply = parse_reply(kGood, request());
-  ASSERT_FALSE(reply.failure) << reply.detail;
+  ASSERT_FALSE(reply.failure);
   EXPECT_EQ(reply.coordinates.row(2), Eigen::RowVector2d(2.5, -30.0));
   EXPECT_TRUE(std::isnan(reply.coordinates(1, 0)));
 }
 
 TEST(MethodReply, ThatIsNotOfTheProtocolIsNamed) {
-  const auto failure_of = [](const char* line) { return parse_reply(line, request()).failure; };
-  EXPECT_EQ(failure_of("not JSON"), ExternalFailure::kReply);
-  EXPECT_EQ(failure_of(R"({"id": "other", "coordinates": []})"), ExternalFailure::kReply);
-  EXPECT_EQ(failure_of(R"({"id": "run/bearing/10"})"), ExternalFailure::kReply);
+  const auto failure_of = [](const char* line) {
+    return parse_reply(line, request()).failure.value().reason;
+  };
+  EXPECT_EQ(failure_of("not JSON"), StatusReason::kMethodReply);
+  EXPECT_EQ(failure_of(R"({"id": "other", "coordinates": []})"), StatusReason::kMethodReply);
+  EXPECT_EQ(failure_of(R"({"id": "run/bearing/10"})"), StatusReason::kMethodReply);
   EXPECT_EQ(failure_of(R"({"id": "run/bearing/10", "coordinates": [[0, 1]]})"),
-            ExternalFailure::kReply);
+            StatusReason::kMethodReply);
   EXPECT_EQ(failure_of(R"({"id": "run/bearing/10", "coordinates": [[0], [1], [2]]})"),
-            ExternalFailure::kReply);
+            StatusReason::kMethodReply);
   EXPECT_EQ(failure_of(R"({"id": "run/bearing/10", "coordinates": [[NaN, 0], [1, 0], [0, 1]]})"),
-            ExternalFailure::kNumbers);
+            StatusReason::kMethodNumbers);
   EXPECT_EQ(failure_of(R"({"id": "run/bearing/10", "coordinates": [null, null, null]})"),
-            ExternalFailure::kNumbers);
+            StatusReason::kMethodNumbers);
   EXPECT_EQ(failure_of(R"({"id": "run/bearing/10", "error": "too few"})"),
-            ExternalFailure::kRefused);
+            StatusReason::kMethodRefused);
 }
 
 TEST(MethodRequest, IsALineAndTheRowsOfTheMatrix) {
@@ -86,36 +93,56 @@ TEST(MethodProcess, AnswersOneRequestAfterAnother) {
   // 300 bytes with line and matrix.
   const std::size_t bytes = request_bytes(asked, method.input).size();
   asked.sensor += std::string(300 - bytes, 'x');
-  MethodProcess process(method, "");
+  MethodProcess process(method);
   for (int i = 1; i <= 3; ++i) {
     const ExternalReply reply = process.map(asked);
-    ASSERT_FALSE(reply.failure) << reply.detail;
+    ASSERT_FALSE(reply.failure);
     EXPECT_EQ(reply.coordinates(0, 0), i);
   }
 }
 
 TEST(MethodProcess, ThatDoesNotAnswerIsKilled) {
-  EXPECT_EQ(answer_of("sleep 100", 0.1).failure, ExternalFailure::kTimeout);
+  const Status status = answer_of("sleep 100", 0.1).failure.value();
+  EXPECT_EQ(status, status_of<StatusReason::kMethodTimeout>(0.1));
 }
 
 TEST(MethodProcess, ThatEndsIsNamedWithItsLastMessage) {
-  const ExternalReply reply = answer_of("echo first >&2; echo 'no licence' >&2; exit 3");
-  EXPECT_EQ(reply.failure, ExternalFailure::kEnded);
-  EXPECT_EQ(reply.detail, "it ended with exit code 3: no licence");
+  const ExternalReply reply = answer_of("echo first >&2; echo 'no licence.' >&2; exit 3");
+  EXPECT_EQ(reply.failure.value(), status_of<StatusReason::kMethodEnded>(
+                                       {"it ended with exit code 3: no licence"}));
 }
 
 TEST(MethodProcess, ThatIsNotThereCannotBeStarted) {
   ExternalMethod method = shell("");
   method.command = {"no-such-program-anywhere"};
-  EXPECT_EQ(MethodProcess(method, "").map(request()).failure, ExternalFailure::kStart);
+  EXPECT_EQ(MethodProcess(method).map(request()).failure.value().reason,
+            StatusReason::kMethodNotStarted);
+}
+
+TEST(MethodProcess, IsNotStartedWhereRecordsAloneNameIt) {
+  ExternalMethod method = shell("");
+  method.folder.reset();
+  EXPECT_THROW(MethodProcess{method}, InvalidInput);
+  EXPECT_THROW(MethodProcesses({method}), InvalidInput);
+}
+
+TEST(MethodProcesses, AreFoundByTheirNames) {
+  ExternalMethod one = shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"1\"}'");
+  ExternalMethod two = shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"2\"}'");
+  one.name = "one";
+  two.name = "two";
+  MethodProcesses processes({one, two});
+  EXPECT_EQ(processes.map("two", request()).failure.value(),
+            status_of<StatusReason::kMethodRefused>({"2"}));
+  EXPECT_THROW(processes.map("three", request()), InvalidInput);
 }
 
 TEST(MethodProcess, IsStartedAgainAfterAFailure) {
   // The first process writes nonsense; the request after it is answered by another one.
   const ExternalMethod method = shell("echo nonsense");
-  MethodProcess process(method, "");
-  EXPECT_EQ(process.map(request()).failure, ExternalFailure::kReply);
-  EXPECT_EQ(process.map(request()).failure, ExternalFailure::kReply);
+  MethodProcess process(method);
+  EXPECT_EQ(process.map(request()).failure.value().reason, StatusReason::kMethodReply);
+  EXPECT_EQ(process.map(request()).failure.value().reason, StatusReason::kMethodReply);
 }
 
 TEST(MethodProcess, ReadsALargeRequestWhileItAnswersALot) {
@@ -123,27 +150,60 @@ TEST(MethodProcess, ReadsALargeRequestWhileItAnswersALot) {
   asked.input = Eigen::MatrixXd::Ones(3, 500'000);  // 12 MB: more than a stream holds.
   const ExternalMethod method =
       shell(std::string("cat > /dev/null & head -c 100 > /dev/null; echo '") + kGood + "'; wait");
-  const ExternalReply reply = MethodProcess(method, "").map(asked);
-  EXPECT_FALSE(reply.failure) << reply.detail;
+  const ExternalReply reply = MethodProcess(method).map(asked);
+  EXPECT_FALSE(reply.failure);
 }
 
+std::string file_of(const std::string& methods) {
+  return R"({"schema": {"name": "mapproof.methods", "version": 1}, "methods": [)" + methods + "]}";
+}
+
+constexpr const char* kTsne =
+    R"({"name": "tsne", "label": "t-SNE", "input": "history", "command": ["x"],
+        "parameter": {"symbol": "perplexity", "values": [0.5, 5]}})";
+
 TEST(ExternalMethods, AreReadStrictly) {
-  const auto text = [](const std::string& method) {
-    return R"({"schema": {"name": "mapproof.methods", "version": 1}, "methods": [)" + method + "]}";
-  };
-  const std::string good =
-      R"({"name": "tsne", "label": "t-SNE", "input": "history", "command": ["x"],
-          "parameter": {"symbol": "perplexity", "values": [5, 0.5]}})";
-  const ExternalMethods methods = parse_external_methods(text(good), "methods.json");
-  ASSERT_EQ(settings_of(methods).size(), 2U);
-  EXPECT_EQ(slug(settings_of(methods)[1]), "tsne-perplexity0.5");
-  EXPECT_EQ(label(settings_of(methods)[0]), "t-SNE, perplexity = 5");
-  for (const std::string& bad :
-       {std::string(R"({"name": "isomap", "label": "x", "input": "history", "command": ["x"]})"),
-        std::string(R"({"name": "a", "label": "x", "input": "history", "command": []})"),
-        std::string(R"({"name": "a", "label": "x", "input": "maps", "command": ["x"]})"),
-        good + ", " + good})
-    EXPECT_THROW(parse_external_methods(text(bad), "methods.json"), IoError) << bad;
+  const std::vector<ExternalMethod> methods =
+      parse_external_methods(file_of(kTsne), "folder/methods.json");
+  EXPECT_EQ(methods.at(0).folder, "folder");
+  const std::vector<MethodSetting> settings =
+      settings_of(std::vector{MethodGrid{method_of(methods[0]), methods[0].values}});
+  ASSERT_EQ(settings.size(), 2U);
+  EXPECT_EQ(slug(settings[0]), "tsne-perplexity0.5");
+  EXPECT_EQ(label(settings[1]), "t-SNE, perplexity = 5");
+  for (const std::string& bad : {
+           // A name of mapproof, no command, an unknown input, a name twice, an id twice.
+           std::string(R"({"name": "isomap", "label": "x", "input": "history", "command": ["x"]})"),
+           std::string(R"({"name": "pairs", "label": "x", "input": "history", "command": ["x"]})"),
+           std::string(R"({"name": "a", "label": "x", "input": "history", "command": []})"),
+           std::string(R"({"name": "a", "label": "x", "input": "maps", "command": ["x"]})"),
+           std::string(kTsne) + ", " + kTsne,
+           std::string(R"({"name": "a-b5", "label": "x", "input": "history", "command": ["x"]},
+                          {"name": "a", "label": "x", "input": "history", "command": ["x"],
+                           "parameter": {"symbol": "b", "values": [5]}})"),
+           std::string(R"({"name": "a", "label": "x", "input": "history", "command": ["x"],
+                           "parameter": {"symbol": "b_c", "values": [5]}})")})
+    EXPECT_THROW(parse_external_methods(file_of(bad), "methods.json"), IoError) << bad;
+}
+
+TEST(ExternalMethods, HaveTheDigestOfTheirFilesBelowTheirFolder) {
+  const test::TemporaryFolder folder;
+  ExternalMethod method = parse_external_methods(file_of(kTsne), folder / "methods.json").at(0);
+  EXPECT_EQ(digest_of(method), "");
+  method.files = {"b.py", "a.py"};
+  EXPECT_THROW(digest_of(method), IoError);
+  write_file(folder / "a.py", "a");
+  write_file(folder / "b.py", "b");
+  const std::string digest = digest_of(method);
+  EXPECT_EQ(digest.size(), 64U);
+  method.files = {"a.py", "b.py"};
+  EXPECT_EQ(digest_of(method), digest);
+  write_file(folder / "b.py", "c");
+  EXPECT_NE(digest_of(method), digest);
+  for (const char* outside : {"../a.py", "/etc/hostname"}) {
+    method.files = {outside};
+    EXPECT_THROW(digest_of(method), IoError) << outside;
+  }
 }
 
 }  // namespace
