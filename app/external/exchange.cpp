@@ -24,6 +24,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/observations/trajectories.hpp"
+#include "core/records/text_forms.hpp"
 
 namespace mapproof {
 namespace {

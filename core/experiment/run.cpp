@@ -16,6 +16,7 @@
 #include "core/experiment/observed_checkpoint.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/experiment/seeds.hpp"
+#include "core/external/method_process.hpp"
 #include "core/graph/neighbours.hpp"
 #include "core/linalg/centering.hpp"
 #include "core/linalg/symmetric_eigen.hpp"

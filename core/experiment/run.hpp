@@ -1,12 +1,13 @@
 #pragma once
 
-#include "core/external/method_process.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/world.hpp"
 #include "core/records/studies/study_store.hpp"
 
 namespace mapproof {
+
+class MethodProcesses;
 
 /// All runs of an experiment, ascending.
 std::vector<RunId> runs_of(const Experiment& experiment);
