@@ -14,6 +14,8 @@ Action report_command(CLI::App& app);
 Action map_command(CLI::App& app);
 Action slam_command(CLI::App& app);
 Action evaluate_command(CLI::App& app);
+Action export_command(CLI::App& app);
+Action import_command(CLI::App& app);
 Action diff_command(CLI::App& app);
 Action approve_command(CLI::App& app);
 Action check_command(CLI::App& app);

@@ -156,7 +156,7 @@ class Planner {
                                  : has_several() ? file.parent_path().filename().string()
                                                  : file.stem().string();
       EstimateFile& estimate = plan_.estimates.emplace_back();
-      estimate.method = checked_name(method, "the system");
+      estimate.run.method = checked_name(method, "the system");
       estimate.ground_truth = ground_truth_of(file);
       estimate.file = file;
     }
@@ -188,9 +188,9 @@ class Planner {
     std::map<std::pair<std::string, std::size_t>, std::vector<EstimateFile>> sorted;
     std::size_t most = 1;
     for (EstimateFile& estimate : plan_.estimates) {
-      if (std::ranges::find(methods, estimate.method) == methods.end())
-        methods.push_back(estimate.method);
-      auto& runs = sorted[{estimate.method, estimate.ground_truth}];
+      if (std::ranges::find(methods, estimate.run.method) == methods.end())
+        methods.push_back(estimate.run.method);
+      auto& runs = sorted[{estimate.run.method, estimate.ground_truth}];
       runs.push_back(std::move(estimate));
       most = std::max(most, runs.size());
     }
@@ -198,11 +198,11 @@ class Planner {
     for (const std::string& method : methods)
       for (std::size_t i = 0; i < sequences_.size(); ++i) {
         auto& runs = sorted[{method, i}];
-        if (runs.empty()) runs.push_back({.method = method, .ground_truth = i});
+        if (runs.empty()) runs.push_back({.run = {.method = method}, .ground_truth = i});
         for (std::size_t k = 0; k < runs.size(); ++k) {
           EstimateFile& run = runs[k];
-          run.run = most == 1 ? sequences_[i] : fmt::format("{}-{}", sequences_[i], k + 1);
-          run.group = has_several() ? sequences_[i] : run.run;
+          run.run.run = most == 1 ? sequences_[i] : fmt::format("{}-{}", sequences_[i], k + 1);
+          run.run.group = has_several() ? sequences_[i] : run.run.run;
           plan_.estimates.push_back(std::move(run));
         }
       }

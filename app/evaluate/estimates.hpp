@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/evaluate/landmark_evaluation.hpp"
+#include "core/evaluate/evaluation_rows.hpp"
 #include "core/model/paths/space_path.hpp"
 
 namespace mapproof {
@@ -22,9 +22,7 @@ EvaluatedFile read_evaluated_file(const std::filesystem::path& file);
 
 /// An estimate, and the ground truth that it belongs to.
 struct EstimateFile {
-  std::string method = {};
-  std::string run = {};
-  std::string group = {};           ///< See EvaluatedRun.
+  EvaluatedRun run = {};            ///< Its names; nothing is compared yet.
   std::size_t ground_truth = 0;     ///< Its row among the files of the ground truth.
   std::filesystem::path file = {};  ///< Empty: the system has none of this sequence.
 };

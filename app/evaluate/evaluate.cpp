@@ -106,11 +106,11 @@ class Comparison {
 
   EvaluatedRun run(const EstimateFile& estimate, const EvaluatedFile& ground_truth,
                    const fs::path& ground_truth_file) const {
-    EvaluatedRun run{.method = estimate.method, .run = estimate.run, .group = estimate.group};
+    EvaluatedRun run = estimate.run;
     run.has_path = ground_truth.path.has_value();
     run.has_landmarks = ground_truth.landmarks.has_value();
     if (estimate.file.empty()) {
-      warn(estimate.method, fmt::format("has no file of {}: lost", estimate.run));
+      warn(run.method, fmt::format("has no file of {}: lost", run.run));
       return run;
     }
     const EvaluatedFile file = read_evaluated_file(estimate.file);
@@ -424,11 +424,11 @@ Action evaluate_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
-  group_options(app, {{"Input", {"ESTIMATE", "--ground-truth"}},
-                      {"Comparison",
-                       {"--align", "--offset", "--largest-gap", "--relative", "--landmarks",
-                        "--gate"}},
-                      {"Output", {"--name", "--title", "--templates"}}});
+  group_options(app,
+                {{"Input", {"ESTIMATE", "--ground-truth"}},
+                 {"Comparison",
+                  {"--align", "--offset", "--largest-gap", "--relative", "--landmarks", "--gate"}},
+                 {"Output", {"--name", "--title", "--templates"}}});
   return [arguments](const Invocation& invocation) { return evaluate(*arguments, invocation); };
 }
 

@@ -49,9 +49,9 @@ ExperimentText experiment_text(const std::string& name,
     if (templates) {
       const std::filesystem::path own = *templates / "experiments" / resource.name;
       std::error_code error;
-      if (std::filesystem::exists(own, error)) return {read_file(own), own.string()};
+      if (std::filesystem::exists(own, error)) return {read_file(own), own.string(), own.parent_path()};
     }
-    return {std::string(resource.bytes), fmt::format("embedded {}", resource.name)};
+    return {std::string(resource.bytes), fmt::format("embedded {}", resource.name), {}};
   }
   if (const std::string_view now = replacement_of(NameKind::kExperiment, name); !now.empty())
     throw InvalidInput(fmt::format("the experiment {} is now called {}", name, now));
@@ -72,7 +72,10 @@ bool is_experiment_file(const std::string& file_or_name) {
 
 ExperimentText experiment_of(const std::string& file_or_name) {
   if (is_experiment_file(file_or_name))
-    return {.text = read_input(file_or_name), .source = input_name(file_or_name)};
+    return {.text = read_input(file_or_name),
+            .source = input_name(file_or_name),
+            .folder = handed_in(file_or_name) ? std::filesystem::path()
+                                              : std::filesystem::path(file_or_name).parent_path()};
   return experiment_text(file_or_name, std::nullopt);
 }
 

@@ -17,6 +17,7 @@ std::span<const Resource> embedded_experiments();
 struct ExperimentText {
   std::string text;
   std::string source;
+  std::filesystem::path folder = {};  ///< Of its file; empty: of none, or the current one.
 };
 
 /// The names of the papers' experiments, by the year that they end in.

@@ -68,6 +68,7 @@ nlohmann::ordered_json mapping_object(const Study& study) {
                                 {"runs", study.runs.size()},
                                 {"records", counts.maps},
                                 {"records_with_status", counts.with_status},
+                                {"records_without_map", counts.failed},
                                 {"results", nlohmann::ordered_json::array()}};
   for_each_result(study, [&](const SettingSummary& result) {
     object["results"].push_back({{"sensor", name(result.sensor)},

@@ -35,6 +35,9 @@ void add_data_options(CLI::App& app, OrderOptions& options) {
                  "Folder of data sets, or of one, for experiments made of them (mrclam)")
       ->check(CLI::ExistingDirectory)
       ->group("Experiment");
+  app.add_option("--methods", options.methods,
+                 "methods.json: mapping methods of others, commands that are run beside ours")
+      ->group("Experiment");
 }
 
 StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& options) {
@@ -44,8 +47,11 @@ StudyOrder read_study_order(const ExperimentText& file, const OrderOptions& opti
       .changes = options.changes,
       .one_of_several = options.one_of_several,
       .plaza = options.plaza,
-      .data = options.data};
-  StudyOrder order{.digest = sha256_hex(options.profile + "\n" + file.text),
+      .data = options.data,
+      .folder = file.folder,
+      .methods = options.methods};
+  const std::string methods = options.methods ? "\n" + read_file(*options.methods) : "";
+  StudyOrder order{.digest = sha256_hex(options.profile + "\n" + file.text + methods),
                    .plan = kind.plan(file.text, file.source, how)};
   order.name = order.plan.name;
   return order;
@@ -66,16 +72,19 @@ bool needs_data(const ExperimentText& file) {
 }
 
 void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& options) {
-  const auto refuse = [&](std::string_view option) {
+  const auto refuse = [&](std::string_view option, std::string_view what) {
     throw InvalidInput(fmt::format(
-        "{}: {} uses no such data", option,
-        orders.size() == 1 ? "the experiment " + orders.front().name : "none of the experiments"));
+        "{}: {} {}", option,
+        orders.size() == 1 ? "the experiment " + orders.front().name : "none of the experiments",
+        what));
   };
+  constexpr std::string_view kNoData = "uses no such data";
   const auto uses = [&](bool StudyPlan::*data) {
     return std::ranges::any_of(orders, [&](const StudyOrder& order) { return order.plan.*data; });
   };
-  if (options.plaza && !uses(&StudyPlan::uses_plaza)) refuse("--plaza");
-  if (options.data && !uses(&StudyPlan::uses_data)) refuse("--data");
+  if (options.plaza && !uses(&StudyPlan::uses_plaza)) refuse("--plaza", kNoData);
+  if (options.data && !uses(&StudyPlan::uses_data)) refuse("--data", kNoData);
+  if (options.methods && !uses(&StudyPlan::uses_methods)) refuse("--methods", "takes no mapping methods of others");
 }
 
 std::vector<std::string> words_of(std::span<const StudyOrder> orders, const OrderOptions& options) {
@@ -94,6 +103,7 @@ std::vector<std::string> words_of(std::span<const StudyOrder> orders, const Orde
   }
   if (options.plaza) words.insert(words.end(), {"--plaza", *options.plaza});
   if (options.data) words.insert(words.end(), {"--data", *options.data});
+  if (options.methods) words.insert(words.end(), {"--methods", *options.methods});
   return words;
 }
 

@@ -20,9 +20,10 @@ struct OrderOptions {
   bool one_of_several = false;  ///< Changes that an experiment knows nothing of are then left out.
   std::optional<std::string> plaza = {};  ///< Folder of the Plaza data.
   std::optional<std::string> data = {};   ///< Folder of data sets, for studies made of them.
+  std::optional<std::string> methods = {};  ///< methods.json: methods of others to be added.
 };
 
-/// Adds --plaza and --data to a command.
+/// Adds --plaza, --data and --methods to a command.
 void add_data_options(CLI::App& app, OrderOptions& options);
 
 /// A study of any type, ready to be made.
@@ -44,7 +45,7 @@ StudyOrder given_study_order(const std::filesystem::path& folder);
 /// Whether an experiment cannot be made without OrderOptions::data. @throws IoError if it is none.
 bool needs_data(const ExperimentText& file);
 
-/// Throws if a folder of data was given that none of the experiments uses. @throws InvalidInput.
+/// Throws if data or methods were given that none of the experiments uses. @throws InvalidInput.
 void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& options);
 
 /// The words after the command and its name that give the same studies again: --profile, --seed and

@@ -55,9 +55,9 @@ void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
   const Stopwatch watch;
   for (const std::string& remark : order.plan.remarks) console.detail(remark);
   StudyWriter writer(folder, order.plan.start(build_provenance()));
-  if (writer.redone())
-    console.warning(fmt::format("{}: its records were made by another solver; they are made again",
-                                folder.string()));
+  if (!writer.redone().empty())
+    console.warning(fmt::format("{}: its records were made by {}; they are made again",
+                                folder.string(), writer.redone()));
   ProgressLine line(!console.is_quiet());
   Progress last;
   run_study(order.plan, writer, jobs, [&](const Progress& progress) {

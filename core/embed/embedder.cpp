@@ -36,13 +36,6 @@ void add_statuses_of_start(Embedding& result, const Embedding& start, Method met
   result.statuses.insert(result.statuses.begin(), added.begin(), added.end());
 }
 
-std::vector<std::string> names_of(const std::vector<std::string>& names,
-                                  const std::vector<Eigen::Index>& rows) {
-  std::vector<std::string> some;
-  for (const Eigen::Index row : rows) some.push_back(names[static_cast<std::size_t>(row)]);
-  return some;
-}
-
 /// The median of the finite entries above zero below the diagonal; 1 if there is none.
 double median_beside_diagonal(const Eigen::MatrixXd& matrix) {
   std::vector<double> values;
@@ -272,7 +265,7 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   for (Eigen::Index i = 0; i < landmarks_; ++i)
     if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
   if (!unseen.empty())
-    statuses_.push_back(status_of<StatusReason::kNeverObserved>(names_of(history.names, unseen),
+    statuses_.push_back(status_of<StatusReason::kNeverObserved>(names_of(history, unseen),
                                                                 unseen.size(), landmarks_));
   if (steps < kFewestSteps)
     statuses_.push_back(status_of<StatusReason::kFewSteps>(steps, kFewestSteps));

@@ -12,9 +12,9 @@ namespace mapproof {
 
 /// What one system estimated in one run, compared with the ground truth.
 struct EvaluatedRun {
-  std::string method;
-  std::string run;
-  std::string group;  ///< Of runs that depend on each other.
+  std::string method = {};
+  std::string run = {};
+  std::string group = {};  ///< Of runs that depend on each other.
   std::optional<PathEvaluation> path = {};
   std::optional<LandmarkEvaluation> landmarks = {};
   bool has_path = false,

@@ -13,8 +13,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/embed/embedder.hpp"
+#include "core/experiment/observed_checkpoint.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/experiment/seeds.hpp"
+#include "core/external/method_process.hpp"
 #include "core/graph/neighbours.hpp"
 #include "core/linalg/centering.hpp"
 #include "core/linalg/symmetric_eigen.hpp"
@@ -245,14 +247,71 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
 
 using Clock = std::chrono::steady_clock;
 
+/// Where one checkpoint of a sensor is mapped by methods of others.
+class ExternalEmbedder {
+ public:
+  /// @param others  Null where the experiment has no methods of others.
+  ExternalEmbedder(const Experiment& experiment, const RunId& run,
+                   const ObservationHistory& history, int step, MethodProcesses* others)
+      : experiment_(experiment), run_(run), history_(history), step_(step), others_(others) {}
+
+  /// Landmarks that were never observed get no position, as by mapproof's methods.
+  Embedding embed(const ExternalMethod& method, const MethodSetting& setting) {
+    if (others_ == nullptr)
+      throw InvalidInput(method.name + ": a method of others, which has no process");
+    const ExternalReply reply = others_->map(
+        method.name,
+        {.id = checkpoint_id(run_, history_.sensor, step_),
+         .sensor = std::string(name(history_.sensor)),
+         .steps = step_,
+         .landmarks = history_.names,
+         .input = external_input(history_, step_, method.input),
+         .parameter = setting.parameter,
+         .seed = checkpoint_seed(experiment_.seed, run_, history_.sensor, step_)});
+    Embedding map;
+    map.coordinates = Points::Constant(history_.landmarks(), 2, kNaN);
+    if (reply.failure)
+      map.statuses.push_back(*reply.failure);
+    else
+      map.coordinates = reply.coordinates;
+    add_unmapped(map);
+    return map;
+  }
+
+ private:
+  void add_unmapped(Embedding& map) const {
+    const std::vector<Eigen::Index> unseen = unseen_landmarks(history_, step_);
+    for (const Eigen::Index row : unseen) map.coordinates.row(row).setConstant(kNaN);
+    std::vector<Eigen::Index> left_out;
+    for (Eigen::Index row = 0; row < history_.landmarks(); ++row)
+      if (!map.coordinates.row(row).allFinite() && !std::ranges::binary_search(unseen, row))
+        left_out.push_back(row);
+    if (map.statuses.empty() && !left_out.empty())
+      map.statuses.push_back(
+          status_of<StatusReason::kMethodLeftOut>(names_of(history_, left_out)));
+    if (!unseen.empty())
+      map.statuses.push_back(status_of<StatusReason::kNeverObserved>(
+          names_of(history_, unseen), unseen.size(), history_.landmarks()));
+  }
+
+  const Experiment& experiment_;
+  const RunId& run_;
+  const ObservationHistory& history_;
+  int step_;
+  MethodProcesses* others_;
+};
+
 /// Builds, scores and keeps the maps of one sensor after `step` observations.
 void map_at(const Experiment& experiment, const ObservationHistory& history,
-            const SensorStudy& study, int step, RunResult& result) {
+            const SensorStudy& study, int step, MethodProcesses* others, RunResult& result) {
   const Run& run = result.run;
   HistoryEmbedder embedder(history, step, embedder_options(experiment.solver));
+  ExternalEmbedder external(experiment, run.id, history, step, others);
   for (const MethodSetting& setting : settings_of(study)) {
     const Clock::time_point start = Clock::now();
-    const Embedding embedding = embedder.embed(setting);
+    const ExternalMethod* method = find_external(experiment, setting.method);
+    const Embedding embedding =
+        method == nullptr ? embedder.embed(setting) : external.embed(*method, setting);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     ScoredMap map =
         scored_map(embedding, run.world.landmarks_m, run.anchors, experiment.affine_fit);
@@ -320,7 +379,7 @@ ObservationHistory observed_in(const Experiment& experiment, const RunId& id, co
   return observe(made.world, made.path, sensor, noise);
 }
 
-RunResult simulate_run(const Experiment& experiment, const RunId& id) {
+RunResult simulate_run(const Experiment& experiment, const RunId& id, MethodProcesses* others) {
   const RunWorld made = make_run_world(experiment, id);
   RunResult result;
   Run& run = result.run;
@@ -335,7 +394,8 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id) {
     if (study.sensor.sensor == Sensor::kVisibility && study.sensor.occlusion)
       run.occlusion = count_occlusion(run.world, path, study.sensor);
     result.details.sensors.push_back(sensor_details(study, run.world, path, history));
-    for (const int step : study.checkpoints) map_at(experiment, history, study, step, result);
+    for (const int step : study.checkpoints)
+      map_at(experiment, history, study, step, others, result);
   }
   run.variations = vary(experiment, run, path);
   return result;

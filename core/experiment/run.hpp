@@ -7,6 +7,8 @@
 
 namespace mapproof {
 
+class MethodProcesses;
+
 /// All runs of an experiment, ascending.
 std::vector<RunId> runs_of(const Experiment& experiment);
 
@@ -34,7 +36,10 @@ ObservationHistory observed_in(const Experiment& experiment, const RunId& id, co
 /// Pure but for the timings: the same experiment and id give the same records and maps. The world
 /// depends on the seed and the layout alone, the walk on the pose too, and a sensor's noise on the
 /// sensor too, so that adding a sensor or a method changes nothing else.
-/// @throws InvalidInput if the landmarks do not fit the room or a sensor has no checkpoint.
-RunResult simulate_run(const Experiment& experiment, const RunId& id);
+/// @param others  Processes of the experiment's methods of others; null where it has none.
+/// @throws InvalidInput if the landmarks do not fit the room, a sensor has no checkpoint, or a
+///         method of others has no process.
+RunResult simulate_run(const Experiment& experiment, const RunId& id,
+                       MethodProcesses* others = nullptr);
 
 }  // namespace mapproof

@@ -104,6 +104,20 @@ const SensorStudy* find_sensor(const Experiment& experiment, Sensor sensor) {
   return nullptr;
 }
 
+void add_external_methods(Experiment& experiment, const std::vector<ExternalMethod>& methods) {
+  for (const ExternalMethod& method : methods) {
+    experiment.external_methods.push_back(method);
+    for (SensorStudy& study : experiment.sensors)
+      study.methods.push_back({method_of(method), method.values});
+  }
+}
+
+const ExternalMethod* find_external(const Experiment& experiment, Method method) {
+  for (const ExternalMethod& external : experiment.external_methods)
+    if (method_of(external) == method) return &external;
+  return nullptr;
+}
+
 std::vector<MethodSetting> settings_of(const std::vector<MethodGrid>& grids) {
   std::vector<MethodSetting> settings;
   for (const MethodGrid& grid : grids) {

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/model/external_method.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/method.hpp"
 #include "core/model/score.hpp"
@@ -135,7 +136,7 @@ std::string_view label(AffineFit fit);
 struct SensorStudy {
   SensorOptions sensor;
   std::vector<int> checkpoints;  ///< Steps at which maps are built, ascending.
-  std::vector<MethodGrid> methods;
+  std::vector<MethodGrid> methods;  ///< Those of others behind ours.
   Published published;
 };
 
@@ -184,7 +185,14 @@ struct Experiment {
   std::vector<SensorStudy> sensors;
   std::vector<Variation> variations;
   std::vector<PaperFigure> figures;
+  std::vector<ExternalMethod> external_methods;  ///< Every sensor has their grids.
 };
+
+/// Adds methods of others to the experiment, and to the methods of every sensor.
+void add_external_methods(Experiment& experiment, const std::vector<ExternalMethod>& methods);
+
+/// The description of a method of others in the experiment; null if it is none of these.
+const ExternalMethod* find_external(const Experiment& experiment, Method method);
 
 /// The study of that sensor; null if the experiment has none.
 const SensorStudy* find_sensor(const Experiment& experiment, Sensor sensor);

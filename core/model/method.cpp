@@ -1,6 +1,10 @@
 #include "core/model/method.hpp"
 
 #include <array>
+#include <deque>
+#include <limits>
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include <fmt/format.h>
@@ -109,11 +113,77 @@ constexpr std::array kMappingMethods = {
                .parameter = kNeighbours},
 };
 
+/// The methods of others that the program has met. It grows alone, so that references stay valid.
+class ExternalTable {
+ public:
+  Method intern(const ExternalMethodInfo& description) {
+    const std::lock_guard lock(mutex_);
+    const auto method = static_cast<Method>(kMappingMethods.size() + infos_.size());
+    const auto [known, is_new] = methods_.emplace(description, method);
+    if (is_new) infos_.push_back(info_of(known->first, method));
+    return known->second;
+  }
+
+  const MethodInfo& info(Method method) {
+    const std::lock_guard lock(mutex_);
+    return infos_.at(static_cast<std::size_t>(method) - kMappingMethods.size());
+  }
+
+ private:
+  /// @param description  Outlives the result.
+  static MethodInfo info_of(const ExternalMethodInfo& description, Method method) {
+    MethodInfo info{.method = method,
+                    .name = description.name,
+                    .label = description.label,
+                    .summary = "method of others",
+                    .source = description.source,
+                    .parameter = std::nullopt};
+    if (!description.symbol.empty())
+      info.parameter = ParameterInfo{.symbol = description.symbol,
+                                     .shown = description.symbol,
+                                     .meaning = description.symbol,
+                                     .integer = false,
+                                     .minimum = std::numeric_limits<double>::lowest(),
+                                     .maximum = std::numeric_limits<double>::max()};
+    return info;
+  }
+
+  std::mutex mutex_;
+  std::map<ExternalMethodInfo, Method> methods_;
+  std::deque<MethodInfo> infos_;
+};
+
+ExternalTable& external_table() {
+  static ExternalTable table;
+  return table;
+}
+
+bool is_external(Method method) {
+  return static_cast<std::size_t>(method) >= kMappingMethods.size();
+}
+
 }  // namespace
 
 std::span<const MethodInfo> all_methods() { return kMappingMethods; }
 
-const MethodInfo& info(Method method) { return kMappingMethods[static_cast<std::size_t>(method)]; }
+Method external_method(const ExternalMethodInfo& description) {
+  return external_table().intern(description);
+}
+
+std::optional<ExternalMethodInfo> description_of_external(Method method) {
+  if (!is_external(method)) return std::nullopt;
+  const MethodInfo& known = info(method);
+  return ExternalMethodInfo{
+      .name = std::string(known.name),
+      .label = std::string(known.label),
+      .source = std::string(known.source),
+      .symbol = known.parameter ? std::string(known.parameter->symbol) : std::string()};
+}
+
+const MethodInfo& info(Method method) {
+  return is_external(method) ? external_table().info(method)
+                             : kMappingMethods[static_cast<std::size_t>(method)];
+}
 
 bool on_graph(Method method) {
   const std::optional<ParameterInfo>& parameter = info(method).parameter;

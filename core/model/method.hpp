@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <optional>
 #include <span>
 #include <string>
@@ -7,7 +8,8 @@
 
 namespace mapproof {
 
-/// The mapping methods [yairi2007, section 4.2].
+/// The mapping methods [yairi2007, section 4.2]. Those of others have values beyond these: see
+/// external_method().
 enum class Method {
   kLpca,
   kSmacof,
@@ -43,15 +45,33 @@ struct MethodInfo {
   std::optional<Method> starts_from = std::nullopt;  ///< Whose map its iteration begins with.
 };
 
-/// All methods in the order of the paper's tables.
+/// A mapping method of somebody else, as records describe it.
+struct ExternalMethodInfo {
+  std::string name;         ///< In files: "tsne"; not that of a method of mapproof.
+  std::string label;        ///< In figures and tables: "t-SNE (scikit-learn)".
+  std::string source = {};  ///< Author and year; may be empty.
+  std::string symbol = {};  ///< Of its parameter: "perplexity"; empty: it has none.
+
+  auto operator<=>(const ExternalMethodInfo&) const = default;
+};
+
+/// The methods of mapproof in the order of the paper's tables.
 std::span<const MethodInfo> all_methods();
 
+/// The method of that description: a value beyond the enumerators, the same for the same
+/// description as long as the program runs. Thread-safe.
+Method external_method(const ExternalMethodInfo& description);
+
+/// Its description; empty for a method of mapproof.
+std::optional<ExternalMethodInfo> description_of_external(Method method);
+
+/// Of a method of mapproof, or of one that external_method() gave. Thread-safe.
 const MethodInfo& info(Method method);
 
 /// Whether the method works on the neighbour graph.
 bool on_graph(Method method);
 
-/// The method of that name; empty if there is none.
+/// The method of mapproof of that name; empty if there is none.
 std::optional<Method> method_named(std::string_view name);
 
 /// The known method whose name is nearest to `name`, for "did you mean".

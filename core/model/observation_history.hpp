@@ -29,4 +29,12 @@ struct ObservationHistory {
   Eigen::Index steps() const { return values.cols(); }
 };
 
+/// The names of those landmarks.
+inline std::vector<std::string> names_of(const ObservationHistory& history,
+                                         const std::vector<Eigen::Index>& rows) {
+  std::vector<std::string> some;
+  for (const Eigen::Index row : rows) some.push_back(history.names[static_cast<std::size_t>(row)]);
+  return some;
+}
+
 }  // namespace mapproof

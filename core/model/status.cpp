@@ -20,6 +20,7 @@ constexpr std::array kStatusNames = {
     std::string_view("anchors_degenerate"),
     std::string_view("degenerate_geometry"),
     std::string_view("too_few_observations"),
+    std::string_view("left_out"),
     std::string_view("failed"),
 };
 

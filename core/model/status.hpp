@@ -33,6 +33,7 @@ enum class StatusCode {
   kDegenerateGeometry,   ///< Known landmarks or path in a special position, e.g. on one line or
                          ///< circle: the condition number shows it.
   kTooFewObservations,   ///< Fewer steps, landmarks or measurements than the method needs.
+  kLeftOut,              ///< Landmarks to which a method of others gives no position.
   kFailed,               ///< No map came out at all; the reason gives the cause.
 };
 
@@ -119,6 +120,14 @@ enum class StatusReason {
   kNoOdometry,
   kNoOdometryForHeadings,
   kNoStart,
+  // Of the methods of others.
+  kMethodLeftOut,
+  kMethodNotStarted,
+  kMethodTimeout,
+  kMethodEnded,
+  kMethodReply,
+  kMethodNumbers,
+  kMethodRefused,
   kMessage,
 };
 
@@ -287,6 +296,21 @@ inline constexpr std::array kStatusReasons = {
     StatusReasonInfo{StatusReason::kNoOdometryForHeadings, StatusCode::kFailed,
                      "no_odometry_for_headings"},
     StatusReasonInfo{StatusReason::kNoStart, StatusCode::kFailed, "no_start"},
+    StatusReasonInfo{StatusReason::kMethodLeftOut, StatusCode::kLeftOut, "method_left_out", "",
+                     StatusNames::kSome},
+    // The name is what the method said, or what is wrong with its answer.
+    StatusReasonInfo{StatusReason::kMethodNotStarted, StatusCode::kFailed, "method_not_started", "",
+                     StatusNames::kOne},
+    StatusReasonInfo{StatusReason::kMethodTimeout, StatusCode::kFailed, "method_timeout",
+                     "timeout_s"},
+    StatusReasonInfo{StatusReason::kMethodEnded, StatusCode::kFailed, "method_ended", "",
+                     StatusNames::kOne},
+    StatusReasonInfo{StatusReason::kMethodReply, StatusCode::kFailed, "method_reply", "",
+                     StatusNames::kOne},
+    StatusReasonInfo{StatusReason::kMethodNumbers, StatusCode::kFailed, "method_numbers", "",
+                     StatusNames::kOne},
+    StatusReasonInfo{StatusReason::kMethodRefused, StatusCode::kFailed, "method_refused", "",
+                     StatusNames::kOne},
     // The name is the message: of an error, or of somebody else's program.
     StatusReasonInfo{StatusReason::kMessage, StatusCode::kFailed, "message", "", StatusNames::kOne},
 };

@@ -86,12 +86,22 @@ struct Run {
   std::vector<VariationRecord> variations;  ///< In order of variation, level, setting.
 };
 
+/// What a method of others is made of.
+struct MethodFiles {
+  std::string method;  ///< Its name.
+  std::string sha256;  ///< Of its files together.
+
+  bool operator==(const MethodFiles&) const = default;
+};
+
 /// What made a study: enough to make it again, nothing that varies between two makings.
 struct Provenance {
   std::string version;        ///< Of mapproof.
   std::string commit;         ///< Of its source; "unknown" outside a checkout.
   std::string solver_digest;  ///< Of the sources that compute: records of another one are redone.
   std::vector<std::pair<std::string, std::string>> libraries;  ///< Name and version.
+  /// Of methods of others that name their files: records of other files are redone.
+  std::vector<MethodFiles> method_files = {};
 };
 
 /// Everything a figure or a report needs, maps apart (they are read one at a time).

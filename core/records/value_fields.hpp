@@ -14,8 +14,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/fields.hpp"
+#include "core/json/text_input.hpp"
 #include "core/model/study.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/text_forms.hpp"
 
 namespace mapproof {
 
@@ -211,11 +213,65 @@ void parameter_fields(Visitor& v, const std::optional<ParameterInfo>& own,
              .when = own && own->symbol == parameter.symbol});
 }
 
-/// A method and the value of its parameter, if it has one: keys of the object that they describe.
+/// A method of mapproof and the value of its parameter, if it has one: keys of the object that they
+/// describe.
 template <typename Visitor>
 void setting_fields(Visitor& v, MethodSetting& setting) {
   v.field("method", setting.method, {.description = "The mapping method.", .decides = true});
   parameter_fields(v, info(setting.method).parameter, setting.parameter);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ExternalMethodInfo& method) {
+  v.type("external");
+  v.about("A method of others, beside its name.");
+  v.field("label", method.label, {.not_empty = true, .max_bytes = 200});
+  v.field("source", method.source, {.max_bytes = 1000, .key = Key::kIfAny});
+  v.field("symbol", method.symbol,
+          {.description = "Of its parameter.", .max_bytes = 60, .key = Key::kIfAny});
+}
+
+/// The rest of a method's keys, behind "method", which decides: its parameter, and of a method of
+/// others what describes it.
+/// @param method   The value of "method".
+/// @param is_ours  Whether it is a method of mapproof, of which `setting` has the parameter.
+/// @param setting  Is filled in by a reader, if `method` is a method.
+template <typename Visitor>
+void method_fields(Visitor& v, const std::string& method, bool is_ours, MethodSetting& setting) {
+  const std::optional<Method> known = method_named(method);
+  std::optional<ExternalMethodInfo> external = description_of_external(setting.method);
+  v.field("external", external, {.key = Key::kIfAny, .when = !is_ours});
+  parameter_fields(v, known ? info(*known).parameter : std::nullopt, setting.parameter);
+  v.field("parameter", setting.parameter,
+          {.description = "Of a method of others.",
+           .whole_as_integers = true,
+           .key = Key::kIfAny,
+           .when = !is_ours});
+  if constexpr (Visitor::kReads) {
+    if (known) setting.method = *known;
+    if (is_ours) return;
+    if (!external)
+      return v.refuse("method", fmt::format("unknown method {}: did you mean \"{}\"?",
+                                            in_quotes(method), nearest_method_name(method)));
+    if (external->symbol.empty() == setting.parameter.has_value())
+      v.refuse("external", external->symbol.empty() ? "has no symbol of the parameter"
+                                                    : "has the symbol of a parameter, which is missing");
+    external->name = method;
+    setting.method = external_method(*external);
+  }
+}
+
+/// A method of mapproof or of others, and the value of its parameter.
+template <typename Visitor>
+void any_setting_fields(Visitor& v, MethodSetting& setting) {
+  std::string method(info(setting.method).name);
+  v.field("method", method,
+          {.description = "A method of mapproof; one of others is described by external.",
+           .max_bytes = 60,
+           .form = &kPlainId,
+           .decides = true,
+           .known = enum_names(Method{}).names});
+  method_fields(v, method, method_named(method).has_value(), setting);
 }
 
 /// An element of Provenance::libraries.
@@ -230,6 +286,12 @@ void fields(Visitor& v, LibraryVersion& library) {
 }
 
 template <typename Visitor>
+void fields(Visitor& v, MethodFiles& files) {
+  v.field("method", files.method, {.max_bytes = 60, .form = &kPlainId});
+  v.field("sha256", files.sha256, {.max_bytes = 64});
+}
+
+template <typename Visitor>
 void fields(Visitor& v, Provenance& provenance) {
   v.type("provenance");
   v.field("version", provenance.version, {.description = "Of mapproof."});
@@ -239,6 +301,10 @@ void fields(Visitor& v, Provenance& provenance) {
   std::vector<LibraryVersion> libraries;
   for (const auto& [name, version] : provenance.libraries) libraries.push_back({name, version});
   v.field("libraries", libraries, {.max_items = 1000});
+  v.field("method_files", provenance.method_files,
+          {.description = "Of methods of others: the SHA-256 of the files that they are made of.",
+           .max_items = 100,
+           .key = Key::kIfAny});
   if constexpr (Visitor::kReads)
     for (LibraryVersion& library : libraries)
       provenance.libraries.emplace_back(std::move(library.name), std::move(library.version));

@@ -1,11 +1,15 @@
+#include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/experiment/run.hpp"
+#include "core/external/method_process.hpp"
 #include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/external_methods.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/run_json.hpp"
@@ -19,20 +23,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The experiment with the methods of others that the person named, ready to be started.
+/// @throws IoError.
+Experiment ordered_experiment(std::string_view text, const std::string& source,
+                              const PlanOptions& options) {
+  Experiment experiment = parse_experiment(text, source, options.profile);
+  for (ExternalMethod& method : experiment.external_methods) method.folder = options.folder;
+  if (options.methods) {
+    const std::string file = options.methods->string();
+    add_external_methods(experiment, parse_external_methods(read_file(file), file));
+    if (const auto fault = fault_of(experiment)) throw IoError(file, fault->what);
+  }
+  apply(options.changes, experiment);
+  return experiment;
+}
+
+/// @throws IoError if a file of a method cannot be read.
+std::vector<MethodFiles> files_of_methods(const Experiment& experiment) {
+  std::vector<MethodFiles> files;
+  for (const ExternalMethod& method : experiment.external_methods)
+    if (std::string digest = digest_of(method); !digest.empty())
+      files.push_back({.method = method.name, .sha256 = std::move(digest)});
+  return files;
+}
+
 StudyPlan plan_mapping(std::string_view text, const std::string& source,
                        const PlanOptions& options) {
-  Experiment experiment = parse_experiment(text, source, options.profile);
-  apply(options.changes, experiment);
+  const Experiment experiment = ordered_experiment(text, source, options);
+  const std::vector<MethodFiles> method_files = files_of_methods(experiment);
+  const auto others = std::make_shared<MethodProcesses>(experiment.external_methods);
+  const auto start = [=](Provenance made_by) {
+    made_by.method_files = method_files;
+    return study_start(experiment, made_by);
+  };
   StudyPlan plan{
       .name = experiment.name,
       .seed = experiment.seed,
       .layouts = experiment.layouts,
       .poses = experiment.poses,
-      .start = [=](const Provenance& made_by) { return study_start(experiment, made_by); },
+      .uses_methods = true,
+      .start = start,
       .noun = "runs"};
   for (const RunId& id : runs_of(experiment))
     plan.tasks.push_back({[=](const fs::path& folder) { return holds_run(folder, id); },
-                          [=] { return part_of(simulate_run(experiment, id)); }});
+                          [=] { return part_of(simulate_run(experiment, id, others.get())); }});
   return plan;
 }
 
@@ -70,6 +104,9 @@ void read_mapping(const fs::path& folder, const std::string& text, const Content
       });
   }
   contents.results = results_of(study);
+  for (const ExternalMethod& method : study.experiment.external_methods)
+    for (const MethodSetting& setting : settings_of({{method_of(method), method.values}}))
+      contents.labels.methods[slug(setting)] = label(setting);
   if (asked.seconds) contents.seconds = seconds_of(read_timings(folder));
 }
 

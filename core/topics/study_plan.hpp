@@ -27,6 +27,10 @@ struct PlanOptions {
   bool one_of_several = false;
   std::optional<std::filesystem::path> plaza = {};  ///< Folder of the Plaza data.
   std::optional<std::filesystem::path> data = {};   ///< Folder of data sets.
+  /// Of the experiment's file: where its methods of others are started.
+  std::filesystem::path folder = {};
+  /// methods.json, whose methods are added; they are started in its folder.
+  std::optional<std::filesystem::path> methods = {};
 };
 
 /// What one worker does.
@@ -44,6 +48,7 @@ struct StudyPlan {
   std::optional<int> poses = {};    ///< Likewise.
   bool uses_plaza = false;
   bool uses_data = false;
+  bool uses_methods = false;  ///< PlanOptions::methods.
   std::function<StudyStart(const Provenance&)> start;
   std::vector<Task> tasks = {};
   std::string_view noun = "parts";  ///< What the tasks give.

@@ -462,6 +462,37 @@ const std::map<StatusReason, std::string (*)(const Reason&)> kSentences = {
      [](const Reason&) -> std::string {
        return "The spectral method gave nothing to start from.";
      }},
+    {StatusReason::kMethodLeftOut,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method gives no position to {}: {}.",
+                          counted(std::ssize(of.status.names), "landmark"),
+                          listed_names(of.status));
+     }},
+    {StatusReason::kMethodNotStarted,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method cannot be started: {}.", of.status.names.at(0));
+     }},
+    {StatusReason::kMethodTimeout,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method gave no answer within {:g} s and was ended.", of(0));
+     }},
+    {StatusReason::kMethodEnded,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method ended without an answer: {}.", of.status.names.at(0));
+     }},
+    {StatusReason::kMethodReply,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method gave no valid answer: {}.", of.status.names.at(0));
+     }},
+    {StatusReason::kMethodNumbers,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method gave coordinates that are no map: {}.",
+                          of.status.names.at(0));
+     }},
+    {StatusReason::kMethodRefused,
+     [](const Reason& of) -> std::string {
+       return fmt::format("The method reports that it has no map: {}.", of.status.names.at(0));
+     }},
     {StatusReason::kMessage, [](const Reason& of) -> std::string { return of.status.names.at(0); }},
 };
 

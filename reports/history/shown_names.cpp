@@ -22,15 +22,14 @@ std::string shown_setting(const std::string& setting) {
   return fmt::format("{}, {} = {}", label, parameter->shown, value);
 }
 
-/// The size of the id that a SeriesId::method begins with: of those that are declared the longest,
-/// else all before its levels.
-std::size_t id_size(const StudyLabels& labels, const std::string& method) {
+/// The size of the longest declared id that a SeriesId::method begins with; 0 if it is none.
+std::size_t declared_size(const StudyLabels& labels, const std::string& method) {
   std::size_t size = 0;
   for (const auto& [id, label] : labels.methods)
     if (id.size() > size && method.starts_with(id) &&
         (method.size() == id.size() || method[id.size()] == ' '))
       size = id.size();
-  return size > 0 ? size : levels_begin(method);
+  return size;
 }
 
 std::string label_in(const std::map<std::string, std::string>& labels, const std::string& id) {
@@ -41,7 +40,8 @@ std::string label_in(const std::map<std::string, std::string>& labels, const std
 }  // namespace
 
 std::string base_method(const StudyLabels& labels, const std::string& method) {
-  if (!labels.methods.empty()) return method.substr(0, id_size(labels, method));
+  if (const std::size_t size = declared_size(labels, method); size > 0)
+    return method.substr(0, size);
   std::string best;
   for (const MethodInfo& known : all_methods())
     if (method.starts_with(known.name) && known.name.size() > best.size() &&
@@ -55,10 +55,10 @@ std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
 }
 
 std::string shown_method(const StudyLabels& labels, const std::string& method) {
-  const std::size_t size = id_size(labels, method);
+  const std::size_t declared = declared_size(labels, method);
+  const std::size_t size = declared > 0 ? declared : levels_begin(method);
   const std::string id = method.substr(0, size), rest = method.substr(size);
-  const std::string shown =
-      labels.methods.empty() ? shown_setting(id) : label_in(labels.methods, id);
+  const std::string shown = declared > 0 ? labels.methods.at(id) : shown_setting(id);
   // Levels, or whom it is of.
   return rest.empty() || rest.starts_with(" of ") ? shown + rest : shown + ", " + rest.substr(1);
 }

@@ -6,11 +6,11 @@
 
 namespace mapproof {
 
-// Ids as pages, findings and exports show them: under the labels of their study; where a study
-// labels no method, methods are shown as tables and figures have mapproof's own.
+// Ids as pages, findings and exports show them: under the labels of their study; a method that it
+// does not label is shown as tables and figures have mapproof's own.
 
-/// What settings have in common: the method that the study declares, without its levels; without
-/// labels the name without its parameter, "smacof-knn" of "smacof-knn-K6". What is neither as it
+/// What settings have in common: the method that the study declares, without its levels; of
+/// mapproof's own the name without its parameter, "smacof-knn" of "smacof-knn-K6". What is neither as it
 /// is.
 std::string base_method(const StudyLabels& labels, const std::string& method);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
@@ -61,6 +62,12 @@ KeyValues experiment_items(const Experiment& experiment) {
           {title + " faults", data(fmt::format("noise {:g}, dropout share {:g}",
                                                sensor.sensor.noise, sensor.sensor.dropout_share))});
   }
+  for (const ExternalMethod& method : experiment.external_methods)
+    items.items.push_back(
+        {method.label,
+         data(fmt::format("{}command: {}; gets {}, has {:g} s for a map",
+                          method.source.empty() ? "" : method.source + "; ",
+                          fmt::join(method.command, " "), name(method.input), method.timeout_s))});
   return items;
 }
 

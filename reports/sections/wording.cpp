@@ -42,6 +42,8 @@ std::string_view meaning(StatusCode code) {
       return "Known landmarks or path lie in a special position, e.g. on one line or circle.";
     case StatusCode::kTooFewObservations:
       return "There are fewer steps, landmarks or measurements than the method needs.";
+    case StatusCode::kLeftOut:
+      return "The method gives no position to some landmarks: they are missing from the map.";
     case StatusCode::kFailed:
       return "No map came out.";
   }
@@ -72,6 +74,9 @@ KeyValues provenance_items(const Provenance& provenance) {
   std::string libraries;
   for (const auto& [library, version] : provenance.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library, version);
+  for (const MethodFiles& files : provenance.method_files)
+    items.items.push_back(
+        {"Digest of the files of " + files.method, {files.sha256, Emphasis::kCode}});
   if (!libraries.empty()) items.items.push_back({"Built with", {libraries, Emphasis::kData}});
   return items;
 }

@@ -155,17 +155,21 @@ TEST(StudyFigures, LeaveASettingWhoseStartWasNotTimedOutOfTheCosts) {
 }
 
 TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
+  Experiment experiment;
   for (const bool graph : {false, true}) {
     std::set<ThemeColour> colours;
     for (const MethodInfo& method : all_methods())
       if (on_graph(method.method) == graph) {
-        const ThemeColour colour = series_style(series_of_method(method.method)).colour;
+        const ThemeColour colour = series_style(series_of_method(experiment, method.method)).colour;
         EXPECT_TRUE(colours.insert(colour).second) << method.name;
       }
   }
   std::set<std::size_t> series;
-  for (const MethodInfo& method : all_methods()) series.insert(series_of_method(method.method));
+  for (const MethodInfo& method : all_methods()) series.insert(series_of_method(experiment, method.method));
   EXPECT_EQ(*series.rbegin(), all_methods().size() - 1);
+  add_external_methods(experiment, {{.name = "umap", .label = "UMAP"}, {.name = "b", .label = "B"}});
+  EXPECT_EQ(series_of_method(experiment, method_of(experiment.external_methods[1])),
+            all_methods().size() + 1);
 }
 
 }  // namespace

@@ -120,6 +120,19 @@ Fault table_ids_fault(const Experiment& experiment) {
   return std::nullopt;
 }
 
+/// Names and ids of the methods of others, beside each sensor's own.
+Fault external_fault(const Experiment& experiment) {
+  for (const SensorStudy& study : experiment.sensors) {
+    std::vector<MethodSetting> ours = settings_of(study);
+    std::erase_if(ours, [&](const MethodSetting& setting) {
+      return find_external(experiment, setting.method) != nullptr;
+    });
+    if (auto fault = name_fault_of(experiment.external_methods, ours))
+      return {{fmt::format("external_methods/{}/name", fault->method), std::move(fault->what)}};
+  }
+  return std::nullopt;
+}
+
 std::string no_sensor(Sensor sensor) {
   return fmt::format("the experiment has no sensor {}", name(sensor));
 }
@@ -210,6 +223,7 @@ std::optional<RecordFault> fault_of(const Experiment& experiment) {
   if (auto fault = walk_fault(experiment)) return fault;
   if (auto fault = table_ids_fault(experiment)) return fault;
   if (auto fault = sensors_fault(experiment)) return fault;
+  if (auto fault = external_fault(experiment)) return fault;
   for (std::size_t i = 0; i < experiment.variations.size(); ++i)
     if (auto fault =
             variation_fault(experiment.variations[i], experiment, fmt::format("variations/{}", i)))

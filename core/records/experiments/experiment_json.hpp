@@ -11,6 +11,7 @@
 #include "core/model/experiment.hpp"
 #include "core/model/study.hpp"
 #include "core/model/trial_study.hpp"
+#include "core/records/experiments/external_methods.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
 
@@ -435,6 +436,12 @@ void fields(Visitor& v, Experiment& experiment) {
            .max_items = 100,
            .key = Key::kIfAny});
   figure_fields(v, experiment.figures);
+  std::vector<ExternalMethod> external = experiment.external_methods;
+  v.field("external_methods", external,
+          {.description = "Mapping methods that are commands, run on what every sensor observes.",
+           .max_items = 100,
+           .key = Key::kIfAny});
+  if constexpr (Visitor::kReads) add_external_methods(experiment, external);
   check_ids(v, "variations", experiment.variations);
   check_ids(v, "figures", experiment.figures);
   if constexpr (Visitor::kReads) {

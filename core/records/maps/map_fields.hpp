@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,6 @@ enum class MappedSensor {
   kOfSeveral = static_cast<int>(Sensor::kRange) + 1,
   kOfBoth,
 };
-// The same of its method.
-enum class MappedMethod {
-  kOfPairs = static_cast<int>(Method::kSde) + 1,
-  kOfRanges,
-};
-
 inline EnumNames enum_names(MappedSensor) {
   static const std::vector<std::string_view> names = [] {
     const EnumNames sensors = enum_names(Sensor{});
@@ -37,14 +32,15 @@ inline EnumNames enum_names(MappedSensor) {
   return {"mapped_sensor", names};
 }
 
-inline EnumNames enum_names(MappedMethod) {
+/// The methods of mapproof and what stands for one in other maps.
+inline std::span<const std::string_view> mapped_methods() {
   static const std::vector<std::string_view> names = [] {
     const EnumNames methods = enum_names(Method{});
     std::vector<std::string_view> all(methods.names.begin(), methods.names.end());
     all.insert(all.end(), {kPairs, kSpectralMap});
     return all;
   }();
-  return {"method", names};
+  return names;
 }
 
 /// The value that files call so; it must be one.
@@ -59,9 +55,9 @@ void origin_fields(Visitor& v, MapRecord& map) {
   const auto* several = std::get_if<FromSensors>(&map.origin);
   const MethodSetting* setting = setting_of(map);
   auto sensor = value_named<MappedSensor>(sensor_name(map));
-  auto method = value_named<MappedMethod>(method_name(map));
+  std::string method(method_name(map));
   auto sensors = several != nullptr ? several->sensors : std::vector<Sensor>();
-  auto parameter = setting != nullptr ? setting->parameter : std::nullopt;
+  MethodSetting mapped = setting != nullptr ? *setting : MethodSetting{};
   v.field(
       "sensor", sensor,
       {.description = "mixed: a joint map of several sensors. range-bearing: a map of pair "
@@ -72,28 +68,30 @@ void origin_fields(Visitor& v, MapRecord& map) {
   if (is_joint && sensors.empty()) v.refuse("sensor", "mixed needs the key \"sensors\"");
   if (!is_joint && !sensors.empty()) v.refuse("sensors", "is of a joint map alone");
   v.field("method", method,
-          {.description = "spectral: a range-only map by factorisation.", .decides = true});
-  const bool is_pairs = method == MappedMethod::kOfPairs;
-  const bool is_spectral = method == MappedMethod::kOfRanges;
+          {.description = "spectral: a range-only map by factorisation. One of others is described "
+                          "by external.",
+           .max_bytes = 60,
+           .form = &kPlainId,
+           .decides = true,
+           .known = mapped_methods()});
+  const bool is_pairs = method == kPairs, is_spectral = method == kSpectralMap;
   if (is_pairs != (sensor == MappedSensor::kOfBoth))
-    v.refuse("method", fmt::format("expected {}, got \"{}\"",
+    v.refuse("method", fmt::format("expected {}, got {}",
                                    is_pairs ? "a method of one sensor" : "pairs for range-bearing",
-                                   name_in_files(method)));
+                                   in_quotes(method)));
   if (is_spectral && sensor != static_cast<MappedSensor>(Sensor::kRange))
     v.refuse("method", "expected spectral for range alone");
-  const bool is_embedding = !is_pairs && !is_spectral;
-  parameter_fields(v, is_embedding ? info(static_cast<Method>(method)).parameter : std::nullopt,
-                   parameter);
+  const auto known = mapped_methods();
+  method_fields(v, method, std::ranges::find(known, method) != known.end(), mapped);
   if constexpr (Visitor::kReads) {
-    const auto read = [&] { return MethodSetting{static_cast<Method>(method), parameter}; };
     if (is_pairs)
       map.origin = FromPairs{};
     else if (is_spectral)
       map.origin = FromRanges{};
     else if (is_joint)
-      map.origin = FromSensors{std::move(sensors), read()};
+      map.origin = FromSensors{std::move(sensors), mapped};
     else
-      map.origin = FromSensor{static_cast<Sensor>(sensor), read()};
+      map.origin = FromSensor{static_cast<Sensor>(sensor), mapped};
   }
 }
 

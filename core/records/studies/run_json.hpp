@@ -36,7 +36,7 @@ template <typename Visitor>
 void fields(Visitor& v, RunRecord& record) {
   using namespace record_rules;
   v.field("sensor", record.sensor);
-  setting_fields(v, record.setting);
+  any_setting_fields(v, record.setting);
   v.field("step", record.step, kStep);
   v.field("score", record.score, {.description = "null where no map came out."});
   v.field("iterations", record.iterations, kCount);

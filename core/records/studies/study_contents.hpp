@@ -38,7 +38,7 @@ struct StudyContents {
                      ///< "mapproof.results_study", "mapproof.map", "mapproof.slam_run": the schema
                      ///< of its first file.
   Provenance provenance;
-  StudyLabels labels;  ///< Of studies that declare them; mapproof's own methods are known.
+  StudyLabels labels;  ///< Of what a study declares; mapproof's own methods are known.
   Results results;
   /// Its author chose its groups: they are the units of every test, however few.
   bool draws_groups = false;

@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 StudyHead read_study_head(const std::string& text, const std::string& source) {
   const Study study = parse_study(text, source);
   return {.experiment = to_json_value(study.experiment).dump(),
-          .solver_digest = study.provenance.solver_digest};
+          .solver_digest = study.provenance.solver_digest,
+          .method_files = study.provenance.method_files};
 }
 
 Timings read_timings_file(const fs::path& folder) {

@@ -1,5 +1,6 @@
 #include "core/records/studies/study_writer.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <system_error>
 
@@ -39,9 +40,19 @@ void check_is_new(const fs::path& folder) {
   if (error) throw IoError(folder.string(), "cannot be listed: " + error.message());
 }
 
+/// What other than the experiment made records different; empty: nothing did.
+std::string other_maker(const StudyHead& there, const StudyHead& here) {
+  if (there.solver_digest != here.solver_digest) return "another solver";
+  if (there.method_files == here.method_files) return "";
+  for (const MethodFiles& files : here.method_files)
+    if (std::ranges::find(there.method_files, files) == there.method_files.end())
+      return "other files of the method " + files.method;
+  return "other files of a method";
+}
+
 /// Brings a locked folder to where a study goes on.
-/// @return Whether records of another solver were removed.
-bool take_up_study(const fs::path& folder, const StudyStart& start) {
+/// @return What had made the records that were removed; empty: none were.
+std::string take_up_study(const fs::path& folder, const StudyStart& start) {
   const fs::path study = folder / kStudyFile;
   const OutputFolder outputs(folder);
   if (!is_study(folder)) {
@@ -49,7 +60,7 @@ bool take_up_study(const fs::path& folder, const StudyStart& start) {
     remove_leftovers(folder);
     outputs.write(kStudyFile, start.text);
     start_lines(folder);
-    return false;
+    return "";
   }
   remove_leftovers(folder);
   const std::string old_text = read_file(study);
@@ -59,17 +70,17 @@ bool take_up_study(const fs::path& folder, const StudyStart& start) {
     throw IoError(folder.string(),
                   fmt::format("holds another experiment ({}); choose another folder or remove it",
                               difference(there.experiment, here.experiment)));
-  const bool is_redone = there.solver_digest != here.solver_digest;
+  const std::string redone = other_maker(there, here);
   // The records first: until study.json is replaced, a kill in between leaves the old study's
   // start.
-  if (is_redone) {
+  if (!redone.empty()) {
     for (const fs::path& record : start.records) outputs.remove(record);
     for (const char* file : {kTimingsFile, kResultsFile}) outputs.remove(file);
   }
   if (old_text != start.text) outputs.write(kStudyFile, start.text);
   mend_lines(folder);
   start_lines(folder);
-  return is_redone;
+  return redone;
 }
 
 }  // namespace
@@ -84,7 +95,7 @@ struct StudyWriter::State {
 
   fs::path folder;
   FolderLock lock;
-  bool is_redone = false;
+  std::string redone = {};
   std::mutex mutex;
 };
 
@@ -92,7 +103,7 @@ StudyWriter::StudyWriter(const fs::path& folder, const StudyStart& start) {
   make_folder(folder);
   state_ = std::make_unique<State>(folder);
   refuse_links_out(folder);
-  state_->is_redone = take_up_study(folder, start);
+  state_->redone = take_up_study(folder, start);
 }
 
 StudyWriter::StudyWriter(StudyWriter&&) noexcept = default;
@@ -101,7 +112,7 @@ StudyWriter::~StudyWriter() = default;
 
 const fs::path& StudyWriter::folder() const { return state_->folder; }
 
-bool StudyWriter::redone() const { return state_->is_redone; }
+const std::string& StudyWriter::redone() const { return state_->redone; }
 
 void StudyWriter::write(const StudyPart& part) {
   const OutputFolder outputs(state_->folder);

@@ -14,6 +14,7 @@ namespace mapproof {
 struct StudyHead {
   std::string experiment;  ///< As JSON: canonical, every default written out.
   std::string solver_digest;
+  std::vector<MethodFiles> method_files = {};
 };
 
 /// What a study's folder begins with.
@@ -46,7 +47,8 @@ struct StudyPart {
 class StudyWriter {
  public:
   /// Makes the folder, or resumes the study in it; leftovers of a killed process are removed.
-  /// Records that were made by another Provenance::solver_digest are removed too: see redone().
+  /// Records that were made by another Provenance::solver_digest, or by other method_files, are
+  /// removed too: see redone().
   /// @throws IoError if the folder holds another experiment, holds files but no study, is in use
   ///         by another process, or cannot be written.
   StudyWriter(const std::filesystem::path& folder, const StudyStart& start);
@@ -57,8 +59,9 @@ class StudyWriter {
 
   const std::filesystem::path& folder() const;
 
-  /// Whether records of another solver were removed when the folder was opened.
-  bool redone() const;
+  /// What made the records that were removed when the folder was opened, "another solver"; empty:
+  /// none were.
+  const std::string& redone() const;
 
   /// Writes the files, then the timings. Thread-safe. @throws IoError.
   void write(const StudyPart& part);

@@ -30,7 +30,7 @@ void fields(Visitor& v, Timing& timing) {
   v.field("layout", timing.run.layout, {.minimum = 1, .maximum = kMostLayouts});
   v.field("pose", timing.run.pose, {.minimum = 1, .maximum = kMostPoses});
   v.field("sensor", timing.sensor);
-  setting_fields(v, timing.setting);
+  any_setting_fields(v, timing.setting);
   v.field("step", timing.step, record_rules::kStep);
   v.field("seconds", timing.seconds, record_rules::kSeconds);
 }

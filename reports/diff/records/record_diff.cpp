@@ -55,6 +55,11 @@ void compare_provenance(const Provenance& a, const Provenance& b, RecordDiff& di
   for (const auto& [library, version] : a.libraries) libraries[library].first = version;
   for (const auto& [library, version] : b.libraries) libraries[library].second = version;
   for (const auto& [library, versions] : libraries) add(library, versions.first, versions.second);
+  std::map<std::string, std::pair<std::string, std::string>> methods;
+  for (const MethodFiles& files : a.method_files) methods[files.method].first = files.sha256;
+  for (const MethodFiles& files : b.method_files) methods[files.method].second = files.sha256;
+  for (const auto& [method, digests] : methods)
+    add("files of the method " + method, digests.first, digests.second);
 }
 
 void compare_subjects(const RecordSet& a, const RecordSet& b, RecordDiff& diff) {

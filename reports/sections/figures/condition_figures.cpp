@@ -25,11 +25,12 @@ void add_point(ErrorLine& line, double x, const std::optional<MeanEstimate>& est
   line.high.push_back(interval ? interval->high : kNaN);
 }
 
-ErrorLine line_over_levels(const Variation& variation, const VariedSetting& setting) {
+ErrorLine line_over_levels(const Experiment& experiment, const Variation& variation,
+                           const VariedSetting& setting) {
   ErrorLine line;
   line.label = label(setting.setting);
   line.key = lower_case(slug(setting.setting));
-  line.series = series_of_method(setting.setting.method);
+  line.series = series_of_method(experiment, setting.setting.method);
   std::ranges::replace(line.key, '.', '-');
   for (std::size_t i = 0; i < variation.levels.size(); ++i)
     add_point(line, shown_level(variation, variation.levels[i]), setting.mpe_m[i]);
@@ -78,7 +79,7 @@ Figure grid_figure(const Study& study, const Variation& variation) {
       ErrorLine line;
       line.label = std::string(info(grid.method).label);
       line.key = std::string(info(grid.method).name);
-      line.series = series_of_method(grid.method);
+      line.series = series_of_method(study.experiment, grid.method);
       for (const VariedSetting& setting : settings)
         if (setting.setting.method == grid.method)
           add_point(line, setting.setting.parameter.value_or(0.0), setting.mpe_m[level]);
@@ -97,7 +98,7 @@ Figure level_figure(const Study& study, const Variation& variation) {
   spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
   spec.x_label = level_words(variation);
   for (const VariedSetting& setting : summarize(study, variation))
-    spec.methods.push_back(line_over_levels(variation, setting));
+    spec.methods.push_back(line_over_levels(study.experiment, variation, setting));
   spec.record_ids = {record_of(variation)};
   const bool is_fall =
       variation.factor == Factor::kSmacofKnnFall || variation.factor == Factor::kSmacofFall;
@@ -118,7 +119,7 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
       const std::string title = label(setting.setting);
       auto panel = std::ranges::find(spec.panels, title, &AnchorPanel::title);
       if (panel == spec.panels.end()) panel = spec.panels.insert(panel, {title, {}});
-      ErrorLine line = line_over_levels(variation, setting);
+      ErrorLine line = line_over_levels(study.experiment, variation, setting);
       line.label = std::string(name(placement));
       line.key = variation.id;
       line.series.reset();
@@ -148,7 +149,7 @@ void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
     OcclusionMethod method{.label = label(best.setting),
                            .key = std::string(info(best.setting.method).name),
                            .mpe_m = {},
-                           .series = series_of_method(best.setting.method)};
+                           .series = series_of_method(study.experiment, best.setting.method)};
     for (const Run* run : runs) {
       const auto found = std::ranges::find_if(run->records, [&](const RunRecord& record) {
         return record.sensor == best.sensor && record.setting == best.setting &&

@@ -26,7 +26,7 @@ struct Measure {
 constexpr Measure kMpe{"mpe", "MPE", "m", "mean position error", &SettingSummary::mpe_m};
 constexpr Measure kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSummary::moe_percent};
 
-/// Methods that share a figure.
+/// Methods that share a figure, in its order.
 struct Family {
   std::string id;
   std::string words;  ///< ", methods on a neighbour graph"; may be empty.
@@ -34,11 +34,11 @@ struct Family {
   std::string note = {};  ///< For the caption.
 };
 
-ErrorLine curve(const Steps& steps, const Measure& measure) {
+ErrorLine curve(const Experiment& experiment, const Steps& steps, const Measure& measure) {
   ErrorLine curve;
   curve.label = label(steps.front().setting);
   curve.key = std::string(info(steps.front().setting.method).name);
-  curve.series = series_of_method(steps.front().setting.method);
+  curve.series = series_of_method(experiment, steps.front().setting.method);
   bool any_interval = false;
   for (const SettingSummary& summary : steps) {
     const auto& estimate = summary.*measure.estimate;
@@ -76,8 +76,9 @@ std::string caption(const std::vector<Steps>& curves, const Measure& measure,
 }
 
 /// Nothing if none of the methods was scored.
-void add_curves(const std::vector<Steps>& history, const Measure& measure, const Family& family,
-                std::vector<Figure>& figures) {
+void add_curves(FigureSource& source, const SensorStudy& sensor, const Measure& measure,
+                const Family& family, std::vector<Figure>& figures) {
+  const std::vector<Steps>& history = source.best_history(sensor);
   std::vector<Steps> shown;
   for (const Method method : family.methods)
     for (const Steps& steps : history)
@@ -92,7 +93,7 @@ void add_curves(const std::vector<Steps>& history, const Measure& measure, const
   spec.quantity = measure.words;
   spec.caption = caption(shown, measure, family);
   for (const Steps& steps : shown) {
-    spec.curves.push_back(curve(steps, measure));
+    spec.curves.push_back(curve(source.study().experiment, steps, measure));
     for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
   }
   figures.push_back(error_curve_figure(spec));
@@ -106,11 +107,30 @@ std::vector<Method> methods_where(bool graph) {
 }
 
 /// The two families that a sensor's methods fall into.
-std::vector<Family> families(const char* id, Sensor sensor) {
+std::vector<Family> own_families(const char* id, Sensor sensor) {
   return {{fmt::format("{}-{}-global", id, name(sensor)), ", methods without a neighbour graph",
            methods_where(false)},
           {fmt::format("{}-{}-graph", id, name(sensor)), ", methods on a neighbour graph",
            methods_where(true)}};
+}
+
+/// The methods of others beside that of mapproof with the least error in the end.
+std::optional<Family> family_of_others(FigureSource& source, const SensorStudy& sensor,
+                                       const Measure& measure) {
+  const Experiment& experiment = source.study().experiment;
+  if (experiment.external_methods.empty()) return std::nullopt;
+  Family family{fmt::format("{}-{}-external", measure.id, name(sensor.sensor.sensor)),
+                ", methods of others",
+                {},
+                " The methods of others are shown beside that of mapproof with the least MPE."};
+  std::vector<SettingSummary> ours;
+  for (const Steps& steps : source.best_history(sensor))
+    if (!steps.empty() && find_external(experiment, steps.back().setting.method) == nullptr)
+      ours.push_back(steps.back());
+  if (const SettingSummary* best = best_of(ours)) family.methods.push_back(best->setting.method);
+  for (const ExternalMethod& method : experiment.external_methods)
+    family.methods.push_back(method_of(method));
+  return family;
 }
 
 /// The figures of the paper, and one of the methods that they leave out.
@@ -122,7 +142,7 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
       result.push_back({figure.id, "", figure.methods});
       shown.insert(shown.end(), figure.methods.begin(), figure.methods.end());
     }
-  if (result.empty()) return families(kMpe.id, sensor);
+  if (result.empty()) return own_families(kMpe.id, sensor);
   if (result.size() > 1)
     for (Family& family : result)
       family.note = fmt::format(
@@ -145,12 +165,15 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
 std::vector<Figure> curve_figures(FigureSource& source) {
   std::vector<Figure> figures;
   const Experiment& experiment = source.study().experiment;
+  const auto add = [&](const SensorStudy& sensor, const Measure& measure,
+                       std::vector<Family> families) {
+    if (auto others = family_of_others(source, sensor, measure)) families.push_back(*others);
+    for (const Family& family : families) add_curves(source, sensor, measure, family, figures);
+  };
   for (const SensorStudy& sensor : experiment.sensors)
-    for (const Family& family : paper_families(experiment, sensor.sensor.sensor))
-      add_curves(source.best_history(sensor), kMpe, family, figures);
+    add(sensor, kMpe, paper_families(experiment, sensor.sensor.sensor));
   for (const SensorStudy& sensor : experiment.sensors)
-    for (const Family& family : families(kMoe.id, sensor.sensor.sensor))
-      add_curves(source.best_history(sensor), kMoe, family, figures);
+    add(sensor, kMoe, own_families(kMoe.id, sensor.sensor.sensor));
   return figures;
 }
 

@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-std::size_t series_of_method(Method method) {
+std::size_t series_of_method(const Experiment& experiment, Method method) {
   // There are seven colours: the last three take those of the first three, which are of the other
   // family, with other dashes and markers.
   constexpr std::array kOrder = {
@@ -17,7 +17,11 @@ std::size_t series_of_method(Method method) {
       Method::kSmacof,       Method::kLpca,
       Method::kKpcaGaussian, Method::kKpcaPolynomial,
   };
-  return static_cast<std::size_t>(std::ranges::find(kOrder, method) - kOrder.begin());
+  const auto ours = std::ranges::find(kOrder, method);
+  const auto series = static_cast<std::size_t>(ours - kOrder.begin());
+  const ExternalMethod* external = find_external(experiment, method);
+  if (external == nullptr) return series;
+  return series + static_cast<std::size_t>(external - experiment.external_methods.data());
 }
 
 namespace {

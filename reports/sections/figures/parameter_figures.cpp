@@ -18,13 +18,14 @@ constexpr double kOffTheRoom = 10.0;
 
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;
 
-ParameterLine parameter_line(const std::vector<SettingSummary>& values, Estimate estimate,
+ParameterLine parameter_line(const Experiment& experiment,
+                             const std::vector<SettingSummary>& values, Estimate estimate,
                              double PublishedValue::*printed) {
   const MethodInfo& method = info(values.front().setting.method);
   ParameterLine line;
   line.line.label = std::string(method.label);
   line.line.key = std::string(method.name);
-  line.line.series = series_of_method(method.method);
+  line.line.series = series_of_method(experiment, method.method);
   for (const SettingSummary& summary : values) {
     const auto& mean = summary.*estimate;
     const auto interval = interval_of(mean);
@@ -47,7 +48,9 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
                                        const ParameterInfo& parameter, bool of_mpe) {
   ParameterGroup group{.symbol = std::string(parameter.shown),
                        .title = std::string(parameter.meaning),
-                       .scale = parameter.integer ? Scale::kLinear : Scale::kLog,
+                       .scale = parameter.integer || parameter.minimum <= 0.0
+                                    ? Scale::kLinear
+                                    : Scale::kLog,
                        .whole = parameter.integer,
                        .methods = {}};
   ErrorByParameterSpec spec;
@@ -68,10 +71,12 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
       if (summary.setting.method == grid.method && summary.setting.parameter)
         values.push_back(summary);
     if (values.size() < 2 || best_of(values) == nullptr) continue;
-    group.methods.push_back(
-        of_mpe
-            ? parameter_line(values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)
-            : parameter_line(values, &SettingSummary::moe_percent, &PublishedValue::moe_percent));
+    const Experiment& experiment = source.study().experiment;
+    group.methods.push_back(of_mpe
+                                ? parameter_line(experiment, values, &SettingSummary::mpe_m,
+                                                 &PublishedValue::mpe_m)
+                                : parameter_line(experiment, values, &SettingSummary::moe_percent,
+                                                 &PublishedValue::moe_percent));
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
   if (group.methods.empty()) return std::nullopt;

@@ -61,7 +61,7 @@ const std::map<std::string, Modules>& kept_in() {
   static const std::map<std::string, Modules> table = {
       {"cairo", {"render/cairo"}},
       {"nlohmann/",
-       {"core/json", "core/records", "render/plot", "render/scene", "reports/diff",
+       {"core/external", "core/json", "core/records", "render/plot", "render/scene", "reports/diff",
         "reports/history"}},
       {"csdp/", {"core/embed"}},
       {"ceres/", {"core/range_slam"}},

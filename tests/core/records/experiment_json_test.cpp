@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/records/experiments/profiles.hpp"
+#include "core/records/studies/run_json.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -39,6 +40,64 @@ TEST(ExperimentJson, ComesBackTheSameFromItsOwnText) {
     const std::string text = experiment_json(experiment);
     EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
   }
+}
+
+TEST(ExperimentJson, GivesMethodsOfOthersToEverySensor) {
+  json file = json::parse(read_file(test::data_file("experiments/small.json")));
+  file["external_methods"] = json::parse(
+      R"([{"name": "tsne", "label": "t-SNE", "source": "2008", "input": "distances",
+           "command": ["python3", "tsne.py"], "files": ["tsne.py"], "timeout_s": 5,
+           "parameter": {"symbol": "perplexity", "values": [2, 4.5]}},
+          {"name": "other", "label": "Other", "input": "history", "command": ["./other"]}])");
+  const Experiment experiment = parse_experiment(file.dump(), "e.json");
+  ASSERT_EQ(experiment.external_methods.size(), 2U);
+  EXPECT_FALSE(experiment.external_methods[0].folder);
+  for (const SensorStudy& sensor : experiment.sensors) {
+    const std::vector<MethodSetting> settings = settings_of(sensor);
+    ASSERT_GE(settings.size(), 4U);
+    EXPECT_EQ(slug(settings[settings.size() - 3]), "tsne-perplexity2");
+    EXPECT_EQ(label(settings[settings.size() - 2]), "t-SNE, perplexity = 4.5");
+    EXPECT_EQ(slug(settings.back()), "other");
+    EXPECT_EQ(find_external(experiment, settings.back().method), &experiment.external_methods[1]);
+    EXPECT_EQ(find_external(experiment, settings.front().method), nullptr);
+  }
+  const std::string text = experiment_json(experiment);
+  EXPECT_EQ(experiment_json(parse_experiment(text, "again")), text);
+  file["external_methods"][1]["name"] = "isomap";
+  EXPECT_EQ(error_of([&] { parse_experiment(file.dump(), "e.json"); }),
+            "e.json: /external_methods/1/name: \"isomap\" is a method of mapproof");
+  file["external_methods"][1]["name"] = "isomap-";
+  file["external_methods"][1]["parameter"] = {{"symbol", "K"}, {"values", {4}}};
+  EXPECT_EQ(error_of([&] { parse_experiment(file.dump(), "e.json"); }), "");
+}
+
+TEST(RunJson, DescribesMethodsOfOthers) {
+  const Method tsne = external_method(
+      {.name = "tsne", .label = "t-SNE", .source = "2008", .symbol = "perplexity"});
+  Run run{.id = {1, 1}, .world = {}, .anchors = {}, .occlusion = {}, .records = {}, .variations = {}};
+  run.records.push_back({.sensor = Sensor::kBearing,
+                         .setting = {tsne, 2.5},
+                         .step = 10,
+                         .statuses = {status_of<StatusReason::kMethodRefused>({"no licence"}),
+                                      status_of<StatusReason::kMethodTimeout>(0.5)},
+                         .score = {}});
+  const std::string text = run_json(run);
+  const Run again = parse_run(text, "run.json");
+  EXPECT_EQ(again.records[0].setting, run.records[0].setting);
+  EXPECT_EQ(again.records[0].statuses, run.records[0].statuses);
+  const auto error_without = [&](const char* key) {
+    json file = json::parse(text);
+    file["records"][0].erase(key);
+    return error_of([&] { parse_run(file.dump(), "run.json"); });
+  };
+  EXPECT_EQ(error_without("external"),
+            "run.json: /records/0/method: unknown method \"tsne\": did you mean \"sde\"?");
+  EXPECT_EQ(error_without("parameter"),
+            "run.json: /records/0/external: has the symbol of a parameter, which is missing");
+  json ours = json::parse(text);
+  ours["records"][0]["method"] = "lpca";
+  EXPECT_EQ(error_of([&] { parse_run(ours.dump(), "run.json"); }),
+            "run.json: /records/0: unknown key \"external\"");
 }
 
 TEST(ExperimentJson, TakesDefaultsForWhatIsLeftOut) {

@@ -128,7 +128,7 @@ TEST(SlamStudy, OfAnotherSolverIsMadeAgain) {
   newer.solver_digest = "another";
   const StudyWriter store =
       StudyWriter(folder.path(), study_start(test::small_slam_experiment(), newer));
-  EXPECT_TRUE(store.redone());
+  EXPECT_EQ(store.redone(), "another solver");
   EXPECT_FALSE(fs::exists(folder / "runs/drive.json"));
   EXPECT_FALSE(fs::exists(folder / "histories.json"));
 }

@@ -151,7 +151,7 @@ TEST(StudyWriter, ResumesWithTheRunsThatAreWhole) {
   fs::remove(folder / "maps/layout-1-pose-2.json");
   folder.file("runs/layout-9-pose-9.json", "{}");
   StudyWriter store = open_store(folder.path());
-  EXPECT_FALSE(store.redone());
+  EXPECT_EQ(store.redone(), "");
   EXPECT_EQ(finished(folder.path()), (std::vector<RunId>{{2, 1}}));
   fs::remove(folder / "runs/layout-9-pose-9.json");
   store.write(part_of(made_up_result({1, 1})));
@@ -164,7 +164,7 @@ TEST(StudyWriter, RedoesTheRunsOfAnotherSolver) {
   open_store(folder.path()).write(part_of(made_up_result({1, 1})));
   StudyWriter store =
       StudyWriter(folder.path(), study_start(small_experiment(), made_up_provenance("another")));
-  EXPECT_TRUE(store.redone());
+  EXPECT_EQ(store.redone(), "another solver");
   EXPECT_TRUE(finished(folder.path()).empty());
   EXPECT_TRUE(read_timings(folder.path()).empty());
   EXPECT_EQ(read_study(folder.path()).provenance.solver_digest, "another");

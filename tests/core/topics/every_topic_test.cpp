@@ -153,7 +153,7 @@ TEST_P(EveryTopic, OfAnotherSeedIsRefusedAndOfAnotherSolverTakenAway) {
             std::string::npos);
   EXPECT_TRUE(contents(study) == whole) << "a refused folder was changed";
   const StudyWriter writer(study, plan().start(made_up_provenance("another")));
-  EXPECT_TRUE(writer.redone());
+  EXPECT_EQ(writer.redone(), "another solver");
   EXPECT_TRUE(json_records(study).empty());
   EXPECT_FALSE(fs::exists(study / kResultsFile));
 }

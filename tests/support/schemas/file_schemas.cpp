@@ -1,6 +1,7 @@
 #include "tests/support/schemas/file_schemas.hpp"
 
 #include "core/json/json_text.hpp"
+#include "core/records/experiments/external_methods.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
 #include "core/records/observations/observation_json.hpp"
@@ -53,6 +54,7 @@ std::map<std::string, std::string> file_schemas() {
           {"experiment.schema.json", experiment_schema<Experiment>()},
           {"map.schema.json", json_text(json_schema<MapFile>())},
           {"maps.schema.json", json_text(json_schema<MapsFile>())},
+          {"methods.schema.json", json_text(json_schema<ExternalMethodsFile>())},
           {"observations.schema.json", json_text(json_schema<ObservationsFile>())},
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
           {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
