@@ -326,7 +326,7 @@ TEST_F(ExternalMethods, StandInTheExperimentToo) {
   EXPECT_NE(unused.error.find("--methods"), std::string::npos) << unused.error;
 }
 
-TEST_F(ExternalMethods, AreComparedNightAfterNight) {
+TEST_F(ExternalMethods, AreComparedInNightlyRuns) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const std::string methods = methods_file({client("partly")});
   for (int i = 0; i < 2; ++i) {
