@@ -44,8 +44,8 @@ struct Common {
 
 /// The commands that write where and by whom something was made.
 constexpr std::array<std::string_view, 12> kWithProvenance = {
-    "reproduce", "run",  "render", "report",  "map",    "slam",
-    "evaluate",  "import", "diff", "check", "nightly", "history"};
+    "reproduce", "run",    "render", "report", "map",     "slam",
+    "evaluate",  "import", "diff",   "check",  "nightly", "history"};
 
 void add_common_options(CLI::App& app, Common& common) {
   app.add_flag("--json", common.json, "Print the result as one JSON object");
@@ -140,11 +140,10 @@ std::string objection(const CLI::ParseError& error, const CLI::App& command) {
 constexpr std::pair<const char*, AddCommand> kCommands[] = {
     {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
     {"report", report_command},       {"map", map_command},         {"slam", slam_command},
-    {"evaluate", evaluate_command},   {"export", export_command},
-    {"import", import_command},       {"diff", diff_command},       {"approve", approve_command},
-    {"check", check_command},         {"example", example_command}, {"methods", methods_command},
-    {"validate", validate_command},   {"nightly", nightly_command}, {"history", history_command},
-    {"generate", generate_command},
+    {"evaluate", evaluate_command},   {"export", export_command},   {"import", import_command},
+    {"diff", diff_command},           {"approve", approve_command}, {"check", check_command},
+    {"example", example_command},     {"methods", methods_command}, {"validate", validate_command},
+    {"nightly", nightly_command},     {"history", history_command}, {"generate", generate_command},
 };
 
 /// Does a command's work. @param typed  The words of the command line.

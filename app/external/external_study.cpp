@@ -197,6 +197,11 @@ std::string text_of(const ResultsStudy& study, const MethodLabels& methods,
 
 }  // namespace
 
+fs::path folder_of(const ObservedCheckpoint& checkpoint) {
+  return fs::path(slug(checkpoint.run)) / std::string(name(checkpoint.sensor)) /
+         fmt::format("{}", checkpoint.steps);
+}
+
 ExternalMap scored_external_map(const Experiment& experiment, const ObservedCheckpoint& checkpoint,
                                 const std::string& method, const Points& coordinates) {
   if (coordinates.rows() != checkpoint.ground_truth_m.rows())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -17,6 +18,13 @@ namespace mapproof {
 /// A study of the mapping methods, with its records. @throws IoError if the folder holds another
 /// kind of study.
 Study read_mapping_study(const std::filesystem::path& folder);
+
+/// What is exported of a checkpoint.
+inline constexpr std::array kExternalInputs = {ExternalInput::kDistances, ExternalInput::kFeatures,
+                                               ExternalInput::kHistory};
+
+/// Where its files are below a folder of exported files: RUN/SENSOR/STEPS.
+std::filesystem::path folder_of(const ObservedCheckpoint& checkpoint);
 
 /// One map of somebody else, aligned and scored as the study's own are.
 struct ExternalMap {

@@ -49,7 +49,8 @@ ExperimentText experiment_text(const std::string& name,
     if (templates) {
       const std::filesystem::path own = *templates / "experiments" / resource.name;
       std::error_code error;
-      if (std::filesystem::exists(own, error)) return {read_file(own), own.string(), own.parent_path()};
+      if (std::filesystem::exists(own, error))
+        return {read_file(own), own.string(), own.parent_path()};
     }
     return {std::string(resource.bytes), fmt::format("embedded {}", resource.name), {}};
   }
@@ -58,10 +59,9 @@ ExperimentText experiment_text(const std::string& name,
   const std::vector<std::string> names = experiment_names();
   const std::string_view meant =
       likely_word(name, std::vector<std::string_view>(names.begin(), names.end()));
-  throw InvalidInput(fmt::format("no experiment \"{}\"; {}there is {}, or a file by its path",
-                                 printable(name),
-                                 meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant),
-                                 fmt::join(names, ", ")));
+  throw InvalidInput(fmt::format(
+      "no experiment \"{}\"; {}there is {}, or a file by its path", printable(name),
+      meant.empty() ? "" : fmt::format("did you mean \"{}\"? ", meant), fmt::join(names, ", ")));
 }
 
 bool is_experiment_file(const std::string& file_or_name) {

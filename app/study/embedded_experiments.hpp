@@ -33,8 +33,8 @@ std::vector<std::string> experiment_names();
 ExperimentText experiment_text(const std::string& name,
                                const std::optional<std::filesystem::path>& templates);
 
-/// Whether the words name a file rather than an experiment: a file that is there, a pipe, or what has
-/// a dot or a slash, which names have not.
+/// Whether the words name a file rather than an experiment: a file that is there, a pipe, or what
+/// has a dot or a slash, which names have not.
 bool is_experiment_file(const std::string& file_or_name);
 
 /// The experiment in a file, or else the embedded one of that name.

@@ -84,7 +84,8 @@ void check_data_used(std::span<const StudyOrder> orders, const OrderOptions& opt
   };
   if (options.plaza && !uses(&StudyPlan::uses_plaza)) refuse("--plaza", kNoData);
   if (options.data && !uses(&StudyPlan::uses_data)) refuse("--data", kNoData);
-  if (options.methods && !uses(&StudyPlan::uses_methods)) refuse("--methods", "takes no mapping methods of others");
+  if (options.methods && !uses(&StudyPlan::uses_methods))
+    refuse("--methods", "takes no mapping methods of others");
 }
 
 std::vector<std::string> words_of(std::span<const StudyOrder> orders, const OrderOptions& options) {

@@ -18,8 +18,8 @@ struct OrderOptions {
   bool profile_if_there = false;  ///< An experiment without that profile is taken as it stands.
   ExperimentChanges changes = {};
   bool one_of_several = false;  ///< Changes that an experiment knows nothing of are then left out.
-  std::optional<std::string> plaza = {};  ///< Folder of the Plaza data.
-  std::optional<std::string> data = {};   ///< Folder of data sets, for studies made of them.
+  std::optional<std::string> plaza = {};    ///< Folder of the Plaza data.
+  std::optional<std::string> data = {};     ///< Folder of data sets, for studies made of them.
   std::optional<std::string> methods = {};  ///< methods.json: methods of others to be added.
 };
 

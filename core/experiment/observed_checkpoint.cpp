@@ -45,9 +45,10 @@ std::string checkpoint_id(const RunId& run, Sensor sensor, int steps) {
 
 std::uint64_t checkpoint_seed(std::uint64_t seed, const RunId& run, Sensor sensor, int steps) {
   constexpr int kUnusedBits = 11;  // 53 are exact in JSON of any language.
-  return derive_seed(seed, {kExternalMap, static_cast<std::uint64_t>(run.layout),
-                            static_cast<std::uint64_t>(run.pose),
-                            static_cast<std::uint64_t>(sensor), static_cast<std::uint64_t>(steps)}) >>
+  return derive_seed(seed,
+                     {kExternalMap, static_cast<std::uint64_t>(run.layout),
+                      static_cast<std::uint64_t>(run.pose), static_cast<std::uint64_t>(sensor),
+                      static_cast<std::uint64_t>(steps)}) >>
          kUnusedBits;
 }
 

@@ -260,14 +260,13 @@ class ExternalEmbedder {
     if (others_ == nullptr)
       throw InvalidInput(method.name + ": a method of others, which has no process");
     const ExternalReply reply = others_->map(
-        method.name,
-        {.id = checkpoint_id(run_, history_.sensor, step_),
-         .sensor = std::string(name(history_.sensor)),
-         .steps = step_,
-         .landmarks = history_.names,
-         .input = external_input(history_, step_, method.input),
-         .parameter = setting.parameter,
-         .seed = checkpoint_seed(experiment_.seed, run_, history_.sensor, step_)});
+        method.name, {.id = checkpoint_id(run_, history_.sensor, step_),
+                      .sensor = std::string(name(history_.sensor)),
+                      .steps = step_,
+                      .landmarks = history_.names,
+                      .input = external_input(history_, step_, method.input),
+                      .parameter = setting.parameter,
+                      .seed = checkpoint_seed(experiment_.seed, run_, history_.sensor, step_)});
     Embedding map;
     map.coordinates = Points::Constant(history_.landmarks(), 2, kNaN);
     if (reply.failure)
@@ -287,8 +286,7 @@ class ExternalEmbedder {
       if (!map.coordinates.row(row).allFinite() && !std::ranges::binary_search(unseen, row))
         left_out.push_back(row);
     if (map.statuses.empty() && !left_out.empty())
-      map.statuses.push_back(
-          status_of<StatusReason::kMethodLeftOut>(names_of(history_, left_out)));
+      map.statuses.push_back(status_of<StatusReason::kMethodLeftOut>(names_of(history_, left_out)));
     if (!unseen.empty())
       map.statuses.push_back(status_of<StatusReason::kNeverObserved>(
           names_of(history_, unseen), unseen.size(), history_.landmarks()));

@@ -159,18 +159,20 @@ ExternalReply parse_reply(std::string_view line, const ExternalRequest& request)
     return failed<StatusReason::kMethodRefused>(error->get<std::string>());
   const auto found = reply.find("coordinates");
   if (found == reply.end() || !found->is_array() || std::ssize(*found) != landmarks)
-    return failed<StatusReason::kMethodReply>(fmt::format("\"coordinates\" must be an array of {} rows", landmarks));
+    return failed<StatusReason::kMethodReply>(
+        fmt::format("\"coordinates\" must be an array of {} rows", landmarks));
   ExternalReply result{.coordinates = Points::Constant(landmarks, 2, kNaN), .failure = {}};
   bool any = false;
   for (Eigen::Index i = 0; i < landmarks; ++i) {
     const ordered_json& row = (*found)[static_cast<std::size_t>(i)];
     if (row.is_null()) continue;
     if (!row.is_array() || row.size() != 2)
-      return failed<StatusReason::kMethodReply>(fmt::format("row {} of \"coordinates\" is neither two numbers nor null", i));
+      return failed<StatusReason::kMethodReply>(
+          fmt::format("row {} of \"coordinates\" is neither two numbers nor null", i));
     if (!row[0].is_number() || !row[1].is_number() || !std::isfinite(row[0].get<double>()) ||
         !std::isfinite(row[1].get<double>()))
       return failed<StatusReason::kMethodNumbers>(
-                    fmt::format("row {} of \"coordinates\" is not finite", i));
+          fmt::format("row {} of \"coordinates\" is not finite", i));
     result.coordinates.row(i) << row[0].get<double>(), row[1].get<double>();
     any = true;
   }

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "core/model/external_method.hpp"
+#include "core/model/experiment.hpp"
 #include "core/model/points.hpp"
 #include "core/model/status.hpp"
 

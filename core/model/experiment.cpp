@@ -104,6 +104,18 @@ const SensorStudy* find_sensor(const Experiment& experiment, Sensor sensor) {
   return nullptr;
 }
 
+std::string_view name(ExternalInput input) {
+  constexpr std::array<std::string_view, 3> kNames = {"distances", "features", "history"};
+  return kNames[static_cast<std::size_t>(input)];
+}
+
+Method method_of(const ExternalMethod& method) {
+  return external_method({.name = method.name,
+                          .label = method.label,
+                          .source = method.source,
+                          .symbol = method.symbol});
+}
+
 void add_external_methods(Experiment& experiment, const std::vector<ExternalMethod>& methods) {
   for (const ExternalMethod& method : methods) {
     experiment.external_methods.push_back(method);

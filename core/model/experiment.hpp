@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/model/external_method.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/method.hpp"
 #include "core/model/score.hpp"
@@ -135,7 +135,7 @@ std::string_view label(AffineFit fit);
 /// One sensor's part of an experiment.
 struct SensorStudy {
   SensorOptions sensor;
-  std::vector<int> checkpoints;  ///< Steps at which maps are built, ascending.
+  std::vector<int> checkpoints;     ///< Steps at which maps are built, ascending.
   std::vector<MethodGrid> methods;  ///< Those of others behind ours.
   Published published;
 };
@@ -168,6 +168,35 @@ struct PaperFigure {
   std::vector<Method> methods;  ///< kErrorCurve: all that it shows; kMap: the one; else none.
   std::optional<PublishedValue> example;  ///< kMap: the map that the paper shows.
 };
+
+/// What a method of somebody else gets for each map (docs/external-methods.md).
+enum class ExternalInput {
+  kDistances,  ///< M x M distances of the observation vectors; infinite: no common step.
+  kFeatures,   ///< M x C observation vectors; 0 where nothing was observed.
+  kHistory,    ///< M x N observations as they came; NaN: nothing observed.
+};
+
+/// "distances", "features", "history".
+std::string_view name(ExternalInput input);
+
+/// A mapping method that is a command.
+struct ExternalMethod {
+  std::string name;
+  std::string label;
+  std::string source;
+  ExternalInput input = ExternalInput::kDistances;
+  std::vector<std::string> command;
+  std::vector<std::string> files;  ///< What it is made of, below its folder.
+  double timeout_s = 60.0;         ///< For each map.
+  std::string symbol;              ///< Of its parameter; empty: it has none.
+  std::vector<double> values;      ///< Of the parameter.
+  /// Where the command is started: the folder of the file that names it. Not in files. Empty: it
+  /// must not be started, since nobody but a study's records named it.
+  std::optional<std::filesystem::path> folder = {};
+};
+
+/// As records have it.
+Method method_of(const ExternalMethod& method);
 
 /// A simulated study: `layouts` worlds, each walked from `poses` initial poses. A run is one pair.
 struct Experiment {

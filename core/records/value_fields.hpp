@@ -254,8 +254,9 @@ void method_fields(Visitor& v, const std::string& method, bool is_ours, MethodSe
       return v.refuse("method", fmt::format("unknown method {}: did you mean \"{}\"?",
                                             in_quotes(method), nearest_method_name(method)));
     if (external->symbol.empty() == setting.parameter.has_value())
-      v.refuse("external", external->symbol.empty() ? "has no symbol of the parameter"
-                                                    : "has the symbol of a parameter, which is missing");
+      v.refuse("external", external->symbol.empty()
+                               ? "has no symbol of the parameter"
+                               : "has the symbol of a parameter, which is missing");
     external->name = method;
     setting.method = external_method(*external);
   }

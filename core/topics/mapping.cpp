@@ -56,14 +56,13 @@ StudyPlan plan_mapping(std::string_view text, const std::string& source,
     made_by.method_files = method_files;
     return study_start(experiment, made_by);
   };
-  StudyPlan plan{
-      .name = experiment.name,
-      .seed = experiment.seed,
-      .layouts = experiment.layouts,
-      .poses = experiment.poses,
-      .uses_methods = true,
-      .start = start,
-      .noun = "runs"};
+  StudyPlan plan{.name = experiment.name,
+                 .seed = experiment.seed,
+                 .layouts = experiment.layouts,
+                 .poses = experiment.poses,
+                 .uses_methods = true,
+                 .start = start,
+                 .noun = "runs"};
   for (const RunId& id : runs_of(experiment))
     plan.tasks.push_back({[=](const fs::path& folder) { return holds_run(folder, id); },
                           [=] { return part_of(simulate_run(experiment, id, others.get())); }});

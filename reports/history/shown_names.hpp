@@ -10,8 +10,8 @@ namespace mapproof {
 // does not label is shown as tables and figures have mapproof's own.
 
 /// What settings have in common: the method that the study declares, without its levels; of
-/// mapproof's own the name without its parameter, "smacof-knn" of "smacof-knn-K6". What is neither as it
-/// is.
+/// mapproof's own the name without its parameter, "smacof-knn" of "smacof-knn-K6". What is neither
+/// as it is.
 std::string base_method(const StudyLabels& labels, const std::string& method);
 
 /// Its label; the id if it has none.

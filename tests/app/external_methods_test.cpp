@@ -71,8 +71,7 @@ class ExternalMethods : public ::testing::Test {
 
   /// The small experiment, whose affine maps are least squares.
   std::string experiment() {
-    json file = json::parse(
-        read_file(std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json"));
+    json file = json::parse(read_file(std::string(MAPPROOF_TEST_DATA) + "/experiments/small.json"));
     file["affine_fit"] = "least_squares";
     write_file(at("small.json"), file.dump());
     return at("small.json");
@@ -87,8 +86,8 @@ class ExternalMethods : public ::testing::Test {
 
   Outcome run(const std::vector<json>& methods, const std::string& out = "out",
               const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {"run",       experiment(),          "--methods",
-                                      methods_file(methods), "--out", at(out)};
+    std::vector<std::string> words = {"run",   experiment(), "--methods", methods_file(methods),
+                                      "--out", at(out)};
     words.insert(words.end(), more.begin(), more.end());
     return mapproof(words);
   }
@@ -136,8 +135,8 @@ TEST_F(ExternalMethods, TheReferenceClientInPythonIsLpca) {
   expect_lpca("out", "other");
   ASSERT_EQ(mapproof({"report", at("out")}).exit_code, 0);
   const std::string page = read_file(at("out") + "/report.html");
-  for (const char* shown : {"Other other", "Digest of the files of other", "mpe-range-external",
-                            "python3 scaling.py"})
+  for (const char* shown :
+       {"Other other", "Digest of the files of other", "mpe-range-external", "python3 scaling.py"})
     EXPECT_NE(page.find(shown), std::string::npos) << shown;
   const Outcome valid = mapproof({"validate", at("out")});
   EXPECT_EQ(valid.exit_code, 0) << valid.out << valid.error;
@@ -267,8 +266,7 @@ TEST_F(ExternalMethods, OfOtherFilesAreRunAgainAndNamedByTheDiff) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_NE(outcome.error.find("other files of the method partly"), std::string::npos)
       << outcome.error;
-  const Outcome diff =
-      mapproof({"diff", at("before"), at("after"), "--page", at("diff.html")});
+  const Outcome diff = mapproof({"diff", at("before"), at("after"), "--page", at("diff.html")});
   EXPECT_EQ(diff.exit_code, 0) << diff.out << diff.error;
   EXPECT_NE(read_file(at("diff.html")).find("files of the method partly"), std::string::npos);
   // A changed description is another experiment.
@@ -320,13 +318,13 @@ TEST_F(ExternalMethods, StandInTheExperimentToo) {
                                   methods_file({client("partly")}), "--out", at("twice")});
   EXPECT_EQ(twice.exit_code, 2);
   EXPECT_NE(twice.error.find("is there twice"), std::string::npos) << twice.error;
-  const Outcome unused = mapproof({"run", "moved", "--methods", methods_file({client("partly")}),
-                                   "--out", at("unused")});
+  const Outcome unused = mapproof(
+      {"run", "moved", "--methods", methods_file({client("partly")}), "--out", at("unused")});
   EXPECT_EQ(unused.exit_code, 2);
   EXPECT_NE(unused.error.find("--methods"), std::string::npos) << unused.error;
 }
 
-TEST_F(ExternalMethods, AreComparedNightAfterNight) {
+TEST_F(ExternalMethods, AreComparedInNightlyRuns) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   const std::string methods = methods_file({client("partly")});
   for (int i = 0; i < 2; ++i) {

@@ -29,10 +29,10 @@ with open(folder / "checkpoints.csv", newline="") as file:
     checkpoints = list(csv.DictReader(file))
 for checkpoint in checkpoints:
     run = folder / checkpoint["run"]
-    truth = positions(run / "ground-truth.csv")
-    names = list(truth)
+    true_m = positions(run / "ground-truth.csv")
+    names = list(true_m)
     anchors = [names.index(name) for name in positions(run / "anchors.csv")]
-    truth = numpy.array([truth[name] for name in names])
+    true_m = numpy.array([true_m[name] for name in names])
     distances = numpy.load(run / checkpoint["sensor"] / checkpoint["steps"] / "distances.npy")
     seen = numpy.flatnonzero(numpy.isfinite(distances).sum(axis=1) > 1)
     tsne = TSNE(metric="precomputed", init="random", perplexity=perplexity, learning_rate="auto",
@@ -41,11 +41,11 @@ for checkpoint in checkpoints:
     shape[seen] = tsne.fit_transform(distances[numpy.ix_(seen, seen)]).astype(float)
     # The affine map with the least squared distances at the anchors.
     used = [i for i in anchors if i in seen]
-    fit, *_ = numpy.linalg.lstsq(numpy.c_[shape[used], numpy.ones(len(used))], truth[used],
+    fit, *_ = numpy.linalg.lstsq(numpy.c_[shape[used], numpy.ones(len(used))], true_m[used],
                                  rcond=None)
     placed = numpy.c_[shape, numpy.ones(len(names))] @ fit
-    off = numpy.linalg.norm(placed - truth, axis=1)
-    pairs = list(zip(turns(truth[seen]), turns(placed[seen])))
+    off = numpy.linalg.norm(placed - true_m, axis=1)
+    pairs = list(zip(turns(true_m[seen]), turns(placed[seen])))
     errors["/".join([checkpoint["sensor"], checkpoint["run"], checkpoint["steps"]])] = {
         "mpe_m": off[[i for i in seen if i not in anchors]].mean(),
         "moe_percent": 100 * sum(a * b <= 0 for a, b in pairs) / len(pairs)}

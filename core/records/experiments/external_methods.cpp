@@ -10,7 +10,6 @@
 #include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/json/record_reader.hpp"
-#include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 
 namespace mapproof {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/json/fields.hpp"
-#include "core/model/external_method.hpp"
+#include "core/model/experiment.hpp"
 #include "core/records/text_forms.hpp"
 
 namespace mapproof {
@@ -60,8 +60,9 @@ void fields(Visitor& v, ExternalMethod& method) {
            .key = Key::kOptional});
   const auto visit = [&](auto& parameter) {
     parameter.field("symbol", method.symbol, {.max_bytes = 20, .form = &kSymbol});
-    parameter.field("values", method.values,
-                    {.whole_as_integers = true, .ascending = true, .min_items = 1, .max_items = 100});
+    parameter.field(
+        "values", method.values,
+        {.whole_as_integers = true, .ascending = true, .min_items = 1, .max_items = 100});
   };
   v.group("parameter", visit, {.key = Key::kOptional, .written = !method.symbol.empty()});
 }

@@ -107,7 +107,7 @@ std::vector<Method> methods_where(bool graph) {
 }
 
 /// The two families that a sensor's methods fall into.
-std::vector<Family> own_families(const char* id, Sensor sensor) {
+std::vector<Family> graph_families(const char* id, Sensor sensor) {
   return {{fmt::format("{}-{}-global", id, name(sensor)), ", methods without a neighbour graph",
            methods_where(false)},
           {fmt::format("{}-{}-graph", id, name(sensor)), ", methods on a neighbour graph",
@@ -142,7 +142,7 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
       result.push_back({figure.id, "", figure.methods});
       shown.insert(shown.end(), figure.methods.begin(), figure.methods.end());
     }
-  if (result.empty()) return own_families(kMpe.id, sensor);
+  if (result.empty()) return graph_families(kMpe.id, sensor);
   if (result.size() > 1)
     for (Family& family : result)
       family.note = fmt::format(
@@ -173,7 +173,7 @@ std::vector<Figure> curve_figures(FigureSource& source) {
   for (const SensorStudy& sensor : experiment.sensors)
     add(sensor, kMpe, paper_families(experiment, sensor.sensor.sensor));
   for (const SensorStudy& sensor : experiment.sensors)
-    add(sensor, kMoe, own_families(kMoe.id, sensor.sensor.sensor));
+    add(sensor, kMoe, graph_families(kMoe.id, sensor.sensor.sensor));
   return figures;
 }
 

@@ -46,13 +46,12 @@ ParameterLine parameter_line(const Experiment& experiment,
 std::optional<Figure> parameter_figure(const FigureSource& source, const SensorStudy& sensor,
                                        const std::vector<SettingSummary>& all,
                                        const ParameterInfo& parameter, bool of_mpe) {
-  ParameterGroup group{.symbol = std::string(parameter.shown),
-                       .title = std::string(parameter.meaning),
-                       .scale = parameter.integer || parameter.minimum <= 0.0
-                                    ? Scale::kLinear
-                                    : Scale::kLog,
-                       .whole = parameter.integer,
-                       .methods = {}};
+  ParameterGroup group{
+      .symbol = std::string(parameter.shown),
+      .title = std::string(parameter.meaning),
+      .scale = parameter.integer || parameter.minimum <= 0.0 ? Scale::kLinear : Scale::kLog,
+      .whole = parameter.integer,
+      .methods = {}};
   ErrorByParameterSpec spec;
   const std::string file_symbol = lower_case(std::string(parameter.symbol));
   spec.id = fmt::format("parameter-{}-{}-{}", of_mpe ? "mpe" : "moe", name(sensor.sensor.sensor),
@@ -72,11 +71,10 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
         values.push_back(summary);
     if (values.size() < 2 || best_of(values) == nullptr) continue;
     const Experiment& experiment = source.study().experiment;
-    group.methods.push_back(of_mpe
-                                ? parameter_line(experiment, values, &SettingSummary::mpe_m,
-                                                 &PublishedValue::mpe_m)
-                                : parameter_line(experiment, values, &SettingSummary::moe_percent,
-                                                 &PublishedValue::moe_percent));
+    group.methods.push_back(
+        of_mpe ? parameter_line(experiment, values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)
+               : parameter_line(experiment, values, &SettingSummary::moe_percent,
+                                &PublishedValue::moe_percent));
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
   if (group.methods.empty()) return std::nullopt;

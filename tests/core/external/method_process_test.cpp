@@ -108,8 +108,8 @@ TEST(MethodProcess, ThatDoesNotAnswerIsKilled) {
 
 TEST(MethodProcess, ThatEndsIsNamedWithItsLastMessage) {
   const ExternalReply reply = answer_of("echo first >&2; echo 'no licence.' >&2; exit 3");
-  EXPECT_EQ(reply.failure.value(), status_of<StatusReason::kMethodEnded>(
-                                       {"it ended with exit code 3: no licence"}));
+  EXPECT_EQ(reply.failure.value(),
+            status_of<StatusReason::kMethodEnded>({"it ended with exit code 3: no licence"}));
 }
 
 TEST(MethodProcess, ThatIsNotThereCannotBeStarted) {
@@ -127,8 +127,10 @@ TEST(MethodProcess, IsNotStartedWhereRecordsAloneNameIt) {
 }
 
 TEST(MethodProcesses, AreFoundByTheirNames) {
-  ExternalMethod one = shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"1\"}'");
-  ExternalMethod two = shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"2\"}'");
+  ExternalMethod one =
+      shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"1\"}'");
+  ExternalMethod two =
+      shell("cat > /dev/null & echo '{\"id\": \"run/bearing/10\", \"error\": \"2\"}'");
   one.name = "one";
   two.name = "two";
   MethodProcesses processes({one, two});
@@ -171,17 +173,17 @@ TEST(ExternalMethods, AreReadStrictly) {
   ASSERT_EQ(settings.size(), 2U);
   EXPECT_EQ(slug(settings[0]), "tsne-perplexity0.5");
   EXPECT_EQ(label(settings[1]), "t-SNE, perplexity = 5");
-  for (const std::string& bad : {
-           // A name of mapproof, no command, an unknown input, a name twice, an id twice.
-           std::string(R"({"name": "isomap", "label": "x", "input": "history", "command": ["x"]})"),
-           std::string(R"({"name": "pairs", "label": "x", "input": "history", "command": ["x"]})"),
-           std::string(R"({"name": "a", "label": "x", "input": "history", "command": []})"),
-           std::string(R"({"name": "a", "label": "x", "input": "maps", "command": ["x"]})"),
-           std::string(kTsne) + ", " + kTsne,
-           std::string(R"({"name": "a-b5", "label": "x", "input": "history", "command": ["x"]},
+  for (const std::string& bad :
+       {// A name of mapproof, no command, an unknown input, a name twice, an id twice.
+        std::string(R"({"name": "isomap", "label": "x", "input": "history", "command": ["x"]})"),
+        std::string(R"({"name": "pairs", "label": "x", "input": "history", "command": ["x"]})"),
+        std::string(R"({"name": "a", "label": "x", "input": "history", "command": []})"),
+        std::string(R"({"name": "a", "label": "x", "input": "maps", "command": ["x"]})"),
+        std::string(kTsne) + ", " + kTsne,
+        std::string(R"({"name": "a-b5", "label": "x", "input": "history", "command": ["x"]},
                           {"name": "a", "label": "x", "input": "history", "command": ["x"],
                            "parameter": {"symbol": "b", "values": [5]}})"),
-           std::string(R"({"name": "a", "label": "x", "input": "history", "command": ["x"],
+        std::string(R"({"name": "a", "label": "x", "input": "history", "command": ["x"],
                            "parameter": {"symbol": "b_c", "values": [5]}})")})
     EXPECT_THROW(parse_external_methods(file_of(bad), "methods.json"), IoError) << bad;
 }

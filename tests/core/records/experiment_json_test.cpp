@@ -72,9 +72,10 @@ TEST(ExperimentJson, GivesMethodsOfOthersToEverySensor) {
 }
 
 TEST(RunJson, DescribesMethodsOfOthers) {
-  const Method tsne = external_method(
-      {.name = "tsne", .label = "t-SNE", .source = "2008", .symbol = "perplexity"});
-  Run run{.id = {1, 1}, .world = {}, .anchors = {}, .occlusion = {}, .records = {}, .variations = {}};
+  const Method tsne =
+      external_method({.name = "tsne", .label = "t-SNE", .source = "2008", .symbol = "perplexity"});
+  Run run{
+      .id = {1, 1}, .world = {}, .anchors = {}, .occlusion = {}, .records = {}, .variations = {}};
   run.records.push_back({.sensor = Sensor::kBearing,
                          .setting = {tsne, 2.5},
                          .step = 10,
