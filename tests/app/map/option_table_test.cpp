@@ -221,8 +221,8 @@ TEST(OptionTable, TheHelpOfFollowNamesTheOptionsThatItRefuses) {
 }
 
 TEST(OptionTable, AcceptsBearingsInDegreesOfTheSecondSensor) {
-  EXPECT_EQ(said_of(job_of({"--sensor", "range", "--with", "b.csv", "--with-sensor", "bearing",
-                            "--degrees"})),
+  EXPECT_EQ(said_of(job_of(
+                {"--sensor", "range", "--with", "b.csv", "--with-sensor", "bearing", "--degrees"})),
             "");
 }
 
