@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
+#include "app/console.hpp"
 #include "app/diff/diff_options.hpp"
 #include "app/input_streams.hpp"
 #include "app/output_paths.hpp"
-#include "app/console.hpp"
 #include "reports/diff/folder_diff.hpp"
 
 namespace mapproof {
@@ -28,7 +28,8 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
   const std::array<std::filesystem::path, 3> inputs = {arguments.baseline, arguments.current,
                                                        arguments.options.settings};
   check_output_paths(arguments.options, inputs);
-  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline, invocation.console);
+  const DiffSettings settings =
+      diff_settings(arguments.options, arguments.baseline, invocation.console);
   std::optional<WorkingLine> working(std::in_place, invocation.console, "comparing");
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
   working.reset();
@@ -47,8 +48,10 @@ Action diff_command(CLI::App& app) {
       "  mapproof diff baseline out --junit diff.junit.xml --markdown diff.md\n"
       "  mapproof diff old.png new.png\n"
       "  mapproof diff <(git show HEAD:map.png) map.png\n\n"
-      "Exit code 0 if all is identical, within tolerance, or rendered differently without a visible\n"
-      "change; 1 for any other verdict that --allow does not name; 2 if nothing could be compared.\n"
+      "Exit code 0 if all is identical, within tolerance, or rendered differently without a "
+      "visible\n"
+      "change; 1 for any other verdict that --allow does not name; 2 if nothing could be "
+      "compared.\n"
       "docs/diff.md explains the verdicts.\n");
   app.add_option("BASELINE", arguments->baseline, "The study, folder or file to compare with")
       ->required();

@@ -28,9 +28,8 @@ std::string title(const std::string& name) {
 
 std::string manual_page(const CommandFacts& command) {
   const std::string name = "mapproof-" + command.name;
-  std::string page = title(name) + ".SH NAME\n" + roff(name) + " \\- " +
-                     roff(command.description) + "\n.SH SYNOPSIS\n.B " + roff(usage_of(command)) +
-                     "\n";
+  std::string page = title(name) + ".SH NAME\n" + roff(name) + " \\- " + roff(command.description) +
+                     "\n.SH SYNOPSIS\n.B " + roff(usage_of(command)) + "\n";
   for (const std::string& group : groups_of(command)) {
     page += ".SH \"" + roff(group) + "\"\n";
     for (const OptionFacts& option : command.options)
@@ -39,6 +38,13 @@ std::string manual_page(const CommandFacts& command) {
   }
   return page + ".SH \"EXAMPLES AND NOTES\"\n.nf\n" + roff(command.footer) +
          ".fi\n.SH \"SEE ALSO\"\nmapproof(1)\n";
+}
+
+/// A text in a cell of a table of Markdown.
+std::string in_cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, "\\");
+  return text;
 }
 
 }  // namespace
@@ -53,8 +59,7 @@ std::map<std::string, std::string> manual_pages(const ProgramFacts& program) {
     all += ".TP\n.B " + command.name + "\n" + roff(command.description) + ". See mapproof\\-" +
            command.name + "(1).\n";
   }
-  pages["man/man1/mapproof.1"] =
-      all + ".SH NOTES\n.nf\n" + roff(program.program.footer) + ".fi\n";
+  pages["man/man1/mapproof.1"] = all + ".SH NOTES\n.nf\n" + roff(program.program.footer) + ".fi\n";
   return pages;
 }
 
@@ -69,11 +74,8 @@ std::string commands_markdown(const ProgramFacts& program) {
       page += "\n**" + group + "**\n\n| option | meaning |\n|---|---|\n";
       for (const OptionFacts& option : command.options) {
         if (option.group != group) continue;
-        std::string words = explained(option), name = spelled(option);
-        for (std::string* text : {&words, &name})
-          for (std::size_t at = 0; (at = text->find('|', at)) != std::string::npos; at += 2)
-            text->insert(at, "\\");
-        page += fmt::format("| `{}` | {} |\n", name, words);
+        page +=
+            fmt::format("| `{}` | {} |\n", in_cell(spelled(option)), in_cell(explained(option)));
       }
     }
     page += "\n```\n" + command.footer + "```\n";

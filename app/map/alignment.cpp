@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/align/rigid.hpp"
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/score/map_score.hpp"
 
@@ -121,13 +122,12 @@ std::vector<std::string> frame_warnings(const MapRecord& record) {
         record.score->mpe_m, trivial_m)};
   }
   const double reach_m = (anchors_m.rowwise() - centre).rowwise().norm().maxCoeff();
-  const auto middle = away.begin() + std::ssize(away) / 2;
-  std::ranges::nth_element(away, middle);
-  if (*middle < kFarOut * reach_m) return {};
+  const double middle_m = upper_median(away);
+  if (middle_m < kFarOut * reach_m) return {};
   return {fmt::format(
       "Half of the landmarks lie {:.3g} m or more from the mean of the anchors, but no anchor "
       "beyond {:.3g} m: the map, or its fit to the anchors, is likely to be wrong.",
-      *middle, reach_m)};
+      middle_m, reach_m)};
 }
 
 }  // namespace mapproof

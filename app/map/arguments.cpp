@@ -86,9 +86,10 @@ void add_capability_options(CLI::App& app, MapJob& job) {
   app.add_option("--dimensions", job.dimensions,
                  "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
       ->check(CLI::Range(1, 1000));
-  app.add_option("--submaps", job.submaps,
-                 "Map overlapping groups of at most N landmarks separately, and join them (N from 6 "
-                 "to 5000)")
+  app.add_option(
+         "--submaps", job.submaps,
+         "Map overlapping groups of at most N landmarks separately, and join them (N from 6 "
+         "to 5000)")
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", job.overlap,
                  "Share of each sub-map that it has in common with its neighbours (default: 0.5)")

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "app/map/fit.hpp"
 #include "app/map/pipeline.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
@@ -49,6 +48,18 @@ Fit mrclam_fit(const std::string& path, const Fit& of_sensor, const Points& know
   return fit;
 }
 
+/// The gravest of the fits of several sensors to one map. @param sources  In the rows of the map.
+Fit joint_fit(const std::vector<ObservationSource>& sources, const Points& map,
+              const Points& known_m) {
+  Fit gravest{.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
+  for (const ObservationSource& source : sources) {
+    const Fit one = history_fit(source.history, source.history.steps(), map, known_m);
+    if (fit_rank(one.verdict).value_or(0.0) > fit_rank(gravest.verdict).value_or(0.0))
+      gravest = one;
+  }
+  return gravest;
+}
+
 Fit fit_of(MapDraft& draft, const MapJob& job) {
   const Points& map = draft.result.record.estimate;
   const Points& known_m = draft.reference.positions_m;
@@ -86,17 +97,6 @@ MapDraft test_fit(MapDraft draft, const MapJob& job) {
 }
 
 }  // namespace
-
-Fit joint_fit(const std::vector<ObservationSource>& sources, const Points& map,
-              const Points& known_m) {
-  Fit gravest{.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
-  for (const ObservationSource& source : sources) {
-    const Fit one = history_fit(source.history, source.history.steps(), map, known_m);
-    if (fit_rank(one.verdict).value_or(0.0) > fit_rank(gravest.verdict).value_or(0.0))
-      gravest = one;
-  }
-  return gravest;
-}
 
 const MapStep kFit{.take = test_fit, .figure = kFitSection};
 

@@ -19,7 +19,8 @@
 namespace mapproof {
 namespace {
 
-/// Known positions may be missed by so many times the loss: on fault-free logs by less than the loss.
+/// Known positions may be missed by so many times the loss: on fault-free logs by less than the
+/// loss.
 constexpr double kMissed = 3.0;
 
 std::string label(const DetectionLog& log, int landmark) {

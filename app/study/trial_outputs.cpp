@@ -52,15 +52,15 @@ nlohmann::ordered_json trial_object(const TrialStudy& study) {
       {"conclusions", conclusions_of(study)}, {"results", nlohmann::ordered_json::array()}};
   const ResultsStudy labelled = labelled_results(study);
   const ResultsView view(labelled);
+  const auto add = [&](const Condition& at, const ResultsLine& line) {
+    if (view.statuses(at, line).runs > 0)
+      object["results"].push_back(mean_values(study, view, at, line));
+  };
   for (const TrialSetup& setup : study.design.setups)
     for (std::size_t i = 0; i < study.design.series.size(); ++i)
       for (const Condition& at : conditions_of(setup))
-        for (const std::string& part : parts_apart(study)) {
-          const ResultsLine line{
-              .method = study.design.series[i].id, .run = part, .label = {}, .index = i};
-          if (view.statuses(at, line).runs > 0)
-            object["results"].push_back(mean_values(study, view, at, line));
-        }
+        for (const std::string& part : parts_apart(study))
+          add(at, {.method = study.design.series[i].id, .run = part, .label = {}, .index = i});
   return object;
 }
 

@@ -247,7 +247,7 @@ ScatterFit scatter_of(std::vector<Residual>& residuals, std::size_t landmarks) {
   fit.relative = fit.sigma_m / fit.median_m;
   fit.gross = static_cast<double>(beyond) / static_cast<double>(residuals.size());
   std::ranges::sort(normal);
-  const double middle = normal[normal.size() / 2];
+  const double middle = upper_median(normal);
   fit.tail = middle > 0.0 ? normal[normal.size() * 9 / 10] / middle : 0.0;
   for (std::size_t k = 0; k < landmarks; ++k)
     gross[k] = all[k] >= kFewestOfRobot ? gross[k] / all[k] : 0.0;

@@ -105,6 +105,17 @@ void add_figure(const Figure& figure, const std::string& title, Figure& whole) {
   add_words(figure.alt, whole.alt);
 }
 
+/// Those whose text is not kept.
+void erase_labels(PointLabels& labels, const std::set<std::string>& kept) {
+  for (std::size_t i = labels.text.size(); i-- > 0;) {
+    if (kept.contains(labels.text[i])) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    labels.x.erase(labels.x.begin() + at);
+    labels.y.erase(labels.y.begin() + at);
+    labels.text.erase(labels.text.begin() + at);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> landmarks_of(const Figure& figure) {
@@ -150,14 +161,7 @@ void show_landmarks(Figure& figure, const std::vector<std::string>& names) {
       if (auto* shapes = std::get_if<Ellipses>(&layer))
         erase_marks(*shapes, kept, &Ellipses::x, &Ellipses::y, &Ellipses::a, &Ellipses::b,
                     &Ellipses::rotation_rad);
-      if (auto* labels = std::get_if<PointLabels>(&layer))
-        for (std::size_t i = labels->text.size(); i-- > 0;)
-          if (!kept.contains(labels->text[i])) {
-            const auto at = static_cast<std::ptrdiff_t>(i);
-            labels->x.erase(labels->x.begin() + at);
-            labels->y.erase(labels->y.begin() + at);
-            labels->text.erase(labels->text.begin() + at);
-          }
+      if (auto* labels = std::get_if<PointLabels>(&layer)) erase_labels(*labels, kept);
     }
     std::erase_if(panel.layers, is_empty);
   }

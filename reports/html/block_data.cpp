@@ -375,15 +375,19 @@ data block_data(const Block& block, const FigureContext& drawn, const HtmlOption
   return visitor.take();
 }
 
-std::string file_link(const std::string& path) {
+std::string percent_encoded(std::string_view text) {
   constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./";
-  std::string link = "./";  // Never taken for a scheme or a host.
-  for (const char c : path)
-    link += kPlain.find(c) != std::string_view::npos
-                ? std::string(1, c)
-                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return link;
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/";
+  std::string encoded;
+  for (const char c : text)
+    encoded += kPlain.find(c) != std::string_view::npos
+                   ? std::string(1, c)
+                   : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return encoded;
+}
+
+std::string file_link(const std::string& path) {
+  return "./" + percent_encoded(path);  // Never taken for a scheme or a host.
 }
 
 }  // namespace mapproof

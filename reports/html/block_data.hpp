@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 
 #include <kainjow/mustache.hpp>
 
@@ -41,6 +42,9 @@ kainjow::mustache::data block_data(const Block& block, const FigureContext& draw
 
 /// The phrases of a paragraph, for the template of that name.
 kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptions& options);
+
+/// Letters, digits and "-._/" stay, every other byte becomes %XX. Different texts stay different.
+std::string percent_encoded(std::string_view text);
 
 /// A path relative to the page as the target of a link: never with another scheme or host.
 std::string file_link(const std::string& path);

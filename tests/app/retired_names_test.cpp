@@ -90,9 +90,9 @@ TEST(RetiredNames, OfKeysAreRefusedWithTheNewNameWhereThatIsAKey) {
 TEST(RetiredNames, OfFormatsAreRefusedWithTheNewName) {
   const test::TemporaryFolder folder;
   for (const RetiredName& format : retired(NameKind::kFormat)) {
-    const std::string file = folder.file(
-        "old.json", "{\"schema\": {\"name\": \"" + std::string(format.name) +
-                        "\", \"version\": 1}, \"landmarks\": [\"a\", \"b\", \"c\"]}");
+    const std::string file =
+        folder.file("old.json", "{\"schema\": {\"name\": \"" + std::string(format.name) +
+                                    "\", \"version\": 1}, \"landmarks\": [\"a\", \"b\", \"c\"]}");
     for (const char* sensor : {"bearing", "range-bearing"}) {
       const test::Outcome outcome =
           test::mapproof({"map", file, "--sensor", sensor, "--out", folder / "map"});

@@ -312,7 +312,8 @@ Figure idea_figure(const IdeaSpec& spec) {
   const std::string score = spec.map.score ? score_text(*spec.map.score) : "";
   figure.caption = fmt::format(
       "The robot walks among landmarks (left); each landmark's row of observations, {} (middle); "
-      "landmarks with similar rows are close together on the map (right: {}, {}{}). Open circles: true "
+      "landmarks with similar rows are close together on the map (right: {}, {}{}). Open circles: "
+      "true "
       "positions; dots: estimates; squares: anchors.",
       colours(spec.history.sensor), method_label(spec.map), counted(spec.map.step, "step"),
       score.empty() ? "" : ", " + score);

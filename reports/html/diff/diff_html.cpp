@@ -366,18 +366,7 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
 
 }  // namespace
 
-std::string url_text(std::string_view text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/";
-  std::string out;
-  for (const char c : text) {
-    if (kPlain.find(c) != std::string_view::npos)
-      out += c;
-    else
-      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return out;
-}
+std::string url_text(std::string_view text) { return percent_encoded(text); }
 
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
                       const Templates& templates, const ImageBudget& budget) {

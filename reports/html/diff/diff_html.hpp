@@ -8,7 +8,6 @@
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/image_changes.hpp"
-#include "reports/html/diff/diff_html.hpp"
 #include "reports/html/templates.hpp"
 
 namespace mapproof {
@@ -35,8 +34,7 @@ struct ImageBudget {
   std::size_t heat_maps = 100;                        ///< The others have none.
 };
 
-/// Encodes a text for a fragment, an id or an attribute: letters, digits and "-._/" stay, every
-/// other byte becomes %XX. Different texts stay different.
+/// A text for a fragment, an id or an attribute of the page: percent_encoded().
 std::string url_text(std::string_view text);
 
 /// One self-contained page on a comparison (docs/diff.md): verdicts and causes, images of the

@@ -45,7 +45,8 @@ std::vector<std::string> doubt_conclusions(const TrialStudy& study) {
     }
     const Condition at = condition_at(setup, 0.0);
     sentences.push_back(fmt::format(
-        "Of {} fault-free logs {:.1f} % have an alarm, and of {:.1f} % the verdict is that they do not "
+        "Of {} fault-free logs {:.1f} % have an alarm, and of {:.1f} % the verdict is that they do "
+        "not "
         "fit. Of those that fit, {:.1f} % of the landmarks lie in their 95 % ellipse; the mean "
         "squared error over its variance is {:.2f}, where 2 is right.",
         trial_values(study, at, kFitTest, "alarm_percent").size(),

@@ -221,8 +221,8 @@ TEST(OptionTable, TheHelpOfFollowNamesTheOptionsThatItRefuses) {
 }
 
 TEST(OptionTable, AcceptsBearingsInDegreesOfTheSecondSensor) {
-  EXPECT_EQ(said_of(job_of({"--sensor", "range", "--with", "b.csv", "--with-sensor", "bearing",
-                            "--degrees"})),
+  EXPECT_EQ(said_of(job_of(
+                {"--sensor", "range", "--with", "b.csv", "--with-sensor", "bearing", "--degrees"})),
             "");
 }
 
@@ -289,7 +289,12 @@ TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
     EXPECT_NE(sentence.find(other.empty() ? "method" : other), std::string::npos) << sentence;
     // The program takes --method pairs for --sensor range-bearing.
     if (row.option != "--method pairs") expect_refused_by_program(alone, sentence);
-    const Words both = words_of(option_named(row.option)) + words_of(option_named(row.other));
+    Words both = words_of(option_named(row.option)) + words_of(option_named(row.other));
+    for (const OptionPair& next : options_needed()) {  // What the other one needs in turn.
+      if (next.option != row.other) continue;
+      const Words needed = words_of(option_named(next.other));
+      if (std::ranges::find(both, needed[0]) == both.end()) both = both + needed;
+    }
     EXPECT_EQ(said_of(job_of(both)), "") << line_of(both);
   }
 }
