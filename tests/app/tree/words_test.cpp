@@ -93,7 +93,9 @@ TEST(Words, EachRowFailsAndPassesAsItsSentencesSay) {
     EXPECT_TRUE(one.is_in(one.fails)) << one.fails;
     EXPECT_FALSE(one.is_in(one.passes)) << one.passes;
     // A context is needed only if a sentence with the word passes by it.
-    if (one.has_contexts) EXPECT_TRUE(one.is_written_in(one.passes)) << one.passes;
+    if (one.has_contexts) {
+      EXPECT_TRUE(one.is_written_in(one.passes)) << one.passes;
+    }
   }
 }
 
