@@ -13,7 +13,7 @@
 #include "core/base/out_of_memory.hpp"
 #include "core/base/parent_watch.hpp"
 #include "render/animation/animation_encoder.hpp"
-#include "render/animation/picture_decoder.hpp"
+#include "render/animation/image_decoder.hpp"
 
 namespace mapproof {
 namespace {
@@ -67,7 +67,7 @@ void decode(std::string_view format) {
   std::array<char, 1 << 16> block{};
   while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin))
     bytes.append(block.data(), got);
-  decode_picture(bytes, format, [](const DecodedFrame& frame) {
+  decode_image(bytes, format, [](const DecodedFrame& frame) {
     std::array<char, 64> head{};
     const int length = std::snprintf(head.data(), head.size(), "%d %d %d\n", frame.width,
                                      frame.height, frame.duration_ms);

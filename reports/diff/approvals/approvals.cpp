@@ -26,7 +26,7 @@
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
 #include "render/image/png_read.hpp"
-#include "render/pictures/picture_reader.hpp"
+#include "render/decode/image_reader.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_settings.hpp"
@@ -71,9 +71,9 @@ void read_as_what_it_is(const fs::path& file) {
   } else if (name.ends_with(".json")) {
     for (const Finding& finding : validate(file))
       if (!finding.problem.empty()) throw InvalidInput(finding.problem);
-  } else if (const std::string bytes = read_file(file); const auto format = picture_format(bytes)) {
-    PictureReader pictures(bytes, *format);
-    while (pictures.next()) continue;
+  } else if (const std::string bytes = read_file(file); const auto format = decoded_format(bytes)) {
+    ImageReader reader(bytes, *format);
+    while (reader.next()) continue;
   } else if (kind == "png") {
     read_png(bytes);
   } else if (kind == "svg") {

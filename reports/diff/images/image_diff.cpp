@@ -16,10 +16,10 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/text/words.hpp"
+#include "render/decode/image_reader.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
 #include "render/image/png_read.hpp"
-#include "render/pictures/picture_reader.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/flat_ground.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
@@ -149,18 +149,18 @@ void compare_decoded(std::string_view before, std::string_view after, const Imag
     *heat = heat_map(std::move(baseline.png.image), found.marks);
 }
 
-/// The pictures of one side, or the reason why they cannot be read.
-class PictureSide {
+/// The images of one side, or the reason why they cannot be read.
+class DecodedSide {
  public:
-  PictureSide(std::string_view bytes, PictureFormat format) {
+  DecodedSide(std::string_view bytes, DecodedFormat format) {
     guarded([&] { reader_.emplace(bytes, format); });
   }
 
   /// Empty after the last, and if it cannot be read.
-  std::optional<Picture> next() {
-    std::optional<Picture> picture;
-    if (reader_) guarded([&] { picture = reader_->next(); });
-    return picture;
+  std::optional<DecodedImage> next() {
+    std::optional<DecodedImage> image;
+    if (reader_) guarded([&] { image = reader_->next(); });
+    return image;
   }
 
   const std::string& reason() const { return reason_; }
@@ -176,44 +176,44 @@ class PictureSide {
     }
   }
 
-  std::optional<PictureReader> reader_;
+  std::optional<ImageReader> reader_;
   std::string reason_;
 };
 
-/// What two pictures show, over white or over black, whichever differs more.
-struct PictureComparison {
+/// What two images show, over white or over black, whichever differs more.
+struct DecodedComparison {
   ImageState state = ImageState::kIdentical;
   PixelComparison found;
   Image baseline;  ///< Over that ground.
 };
 
-PictureComparison compared_over(const Image& baseline, const Image& current,
+DecodedComparison compared_over(const Image& baseline, const Image& current,
                                 const ImageOptions& options) {
   PixelComparison found = pixel_diff(baseline, current, options);
   const ImageState state = state_of(found.pixels, options);
   return {state, std::move(found), baseline};
 }
 
-PictureComparison compared(const Picture& baseline, const Picture& current,
+DecodedComparison compared(const DecodedImage& baseline, const DecodedImage& current,
                            const ImageOptions& options) {
-  PictureComparison white = compared_over(baseline.over_white, current.over_white, options);
+  DecodedComparison white = compared_over(baseline.over_white, current.over_white, options);
   if (!baseline.over_black && !current.over_black) return white;
-  PictureComparison black =
+  DecodedComparison black =
       compared_over(baseline.over_black ? *baseline.over_black : baseline.over_white,
                     current.over_black ? *current.over_black : current.over_white, options);
   return differs_more(black.state, black.found.pixels, white.state, white.found.pixels) ? black
                                                                                         : white;
 }
 
-/// Compares files picture by picture, and keeps the result of the one that differs most.
-class PictureComparer {
+/// Compares files image by image, and keeps the result of the one that differs most.
+class ImageComparer {
  public:
-  PictureComparer(const ImageOptions& options, PictureFormat format)
-      : options_(options), noun_(format == PictureFormat::kPdf ? "page" : "frame") {}
+  ImageComparer(const ImageOptions& options, DecodedFormat format)
+      : options_(options), noun_(format == DecodedFormat::kPdf ? "page" : "frame") {}
 
-  void add(const Picture& baseline, const Picture& current) {
+  void add(const DecodedImage& baseline, const DecodedImage& current) {
     ++count_;
-    PictureComparison next = compared(baseline, current, options_);
+    DecodedComparison next = compared(baseline, current, options_);
     if (count_ == 1 ||
         differs_more(next.state, next.found.pixels, worst_.state, worst_.found.pixels)) {
       worst_ = std::move(next);
@@ -248,18 +248,18 @@ class PictureComparer {
   const ImageOptions& options_;
   const char* noun_;
   int count_ = 0;
-  PictureComparison worst_;
+  DecodedComparison worst_;
   int worst_number_ = 0;
   std::string durations_;
 };
 
-void compare_pictures(std::string_view before, std::string_view after, PictureFormat format,
-                      const ImageOptions& options, Image* heat, ImageDiff& diff) {
-  PictureSide baseline(before, format), current(after, format);
-  PictureComparer comparer(options, format);
+void compare_frames(std::string_view before, std::string_view after, DecodedFormat format,
+                    const ImageOptions& options, Image* heat, ImageDiff& diff) {
+  DecodedSide baseline(before, format), current(after, format);
+  ImageComparer comparer(options, format);
   int more = 0;
   while (true) {
-    const std::optional<Picture> was = baseline.next(), is = current.next();
+    const std::optional<DecodedImage> was = baseline.next(), is = current.next();
     if (!was && !is) break;
     if (was && is)
       comparer.add(*was, *is);
@@ -274,7 +274,7 @@ void compare_pictures(std::string_view before, std::string_view after, PictureFo
 void compare_over_black(std::string_view before, std::string_view after,
                         const ImageOptions& options, Image* heat, ImageDiff& diff) {
   ImageDiff over_black;
-  compare_pictures(before, after, PictureFormat::kPng, options, heat, over_black);
+  compare_frames(before, after, DecodedFormat::kPng, options, heat, over_black);
   if (over_black.state != ImageState::kDifferent) return;
   diff.state = over_black.state;
   diff.pixels = over_black.pixels;
@@ -289,7 +289,7 @@ void compare_pngs(std::string_view before, std::string_view after, const ImageOp
   if (diff.reason == kFinerAlone) compare_over_black(before, after, options, heat, diff);
 }
 
-enum class ImageFormat { kPng, kSvg, kPicture, kEmpty, kPointer, kOther };
+enum class ImageFormat { kPng, kSvg, kDecoded, kEmpty, kPointer, kOther };
 
 /// Whether the bytes begin as UTF-16 does, with its mark or with "<" in two bytes.
 bool is_utf16(std::string_view bytes) {
@@ -301,7 +301,7 @@ bool is_utf16(std::string_view bytes) {
 /// The kind by the first bytes of the content, whatever the name of the file.
 ImageFormat kind_of(std::string_view bytes) {
   if (bytes.empty()) return ImageFormat::kEmpty;
-  if (picture_format(bytes)) return ImageFormat::kPicture;
+  if (decoded_format(bytes)) return ImageFormat::kDecoded;
   if (bytes.starts_with("\x89PNG")) return ImageFormat::kPng;
   if (bytes.starts_with("version https://git-lfs")) return ImageFormat::kPointer;
   if (is_utf16(bytes)) return ImageFormat::kSvg;
@@ -364,7 +364,7 @@ void set_equal(ImageDiff& diff) {
 
 /// "animated PNG", "JPEG".
 std::string_view words(ImageFormat kind, std::string_view bytes) {
-  if (kind == ImageFormat::kPicture) return label(*picture_format(bytes));
+  if (kind == ImageFormat::kDecoded) return label(*decoded_format(bytes));
   return kind == ImageFormat::kPng ? "PNG" : "SVG";
 }
 
@@ -387,11 +387,11 @@ ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesyste
     diff.state = ImageState::kDifferent;
     diff.reason =
         fmt::format("the format changed: {} \u2192 {}", words(first, before), words(second, after));
-  } else if (first == ImageFormat::kPicture) {
+  } else if (first == ImageFormat::kDecoded) {
     if (before == after)
       set_equal(diff);
     else
-      compare_pictures(before, after, *picture_format(before), options, heat, diff);
+      compare_frames(before, after, *decoded_format(before), options, heat, diff);
   } else if (first == ImageFormat::kPng) {
     compare_pngs(before, after, options, heat, diff);
   } else {

@@ -166,8 +166,8 @@ TEST(CheckCommand, WritesWhatIsAskedForWithoutABaseline) {
   const std::string diff = folder / "diff";
   const Outcome outcome =
       mapproof({"check", experiment, "--baseline", folder / "none", "--out", folder / "out",
-                "--allow", "new,missing", "--json", "--junit", diff + ".xml",
-                "--markdown", diff + ".md", "--page", diff + ".html"});
+                "--allow", "new,missing", "--json", "--junit", diff + ".xml", "--markdown",
+                diff + ".md", "--page", diff + ".html"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
   EXPECT_NE(read_file(diff + ".xml").find("failures=\"1\""), std::string::npos);
   EXPECT_NE(read_file(diff + ".md").find("there is no baseline"), std::string::npos);

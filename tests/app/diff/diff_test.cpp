@@ -96,8 +96,7 @@ TEST(DiffCommand, NeverReplacesWhatItCompares) {
   EXPECT_EQ(mapproof({"diff", image, image, "--page", one, "--junit", one}).exit_code, 2);
   for (int run = 0; run < 2; ++run)  // Its own outputs may stand there.
     EXPECT_EQ(mapproof({"diff", two.before, two.after, "--page", two.after + "/diff.html",
-                        "--junit", two.after + "/diff.xml", "--markdown",
-                        two.after + "/diff.md"})
+                        "--junit", two.after + "/diff.xml", "--markdown", two.after + "/diff.md"})
                   .exit_code,
               0);
 }

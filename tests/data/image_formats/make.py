@@ -1,4 +1,4 @@
-"""Makes the images of tests/data/pictures: a plot, and the same plot with a moved point."""
+"""Makes the images of tests/data/image_formats: a plot, and the same plot with a moved point."""
 import sys
 from pathlib import Path
 

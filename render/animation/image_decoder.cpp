@@ -1,4 +1,4 @@
-#include "render/animation/picture_decoder.hpp"
+#include "render/animation/image_decoder.hpp"
 
 #include <algorithm>
 #include <array>
@@ -224,7 +224,7 @@ void decode_animation(const std::string& bytes, const Traits& traits, const Take
 
 }  // namespace
 
-void decode_picture(const std::string& bytes, std::string_view format, const Take& take) {
+void decode_image(const std::string& bytes, std::string_view format, const Take& take) {
   av_log_set_level(AV_LOG_QUIET);
   const Traits& traits = traits_of(format);
   if (traits.demuxer == nullptr)

@@ -1,4 +1,4 @@
-#include "render/pictures/picture_reader.hpp"
+#include "render/decode/image_reader.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ namespace {
 using namespace std::string_view_literals;
 
 /// What the program that decodes calls it.
-std::string_view name(PictureFormat format) {
+std::string_view name(DecodedFormat format) {
   constexpr std::string_view kNames[] = {"apng", "bmp", "gif",  "jpeg",
                                          "pdf",  "png", "tiff", "webp"};
   return kNames[static_cast<std::size_t>(format)];
@@ -43,9 +43,9 @@ bool is_animated_png(std::string_view bytes) {
   return false;
 }
 
-ProgramCall program_of(PictureFormat format) {
+ProgramCall program_of(DecodedFormat format) {
   // pdftoppm sets no limits of its own.
-  if (format == PictureFormat::kPdf)
+  if (format == DecodedFormat::kPdf)
     return {"/usr/bin/prlimit",
             {"--as=4294967296", "--cpu=60", "--core=0", "pdftoppm", "-r", "96", "-"}};
   const std::filesystem::path program = animation_program();
@@ -106,30 +106,30 @@ bool is_opaque(std::string_view rgba) {
 
 }  // namespace
 
-std::string_view label(PictureFormat format) {
+std::string_view label(DecodedFormat format) {
   constexpr std::string_view kLabels[] = {"animated PNG", "BMP", "GIF",  "JPEG",
                                           "PDF",          "PNG", "TIFF", "WebP"};
   return kLabels[static_cast<std::size_t>(format)];
 }
 
-std::optional<PictureFormat> picture_format(std::string_view bytes) {
+std::optional<DecodedFormat> decoded_format(std::string_view bytes) {
   constexpr std::size_t kPdfHead = 1024;  // Readers look for its mark that far.
-  if (bytes.starts_with("\xFF\xD8\xFF")) return PictureFormat::kJpeg;
-  if (bytes.starts_with("GIF8")) return PictureFormat::kGif;
-  if (bytes.starts_with("BM")) return PictureFormat::kBmp;
-  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return PictureFormat::kTiff;
+  if (bytes.starts_with("\xFF\xD8\xFF")) return DecodedFormat::kJpeg;
+  if (bytes.starts_with("GIF8")) return DecodedFormat::kGif;
+  if (bytes.starts_with("BM")) return DecodedFormat::kBmp;
+  if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return DecodedFormat::kTiff;
   if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP"))
-    return PictureFormat::kWebp;
-  if (bytes.substr(0, kPdfHead).find("%PDF-") != std::string_view::npos) return PictureFormat::kPdf;
-  if (is_animated_png(bytes)) return PictureFormat::kApng;
+    return DecodedFormat::kWebp;
+  if (bytes.substr(0, kPdfHead).find("%PDF-") != std::string_view::npos) return DecodedFormat::kPdf;
+  if (is_animated_png(bytes)) return DecodedFormat::kApng;
   return std::nullopt;
 }
 
-PictureReader::PictureReader(std::string_view bytes, PictureFormat format) : format_(format) {
+ImageReader::ImageReader(std::string_view bytes, DecodedFormat format) : format_(format) {
   const ProgramCall call = program_of(format);
   try {
-    input_ = memory_file("mapproof-picture");
-    messages_ = memory_file("mapproof-picture");
+    input_ = memory_file("mapproof-image");
+    messages_ = memory_file("mapproof-image");
     if (!write_all(input_, bytes) || ::lseek(input_.get(), 0, SEEK_SET) != 0)
       throw ProcessError(std::strerror(errno));
     auto [from, to] = new_pipe();
@@ -142,12 +142,12 @@ PictureReader::PictureReader(std::string_view bytes, PictureFormat format) : for
   }
 }
 
-std::optional<Picture> PictureReader::next() {
+std::optional<DecodedImage> ImageReader::next() {
   if (!process_) return std::nullopt;
-  return format_ == PictureFormat::kPdf ? next_page() : next_frame();
+  return format_ == DecodedFormat::kPdf ? next_page() : next_frame();
 }
 
-std::optional<Picture> PictureReader::next_page() {
+std::optional<DecodedImage> ImageReader::next_page() {
   constexpr std::size_t kChannels = 3;
   const std::optional<std::string> start = line();
   if (!start) {
@@ -164,10 +164,10 @@ std::optional<Picture> PictureReader::next_page() {
   for (std::size_t i = 0; i < count; ++i)
     page.pixels[i] = byte_at(rgb, kChannels * i) << 16 | byte_at(rgb, kChannels * i + 1) << 8 |
                      byte_at(rgb, kChannels * i + 2);
-  return Picture{.over_white = std::move(page), .over_black = std::nullopt};
+  return DecodedImage{.over_white = std::move(page), .over_black = std::nullopt};
 }
 
-std::optional<Picture> PictureReader::next_frame() {
+std::optional<DecodedImage> ImageReader::next_frame() {
   const std::optional<std::string> start = line();
   if (!start || *start == "end") {
     if (!start) fail("it ends too soon");
@@ -179,15 +179,15 @@ std::optional<Picture> PictureReader::next_frame() {
   require_size(facts[0], facts[1]);
   const int width = static_cast<int>(facts[0]), height = static_cast<int>(facts[1]);
   const std::string rgba = bytes(static_cast<std::size_t>(4 * facts[0] * facts[1]));
-  Picture picture{.over_white = composed(width, height, rgba, 255),
-                  .over_black = std::nullopt,
-                  .duration_ms = static_cast<int>(facts[2])};
-  if (!is_opaque(rgba)) picture.over_black = composed(width, height, rgba, 0);
-  return picture;
+  DecodedImage image{.over_white = composed(width, height, rgba, 255),
+                     .over_black = std::nullopt,
+                     .duration_ms = static_cast<int>(facts[2])};
+  if (!is_opaque(rgba)) image.over_black = composed(width, height, rgba, 0);
+  return image;
 }
 
 /// The next line of the program's output; empty at its end.
-std::optional<std::string> PictureReader::line() {
+std::optional<std::string> ImageReader::line() {
   constexpr std::size_t kLongest = 100;
   std::string text;
   for (char c = 0; text.size() <= kLongest; text += c) {
@@ -199,7 +199,7 @@ std::optional<std::string> PictureReader::line() {
   fail("its pixels cannot be read");
 }
 
-std::string PictureReader::bytes(std::size_t count) {
+std::string ImageReader::bytes(std::size_t count) {
   std::string block(count, '\0');
   for (std::size_t done = 0; done < count;) {
     const ssize_t got = ::read(output_.get(), block.data() + done, count - done);
@@ -210,27 +210,27 @@ std::string PictureReader::bytes(std::size_t count) {
   return block;
 }
 
-void PictureReader::require_size(std::int64_t width, std::int64_t height) const {
+void ImageReader::require_size(std::int64_t width, std::int64_t height) const {
   if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide ||
       width * height > kMostPixels)
     throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are compared", width,
                                    height, kMostPixels));
 }
 
-void PictureReader::require_end() {
+void ImageReader::require_end() {
   const ProcessEnd end = process_->wait();
   if (!end.is_success()) fail(end.text());
   process_.reset();
 }
 
-void PictureReader::fail(std::string_view otherwise) {
+void ImageReader::fail(std::string_view otherwise) {
   constexpr int kNotFound = 127, kNotRun = 126;
   output_ = Descriptor(-1);  // The program ends if it still writes.
   const ProcessEnd end = process_->wait();
   process_.reset();
   const std::string said = last_line(content_of(messages_));
   if (said == kOutOfMemory) throw std::bad_alloc();
-  if (format_ == PictureFormat::kPdf && (end.exit_code == kNotFound || end.exit_code == kNotRun))
+  if (format_ == DecodedFormat::kPdf && (end.exit_code == kNotFound || end.exit_code == kNotRun))
     throw InvalidInput("PDF is drawn by pdftoppm of poppler-utils, which is not installed");
   throw InvalidInput(printable(
       fmt::format("is no {} that can be read: {}", label(format_), said.empty() ? otherwise : said),

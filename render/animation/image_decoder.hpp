@@ -19,7 +19,7 @@ struct DecodedFrame {
 /// @param format  apng, bmp, gif, jpeg, tiff or webp.
 /// @throws std::runtime_error if FFmpeg has no decoder of the format or the file is damaged;
 ///         std::bad_alloc.
-void decode_picture(const std::string& bytes, std::string_view format,
+void decode_image(const std::string& bytes, std::string_view format,
                     const std::function<void(const DecodedFrame&)>& take);
 
 }  // namespace mapproof

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Made by Pillow and matplotlib: tests/data/pictures/make.py.
-const fs::path kPictures = fs::path(MAPPROOF_TEST_DATA) / "pictures";
+// Made by Pillow and matplotlib: tests/data/image_formats/make.py.
+const fs::path kFormats = fs::path(MAPPROOF_TEST_DATA) / "image_formats";
 
 /// The first item of a comparison.
 nlohmann::json compared(const fs::path& baseline, const fs::path& current) {
@@ -27,7 +27,7 @@ nlohmann::json compared(const fs::path& baseline, const fs::path& current) {
 
 std::string cause(const nlohmann::json& item) { return item.at("cause").get<std::string>(); }
 
-class PictureFormats : public ::testing::TestWithParam<const char*> {
+class ImageFormats : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
     if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
@@ -36,34 +36,34 @@ class PictureFormats : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(PictureFormats, AreIdenticalToThemselves) {
-  const fs::path file = kPictures / "before" / GetParam();
+TEST_P(ImageFormats, AreIdenticalToThemselves) {
+  const fs::path file = kFormats / "before" / GetParam();
   EXPECT_EQ(compared(file, file).at("verdict"), "identical");
 }
 
-TEST_P(PictureFormats, ShowAMovedPointByTheirPixels) {
+TEST_P(ImageFormats, ShowAMovedPointByTheirPixels) {
   const nlohmann::json item =
-      compared(kPictures / "before" / GetParam(), kPictures / "after" / GetParam());
+      compared(kFormats / "before" / GetParam(), kFormats / "after" / GetParam());
   EXPECT_EQ(item.at("verdict"), "changed") << item;
   EXPECT_NE(cause(item).find("by its pixels alone"), std::string::npos) << cause(item);
   EXPECT_NE(cause(item).find("pixels changed"), std::string::npos) << cause(item);
 }
 
-TEST_P(PictureFormats, AreUnreadableIfTheyAreCut) {
+TEST_P(ImageFormats, AreUnreadableIfTheyAreCut) {
   const TemporaryFolder folder;
   const fs::path file = folder / GetParam();
-  const std::string whole = read_file(kPictures / "before" / GetParam());
+  const std::string whole = read_file(kFormats / "before" / GetParam());
   write_file(file, whole.substr(0, whole.size() * 2 / 3));
-  const nlohmann::json item = compared(kPictures / "before" / GetParam(), file);
+  const nlohmann::json item = compared(kFormats / "before" / GetParam(), file);
   EXPECT_EQ(item.at("verdict"), "unreadable") << item;
   EXPECT_NE(cause(item).find("the current file: "), std::string::npos) << cause(item);
 }
 
-TEST_P(PictureFormats, AreNotApprovedIfTheyAreCut) {
+TEST_P(ImageFormats, AreNotApprovedIfTheyAreCut) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "baseline");
   fs::create_directories(folder / "current");
-  const std::string whole = read_file(kPictures / "before" / GetParam());
+  const std::string whole = read_file(kFormats / "before" / GetParam());
   write_file(folder / "baseline" / GetParam(), whole);
   write_file(folder / "current" / GetParam(), whole.substr(0, whole.size() * 2 / 3));
   const Outcome outcome =
@@ -72,35 +72,35 @@ TEST_P(PictureFormats, AreNotApprovedIfTheyAreCut) {
   EXPECT_EQ(read_file(folder / "baseline" / GetParam()), whole);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfOthers, PictureFormats,
+INSTANTIATE_TEST_SUITE_P(OfOthers, ImageFormats,
                          ::testing::Values("plot.jpg", "plot.webp", "plot.tiff", "plot.gif",
                                            "plot.bmp", "plot.pdf"),
                          [](const auto& file) {
                            return std::string(file.param).substr(std::string_view("plot.").size());
                          });
 
-TEST(AnimatedPictures, AreComparedFrameByFrame) {
+TEST(AnimatedImages, AreComparedFrameByFrame) {
   if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
   for (const char* film : {"film.gif", "film.png"}) {
-    const nlohmann::json item = compared(kPictures / "before" / film, kPictures / "after" / film);
+    const nlohmann::json item = compared(kFormats / "before" / film, kFormats / "after" / film);
     EXPECT_EQ(item.at("verdict"), "changed") << film;
     EXPECT_NE(cause(item).find("frame 2 of 3"), std::string::npos) << cause(item);
   }
 }
 
-TEST(TransparentPictures, AreComparedOverBlackToo) {
+TEST(TransparentImages, AreComparedOverBlackToo) {
   if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
   const nlohmann::json item =
-      compared(kPictures / "before/transparent.png", kPictures / "after/transparent.png");
+      compared(kFormats / "before/transparent.png", kFormats / "after/transparent.png");
   EXPECT_EQ(item.at("verdict"), "changed");
   EXPECT_NE(cause(item).find("seen over black"), std::string::npos) << cause(item);
 }
 
-TEST(PictureFile, ThatIsAPointerOfGitLfsIsNamed) {
+TEST(ImageFileOnDisk, ThatIsAPointerOfGitLfsIsNamed) {
   const TemporaryFolder folder;
   const fs::path file = folder / "plot.png";
   write_file(file, "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12345\n");
-  const nlohmann::json item = compared(kPictures / "before/film.png", file);
+  const nlohmann::json item = compared(kFormats / "before/film.png", file);
   EXPECT_EQ(item.at("verdict"), "unreadable");
   EXPECT_NE(cause(item).find("git lfs pull"), std::string::npos) << cause(item);
 }
