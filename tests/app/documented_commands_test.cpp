@@ -26,6 +26,9 @@ const fs::path kRoot = MAPPROOF_SOURCE_DIR;
 /// placeholder: such lines show a command's form.
 const std::map<std::string, std::string> kNotRun = {
     {"mapproof reproduce mrclam --data FOLDER", "needs the MRCLAM sets"},
+    {"mapproof reproduce yairi2007 --out out", "takes minutes; other tests run its profile quick"},
+    {"mapproof render out --animate scene-forming-bearing --out docs/images", "needs that study"},
+    {"mapproof render out --figure published-errors --out docs/images", "needs that study"},
     {"mapproof render out/yairi2007 --theme paper --figure fig-7 --as pdf,eps,latex",
      "needs the study of scripts/report, of 12 minutes"},
     {"mapproof render out/yairi2007 --animate scene-forming-bearing --as mp4",
