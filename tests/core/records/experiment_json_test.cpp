@@ -74,7 +74,7 @@ TEST(ExperimentJson, GivesMethodsOfOthersToEverySensor) {
 TEST(RunJson, DescribesMethodsOfOthers) {
   const Method tsne =
       external_method({.name = "tsne", .label = "t-SNE", .source = "2008", .symbol = "perplexity"});
-  Run run{
+  mapproof::Run run{
       .id = {1, 1}, .world = {}, .anchors = {}, .occlusion = {}, .records = {}, .variations = {}};
   run.records.push_back({.sensor = Sensor::kBearing,
                          .setting = {tsne, 2.5},
@@ -83,7 +83,7 @@ TEST(RunJson, DescribesMethodsOfOthers) {
                                       status_of<StatusReason::kMethodTimeout>(0.5)},
                          .score = {}});
   const std::string text = run_json(run);
-  const Run again = parse_run(text, "run.json");
+  const mapproof::Run again = parse_run(text, "run.json");
   EXPECT_EQ(again.records[0].setting, run.records[0].setting);
   EXPECT_EQ(again.records[0].statuses, run.records[0].statuses);
   const auto error_without = [&](const char* key) {
