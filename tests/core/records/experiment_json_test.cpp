@@ -81,7 +81,8 @@ TEST(RunJson, DescribesMethodsOfOthers) {
                          .step = 10,
                          .statuses = {status_of<StatusReason::kMethodRefused>({"no licence"}),
                                       status_of<StatusReason::kMethodTimeout>(0.5)},
-                         .score = {}});
+                         .score = {},
+                         .certificate = {}});
   const std::string text = run_json(run);
   const mapproof::Run again = parse_run(text, "run.json");
   EXPECT_EQ(again.records[0].setting, run.records[0].setting);
