@@ -13,7 +13,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/words.hpp"
-#include "core/experiment/observed_checkpoint.hpp"
+#include "core/experiment/external_input.hpp"
 #include "core/records/observations/trajectories.hpp"
 
 namespace mapproof {

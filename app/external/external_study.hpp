@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/command_line.hpp"
-#include "core/experiment/observed_checkpoint.hpp"
+#include "core/experiment/run.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/study.hpp"
 #include "core/results/results_study.hpp"

@@ -14,7 +14,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/experiment/observed_checkpoint.hpp"
+#include "core/experiment/external_input.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/text_forms.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/embed/embedder.hpp"
-#include "core/experiment/observed_checkpoint.hpp"
+#include "core/experiment/external_input.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/external/method_process.hpp"
@@ -397,6 +397,24 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id, MethodProc
   }
   run.variations = vary(experiment, run, path);
   return result;
+}
+
+void observe_run(const Experiment& experiment, const RunId& run,
+                 const std::function<void(const ObservedCheckpoint&)>& use) {
+  const RunWorld made = make_run_world(experiment, run);
+  for (const SensorStudy& study : experiment.sensors) {
+    const ObservationHistory history = observed_in(experiment, run, made, study.sensor);
+    for (const int steps : study.checkpoints)
+      use({.run = run,
+           .sensor = study.sensor.sensor,
+           .steps = steps,
+           .history = {.sensor = history.sensor,
+                       .names = history.names,
+                       .values = history.values.leftCols(steps)},
+           .ground_truth_m = made.world.landmarks_m,
+           .anchors = made.anchors,
+           .seed = checkpoint_seed(experiment.seed, run, study.sensor.sensor, steps)});
+  }
 }
 
 }  // namespace mapproof

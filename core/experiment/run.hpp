@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <vector>
+
 #include "core/model/experiment.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/world.hpp"
@@ -41,5 +45,21 @@ ObservationHistory observed_in(const Experiment& experiment, const RunId& id, co
 ///         method of others has no process.
 RunResult simulate_run(const Experiment& experiment, const RunId& id,
                        MethodProcesses* others = nullptr);
+
+/// What one sensor of one run observed up to a checkpoint, for whoever maps it.
+struct ObservedCheckpoint {
+  RunId run;
+  Sensor sensor = Sensor::kVisibility;
+  int steps = 0;
+  ObservationHistory history;  ///< Of those steps alone.
+  Points ground_truth_m;       ///< M x 2.
+  std::vector<Eigen::Index> anchors;
+  std::uint64_t seed = 0;  ///< See checkpoint_seed().
+};
+
+/// Simulates the run of an experiment again, without mapping, and shows every checkpoint of every
+/// sensor in order. @throws InvalidInput as simulate_run().
+void observe_run(const Experiment& experiment, const RunId& run,
+                 const std::function<void(const ObservedCheckpoint&)>& use);
 
 }  // namespace mapproof

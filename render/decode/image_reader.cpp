@@ -233,7 +233,7 @@ void ImageReader::fail(std::string_view otherwise) {
   if (format_ == DecodedFormat::kPdf && (end.exit_code == kNotFound || end.exit_code == kNotRun))
     throw InvalidInput("PDF is drawn by pdftoppm of poppler-utils, which is not installed");
   throw InvalidInput(printable(
-      fmt::format("is no {} that can be read: {}", label(format_), said.empty() ? otherwise : said),
+      fmt::format("cannot be read as {}: {}", label(format_), said.empty() ? otherwise : said),
       500));
 }
 

@@ -25,6 +25,9 @@ const fs::path kRoot = MAPPROOF_SOURCE_DIR;
 /// Commands in lines of their own that do not run here, and why. What stands in capitals is a
 /// placeholder: such lines show a command's form.
 const std::map<std::string, std::string> kNotRun = {
+    {"mapproof reproduce yairi2007 --profile quick --methods methods.json --out out",
+     "needs methods of your own; external_methods_test runs those of examples/methods"},
+    {"mapproof import out files --out out-import", "needs maps made elsewhere"},
     {"mapproof reproduce mrclam --data FOLDER", "needs the MRCLAM sets"},
     {"mapproof reproduce yairi2007 --out out", "takes minutes; other tests run its profile quick"},
     {"mapproof render out --animate scene-forming-bearing --out docs/images", "needs that study"},

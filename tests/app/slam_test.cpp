@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
     Slam, BadSlamInput,
     ::testing::Values(BadSlam{"NoFolder", "", "", "", "log"},
                       BadSlam{"NoRanges", "t,beacon,range\n", "", "", "ranges.csv"},
-                      BadSlam{"NanRange", "t,beacon,range\n0,a,nan\n", "", "", "line 2"},
+                      BadSlam{"NanRange", "t,beacon,range\n0,a,nan\n", "", "", "holds no ranges"},
                       BadSlam{"NegativeRange", "t,beacon,range\n0,a,-1\n", "", "", "line 2"},
                       BadSlam{"HugeTime", "t,beacon,range\n1e300,a,1\n", "", "", "line 2"},
                       BadSlam{"BadOdometry", kRanges, "t,ddist,dheading\n1,x,0\n", "", "line 2"},

@@ -41,7 +41,7 @@ void fields(Visitor& v, ExternalMethod& method) {
   v.field("label", method.label, {.not_empty = true, .max_bytes = 100});
   v.field("source", method.source,
           {.description = "Author and year.", .max_bytes = 200, .key = Key::kIfAny});
-  v.field("input", method.input);
+  v.field("input", method.input, {.description = "What the command gets of each map."});
   v.field("command", method.command,
           {.description = "The program and its arguments, started in the folder of this file.",
            .min_items = 1,

@@ -25,8 +25,8 @@
 #include "core/records/studies/study_folder.hpp"
 #include "core/topics/study_kind.hpp"
 #include "core/topics/validate.hpp"
-#include "render/image/png_read.hpp"
 #include "render/decode/image_reader.hpp"
+#include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_settings.hpp"
@@ -55,7 +55,7 @@ void add_records(ApprovalFiles& files, const std::string& id, const fs::path& lo
 
 /// Whether files of the kind hold an image that is compared.
 bool is_decoded(std::string_view kind) {
-  constexpr std::array<std::string_view, 8> kKinds = {"bmp", "gif",  "jpeg", "jpg",
+  constexpr std::array<std::string_view, 8> kKinds = {"bmp", "gif", "jpeg", "jpg",
                                                       "pdf", "tif", "tiff", "webp"};
   return std::ranges::find(kKinds, kind) != kKinds.end();
 }
@@ -79,7 +79,7 @@ void read_as_what_it_is(const fs::path& file) {
   } else if (kind == "svg") {
     parse_svg(bytes);
   } else if (is_decoded(kind)) {
-    throw IoError(file.string(), "is no " + kind + " that can be read");
+    throw IoError(file.string(), "is not an image that can be read as " + kind);
   }
 }
 

@@ -224,7 +224,7 @@ class ImageComparer {
                                current.duration_ms, baseline.duration_ms);
   }
 
-  /// @param more  Pictures that the baseline alone has, less those that the current alone has.
+  /// @param more  Images that the baseline alone has, less those that the current alone has.
   void conclude(int more, Image* heat, ImageDiff& diff) {
     diff.pixels = worst_.found.pixels;
     diff.state = worst_.state;
@@ -315,7 +315,7 @@ std::string kind_problem(ImageFormat kind) {
   if (kind == ImageFormat::kEmpty) return "is empty";
   if (kind == ImageFormat::kPointer)
     return "is a pointer of Git LFS, not the image: run git lfs pull";
-  return kind == ImageFormat::kOther ? "is no image of a format that is compared" : "";
+  return kind == ImageFormat::kOther ? "is not an image of a format that is compared" : "";
 }
 
 /// An SVG file, or the reason why it cannot be read.

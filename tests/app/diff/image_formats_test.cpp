@@ -88,7 +88,7 @@ TEST(AnimatedImages, AreComparedFrameByFrame) {
   }
 }
 
-TEST(TransparentImages, AreComparedOverBlackToo) {
+TEST(TransparentImages, AreComparedOnBlackToo) {
   if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
   const nlohmann::json item =
       compared(kFormats / "before/transparent.png", kFormats / "after/transparent.png");

@@ -194,7 +194,7 @@ std::set<std::string> options_in_help(const std::string& help) {
       continue;
     std::istringstream words(line);
     for (std::string word; words >> word && word[0] == '-';)
-      if (word.starts_with("--")) names.insert(word.substr(0, word.find(',')));
+      if (word.starts_with("--")) names.insert(word.substr(0, word.find_first_of(",.")));
   }
   return names;
 }

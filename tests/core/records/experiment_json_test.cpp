@@ -68,7 +68,7 @@ TEST(ExperimentJson, GivesMethodsOfOthersToEverySensor) {
             "e.json: /external_methods/1/name: \"isomap\" is a method of mapproof");
   file["external_methods"][1]["name"] = "isomap-";
   file["external_methods"][1]["parameter"] = {{"symbol", "K"}, {"values", {4}}};
-  EXPECT_EQ(error_of([&] { parse_experiment(file.dump(), "e.json"); }), "");
+  EXPECT_NO_THROW(parse_experiment(file.dump(), "e.json"));
 }
 
 TEST(RunJson, DescribesMethodsOfOthers) {

@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"study", "/provenance/commit", nullptr},
         Damage{"study", "/provenance/libraries/0/version", 3}, Damage{"run", "/run/layout", 0},
         Damage{"run", "/world/landmarks_m/0", {1}}, Damage{"run", "/records/0/sensor", "sonar"},
-        Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", nullptr},
+        Damage{"run", "/records/0/K", 4}, Damage{"run", "/records/1/K", "six"},
         Damage{"run", "/records/1/statuses/0/code", "tired"},
         Damage{"run", "/records/1/certificate/solver", "magic"},
         Damage{"run", "/records/1/certificate/relative_gap", -1},

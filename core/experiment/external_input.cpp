@@ -1,24 +1,15 @@
-#include "core/experiment/observed_checkpoint.hpp"
+#include "core/experiment/external_input.hpp"
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
-#include "core/experiment/run.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/observe/features.hpp"
 #include "core/observe/proximities.hpp"
 
 namespace mapproof {
-namespace {
-
-ObservationHistory first_steps(const ObservationHistory& history, int steps) {
-  return {
-      .sensor = history.sensor, .names = history.names, .values = history.values.leftCols(steps)};
-}
-
-}  // namespace
 
 Eigen::MatrixXd external_input(const ObservationHistory& history, int steps, ExternalInput input) {
   switch (input) {
@@ -50,22 +41,6 @@ std::uint64_t checkpoint_seed(std::uint64_t seed, const RunId& run, Sensor senso
                       static_cast<std::uint64_t>(run.pose), static_cast<std::uint64_t>(sensor),
                       static_cast<std::uint64_t>(steps)}) >>
          kUnusedBits;
-}
-
-void observe_run(const Experiment& experiment, const RunId& run,
-                 const std::function<void(const ObservedCheckpoint&)>& use) {
-  const RunWorld made = make_run_world(experiment, run);
-  for (const SensorStudy& study : experiment.sensors) {
-    const ObservationHistory history = observed_in(experiment, run, made, study.sensor);
-    for (const int steps : study.checkpoints)
-      use({.run = run,
-           .sensor = study.sensor.sensor,
-           .steps = steps,
-           .history = first_steps(history, steps),
-           .ground_truth_m = made.world.landmarks_m,
-           .anchors = made.anchors,
-           .seed = checkpoint_seed(experiment.seed, run, study.sensor.sensor, steps)});
-  }
 }
 
 }  // namespace mapproof
