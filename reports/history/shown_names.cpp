@@ -58,10 +58,10 @@ std::string shown_method(const StudyLabels& labels, const std::string& method) {
   const std::size_t declared = declared_size(labels, method);
   const std::size_t size = declared > 0 ? declared : levels_begin(method);
   const std::string id = method.substr(0, size), rest = method.substr(size);
-  const bool has_own_methods = labels.methods.empty() || labels.setups.empty();
-  const std::string shown = declared > 0      ? labels.methods.at(id)
-                            : has_own_methods ? shown_setting(id)
-                                              : id;
+  const bool is_of_mapproof = labels.methods.empty() || labels.setups.empty();
+  const std::string shown = declared > 0     ? labels.methods.at(id)
+                            : is_of_mapproof ? shown_setting(id)
+                                             : id;
   // Levels, or whom it is of.
   return rest.empty() || rest.starts_with(" of ") ? shown + rest : shown + ", " + rest.substr(1);
 }

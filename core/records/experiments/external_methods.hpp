@@ -38,7 +38,8 @@ void fields(Visitor& v, ExternalMethod& method) {
   v.type("external_method");
   v.field("name", method.name,
           {.description = "Unlike those of mapproof.", .max_bytes = 40, .form = &kPlainId});
-  v.field("label", method.label, {.not_empty = true, .max_bytes = 100});
+  v.field("label", method.label,
+          {.description = "Its name in tables and figures.", .not_empty = true, .max_bytes = 100});
   v.field("source", method.source,
           {.description = "Author and year.", .max_bytes = 200, .key = Key::kIfAny});
   v.field("input", method.input, {.description = "What the command gets of each map."});
@@ -59,12 +60,20 @@ void fields(Visitor& v, ExternalMethod& method) {
            .above_minimum = true,
            .key = Key::kOptional});
   const auto visit = [&](auto& parameter) {
-    parameter.field("symbol", method.symbol, {.max_bytes = 20, .form = &kSymbol});
     parameter.field(
-        "values", method.values,
-        {.whole_as_integers = true, .ascending = true, .min_items = 1, .max_items = 100});
+        "symbol", method.symbol,
+        {.description = "As tables and figures show it.", .max_bytes = 20, .form = &kSymbol});
+    parameter.field("values", method.values,
+                    {.description = "One method for each value.",
+                     .whole_as_integers = true,
+                     .ascending = true,
+                     .min_items = 1,
+                     .max_items = 100});
   };
-  v.group("parameter", visit, {.key = Key::kOptional, .written = !method.symbol.empty()});
+  v.group("parameter", visit,
+          {.description = "What the method is tuned by.",
+           .key = Key::kOptional,
+           .written = !method.symbol.empty()});
 }
 
 /// methods.json.
