@@ -28,20 +28,13 @@ constexpr int kMillisecondsASecond = 1000;
 
 struct FreeFormat {
   void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) av_freep(&format->pb->buffer);
+    if (format->pb != nullptr) av_free(format->pb->buffer);
     avio_context_free(&format->pb);
     avformat_free_context(format);
   }
 };
 struct FreeGraph {
   void operator()(AVFilterGraph* graph) const { avfilter_graph_free(&graph); }
-};
-
-/// A file in memory. FFmpeg's own dynamic buffer appends padding at the current offset, which is
-/// inside the file here: the number of frames is written into the header last.
-struct MemoryFile {
-  std::string bytes;
-  std::size_t at = 0;
 };
 
 /// FFmpeg 7 and newer hand over const bytes.
@@ -59,17 +52,8 @@ int write_to_memory(void* opaque, Byte* data, int size) {
   return size;
 }
 
-std::int64_t seek_in_memory(void* opaque, std::int64_t offset, int whence) {
-  auto& file = *static_cast<MemoryFile*>(opaque);
-  const auto size = static_cast<std::int64_t>(file.bytes.size());
-  if (whence == AVSEEK_SIZE) return size;
-  if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(file.at);
-  if (whence == SEEK_END) offset += size;
-  if (offset < 0 || offset > size) return AVERROR(EINVAL);
-  file.at = static_cast<std::size_t>(offset);
-  return offset;
-}
-
+/// FFmpeg's own dynamic buffer appends padding at the current offset, which is inside the file
+/// here: the number of frames is written into the header last.
 AVIOContext* opened(MemoryFile& file) {
   constexpr int kBlock = 1 << 16;
   auto* block = static_cast<std::uint8_t*>(made(av_malloc(kBlock)));

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/base/out_of_memory.hpp"
@@ -67,7 +68,7 @@ void decode(std::string_view format) {
   std::array<char, 1 << 16> block{};
   while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin))
     bytes.append(block.data(), got);
-  decode_image(bytes, format, [](const DecodedFrame& frame) {
+  decode_image(std::move(bytes), format, [](const DecodedFrame& frame) {
     std::array<char, 64> head{};
     const int length = std::snprintf(head.data(), head.size(), "%d %d %d\n", frame.width,
                                      frame.height, frame.duration_ms);

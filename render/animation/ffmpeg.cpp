@@ -2,8 +2,13 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
+
+extern "C" {
+#include <libavformat/avio.h>
+}
 
 namespace mapproof {
 
@@ -14,6 +19,17 @@ int checked(int answer, const char* what) {
   std::array<char, AV_ERROR_MAX_STRING_SIZE> words{};
   av_strerror(answer, words.data(), words.size());
   throw std::runtime_error(std::string(what) + ": " + words.data());
+}
+
+std::int64_t seek_in_memory(void* opaque, std::int64_t offset, int whence) {
+  auto& file = *static_cast<MemoryFile*>(opaque);
+  const auto size = static_cast<std::int64_t>(file.bytes.size());
+  if (whence == AVSEEK_SIZE) return size;
+  if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(file.at);
+  if (whence == SEEK_END) offset += size;
+  if (offset < 0 || offset > size) return AVERROR(EINVAL);
+  file.at = static_cast<std::size_t>(offset);
+  return offset;
 }
 
 Frame new_frame(AVPixelFormat format, int width, int height) {

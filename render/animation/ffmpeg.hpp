@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
+#include <string>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -38,6 +41,15 @@ using Codec = std::unique_ptr<AVCodecContext, FreeCodec>;
 using Converter = std::unique_ptr<SwsContext, FreeConverter>;
 using Frame = std::unique_ptr<AVFrame, FreeFrame>;
 using Packet = std::unique_ptr<AVPacket, FreePacket>;
+
+/// A file in memory, which FFmpeg reads or writes.
+struct MemoryFile {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+/// The callback of an AVIOContext on a MemoryFile that goes to an offset.
+std::int64_t seek_in_memory(void* opaque, std::int64_t offset, int whence);
 
 /// A frame with room for its pixels.
 Frame new_frame(AVPixelFormat format, int width, int height);

@@ -12,15 +12,12 @@
 
 extern "C" {
 #include <libavformat/avformat.h>
-#include <libavutil/pixdesc.h>
 }
 
 #include "render/animation/ffmpeg.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
 /// What the formats differ in.
 struct Traits {
@@ -55,7 +52,7 @@ Codec opened_codec(const Traits& traits, const AVCodecParameters* facts) {
   Codec codec(made(avcodec_alloc_context3(kind)));
   if (facts != nullptr) decoded(avcodec_parameters_to_context(codec.get(), facts));
   codec->thread_count = 1;
-  codec->max_pixels = kMostPixels;
+  codec->max_pixels = kMostDecodedPixels;
   // What cannot be decoded whole is refused, not guessed.
   codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
   codec->error_concealment = 0;
@@ -146,47 +143,31 @@ void decode_still(const std::string& bytes, const Traits& traits, const Take& ta
   if (source.frames() == 0) throw std::runtime_error("it holds no image");
 }
 
-/// A file in memory, as FFmpeg reads it.
-struct MemoryInput {
-  const std::string& bytes;
-  std::size_t at = 0;
-};
-
-int read_memory(void* opaque, std::uint8_t* to, int size) {
-  auto& input = *static_cast<MemoryInput*>(opaque);
+int read_from_memory(void* opaque, std::uint8_t* to, int size) {
+  auto& input = *static_cast<MemoryFile*>(opaque);
   const std::size_t count = std::min(static_cast<std::size_t>(size), input.bytes.size() - input.at);
   if (count == 0) return AVERROR_EOF;
-  std::memcpy(to, input.bytes.data() + input.at, count);
+  std::copy_n(input.bytes.data() + input.at, count, to);
   input.at += count;
   return static_cast<int>(count);
-}
-
-std::int64_t seek_memory(void* opaque, std::int64_t offset, int whence) {
-  auto& input = *static_cast<MemoryInput*>(opaque);
-  const auto size = static_cast<std::int64_t>(input.bytes.size());
-  if (whence == AVSEEK_SIZE) return size;
-  if (whence == SEEK_CUR) offset += static_cast<std::int64_t>(input.at);
-  if (whence == SEEK_END) offset += size;
-  if (offset < 0 || offset > size) return AVERROR(EINVAL);
-  input.at = static_cast<std::size_t>(offset);
-  return offset;
 }
 
 struct CloseInput {
   void operator()(AVFormatContext* format) const {
     AVIOContext* io = format->pb;
     avformat_close_input(&format);
-    if (io != nullptr) av_freep(&io->buffer);
+    if (io != nullptr) av_free(io->buffer);
     avio_context_free(&io);
   }
 };
 using Input = std::unique_ptr<AVFormatContext, CloseInput>;
 
-Input opened_input(MemoryInput& memory, const char* demuxer) {
+Input opened_input(MemoryFile& memory, const char* demuxer) {
   constexpr int kBlock = 1 << 16;
   Input input(made(avformat_alloc_context()));
   auto* block = static_cast<std::uint8_t*>(made(av_malloc(kBlock)));
-  input->pb = avio_alloc_context(block, kBlock, 0, &memory, read_memory, nullptr, seek_memory);
+  input->pb =
+      avio_alloc_context(block, kBlock, 0, &memory, read_from_memory, nullptr, seek_in_memory);
   if (input->pb == nullptr) av_free(block);
   made(input->pb);
   AVDictionary* options = nullptr;
@@ -197,15 +178,15 @@ Input opened_input(MemoryInput& memory, const char* demuxer) {
   av_dict_free(&options);
   if (answer < 0) {  // It freed the context, but not what it reads from.
     static_cast<void>(input.release());
-    av_freep(&io->buffer);
+    av_free(io->buffer);
     avio_context_free(&io);
     decoded(answer);
   }
   return input;
 }
 
-void decode_animation(const std::string& bytes, const Traits& traits, const Take& take) {
-  MemoryInput memory{bytes};
+void decode_animation(std::string bytes, const Traits& traits, const Take& take) {
+  MemoryFile memory{std::move(bytes)};
   const Input input = opened_input(memory, traits.demuxer);
   if (input->nb_streams == 0) throw std::runtime_error("it holds no image");
   const AVStream& stream = *input->streams[0];
@@ -224,13 +205,13 @@ void decode_animation(const std::string& bytes, const Traits& traits, const Take
 
 }  // namespace
 
-void decode_image(const std::string& bytes, std::string_view format, const Take& take) {
+void decode_image(std::string bytes, std::string_view format, const Take& take) {
   av_log_set_level(AV_LOG_QUIET);
   const Traits& traits = traits_of(format);
   if (traits.demuxer == nullptr)
     decode_still(bytes, traits, take);
   else
-    decode_animation(bytes, traits, take);
+    decode_animation(std::move(bytes), traits, take);
 }
 
 }  // namespace mapproof

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
 
 namespace mapproof {
+
+inline constexpr std::int64_t kMostDecodedPixels = std::int64_t{1} << 26;  ///< Of a frame.
 
 /// A frame as a viewer shows it.
 struct DecodedFrame {
@@ -19,7 +21,7 @@ struct DecodedFrame {
 /// @param format  apng, bmp, gif, jpeg, tiff or webp.
 /// @throws std::runtime_error if FFmpeg has no decoder of the format or the file is damaged;
 ///         std::bad_alloc.
-void decode_image(const std::string& bytes, std::string_view format,
-                    const std::function<void(const DecodedFrame&)>& take);
+void decode_image(std::string bytes, std::string_view format,
+                  const std::function<void(const DecodedFrame&)>& take);
 
 }  // namespace mapproof

@@ -7,6 +7,7 @@
 
 #include "core/base/child_process.hpp"
 #include "core/base/files/descriptor.hpp"
+#include "render/animation/image_decoder.hpp"
 #include "render/image/image.hpp"
 
 namespace mapproof {
@@ -34,8 +35,7 @@ struct DecodedImage {
 /// these.
 class ImageReader {
  public:
-  static constexpr int kLargestSide = 32'768;                         ///< Pixels.
-  static constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;  ///< Of a image.
+  static constexpr int kLargestSide = 32'768;  ///< Pixels, of at most kMostDecodedPixels.
 
   /// @throws InvalidInput with the reason if the program is missing.
   ImageReader(std::string_view bytes, DecodedFormat format);

@@ -152,8 +152,8 @@ class SpaceScene {
     const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
     if (far > 0)
       scene_.notes.push_back({fmt::format("{}: {} far outside.", title,
-                                          far == 1 ? "1 estimated place is"
-                                                   : fmt::format("{} estimated places are", far)),
+                                          far == 1 ? "1 estimated position is"
+                                                   : fmt::format("{} estimated positions are", far)),
                               ThemeColour::kWarning});
     if (tube.points.size() > 1) add(std::move(tube));
   }

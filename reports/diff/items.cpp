@@ -85,6 +85,8 @@ std::string kind_seen(const fs::path& file) {
 
 }  // namespace
 
+bool is_decoded(std::string_view kind) { return class_of(kind) == KindClass::kImage; }
+
 bool is_not_compared(std::string_view kind) { return class_of(kind) == KindClass::kOther; }
 
 ItemName item_name(const fs::path& file, const fs::path& folder) {

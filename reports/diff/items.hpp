@@ -34,6 +34,9 @@ ItemList list_items(const std::filesystem::path& path);
 /// "ID@KEY".
 void join_keyed(ItemList& baseline, const ItemList& current);
 
+/// Whether images of the format are compared by what they show.
+bool is_decoded(std::string_view kind);
+
 /// Formats of images that are compared by their bytes alone, as nothing here decodes them.
 bool is_not_compared(std::string_view kind);
 

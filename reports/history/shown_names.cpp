@@ -58,6 +58,7 @@ std::string shown_method(const StudyLabels& labels, const std::string& method) {
   const std::size_t declared = declared_size(labels, method);
   const std::size_t size = declared > 0 ? declared : levels_begin(method);
   const std::string id = method.substr(0, size), rest = method.substr(size);
+  // A study of results labels its setups; what it does not declare is not a method of mapproof.
   const bool is_of_mapproof = labels.methods.empty() || labels.setups.empty();
   const std::string shown = declared > 0     ? labels.methods.at(id)
                             : is_of_mapproof ? shown_setting(id)

@@ -53,11 +53,19 @@ void add_records(ApprovalFiles& files, const std::string& id, const fs::path& lo
     files[id].insert((location / "timings.jsonl").lexically_relative(root));
 }
 
-/// Whether files of the kind hold an image that is compared.
-bool is_decoded(std::string_view kind) {
-  constexpr std::array<std::string_view, 8> kKinds = {"bmp", "gif", "jpeg", "jpg",
-                                                      "pdf", "tif", "tiff", "webp"};
-  return std::ranges::find(kKinds, kind) != kKinds.end();
+/// @throws IoError or InvalidInput unless it is an image that can be decoded whole.
+void read_image(const fs::path& file, const std::string& kind) {
+  const std::string bytes = read_file(file);
+  if (const auto format = decoded_format(bytes)) {
+    ImageReader reader(bytes, *format);
+    while (reader.next()) continue;
+  } else if (kind == "png") {
+    read_png(bytes);
+  } else if (kind == "svg") {
+    parse_svg(bytes);
+  } else {
+    throw IoError(file.string(), "is not an image that can be read as " + kind);
+  }
 }
 
 void read_as_what_it_is(const fs::path& file) {
@@ -71,15 +79,8 @@ void read_as_what_it_is(const fs::path& file) {
   } else if (name.ends_with(".json")) {
     for (const Finding& finding : validate(file))
       if (!finding.problem.empty()) throw InvalidInput(finding.problem);
-  } else if (const std::string bytes = read_file(file); const auto format = decoded_format(bytes)) {
-    ImageReader reader(bytes, *format);
-    while (reader.next()) continue;
-  } else if (kind == "png") {
-    read_png(bytes);
-  } else if (kind == "svg") {
-    parse_svg(bytes);
   } else if (is_decoded(kind)) {
-    throw IoError(file.string(), "is not an image that can be read as " + kind);
+    read_image(file, kind);
   }
 }
 

@@ -187,22 +187,27 @@ struct DecodedComparison {
   Image baseline;  ///< Over that ground.
 };
 
-DecodedComparison compared_over(const Image& baseline, const Image& current,
-                                const ImageOptions& options) {
-  PixelComparison found = pixel_diff(baseline, current, options);
+DecodedComparison compared_over(Image baseline, Image current, const ImageOptions& options) {
+  PixelComparison found = pixel_diff(baseline, std::move(current), options);
   const ImageState state = state_of(found.pixels, options);
-  return {state, std::move(found), baseline};
+  return {state, std::move(found), std::move(baseline)};
 }
 
-DecodedComparison compared(const DecodedImage& baseline, const DecodedImage& current,
+/// What a viewer shows over black: an opaque image is the same there.
+Image over_black(const DecodedImage& image) {
+  return image.over_black ? *image.over_black : image.over_white;
+}
+
+DecodedComparison compared(DecodedImage baseline, DecodedImage current,
                            const ImageOptions& options) {
-  DecodedComparison white = compared_over(baseline.over_white, current.over_white, options);
-  if (!baseline.over_black && !current.over_black) return white;
-  DecodedComparison black =
-      compared_over(baseline.over_black ? *baseline.over_black : baseline.over_white,
-                    current.over_black ? *current.over_black : current.over_white, options);
-  return differs_more(black.state, black.found.pixels, white.state, white.found.pixels) ? black
-                                                                                        : white;
+  std::optional<DecodedComparison> black;
+  if (baseline.over_black || current.over_black)
+    black = compared_over(over_black(baseline), over_black(current), options);
+  DecodedComparison white =
+      compared_over(std::move(baseline.over_white), std::move(current.over_white), options);
+  return black && differs_more(black->state, black->found.pixels, white.state, white.found.pixels)
+             ? *std::move(black)
+             : std::move(white);
 }
 
 /// Compares files image by image, and keeps the result of the one that differs most.
@@ -211,17 +216,17 @@ class ImageComparer {
   ImageComparer(const ImageOptions& options, DecodedFormat format)
       : options_(options), noun_(format == DecodedFormat::kPdf ? "page" : "frame") {}
 
-  void add(const DecodedImage& baseline, const DecodedImage& current) {
+  void add(DecodedImage baseline, DecodedImage current) {
     ++count_;
-    DecodedComparison next = compared(baseline, current, options_);
+    if (baseline.duration_ms != current.duration_ms && durations_.empty())
+      durations_ = fmt::format("frame {} is shown for {} ms, and was for {} ms", count_,
+                               current.duration_ms, baseline.duration_ms);
+    DecodedComparison next = compared(std::move(baseline), std::move(current), options_);
     if (count_ == 1 ||
         differs_more(next.state, next.found.pixels, worst_.state, worst_.found.pixels)) {
       worst_ = std::move(next);
       worst_number_ = count_;
     }
-    if (baseline.duration_ms != current.duration_ms && durations_.empty())
-      durations_ = fmt::format("frame {} is shown for {} ms, and was for {} ms", count_,
-                               current.duration_ms, baseline.duration_ms);
   }
 
   /// @param more  Images that the baseline alone has, less those that the current alone has.
@@ -253,32 +258,40 @@ class ImageComparer {
   std::string durations_;
 };
 
-void compare_frames(std::string_view before, std::string_view after, DecodedFormat format,
-                    const ImageOptions& options, Image* heat, ImageDiff& diff) {
+/// The state, the reason and the pixels of a comparison by decoded images.
+ImageDiff frame_diff(std::string_view before, std::string_view after, DecodedFormat format,
+                     const ImageOptions& options, Image* heat) {
   DecodedSide baseline(before, format), current(after, format);
   ImageComparer comparer(options, format);
   int more = 0;
   while (true) {
-    const std::optional<DecodedImage> was = baseline.next(), is = current.next();
+    std::optional<DecodedImage> was = baseline.next(), is = current.next();
     if (!was && !is) break;
     if (was && is)
-      comparer.add(*was, *is);
+      comparer.add(*std::move(was), *std::move(is));
     else
       more += was ? 1 : -1;
   }
+  ImageDiff diff;
   diff.reason = unreadable(baseline.reason(), current.reason());
   if (diff.reason.empty()) comparer.conclude(more, heat, diff);
+  return diff;
+}
+
+/// Takes over what frame_diff() found.
+void take(ImageDiff found, ImageDiff& diff) {
+  diff.state = found.state;
+  diff.reason = std::move(found.reason);
+  diff.pixels = found.pixels;
 }
 
 /// What is seen over black only, where PNGs of equal pixels over white differ in transparency.
 void compare_over_black(std::string_view before, std::string_view after,
                         const ImageOptions& options, Image* heat, ImageDiff& diff) {
-  ImageDiff over_black;
-  compare_frames(before, after, DecodedFormat::kPng, options, heat, over_black);
-  if (over_black.state != ImageState::kDifferent) return;
-  diff.state = over_black.state;
-  diff.pixels = over_black.pixels;
-  diff.reason = over_black.reason + ", seen over black";
+  ImageDiff on_black = frame_diff(before, after, DecodedFormat::kPng, options, heat);
+  if (on_black.state != ImageState::kDifferent) return;
+  on_black.reason += ", seen over black";
+  take(std::move(on_black), diff);
 }
 
 void compare_pngs(std::string_view before, std::string_view after, const ImageOptions& options,
@@ -391,7 +404,7 @@ ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesyste
     if (before == after)
       set_equal(diff);
     else
-      compare_frames(before, after, *decoded_format(before), options, heat, diff);
+      take(frame_diff(before, after, *decoded_format(before), options, heat), diff);
   } else if (first == ImageFormat::kPng) {
     compare_pngs(before, after, options, heat, diff);
   } else {
