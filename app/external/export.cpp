@@ -120,7 +120,7 @@ Action export_command(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof export out --what distances,features --format npy --out files\n"
-      "  mapproof import out files --out out-bench\n\n"
+      "  mapproof import out files --out out-import\n\n"
       "RUN/SENSOR/STEPS/distances.npy and others have one row per landmark, in the order of\n"
       "RUN/ground-truth.csv. RUN/anchors.csv has the landmarks with known position.\n");
   app.add_option("STUDY", arguments->study, "Folder of a study of the mapping methods")

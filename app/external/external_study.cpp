@@ -242,17 +242,16 @@ void check_external_folder(const fs::path& folder) {
 }
 
 int write_external_study(const Study& study, const std::vector<ExternalMap>& maps,
-                         const MethodLabels& methods, const std::string& made_of,
-                         const ExternalOutputs& outputs, const Invocation& invocation) {
+                         const MethodLabels& methods, const ExternalOutputs& outputs,
+                         const Invocation& invocation) {
   const Templates page = load_templates(outputs.templates);
   ResultsStudy results = results_with(study, maps, methods, outputs);
   const std::string lost = lost_text(maps);
   results.question = fmt::format(
       "The methods of the study \"{}\"{} and methods of others map the same observations, "
-      "are aligned to the same anchors and scored alike. {}{}",
+      "are aligned to the same anchors and scored alike. Maps of others were imported as files.{}",
       study.experiment.name,
-      outputs.all ? "" : ", each with the parameter of the lowest mean MPE at the end,", made_of,
-      lost);
+      outputs.all ? "" : ", each with the parameter of the lowest mean MPE at the end,", lost);
   make_folder(outputs.out);
   const FolderLock lock(outputs.out);
   remove_leftovers(outputs.out);

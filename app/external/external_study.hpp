@@ -58,11 +58,10 @@ void check_external_folder(const std::filesystem::path& folder);
 
 /// Writes a study of results with the rows of the study's own methods and those of others, its
 /// report, and the result of the command.
-/// @param made_of  What the methods of others are, a sentence for the summary.
 /// @return The exit code: kNo if every map of others is lost.
 int write_external_study(const Study& study, const std::vector<ExternalMap>& maps,
-                         const MethodLabels& methods, const std::string& made_of,
-                         const ExternalOutputs& outputs, const Invocation& invocation);
+                         const MethodLabels& methods, const ExternalOutputs& outputs,
+                         const Invocation& invocation);
 
 /// Adds --out, --name, --all, --templates and --jobs.
 void add_external_outputs(CLI::App& app, ExternalOutputs& outputs);

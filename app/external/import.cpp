@@ -125,8 +125,7 @@ int import_maps(const ImportArguments& arguments, const Invocation& invocation) 
   add_lost(study.experiment, study.runs, methods, maps);
   MethodLabels labels;
   for (const std::string& method : methods) labels.push_back({method, method});
-  return write_external_study(study, maps, labels, "Maps of others were imported as files.",
-                              arguments.outputs, invocation);
+  return write_external_study(study, maps, labels, arguments.outputs, invocation);
 }
 
 }  // namespace
@@ -137,7 +136,7 @@ Action import_command(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof export out --out files\n"
-      "  mapproof import out files --out out-bench\n\n"
+      "  mapproof import out files --out out-import\n\n"
       "MAPS/RUN/SENSOR/STEPS/METHOD.csv holds one map: name, x_m, y_m in any frame; a landmark "
       "may\n"
       "be missing. A map that a method gave of some checkpoint and not of another one is lost.\n");

@@ -255,6 +255,8 @@ class ExternalEmbedder {
                    const ObservationHistory& history, int step, MethodProcesses* others)
       : experiment_(experiment), run_(run), history_(history), step_(step), others_(others) {}
 
+  int step() const { return step_; }
+
   /// Landmarks that were never observed get no position, as by mapproof's methods.
   Embedding embed(const ExternalMethod& method, const MethodSetting& setting) {
     if (others_ == nullptr)
@@ -299,12 +301,12 @@ class ExternalEmbedder {
   MethodProcesses* others_;
 };
 
-/// Builds, scores and keeps the maps of one sensor after `step` observations.
+/// Builds, scores and keeps the maps of one sensor after external.step() observations.
 void map_at(const Experiment& experiment, const ObservationHistory& history,
-            const SensorStudy& study, int step, MethodProcesses* others, RunResult& result) {
+            const SensorStudy& study, ExternalEmbedder external, RunResult& result) {
   const Run& run = result.run;
+  const int step = external.step();
   HistoryEmbedder embedder(history, step, embedder_options(experiment.solver));
-  ExternalEmbedder external(experiment, run.id, history, step, others);
   for (const MethodSetting& setting : settings_of(study)) {
     const Clock::time_point start = Clock::now();
     const ExternalMethod* method = find_external(experiment, setting.method);
@@ -393,7 +395,8 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id, MethodProc
       run.occlusion = count_occlusion(run.world, path, study.sensor);
     result.details.sensors.push_back(sensor_details(study, run.world, path, history));
     for (const int step : study.checkpoints)
-      map_at(experiment, history, study, step, others, result);
+      map_at(experiment, history, study, {experiment, result.run.id, history, step, others},
+             result);
   }
   run.variations = vary(experiment, run, path);
   return result;
