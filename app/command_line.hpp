@@ -13,7 +13,7 @@
 #include "app/disclosure.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/slam_experiment.hpp"
-#include "core/topics/study_plan.hpp"
+#include "core/studies/study_plan.hpp"
 
 namespace mapproof {
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/exit_codes.hpp"
-#include "core/topics/study_plan.hpp"
+#include "core/studies/study_plan.hpp"
 
 namespace mapproof {
 

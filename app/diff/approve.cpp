@@ -31,7 +31,7 @@ struct ApproveArguments {
   std::string baseline;
   std::string current;
   std::string from;
-  ApprovalOrder order;
+  ApprovalRequest request;
 };
 
 /// Whether CURRENT is a file; then no ids are needed.
@@ -40,16 +40,16 @@ bool are_files(const ApproveArguments& arguments) {
   return fs::exists(arguments.current, error) && !fs::is_directory(arguments.current, error);
 }
 
-ApprovalOrder order_of(const ApproveArguments& arguments) {
-  ApprovalOrder order = arguments.order;
+ApprovalRequest request_of(const ApproveArguments& arguments) {
+  ApprovalRequest request = arguments.request;
   if (!arguments.from.empty())
     for (std::string& id : parse_approvals(read_file(arguments.from, kLargestFile), arguments.from))
-      order.ids.push_back(std::move(id));
-  if (order.all && !order.ids.empty())
+      request.ids.push_back(std::move(id));
+  if (request.all && !request.ids.empty())
     throw InvalidInput("--all takes every item: give no ids with it");
-  if (!order.all && order.ids.empty() && arguments.from.empty() && !are_files(arguments))
+  if (!request.all && request.ids.empty() && arguments.from.empty() && !are_files(arguments))
     throw InvalidInput("give the ids to approve, --all or --from FILE");
-  return order;
+  return request;
 }
 
 /// @return The steps that were done.
@@ -59,7 +59,7 @@ ApprovalPlan take_file(const fs::path& baseline, const fs::path& current) {
 }
 
 ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
-                         const ApprovalOrder& order) {
+                         const ApprovalRequest& request) {
   const fs::path real = real_path(baseline);
   recover_folder(real);
   std::optional<FolderLock> lock;
@@ -68,7 +68,7 @@ ApprovalPlan take_folder(const fs::path& baseline, const fs::path& current,
     remove_leftovers(real);
     refuse_links_out(real);
   }
-  ApprovalPlan plan = approval_plan(baseline, current, order);
+  ApprovalPlan plan = approval_plan(baseline, current, request);
   apply(plan, baseline);
   return plan;
 }
@@ -88,10 +88,10 @@ std::set<fs::path> stale_reports(const ApprovalPlan& plan, const fs::path& basel
 }
 
 int approve(const ApproveArguments& arguments, const Invocation& invocation) {
-  const ApprovalOrder order = order_of(arguments);
+  const ApprovalRequest request = request_of(arguments);
   const fs::path baseline = arguments.baseline, current = arguments.current;
   const ApprovalPlan plan =
-      are_files(arguments) ? take_file(baseline, current) : take_folder(baseline, current, order);
+      are_files(arguments) ? take_file(baseline, current) : take_folder(baseline, current, request);
   nlohmann::ordered_json object{{"baseline", arguments.baseline},
                                 {"written", nlohmann::ordered_json::array()},
                                 {"removed", nlohmann::ordered_json::array()}};
@@ -146,13 +146,13 @@ Action approve_command(CLI::App& app) {
   app.add_option("CURRENT", arguments->current, "The one that is taken")
       ->required()
       ->check(names_folder());
-  app.add_option("ID", arguments->order.ids, "Figures, tables, images, or \"records\"");
-  app.add_flag("--all", arguments->order.all, "Every item; those that CURRENT lacks are removed");
-  app.add_flag("--force", arguments->order.force,
+  app.add_option("ID", arguments->request.ids, "Figures, tables, images, or \"records\"");
+  app.add_flag("--all", arguments->request.all, "Every item; those that CURRENT lacks are removed");
+  app.add_flag("--force", arguments->request.force,
                "--all may remove more than half of the baseline's files");
   app.add_option("--from", arguments->from, "File of approvals, as the page of a diff writes it");
   app.add_option(
-      "--key", arguments->order.key,
+      "--key", arguments->request.key,
       "Keep the images in addition to the others, as ID@KEY: those of another valid renderer");
   return [arguments](const Invocation& invocation) { return approve(*arguments, invocation); };
 }

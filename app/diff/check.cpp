@@ -9,7 +9,7 @@
 #include "app/diff/diff_options.hpp"
 #include "app/output_paths.hpp"
 #include "app/study/folder_report.hpp"
-#include "app/study/study_order.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/paths.hpp"
@@ -25,15 +25,15 @@ struct CheckArguments {
   std::string baseline;
   std::string out = "out/check";
   int jobs = 1;
-  OrderOptions order{.profile = "full"};
+  StudyOptions request{.profile = "full"};
   DiffOptions options;
 };
 
 /// Makes the records of the experiment, its figures and its report.
 void make_candidate(const CheckArguments& arguments, const Invocation& invocation) {
-  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.order);
-  check_data_used({&order, 1}, arguments.order);
-  make_study(order, arguments.out, arguments.jobs,
+  const StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.request);
+  check_data_used({&request, 1}, arguments.request);
+  make_study(request, arguments.out, arguments.jobs,
              {invocation.command, invocation.disclosure.host()}, invocation.console);
   const FolderLock lock(arguments.out);
   write_report(read_folder_report(arguments.out, invocation.command, ""),
@@ -95,13 +95,13 @@ Action check_command(CLI::App& app) {
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->order.profile, "One of the profiles in the experiment, such as quick; full is all of it")
+  app.add_option("--profile", arguments->request.profile, "One of the profiles in the experiment, such as quick; full is all of it")
       ->capture_default_str()
       ->group("Experiment");
   group_options(app, {{"Comparison", {"--baseline"}}});
   add_jobs_option(app, arguments->jobs);
-  add_experiment_options(app, arguments->order.changes);
-  add_data_options(app, arguments->order);
+  add_experiment_options(app, arguments->request.changes);
+  add_data_options(app, arguments->request);
   add_diff_options(app, arguments->options);
   return [arguments](const Invocation& invocation) { return check(*arguments, invocation); };
 }

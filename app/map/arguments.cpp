@@ -105,13 +105,13 @@ void add_capability_options(CLI::App& app, MapJob& job) {
 /// Incremental maps, landmark IDs, templates.
 void add_incremental_options(CLI::App& app, MapJob& job) {
   app.add_flag(
-      "--follow", job.follow,
+      "--incremental", job.incremental,
       "Read long CSV or detections while the file grows (-: standard input), and update map "
       "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, --with, "
       "--ellipses, --missing, --submaps, --steps, --drop-unseen, --layout wide, --check-ids, "
       "--repair-ids or --uncertain-ids");
   app.add_option("--every", job.every,
-                 "With --follow: update after so many steps (100) or seconds (2s)")
+                 "With --incremental: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();
   app.add_flag(
       "--check-ids", job.check_ids,
@@ -119,7 +119,7 @@ void add_incremental_options(CLI::App& app, MapJob& job) {
   app.add_flag("--repair-ids", job.repair_ids, "Correct these IDs before mapping");
   app.add_flag("--find-moved", job.find_moved,
                "Range and bearing: report landmarks that moved, and map both positions. With "
-               "--follow, as soon as a move is significant");
+               "--incremental, as soon as a move is significant");
   app.add_option(
          "--uncertain-ids", job.uncertain_ids,
          "Landmark IDs that may be confused with one another, a,b,...: their data association "
@@ -135,7 +135,7 @@ bool MapJob::chooses_method() const { return lower_case(method) == "auto"; }
 
 bool MapJob::may_choose_method() const {
   return method.empty() && !is_range_bearing() && !parameter && !neighbours && !variance &&
-         !degree && with.empty() && submaps == 0 && !follow && uncertain_ids.empty();
+         !degree && with.empty() && submaps == 0 && !incremental && uncertain_ids.empty();
 }
 
 AffineFit MapJob::affine_fit() const {
@@ -170,7 +170,7 @@ void add_map_options(CLI::App& app, MapJob& job) {
             {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
             {"Missing data", {"--missing", "--dimensions"}},
             {"Landmark IDs", {"--check-ids", "--repair-ids", "--find-moved", "--uncertain-ids"}},
-            {"Files that grow", {"--follow", "--every"}},
+            {"Files that grow", {"--incremental", "--every"}},
             {"Output", {"--ellipses", "--templates", "--force"}}});
   for (const char* file : {"--anchors", "--ground-truth", "--with"})
     app.get_option(file)->type_name("FILE");

@@ -57,7 +57,7 @@ struct MapJob {
   bool find_moved = false;
   std::vector<std::string> uncertain_ids;
 
-  bool follow = false;
+  bool incremental = false;
   std::string every = "1s";
   std::string out;
   std::optional<std::string> templates;

@@ -13,7 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "core/follow/incremental_map.hpp"
+#include "core/incremental/incremental_map.hpp"
 #include "core/map_fit/map_fit.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
@@ -29,24 +29,24 @@ bool is_tied(const Reference& known) { return !known.anchors.empty() || known.ha
 
 /// The steps reference, align and score, of what is known of the landmarks so far.
 /// @return Whether anything is known of them.
-bool align_so_far(MapResult& result, const FollowedTable& table) {
+bool align_so_far(MapResult& result, const IncrementalTable& table) {
   const Reference known = known_so_far(result.record, table.anchors, table.ground_truth);
   align(result, known, table.fit);
   return is_tied(known);
 }
 
 /// The step explain: remarks on the files of anchors and ground truth in the end.
-void explain_so_far(MapResult& result, const FollowedTable& table) {
+void explain_so_far(MapResult& result, const IncrementalTable& table) {
   for (std::string& remark : remarks_of_reference(result.record, table.anchors, table.ground_truth))
     result.remarks.push_back(std::move(remark));
 }
 
 /// Values of one sensor.
-constexpr std::ptrdiff_t kMostFollowed = 2000;  ///< Landmarks, for the memory of their pairs.
+constexpr std::ptrdiff_t kMostIncremental = 2000;  ///< Landmarks, for the memory of their pairs.
 
-class ValueFollower : public Follower {
+class IncrementalValues : public IncrementalSource {
  public:
-  explicit ValueFollower(const FollowedTable& table)
+  explicit IncrementalValues(const IncrementalTable& table)
       : table_(table),
         stream_(table.source, table.sensor, table.format),
         map_(table.sensor, table.options) {}
@@ -59,10 +59,10 @@ class ValueFollower : public Follower {
   long take_steps() override {
     const std::vector<StreamedStep> steps = stream_.steps();
     if (steps.empty()) return 0;
-    if (std::ssize(stream_.names()) > kMostFollowed)
+    if (std::ssize(stream_.names()) > kMostIncremental)
       throw IoError(table_.source, fmt::format("names more than {} landmarks, too many for an "
                                                "incremental map; map the whole file",
-                                               kMostFollowed));
+                                               kMostIncremental));
     map_.grow(std::ssize(stream_.names()));
     for (const StreamedStep& step : steps) {
       std::vector<StepEntry> entries;
@@ -73,7 +73,7 @@ class ValueFollower : public Follower {
   }
 
   MapResult update() override {
-    const FollowedUpdate update = map_.update();
+    const IncrementalUpdate update = map_.update();
     MapResult result;
     MapRecord& record = result.record;
     record.id = "map";
@@ -108,16 +108,16 @@ class ValueFollower : public Follower {
     last_ = estimate;
   }
 
-  FollowedTable table_;
+  IncrementalTable table_;
   ObservationStream stream_;
   IncrementalMap map_;
   Points last_ = Points(0, 2);  ///< Without anchors: the map before.
 };
 
 /// Range and bearing.
-class PairFollower : public Follower {
+class IncrementalPairs : public IncrementalSource {
  public:
-  explicit PairFollower(const FollowedTable& table)
+  explicit IncrementalPairs(const IncrementalTable& table)
       : table_(table), stream_(table.source, table.format) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
@@ -212,7 +212,7 @@ class PairFollower : public Follower {
     last_names_ = record.names;
   }
 
-  FollowedTable table_;
+  IncrementalTable table_;
   DetectionStream stream_;
   IncrementalLog scans_;
   MovedWatch watch_{MovedOptions{.is_contrasted = true}};
@@ -222,9 +222,9 @@ class PairFollower : public Follower {
 
 constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known ones.
 
-class RangeFollower : public Follower {
+class IncrementalRanges : public IncrementalSource {
  public:
-  explicit RangeFollower(const FollowedTable& table)
+  explicit IncrementalRanges(const IncrementalTable& table)
       : table_(table), stream_(table.source, Sensor::kRange, table.format) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
@@ -309,7 +309,7 @@ class RangeFollower : public Follower {
       ++incomplete_;
   }
 
-  FollowedTable table_;
+  IncrementalTable table_;
   ObservationStream stream_;
   std::vector<Eigen::Index> landmarks_;  ///< Of the stream's names, those of the first step.
   std::optional<IncrementalSpectralMap> map_;
@@ -319,16 +319,16 @@ class RangeFollower : public Follower {
 
 }  // namespace
 
-std::unique_ptr<Follower> value_follower(const FollowedTable& table) {
-  return std::make_unique<ValueFollower>(table);
+std::unique_ptr<IncrementalSource> incremental_values(const IncrementalTable& table) {
+  return std::make_unique<IncrementalValues>(table);
 }
 
-std::unique_ptr<Follower> pair_follower(const FollowedTable& table) {
-  return std::make_unique<PairFollower>(table);
+std::unique_ptr<IncrementalSource> incremental_pairs(const IncrementalTable& table) {
+  return std::make_unique<IncrementalPairs>(table);
 }
 
-std::unique_ptr<Follower> range_follower(const FollowedTable& table) {
-  return std::make_unique<RangeFollower>(table);
+std::unique_ptr<IncrementalSource> incremental_ranges(const IncrementalTable& table) {
+  return std::make_unique<IncrementalRanges>(table);
 }
 
 }  // namespace mapproof

@@ -9,18 +9,18 @@
 #include "app/map/alignment.hpp"
 #include "app/map/map_result.hpp"
 #include "app/map/reference.hpp"
-#include "core/follow/incremental_map.hpp"
+#include "core/incremental/incremental_map.hpp"
 #include "core/model/sensor.hpp"
 #include "core/records/detections/detections.hpp"
 
 namespace mapproof {
 
 /// How an incremental map is made from a table.
-struct FollowedTable {
+struct IncrementalTable {
   std::string source = {};                      ///< What to call it in errors.
   Sensor sensor = Sensor::kRange;               ///< Of values alone.
   TableFormat format = {};                      ///< How the table is to be understood.
-  FollowOptions options = {};                   ///< Of one sensor.
+  IncrementalOptions options = {};                   ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
   std::optional<NamedPointsFile> ground_truth = {};  ///< For scores, of what is known of it so far.
   FrameFit fit = {};
@@ -29,9 +29,9 @@ struct FollowedTable {
 
 /// An incremental map of a table. Without anchors or ground truth each map is aligned to the one
 /// before, so that it does not jump.
-class Follower {
+class IncrementalSource {
  public:
-  virtual ~Follower() = default;
+  virtual ~IncrementalSource() = default;
 
   /// @throws IoError for what cannot be read.
   virtual void take(std::string_view bytes) = 0;
@@ -51,15 +51,15 @@ class Follower {
 };
 
 /// The incremental map of a long table of one sensor.
-std::unique_ptr<Follower> value_follower(const FollowedTable& table);
+std::unique_ptr<IncrementalSource> incremental_values(const IncrementalTable& table);
 
 /// The incremental map of detections of range and bearing.
-std::unique_ptr<Follower> pair_follower(const FollowedTable& table);
+std::unique_ptr<IncrementalSource> incremental_pairs(const IncrementalTable& table);
 
 /// The incremental map of a table of ranges that are taken together: step or time, landmark, range
 /// in metres. Each update is the spectral map (core/range_slam/factors/incremental_spectral_map) of
 /// all steps so far that have a range to every landmark of the first one. From four anchors on the
 /// map is that of known landmarks. `sensor` and `options` of the table do not count.
-std::unique_ptr<Follower> range_follower(const FollowedTable& table);
+std::unique_ptr<IncrementalSource> incremental_ranges(const IncrementalTable& table);
 
 }  // namespace mapproof

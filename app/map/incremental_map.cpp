@@ -77,7 +77,7 @@ class EndSignals {
 };
 
 StreamedFile::StreamedFile(const std::string& path)
-    : path_(path), name_(input_name(path)), file_(open_followed(path)) {
+    : path_(path), name_(input_name(path)), file_(open_growing(path)) {
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
   regular_ = S_ISREG(status.st_mode);
@@ -131,7 +131,7 @@ bool EndSignals::asked() const { return g_asked != 0; }
 /// Whether it is time for an update.
 class Due {
  public:
-  explicit Due(const FollowInterval& every) : every_(every) {}
+  explicit Due(const UpdateInterval& every) : every_(every) {}
 
   bool after(long steps) {
     steps_ += steps;
@@ -146,66 +146,66 @@ class Due {
   }
 
  private:
-  FollowInterval every_;
+  UpdateInterval every_;
   long steps_ = 0;
   Clock::time_point last_ = Clock::now();
 };
 
 /// A streamed file, and its map so far.
-struct FollowedFile {
+struct GrowingInput {
   StreamedFile file;
   Unpacker unpacker;
-  std::unique_ptr<Follower> follower;
+  std::unique_ptr<IncrementalSource> source;
   std::vector<std::string> remarks = {};  ///< On how it ended.
 };
 
 /// Takes in what comes, and calls `update` whenever it is time.
 /// @return Whether the file came to its end; else it was replaced, or a signal came.
 template <typename Update>
-bool follow_to_end(FollowedFile& followed, const FollowInterval& every, const EndSignals& signals,
+bool read_to_end(GrowingInput& input, const UpdateInterval& every, const EndSignals& signals,
                    const Update& update) {
   Due due(every);
   std::string bytes;
   while (!signals.asked()) {
-    const StreamedFile::State state = followed.file.read(bytes, kWait_s);
+    const StreamedFile::State state = input.file.read(bytes, kWait_s);
     if (state == StreamedFile::State::kEnd) return true;
     if (state == StreamedFile::State::kReplaced) {
-      followed.remarks.push_back(followed.file.name() +
+      input.remarks.push_back(input.file.name() +
                                  " was cut short, removed or replaced: the map holds what was read "
                                  "before. Start again for the new file.");
       return false;
     }
-    followed.follower->take(followed.unpacker.take(bytes));
-    if (!due.after(followed.follower->take_steps())) continue;
-    update(followed.follower->update());
+    input.source->take(input.unpacker.take(bytes));
+    if (!due.after(input.source->take_steps())) continue;
+    update(input.source->update());
     due.done();
   }
   return false;
 }
 
 /// Takes in the rest. @throws IoError if there were no observations at all.
-void take_rest(FollowedFile& followed, bool ended) {
-  Follower& follower = *followed.follower;
+void take_rest(GrowingInput& input, bool ended) {
+  IncrementalSource& source = *input.source;
   if (ended) {
-    followed.unpacker.end();
-    follower.take(followed.unpacker.take({}));
+    input.unpacker.end();
+    source.take(input.unpacker.take({}));
   }
-  const bool is_cut = followed.unpacker.is_cut();
+  const bool is_cut = input.unpacker.is_cut();
   if (ended && is_cut)
-    followed.remarks.push_back(
+    input.remarks.push_back(
         fmt::format("{} is {}'ed and stops before its end: the map is of what there was.",
-                    followed.file.name(), followed.unpacker.packing()));
-  if (!ended || is_cut) follower.drop_half_line();
-  follower.end();
-  follower.take_steps();
-  if (follower.steps() == 0) throw IoError(followed.file.name(), "holds no observations");
+                    input.file.name(), input.unpacker.packing()));
+  if (!ended || is_cut) source.drop_half_line();
+  source.end();
+  source.take_steps();
+  if (source.steps() == 0) throw IoError(input.file.name(), "holds no observations");
 }
 
 /// The map of all there was, explained.
-MapResult last_map(FollowedFile& followed) {
-  MapResult last = followed.follower->last_update();
-  last.remarks.insert(last.remarks.begin(), followed.remarks.begin(), followed.remarks.end());
-  last.facts = {{"Observations", followed.file.name()},
+MapResult last_map(GrowingInput& input) {
+  MapResult last = input.source->last_update();
+  last.remarks.insert(last.remarks.begin(), input.remarks.begin(), input.remarks.end());
+  last.facts = {{"Observations", input.file.name()},
                 {"Sensor", sensor_label(last.record)},
                 {"Landmarks", std::to_string(last.record.names.size())},
                 {"Steps read", std::to_string(last.record.step)},
@@ -216,7 +216,7 @@ MapResult last_map(FollowedFile& followed) {
 
 }  // namespace
 
-FollowInterval follow_interval(const std::string& text) {
+UpdateInterval update_interval(const std::string& text) {
   const bool seconds = text.ends_with('s');
   const auto number = number_in(std::string_view(text).substr(0, text.size() - (seconds ? 1 : 0)));
   const bool right =
@@ -224,28 +224,28 @@ FollowInterval follow_interval(const std::string& text) {
   if (!right)
     throw InvalidInput("--every: expected a number of steps, or of seconds as 2s, got " +
                        in_quotes(text));
-  return seconds ? FollowInterval{.steps = 0, .seconds = *number}
-                 : FollowInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
+  return seconds ? UpdateInterval{.steps = 0, .seconds = *number}
+                 : UpdateInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
 }
 
-int write_followed(const FollowOrder& order, const MapPlace& location,
+int write_incremental(const IncrementalRequest& request, const MapPlace& location,
                    const Invocation& invocation) {
   const MapFolder folder(location.out);
   const Console& console = invocation.console;
   const EndSignals signals;
-  FollowedFile followed{.file = StreamedFile(order.path),
-                        .unpacker = Unpacker(input_name(order.path)),
-                        .follower = nullptr};
-  FollowedTable table = order.table;
-  table.source = followed.file.name();
-  followed.follower = order.follower(table);
-  const bool ended = follow_to_end(followed, order.every, signals, [&](const MapResult& map) {
+  GrowingInput input{.file = StreamedFile(request.path),
+                        .unpacker = Unpacker(input_name(request.path)),
+                        .source = nullptr};
+  IncrementalTable table = request.table;
+  table.source = input.file.name();
+  input.source = request.source(table);
+  const bool ended = read_to_end(input, request.every, signals, [&](const MapResult& map) {
     write_map(folder, location, map, false);
     for (const std::string& remark : map.remarks) console.warning(remark);
     console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
   });
-  take_rest(followed, ended);
-  const MapResult last = last_map(followed);
+  take_rest(input, ended);
+  const MapResult last = last_map(input);
   write_map(folder, location, last);
   for (const std::string& remark : last.remarks) console.warning(remark);
   return report_map(last, location, invocation);

@@ -10,20 +10,20 @@
 namespace mapproof {
 
 /// How often an incremental map is updated.
-struct FollowInterval {
+struct UpdateInterval {
   long steps = 0;        ///< After so many; 0: by time.
   double seconds = 1.0;  ///< After so long, if there is a step more.
 };
 
 /// "100": steps; "2s", "0.5s": seconds. @throws InvalidInput, naming the option.
-FollowInterval follow_interval(const std::string& text);
+UpdateInterval update_interval(const std::string& text);
 
 /// The streamed file, and how it is mapped.
-struct FollowOrder {
+struct IncrementalRequest {
   std::string path;     ///< "-": standard input. Packed or not.
-  FollowedTable table;  ///< Its source is set from the path.
-  std::unique_ptr<Follower> (*follower)(const FollowedTable& table) = nullptr;
-  FollowInterval every;
+  IncrementalTable table;  ///< Its source is set from the path.
+  std::unique_ptr<IncrementalSource> (*source)(const IncrementalTable& table) = nullptr;
+  UpdateInterval every;
 };
 
 /// Reads a streamed file to its end, or to SIGINT or SIGTERM, and updates its map:
@@ -34,7 +34,7 @@ struct FollowOrder {
 /// @return The command's exit code.
 /// @throws IoError for what cannot be read, or if the folder holds something else, or another
 ///         process writes there.
-int write_followed(const FollowOrder& order, const MapPlace& location,
+int write_incremental(const IncrementalRequest& request, const MapPlace& location,
                    const Invocation& invocation);
 
 }  // namespace mapproof

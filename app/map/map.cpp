@@ -81,7 +81,7 @@ void open_observations(MapJob& job) {
 void complete(MapJob& job) {
   if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
   // A stream cannot be opened before it is read.
-  if (!job.follow) open_observations(job);
+  if (!job.incremental) open_observations(job);
   require_known_method(job);
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
@@ -91,7 +91,7 @@ void complete(MapJob& job) {
 }
 
 /// How the incremental map of the job is made.
-FollowOrder follow_order(const MapJob& job) {
+IncrementalRequest incremental_request(const MapJob& job) {
   const std::optional<Sensor> sensor = sensor_named(job.kind);
   return {.path = job.path,
           .table = {.source = {},
@@ -104,8 +104,8 @@ FollowOrder follow_order(const MapJob& job) {
                             .is_metric = job.is_range_bearing(),
                             .is_rigid = job.is_rigid()},
                     .find_moved = job.find_moved},
-          .follower = sensor ? value_follower : pair_follower,
-          .every = follow_interval(job.every)};
+          .source = sensor ? incremental_values : incremental_pairs,
+          .every = update_interval(job.every)};
 }
 
 int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
@@ -143,7 +143,7 @@ int run_map(MapJob job, const Invocation& invocation) {
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
   refuse_shared_streams(inputs);
   complete(job);
-  return job.follow ? write_followed(follow_order(job), location, invocation)
+  return job.incremental ? write_incremental(incremental_request(job), location, invocation)
                     : map_once(std::move(job), location, invocation);
 }
 

@@ -29,7 +29,7 @@ struct OptionPair {
 
 std::span<const MapOption> map_option_list();
 
-/// "--ellipses: not with --follow: they need hundreds ...".
+/// "--ellipses: not with --incremental: they need hundreds ...".
 std::span<const OptionPair> options_apart();
 
 /// "--overlap: it is the overlap of sub-maps; ...".

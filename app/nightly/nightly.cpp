@@ -46,7 +46,7 @@ struct NightlyArguments {
   std::string reference = kLastGood;
   int jobs = 1;
   std::optional<std::string> templates;
-  OrderOptions order;
+  StudyOptions request;
 };
 
 std::string now_utc() {
@@ -77,19 +77,19 @@ NightlyFacts begun(int number, int jobs, const SessionNames& names) {
 }
 
 /// Makes the records of every study. @return The worst exit code.
-int make_all(const std::vector<StudyOrder>& orders, const fs::path& folder, int jobs,
+int make_all(const std::vector<StudyRequest>& requests, const fs::path& folder, int jobs,
              const SessionNames& names, const Console& console) {
   int worst = kDone;
-  for (const StudyOrder& order : orders)
-    worst = std::max(worst, make_apart(order, folder / order.name, jobs, names, console));
+  for (const StudyRequest& request : requests)
+    worst = std::max(worst, make_apart(request, folder / request.name, jobs, names, console));
   return worst;
 }
 
 /// What each study is, from its records.
-std::vector<NightlyStudy> read_all(const std::vector<StudyOrder>& orders, const fs::path& folder) {
+std::vector<NightlyStudy> read_all(const std::vector<StudyRequest>& requests, const fs::path& folder) {
   std::vector<NightlyStudy> studies;
-  for (const StudyOrder& order : orders)
-    studies.push_back(read_nightly_study(folder / order.name, order.name));
+  for (const StudyRequest& request : requests)
+    studies.push_back(read_nightly_study(folder / request.name, request.name));
   return studies;
 }
 
@@ -173,8 +173,8 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   const Console& console = invocation.console;
   const Templates page = load_templates(arguments.templates);
   const std::optional<int> asked = asked_reference(arguments.reference);
-  const std::vector<StudyOrder> orders =
-      read_nightly_orders(arguments.experiments, arguments.order);
+  const std::vector<StudyRequest> requests =
+      read_nightly_requests(arguments.experiments, arguments.request);
   const fs::path store = arguments.store;
   const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs,
                                invocation.disclosure};
@@ -191,19 +191,19 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
 
   NightlyRun nightly_run{.facts = begun(next_nightly_run(history, store), arguments.jobs, names)};
   if (asked) {  // Refused before hours of work.
-    nightly_run.studies = planned_studies(orders);
+    nightly_run.studies = planned_studies(requests);
     reference_nightly_run(history, nightly_run, asked);
   }
   const fs::path folder = nightly_folder(store, nightly_run.facts.number);
   say_when_stopped(kContinuesWord);
-  begin_nightly_run(folder, orders, console);
-  const int made = make_all(orders, folder, arguments.jobs, names, console);
+  begin_nightly_run(folder, requests, console);
+  const int made = make_all(requests, folder, arguments.jobs, names, console);
   if (made != kDone) {
     console.warning(fmt::format("nightly run {}: not recorded, since a study was not finished",
                                 nightly_run.facts.number));
     return made;
   }
-  nightly_run.studies = read_all(orders, folder);
+  nightly_run.studies = read_all(requests, folder);
   const std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
   const bool scenes_drawn = write_all(nightly_run, history, folder, outputs, invocation);
   nightly_run.facts.ended_utc = now_utc();
@@ -248,13 +248,13 @@ Action nightly_command(CLI::App& app) {
                  "Reference run: its number, refused if it had other settings or another seed, or "
                  "last-good (the pinned one if there is one)")
       ->capture_default_str();
-  app.add_option("--profile", arguments->order.profile,
+  app.add_option("--profile", arguments->request.profile,
                  "Profile of those experiments that have it");
   add_jobs_option(app, arguments->jobs);
   app.add_option("--templates", arguments->templates,
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
-  add_data_options(app, arguments->order);
+  add_data_options(app, arguments->request);
   group_options(app, {{"Input", {"EXPERIMENT"}},
                       {"Experiment", {"--profile"}},
                       {"Comparison", {"--reference"}},

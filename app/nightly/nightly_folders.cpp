@@ -18,12 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kOrderFile = "order.txt";
+constexpr const char* kRequestFile = "request.txt";
 constexpr const char* kEndFile = "nightly_run.json";
 
-std::string order_text(const std::vector<StudyOrder>& orders) {
+std::string request_text(const std::vector<StudyRequest>& requests) {
   std::string text;
-  for (const StudyOrder& order : orders) text += order.digest + "  " + order.name + "\n";
+  for (const StudyRequest& request : requests) text += request.digest + "  " + request.name + "\n";
   return text;
 }
 
@@ -61,13 +61,13 @@ int next_nightly_run(HistoryStore& history, const fs::path& store) {
   return last + 1;
 }
 
-void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& orders,
+void begin_nightly_run(const fs::path& folder, const std::vector<StudyRequest>& requests,
                        const Console& console) {
-  const std::string text = order_text(orders);
+  const std::string text = request_text(requests);
   std::error_code error;
   if (fs::exists(folder, error)) {
     std::string left;
-    if (fs::exists(folder / kOrderFile, error)) left = read_file(folder / kOrderFile);
+    if (fs::exists(folder / kRequestFile, error)) left = read_file(folder / kRequestFile);
     if (left == text) {
       console.warning(folder.string() + ": continues a nightly run that was stopped");
       remove_leftovers(folder);
@@ -79,7 +79,7 @@ void begin_nightly_run(const fs::path& folder, const std::vector<StudyOrder>& or
     if (error) throw IoError(folder.string(), "cannot be removed: " + error.message());
   }
   make_folder(folder);
-  OutputFolder(folder).write(kOrderFile, text);
+  OutputFolder(folder).write(kRequestFile, text);
 }
 
 void end_nightly_run(const fs::path& folder, const NightlyRun& nightly_run) {

@@ -22,60 +22,60 @@ namespace {
 
 /// Two studies of a nightly run that share their name would share their folder and their history.
 /// @throws InvalidInput.
-[[noreturn]] void refuse_same_name(const StudyOrder& order, const std::string& first,
+[[noreturn]] void refuse_same_name(const StudyRequest& request, const std::string& first,
                                    const std::string& second) {
   if (first == second) throw InvalidInput(printable(first) + ": is given twice");
-  const bool may_be_left_out = !order.given.empty() && order.name == kNamelessResults;
+  const bool may_be_left_out = !request.given.empty() && request.name == kNamelessResults;
   throw InvalidInput(fmt::format(
       "{} and {}: both studies have the name \"{}\"{}; add a \"name\" of its own to one of them",
-      printable(first), printable(second), printable(order.name),
+      printable(first), printable(second), printable(request.name),
       may_be_left_out ? ", which is that of a study.json without one" : ""));
 }
 
 }  // namespace
 
-std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
-                                            OrderOptions options) {
+std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
+                                            StudyOptions options) {
   options.profile_if_there = options.one_of_several = true;
-  std::vector<StudyOrder> orders;
+  std::vector<StudyRequest> requests;
   std::map<std::string, std::string> files;  // By the study's name.
   for (const std::string& experiment : experiments) {
     refuse_links_out(experiment);  // Of the folder of a study of results.
-    StudyOrder order;
+    StudyRequest request;
     std::string file = (fs::path(experiment) / kStudyFile).string();
     if (is_results_study(experiment)) {
-      order = given_study_order(experiment);
+      request = given_study_request(experiment);
     } else {
       const ExperimentText text = experiment_of(experiment);
       file = text.source;
-      order = read_study_order(text, options);
+      request = read_study_request(text, options);
     }
-    const auto [other, is_new] = files.try_emplace(order.name, file);
-    if (!is_new) refuse_same_name(order, other->second, file);
-    orders.push_back(std::move(order));
+    const auto [other, is_new] = files.try_emplace(request.name, file);
+    if (!is_new) refuse_same_name(request, other->second, file);
+    requests.push_back(std::move(request));
   }
-  check_data_used(orders, options);
-  return orders;
+  check_data_used(requests, options);
+  return requests;
 }
 
-std::vector<NightlyStudy> planned_studies(const std::vector<StudyOrder>& orders) {
+std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests) {
   std::vector<NightlyStudy> studies;
-  for (const StudyOrder& order : orders)
+  for (const StudyRequest& request : requests)
     studies.push_back(
-        {.name = order.name, .order_digest = order_digest(study_json(order), order.name)});
+        {.name = request.name, .experiment_digest = experiment_digest(study_json(request), request.name)});
   return studies;
 }
 
-int make_apart(const StudyOrder& order, const fs::path& folder, int jobs, const SessionNames& names,
+int make_apart(const StudyRequest& request, const fs::path& folder, int jobs, const SessionNames& names,
                const Console& console) {
-  const auto make = [&] { return make_study(order, folder, jobs, names, console), kDone; };
+  const auto make = [&] { return make_study(request, folder, jobs, names, console), kDone; };
   try {
     // No thread runs yet that the copy would lack. A nightly run that is killed takes its study
     // with it: its locks are free at once.
-    ChildProcess process([&] { return exit_code_of(make, order.name + ": "); });
+    ChildProcess process([&] { return exit_code_of(make, request.name + ": "); });
     const ProcessEnd end = process.wait();
     if (end.signal == 0) return end.exit_code;
-    return report_failure(fmt::format("{}: {}", order.name, end.text()), kInternal);
+    return report_failure(fmt::format("{}: {}", request.name, end.text()), kInternal);
   } catch (const ProcessError& error) {
     throw IoError(folder.string(), error.what());
   }

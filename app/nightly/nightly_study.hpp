@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/console.hpp"
-#include "app/study/study_order.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
 #include "reports/history/nightly_run.hpp"
 
@@ -15,17 +15,17 @@ namespace mapproof {
 /// @param experiments  Names of embedded ones, or files.
 /// @param options      Its profile is taken of the experiments that have it.
 /// @throws IoError, InvalidInput: among others if two have one name.
-std::vector<StudyOrder> read_nightly_orders(const std::vector<std::string>& experiments,
-                                            OrderOptions options);
+std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
+                                            StudyOptions options);
 
 /// What the studies of a nightly run will be, before they are made: names and what they are
 /// compared by.
-std::vector<NightlyStudy> planned_studies(const std::vector<StudyOrder>& orders);
+std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests);
 
 /// Makes the records of a study in a process of its own, so that the peak of its memory is its own
 /// and its crash is its own.
 /// @return The ExitCode of that process, kInternal if a signal ended it. @throws IoError.
-int make_apart(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
+int make_apart(const StudyRequest& request, const std::filesystem::path& folder, int jobs,
                const SessionNames& names, const Console& console);
 
 }  // namespace mapproof

@@ -48,7 +48,7 @@ struct SlamArguments {
   std::string odometry;
   LogFitOptions fit;
   bool repair = false;
-  bool follow = false;
+  bool incremental = false;
   std::string every = "1s";
   std::vector<std::string> columns;
   int jobs = 1;
@@ -185,27 +185,27 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
 }
 
 /// Refuses what is of a log that is there as a whole.
-void require_followable(const SlamArguments& arguments) {
+void require_incremental(const SlamArguments& arguments) {
   for (const auto& [value, option] : {std::pair(&arguments.odometry, "--odometry"),
                                       {&arguments.ground_truth, "--ground-truth"},
                                       {&arguments.log.name, "--name"}})
     if (!value->empty())
       throw InvalidInput(
-          fmt::format("{}: not with --follow, which maps landmarks from ranges alone; map the "
+          fmt::format("{}: not with --incremental, which maps landmarks from ranges alone; map the "
                       "whole log instead",
                       option));
 }
 
-int follow_ranges(const SlamArguments& arguments, const Templates& page,
+int incremental_slam(const SlamArguments& arguments, const Templates& page,
                   const Invocation& invocation) {
-  require_followable(arguments);
-  return write_followed({.path = arguments.data,
+  require_incremental(arguments);
+  return write_incremental({.path = arguments.data,
                          .table = {.format = {.columns = column_names(arguments.columns)},
                                    .anchors = read_points(arguments.known),
                                    .ground_truth = read_points(arguments.true_landmarks),
                                    .fit = {.is_metric = true, .is_rigid = true}},
-                         .follower = range_follower,
-                         .every = follow_interval(arguments.every)},
+                         .source = incremental_ranges,
+                         .every = update_interval(arguments.every)},
                         {.out = arguments.out,
                          .observations = arguments.data,
                          .command = invocation.command,
@@ -220,8 +220,8 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
   refuse_shared_streams(inputs);
   sort_ground_truths(arguments);
-  if (arguments.follow) {
-    return follow_ranges(arguments, page, invocation);
+  if (arguments.incremental) {
+    return incremental_slam(arguments, page, invocation);
   }
   check_result_folder(arguments.out, kSlamFile, "range-only map");
   arguments.log.columns = column_names(arguments.columns, kRangeLogRoles);
@@ -305,7 +305,7 @@ Action slam_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof slam plaza/plaza1 --out out/plaza1\n"
       "  mapproof slam Plaza1_.mat --name \"Plaza 1\" --out out/plaza1\n"
-      "  range_sensor | mapproof slam - --follow --every 5s --out out/live\n"
+      "  range_sensor | mapproof slam - --incremental --every 5s --out out/live\n"
       "  mapproof slam run7_TD.txt --anchors beacons.csv --ground-truth gps.csv --out "
       "out/run7\n\n"
       "DATA is one of\n"
@@ -320,12 +320,12 @@ Action slam_command(CLI::App& app) {
   add_input_options(app, *arguments);
   add_fit_options(app, *arguments);
   app.add_flag(
-      "--follow", arguments->follow,
+      "--incremental", arguments->incremental,
       "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "
       "grows (-: standard input), and update map and figure until it ends, or until SIGINT or "
       "SIGTERM. Maps landmarks only, in constant memory");
   app.add_option("--every", arguments->every,
-                 "With --follow: update after so many steps (100) or seconds (2s)")
+                 "With --incremental: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();
   app.add_option("--name", arguments->log.name, "Name of the log, for titles");
   app.add_option("--templates", arguments->templates,
@@ -337,7 +337,7 @@ Action slam_command(CLI::App& app) {
                       {"Fit",
                        {"--range-sigma", "--odometry-sigma", "--heading-sigma",
                         "--odometry-scale-sigma", "--repair"}},
-                      {"Files that grow", {"--follow", "--every"}},
+                      {"Files that grow", {"--incremental", "--every"}},
                       {"Output", {"--templates"}}});
   return [arguments](const Invocation& invocation) { return map_ranges(*arguments, invocation); };
 }

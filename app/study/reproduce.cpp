@@ -9,7 +9,7 @@
 
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
-#include "app/study/study_order.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
@@ -28,7 +28,7 @@ struct ReproduceArguments {
   std::string name;
   std::string out = "out";
   int jobs = 1;
-  OrderOptions options{.profile = "full"};
+  StudyOptions options{.profile = "full"};
   std::optional<std::string> templates;
   bool print = false;  ///< The experiment instead of its study.
 };
@@ -53,16 +53,16 @@ std::vector<std::string> names_of(const ReproduceArguments& arguments) {
   return names;
 }
 
-/// All that is ordered, read and checked before anything is made.
-std::vector<StudyOrder> read_orders(const ReproduceArguments& arguments) {
+/// All requests, read and checked before anything is made.
+std::vector<StudyRequest> read_requests(const ReproduceArguments& arguments) {
   const std::vector<std::string> names = names_of(arguments);
-  OrderOptions options = arguments.options;
+  StudyOptions options = arguments.options;
   options.one_of_several = options.profile_if_there = names.size() > 1;
-  std::vector<StudyOrder> orders;
+  std::vector<StudyRequest> requests;
   for (const std::string& name : names)
-    orders.push_back(read_study_order(text_of(name, arguments), options));
-  check_data_used(orders, options);
-  return orders;
+    requests.push_back(read_study_request(text_of(name, arguments), options));
+  check_data_used(requests, options);
+  return requests;
 }
 
 /// Throws if a folder for several studies holds anything else. @throws IoError.
@@ -93,9 +93,9 @@ int print_experiment(const ReproduceArguments& arguments, const Invocation& invo
 
 /// The command that makes the same studies and report again, wherever it was typed.
 std::string command_again(const ReproduceArguments& arguments,
-                          const std::vector<StudyOrder>& orders, const Disclosure& disclosure) {
+                          const std::vector<StudyRequest>& requests, const Disclosure& disclosure) {
   std::vector<std::string> words = {"mapproof", "reproduce", arguments.name};
-  const std::vector<std::string> more = words_of(orders, arguments.options);
+  const std::vector<std::string> more = words_of(requests, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
   return quoted_command(disclosure.words(words));
@@ -105,16 +105,16 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
   if (arguments.print) return print_experiment(arguments, invocation);
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
-  const std::vector<StudyOrder> orders = read_orders(arguments);
-  const bool is_alone = orders.size() == 1;
+  const std::vector<StudyRequest> requests = read_requests(arguments);
+  const bool is_alone = requests.size() == 1;
   if (!is_alone) check_folder_of_all(arguments.out);
-  const std::string command = command_again(arguments, orders, invocation.disclosure);
+  const std::string command = command_again(arguments, requests, invocation.disclosure);
   std::string text;
   nlohmann::ordered_json object;
-  for (const StudyOrder& order : orders) {
+  for (const StudyRequest& request : requests) {
     const fs::path folder =
-        is_alone ? fs::path(arguments.out) : arguments.out / fs::path(order.name);
-    make_study(order, folder, arguments.jobs, {command, invocation.disclosure.host()},
+        is_alone ? fs::path(arguments.out) : arguments.out / fs::path(request.name);
+    make_study(request, folder, arguments.jobs, {command, invocation.disclosure.host()},
                invocation.console);
     StudyNumbers numbers = outputs_of_study(folder).numbers(folder);
     for (const std::string& missing : numbers.missing) invocation.console.warning(missing);

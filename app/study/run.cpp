@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "app/study/study_order.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"
 
@@ -15,14 +15,14 @@ struct RunArguments {
   std::string experiment;
   std::string out;
   int jobs = 1;
-  OrderOptions options{.profile = "full"};
+  StudyOptions options{.profile = "full"};
 };
 
 /// The two commands that make the same study and a report of it, wherever they are typed.
-std::string command_again(const RunArguments& arguments, const StudyOrder& order,
+std::string command_again(const RunArguments& arguments, const StudyRequest& request,
                           const Disclosure& disclosure) {
   std::vector<std::string> words = {"mapproof", "run", arguments.experiment};
-  const std::vector<std::string> more = words_of({&order, 1}, arguments.options);
+  const std::vector<std::string> more = words_of({&request, 1}, arguments.options);
   words.insert(words.end(), more.begin(), more.end());
   words.insert(words.end(), {"--out", arguments.out});
   return quoted_command(disclosure.words(words)) + " && " +
@@ -30,10 +30,10 @@ std::string command_again(const RunArguments& arguments, const StudyOrder& order
 }
 
 int run(const RunArguments& arguments, const Invocation& invocation) {
-  const StudyOrder order = read_study_order(experiment_of(arguments.experiment), arguments.options);
-  check_data_used({&order, 1}, arguments.options);
-  make_study(order, arguments.out, arguments.jobs,
-             {command_again(arguments, order, invocation.disclosure), invocation.disclosure.host()},
+  const StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.options);
+  check_data_used({&request, 1}, arguments.options);
+  make_study(request, arguments.out, arguments.jobs,
+             {command_again(arguments, request, invocation.disclosure), invocation.disclosure.host()},
              invocation.console);
   StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;

@@ -9,7 +9,7 @@
 namespace mapproof {
 
 const StudyOutputs& outputs_of_study(const std::filesystem::path& folder) {
-  constexpr std::array kAll = {&kMappingOutputs, &kRangeOutputs, &kTrialOutputs, &kTableOutputs};
+  constexpr std::array kAll = {&kMappingOutputs, &kRangeOutputs, &kTopicOutputs, &kTableOutputs};
   require_study(folder);
   const std::string schema = study_schema(folder);
   const auto found = std::ranges::find(kAll, schema, &StudyOutputs::study);

@@ -49,7 +49,7 @@ struct StudyOutputs {
 };
 
 /// A file each; a new one is added to study_outputs.cpp.
-extern const StudyOutputs kMappingOutputs, kRangeOutputs, kTrialOutputs, kTableOutputs;
+extern const StudyOutputs kMappingOutputs, kRangeOutputs, kTopicOutputs, kTableOutputs;
 
 /// Those of the study in a folder. @throws IoError if there is none, or of no kind that is known.
 const StudyOutputs& outputs_of_study(const std::filesystem::path& folder);

@@ -14,7 +14,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/results_study_json.hpp"
-#include "core/topics/study_kind.hpp"
+#include "core/studies/study_kind.hpp"
 
 namespace mapproof {
 namespace {
@@ -45,22 +45,22 @@ void copy_study(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-void make_study(const StudyOrder& order, const fs::path& folder, int jobs,
+void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                 const SessionNames& names, const Console& console) {
-  if (!order.given.empty()) {
-    copy_study(order.given, folder);
+  if (!request.given.empty()) {
+    copy_study(request.given, folder);
     return;
   }
   say_when_stopped(kContinuesWord);
   const Stopwatch watch;
-  for (const std::string& remark : order.plan.remarks) console.detail(remark);
-  StudyWriter writer(folder, order.plan.start(build_provenance()));
+  for (const std::string& remark : request.plan.remarks) console.detail(remark);
+  StudyWriter writer(folder, request.plan.start(build_provenance()));
   if (!writer.redone().empty())
     console.warning(fmt::format("{}: its records were made by {}; they are made again",
                                 folder.string(), writer.redone()));
   ProgressLine line(!console.is_quiet());
   Progress last;
-  run_study(order.plan, writer, jobs, [&](const Progress& progress) {
+  run_study(request.plan, writer, jobs, [&](const Progress& progress) {
     last = progress;
     line(progress);
   });

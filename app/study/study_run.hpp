@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/console.hpp"
-#include "app/study/study_order.hpp"
+#include "app/study/study_request.hpp"
 
 namespace mapproof {
 
@@ -16,7 +16,7 @@ struct SessionNames {
 
 /// Runs what a folder does not hold yet, with a progress line, and notes the session.
 /// @throws IoError, InvalidInput.
-void make_study(const StudyOrder& order, const std::filesystem::path& folder, int jobs,
+void make_study(const StudyRequest& request, const std::filesystem::path& folder, int jobs,
                 const SessionNames& names, const Console& console);
 
 }  // namespace mapproof

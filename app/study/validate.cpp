@@ -17,7 +17,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/records/tables/table_reader.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "render/image/png_check.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/association/fault_trials.hpp"
+#include "core/association/hypothesis_fits.hpp"
 #include "core/association/identified_scans.hpp"
 #include "core/association/position_costs.hpp"
 #include "core/association/robust_map.hpp"
@@ -94,10 +94,10 @@ struct Explanation {
 };
 
 Explanation explained(const IdentifiedScans& scans, const std::vector<int>& ids,
-                      const RobustMap& before, const FaultTrial& trial) {
+                      const RobustMap& before, const HypothesisFit& fit) {
   double concerned = 0.0;
   for (const PairItem& item : pair_items(scans.pairs, ids, scans.blocks))
-    for (const int id : {trial.fault.first, trial.fault.second})
+    for (const int id : {fit.fault.first, fit.fault.second})
       if (item.first == id || item.second == id) {
         concerned += map_cost({item}, before.positions_m, before.width_m);
         break;
@@ -106,12 +106,12 @@ Explanation explained(const IdentifiedScans& scans, const std::vector<int>& ids,
   double after = 0.0;
   int count = 0;
   for (const ScanPair& pair : scans.pairs) {
-    const int a = trial.ids[pair.first];
-    const int b = trial.ids[pair.second];
+    const int a = fit.ids[pair.first];
+    const int b = fit.ids[pair.second];
     const bool first_changed = a != ids[pair.first];
     const bool second_changed = b != ids[pair.second];
     if (!first_changed && !second_changed) continue;
-    const double between = (trial.map.positions_m.row(a) - trial.map.positions_m.row(b)).norm();
+    const double between = (fit.map.positions_m.row(a) - fit.map.positions_m.row(b)).norm();
     if (std::isnan(between)) continue;
     after += huber_cost(pair.distance_m - between, before.width_m);
     ++count;
@@ -119,7 +119,7 @@ Explanation explained(const IdentifiedScans& scans, const std::vector<int>& ids,
     if (second_changed) partners[static_cast<std::size_t>(a)] = 1;
   }
   const double variance = residual_variance(before);
-  return {concerned > 0.0 ? (before.cost - trial.map.cost) / concerned : 0.0,
+  return {concerned > 0.0 ? (before.cost - fit.map.cost) / concerned : 0.0,
           after / variance / std::max(count, 1),
           static_cast<std::size_t>(std::ranges::count(partners, 1))};
 }
@@ -143,13 +143,13 @@ bool is_all_of_robot(const DetectionLog& log, const std::vector<int>& ids,
 
 /// Where and when the detections are that a hypothesis relabelled.
 AssociationFinding found(const IdentifiedScans& scans, const std::vector<int>& ids,
-                         const FaultTrial& trial) {
-  AssociationFinding finding{.fault = trial.fault.fault,
-                             .first = trial.fault.first,
-                             .second = trial.fault.second,
-                             .by_time = trial.stretch.order > 0,
-                             .scattered = trial.scattered};
-  const std::vector<std::size_t>& positions = scans.positions[trial.stretch.order];
+                         const HypothesisFit& fit) {
+  AssociationFinding finding{.fault = fit.fault.fault,
+                             .first = fit.fault.first,
+                             .second = fit.fault.second,
+                             .by_time = fit.stretch.order > 0,
+                             .scattered = fit.scattered};
+  const std::vector<std::size_t>& positions = scans.positions[fit.stretch.order];
   std::size_t first = positions.size();
   std::size_t last = 0;
   std::size_t first_of_all = positions.size();
@@ -161,18 +161,18 @@ AssociationFinding found(const IdentifiedScans& scans, const std::vector<int>& i
     first_of_all = std::min(first_of_all, position);
     last_of_all = std::max(last_of_all, position);
     const bool is_meant = finding.fault == AssociationFault::kSwapped || ids[k] == finding.first;
-    if (is_meant && position >= trial.stretch.begin && position < trial.stretch.end) ++meant;
-    if (ids[k] == trial.ids[k]) continue;
+    if (is_meant && position >= fit.stretch.begin && position < fit.stretch.end) ++meant;
+    if (ids[k] == fit.ids[k]) continue;
     ++finding.detections;
     // Scans near the stretch that were relabelled one by one do not widen it.
-    if (position < trial.stretch.begin || position >= trial.stretch.end) continue;
+    if (position < fit.stretch.begin || position >= fit.stretch.end) continue;
     first = std::min(first, position);
     last = std::max(last, position);
   }
   if (first > last) return finding;
   finding.from_the_start = first == first_of_all;
   finding.to_the_end = last == last_of_all;
-  const std::vector<int>& steps = scans.blocks.step_orders[trial.stretch.order];
+  const std::vector<int>& steps = scans.blocks.step_orders[fit.stretch.order];
   finding.first_step = steps[first];
   finding.last_step = steps[last];
   finding.in_part = finding.detections < kNearlyAll * meant;
@@ -190,32 +190,32 @@ AssociationFinding found(const IdentifiedScans& scans, const std::vector<int>& i
 /// complement in two parts the one with more detections is taken; the other is left for the next
 /// search.
 void turn_to_minority(const IdentifiedScans& scans, const std::vector<int>& ids,
-                      FaultTrial& trial) {
-  if (trial.fault.fault != AssociationFault::kSwapped || trial.scattered) return;
-  const std::vector<std::size_t>& positions = scans.positions[trial.stretch.order];
+                      HypothesisFit& fit) {
+  if (fit.fault.fault != AssociationFault::kSwapped || fit.scattered) return;
+  const std::vector<std::size_t>& positions = scans.positions[fit.stretch.order];
   std::size_t before = 0;
   std::size_t inside = 0;
   std::size_t after = 0;
   for (std::size_t k = 0; k < ids.size(); ++k) {
-    if (ids[k] != trial.fault.first && ids[k] != trial.fault.second) continue;
+    if (ids[k] != fit.fault.first && ids[k] != fit.fault.second) continue;
     const std::size_t position = positions[static_cast<std::size_t>(scans.log.detections[k].step)];
-    (position < trial.stretch.begin ? before : position < trial.stretch.end ? inside : after) += 1;
+    (position < fit.stretch.begin ? before : position < fit.stretch.end ? inside : after) += 1;
   }
   // In two parts only if it is clearly the smaller: halves are about equal either way.
   const bool in_parts = before > 0 && after > 0;
   const std::size_t outside = before + after;
   if (outside == 0 || (in_parts ? 2 * inside <= 3 * outside : inside <= outside)) return;
-  trial.stretch = before < after
-                      ? StepStretch{trial.stretch.order, trial.stretch.end, positions.size()}
-                      : StepStretch{trial.stretch.order, 0, trial.stretch.begin};
+  fit.stretch = before < after
+                      ? StepStretch{fit.stretch.order, fit.stretch.end, positions.size()}
+                      : StepStretch{fit.stretch.order, 0, fit.stretch.begin};
   if (in_parts)
-    trial.ids = corrected_ids(scans, ids, trial.fault, trial.stretch);
+    fit.ids = corrected_ids(scans, ids, fit.fault, fit.stretch);
   else
-    for (int& id : trial.ids) id = other_id(trial.fault, id);
-  trial.map.positions_m.row(trial.fault.first).swap(trial.map.positions_m.row(trial.fault.second));
+    for (int& id : fit.ids) id = other_id(fit.fault, id);
+  fit.map.positions_m.row(fit.fault.first).swap(fit.map.positions_m.row(fit.fault.second));
   if (in_parts)
-    trial.map = minimized_map(pair_items(scans.pairs, trial.ids, scans.blocks),
-                              trial.map.positions_m, trial.map.width_m);
+    fit.map = minimized_map(pair_items(scans.pairs, fit.ids, scans.blocks),
+                              fit.map.positions_m, fit.map.width_m);
 }
 
 /// A fault that gains little in many scans may be a sensor's error in one part of the hall.
@@ -285,20 +285,20 @@ AssociationCheck check_association(const DetectionLog& log,
                          .doubts = {},
                          .repaired = log};
   for (int round = 0; round < options.most_findings; ++round) {
-    std::optional<FaultTrial> trial = best_trial(scans, ids, map);
-    if (!trial) break;
-    const double evidence = (map.cost - trial->map.cost) / residual_variance(map);
+    std::optional<HypothesisFit> fit = best_fit(scans, ids, map);
+    if (!fit) break;
+    const double evidence = (map.cost - fit->map.cost) / residual_variance(map);
     if (evidence < options.least_evidence ||
-        !convincing(explained(scans, ids, map, *trial), options))
+        !convincing(explained(scans, ids, map, *fit), options))
       break;
-    turn_to_minority(scans, ids, *trial);
-    AssociationFinding finding = found(scans, ids, *trial);
+    turn_to_minority(scans, ids, *fit);
+    AssociationFinding finding = found(scans, ids, *fit);
     if (finding.detections < std::max(1, options.fewest_detections)) break;
     finding.evidence = evidence;
     finding.loss_before_m = check.loss_after_m;
-    ids = std::move(trial->ids);
+    ids = std::move(fit->ids);
     // Wrong IDs may have widened the residuals that determine the width.
-    map = map_under(scans, ids, &trial->map.positions_m);
+    map = map_under(scans, ids, &fit->map.positions_m);
     check.loss_after_m = loss_at(scans, ids, map.positions_m, known_width_m);
     finding.loss_after_m = check.loss_after_m;
     check.findings.push_back(finding);

@@ -52,32 +52,32 @@ std::vector<int> ids_scan_by_scan(const ScanLabels& of, const AssociationHypothe
   return result;
 }
 
-FaultTrial converged_trial(const ScanLabels& of, FaultTrial trial, const Points& start,
+HypothesisFit converged_fit(const ScanLabels& of, HypothesisFit fit, const Points& start,
                            double predicted_m, double width_m) {
   const IdentifiedScans& scans = of.scans;
-  trial.map.positions_m = turned_as_seen(scans, of.ids, start);
-  trial.ids = of.ids;
-  FaultTrial best;
+  fit.map.positions_m = turned_as_seen(scans, of.ids, start);
+  fit.ids = of.ids;
+  HypothesisFit best;
   best.map.cost = kInfinity;
   bool unfolded = false;
   for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<int> next = ids_scan_by_scan(of, trial.fault, trial.map.positions_m, predicted_m);
-    const bool converged = round > 0 && next == trial.ids;
+    std::vector<int> next = ids_scan_by_scan(of, fit.fault, fit.map.positions_m, predicted_m);
+    const bool converged = round > 0 && next == fit.ids;
     if (converged && unfolded) break;
-    trial.ids = std::move(next);
-    const std::vector<PairItem> items = pair_items(scans.pairs, trial.ids, scans.blocks);
-    trial.map = minimized_map(items, trial.map.positions_m, width_m);
+    fit.ids = std::move(next);
+    const std::vector<PairItem> items = pair_items(scans.pairs, fit.ids, scans.blocks);
+    fit.map = minimized_map(items, fit.map.positions_m, width_m);
     if (!converged) {
-      if (trial.map.cost < best.map.cost) best = trial;
+      if (fit.map.cost < best.map.cost) best = fit;
       continue;
     }
     // Wrong IDs may have folded the map of the others.
     unfolded = true;
     RobustMap resampled = freshly_mapped(items, static_cast<int>(start.rows()), width_m);
-    if (resampled.cost < trial.map.cost) trial.map = std::move(resampled);
-    trial.map = unfolded_map(items, std::move(trial.map), scans.blocks.count);
-    trial.map.positions_m = turned_as_seen(scans, trial.ids, trial.map.positions_m);
-    if (trial.map.cost < best.map.cost) best = trial;
+    if (resampled.cost < fit.map.cost) fit.map = std::move(resampled);
+    fit.map = unfolded_map(items, std::move(fit.map), scans.blocks.count);
+    fit.map.positions_m = turned_as_seen(scans, fit.ids, fit.map.positions_m);
+    if (fit.map.cost < best.map.cost) best = fit;
   }
   return best;
 }

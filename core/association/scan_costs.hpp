@@ -9,7 +9,7 @@
 namespace mapproof {
 
 /// A data-association hypothesis that was tested, and its result.
-struct FaultTrial {
+struct HypothesisFit {
   AssociationHypothesis fault;
   StepStretch stretch;
   std::vector<int> ids;
@@ -37,7 +37,7 @@ std::vector<int> ids_scan_by_scan(const ScanLabels& of, const AssociationHypothe
 /// Alternates between reassigning both IDs and minimizing the map's cost until no ID changes.
 /// @param start  M x 2: the initial map.
 /// @param predicted_m  Width of Huber's cost by which scans are judged; the map's is `width_m`.
-FaultTrial converged_trial(const ScanLabels& of, FaultTrial trial, const Points& start,
+HypothesisFit converged_fit(const ScanLabels& of, HypothesisFit fit, const Points& start,
                            double predicted_m, double width_m);
 
 /// The map, or its reflection, so that its landmarks have the orientation that the scans show.

@@ -18,7 +18,7 @@ enum Purpose : std::uint64_t {
   kSlamStart = 10,
   kSlamBootstrap = 11,
   kSlamSpace = 12,
-  kTrial = 13,
+  kTopic = 13,
   kExternalMap = 0x65787465726e616c  ///< Of methods of others.
 };
 

@@ -5,7 +5,7 @@
 
 #include "core/model/detection_log.hpp"
 #include "core/model/points.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "core/pairs/orientation.hpp"
 
 namespace mapproof {

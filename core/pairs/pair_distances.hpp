@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/model/detection_log.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 
 namespace mapproof {
 

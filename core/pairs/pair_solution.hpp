@@ -6,7 +6,7 @@
 
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "core/pairs/orientation.hpp"
 #include "core/pairs/pair_distances.hpp"
 

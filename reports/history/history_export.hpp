@@ -135,8 +135,8 @@ void fields(Visitor& v, ExportedStudy& exported) {
   NightlyStudy& study = exported.study;
   v.field("name", study.name);
   v.field("kind", study.kind, {.description = "The schema of its study.json."});
-  v.field("order_digest", study.order_digest,
-          {.description = "SHA-256 of the experiment as it was ordered."});
+  v.field("experiment_digest", study.experiment_digest,
+          {.description = "SHA-256 of the experiment with its options."});
   v.field("runs", study.runs, kCount);
   v.field("seconds", study.seconds);
   v.field("peak_memory_mib", study.peak_memory_mib);

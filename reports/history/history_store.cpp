@@ -176,14 +176,14 @@ std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
 
 std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
   Statement rows(*database_,
-                 "SELECT id, name, kind, order_digest, runs, seconds, peak_memory_mib FROM studies "
+                 "SELECT id, name, kind, experiment_digest, runs, seconds, peak_memory_mib FROM studies "
                  "WHERE nightly_run = ? ORDER BY id");
   rows.bind(nightly_run);
   std::vector<NightlyStudy> studies;
   while (rows.step()) {
     NightlyStudy study{.name = rows.text(1),
                        .kind = rows.text(2),
-                       .order_digest = rows.text(3),
+                       .experiment_digest = rows.text(3),
                        .runs = static_cast<int>(rows.integer(4))};
     if (!rows.is_null(5)) study.seconds = rows.real(5);
     if (!rows.is_null(6)) study.peak_memory_mib = rows.real(6);
@@ -212,17 +212,17 @@ Scores HistoryStore::scores(int nightly_run, const std::string& study) {
   return scores;
 }
 
-StudyTrend HistoryStore::trend(const std::string& study, const std::string& order_digest, int most,
+StudyTrend HistoryStore::trend(const std::string& study, const std::string& experiment_digest, int most,
                                int until) {
   StudyTrend trend{.name = study};
   std::map<std::int64_t, std::size_t> place;  // Of a row of studies.
   Statement rows(
       *database_,
       fmt::format("SELECT {}, s.id, s.peak_memory_mib FROM nightly_runs n JOIN studies s ON "
-                  "s.nightly_run = n.number WHERE s.name = ? AND s.order_digest = ? AND "
+                  "s.nightly_run = n.number WHERE s.name = ? AND s.experiment_digest = ? AND "
                   "n.number <= ? ORDER BY n.number DESC LIMIT ?",
                   kNightlyColumns));
-  rows.bind(study).bind(order_digest).bind(until).bind(most);
+  rows.bind(study).bind(experiment_digest).bind(until).bind(most);
   std::vector<std::int64_t> ids;
   while (rows.step()) {
     trend.nightly_runs.push_back(read_facts(rows, database_->path()));
@@ -291,12 +291,12 @@ void HistoryStore::append(const NightlyRun& nightly_run) {
 
 void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
   Statement insert(*database_,
-                   "INSERT INTO studies (nightly_run, name, kind, order_digest, runs, seconds, "
+                   "INSERT INTO studies (nightly_run, name, kind, experiment_digest, runs, seconds, "
                    "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.bind(nightly_run)
       .bind(study.name)
       .bind(study.kind)
-      .bind(study.order_digest)
+      .bind(study.experiment_digest)
       .bind(study.runs);
   insert.bind(study.seconds.value_or(kNaN)).bind(study.peak_memory_mib.value_or(kNaN)).run();
   const std::int64_t id = database_->last_row();

@@ -136,14 +136,14 @@ void drop_before(StudyTrend& trend, int nightly_run) {
 StudyEvidence evidence_of(HistoryStore& store, const NightlyRun& this_run,
                           const NightlyStudy& study, int pinned) {
   StudyEvidence evidence{
-      .trend = store.trend(study.name, study.order_digest, kTrendRuns, this_run.facts.number - 1),
+      .trend = store.trend(study.name, study.experiment_digest, kTrendRuns, this_run.facts.number - 1),
       .this_run = study.scores,
       .draws_groups = study.draws_groups};
   drop_before(evidence.trend, pinned);
   add_this_run(evidence.trend, this_run.facts, study);
   if (!this_run.facts.reference) return evidence;
   for (const NightlyStudy& then : store.studies(*this_run.facts.reference))
-    if (then.name == study.name && then.order_digest == study.order_digest)
+    if (then.name == study.name && then.experiment_digest == study.experiment_digest)
       evidence.reference = {*this_run.facts.reference,
                             store.scores(*this_run.facts.reference, study.name)};
   return evidence;
@@ -200,7 +200,7 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
 
 bool has_study(HistoryStore& store, int nightly_run, const NightlyStudy& this_run) {
   return std::ranges::any_of(store.studies(nightly_run), [&](const NightlyStudy& then) {
-    return then.name == this_run.name && then.order_digest == this_run.order_digest;
+    return then.name == this_run.name && then.experiment_digest == this_run.experiment_digest;
   });
 }
 

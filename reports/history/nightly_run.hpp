@@ -52,7 +52,7 @@ struct FigureFile {
 struct NightlyStudy {
   std::string name = {};
   std::string kind = {};          ///< "mapproof.study", "mapproof.slam_study".
-  std::string order_digest = {};  ///< SHA-256 of the experiment as it was ordered: nightly runs are
+  std::string experiment_digest = {};  ///< SHA-256 of the experiment with its options: nightly runs are
                                   ///< compared where it is the same.
   bool draws_groups = false;      ///< StudyContents::draws_groups.
   int runs = 0;

@@ -12,7 +12,7 @@
 #include "core/json/json_document.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/study_store.hpp"
-#include "core/topics/study_kind.hpp"
+#include "core/studies/study_kind.hpp"
 
 namespace mapproof {
 namespace {
@@ -57,7 +57,7 @@ Scores scores_of(const Results& results, const std::vector<Result>& seconds) {
   return scores;
 }
 
-std::string order_digest(const std::string& study_json, const std::string& source) {
+std::string experiment_digest(const std::string& study_json, const std::string& source) {
   const JsonDocument document = parse_json(study_json, source);
   schema_of(document.cursor());  // An object, and of a form.
   nlohmann::json root = document.tree();
@@ -68,7 +68,7 @@ std::string order_digest(const std::string& study_json, const std::string& sourc
 NightlyStudy read_nightly_study(const std::filesystem::path& folder, const std::string& name) {
   const std::filesystem::path head = folder / "study.json";
   NightlyStudy nightly_run{.name = name,
-                           .order_digest = order_digest(read_file(head), head.string())};
+                           .experiment_digest = experiment_digest(read_file(head), head.string())};
   StudyContents contents = read_study_contents(folder, {.seconds = true});
   nightly_run.kind = contents.kind;
   nightly_run.draws_groups = contents.draws_groups;

@@ -68,7 +68,7 @@ std::vector<std::string> command_lines(const fs::path& page) {
   return commands;
 }
 
-/// `mapproof map --follow` within the sentences of a page.
+/// `mapproof map --incremental` within the sentences of a page.
 std::vector<std::string> commands_in_text(const fs::path& page) {
   std::vector<std::string> commands;
   const std::string text = read_file(page);

@@ -403,12 +403,12 @@ TEST(Streams, APipeInPlaceOfAHistoryIsNamedAtOnce) {
                    "history.sqlite: is a named pipe, a file was expected");
 }
 
-TEST(Streams, AFollowedPipeThatNobodyWritesToCanBeStopped) {
+TEST(Streams, APipeThatNobodyWritesToCanBeStopped) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder / "f").c_str(), 0600), 0);
   const Outcome outcome =
       shell(folder.path(),
-            "timeout -s INT 0.5 $MAPPROOF map f --follow --sensor visibility --out out", 10.0);
+            "timeout -s INT 0.5 $MAPPROOF map f --incremental --sensor visibility --out out", 10.0);
   EXPECT_NE(outcome.error.find("f: holds no observations"), std::string::npos) << outcome.error;
 }
 

@@ -19,7 +19,7 @@
 #include "core/range_slam/factors/spectral_slam.hpp"
 #include "core/range_slam/refinement/refine.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
-#include "core/topics/ranges.hpp"
+#include "core/studies/ranges.hpp"
 
 namespace mapproof {
 namespace {

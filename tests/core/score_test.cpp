@@ -68,7 +68,7 @@ TEST(FitAffine, LeastDistancesCannotBeBetteredByASmallChange) {
     const Points to = scattered(n, 30 + static_cast<std::uint64_t>(n));
     const auto sum = [&](const Affine& map) { return (map(from) - to).rowwise().norm().sum(); };
     const Affine best = fit_affine(from, to, AffineFit::kLeastDistances);
-    for (int trial = 0; trial < 2000; ++trial) {
+    for (int round = 0; round < 2000; ++round) {
       const double size = std::pow(10.0, -1.0 - 4.0 * random.uniform());
       Affine other = best;
       for (double& entry : other.linear.reshaped()) entry += size * random.normal();

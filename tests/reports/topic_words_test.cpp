@@ -1,9 +1,9 @@
-#include "reports/sections/trials/topic_text.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/trials/topic.hpp"
-#include "core/trials/topics.hpp"
+#include "core/topics/topic.hpp"
+#include "core/topics/topics.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,16 +17,16 @@ TEST(TopicWords, AreThoseOfEveryTopic) {
 
 TEST(TopicWords, AskAQuestionOfEveryTopic) {
   for (const Topic* topic : all_topics()) {
-    TrialExperiment experiment;
+    TopicExperiment experiment;
     experiment.topic = topic->name;
-    for (const TrialOption& option : topic->options)
+    for (const TopicOption& option : topic->options)
       experiment.options[std::string(option.name)] = option.usual;
     EXPECT_GT(question_of(experiment).size(), 40U) << topic->name;
   }
 }
 
 TEST(TopicWords, AreNoneOfATopicThatIsNotKnown) {
-  TrialStudy study;
+  TopicStudy study;
   study.experiment.topic = "weather";
   study.parts.emplace_back();
   EXPECT_EQ(question_of(study.experiment), "");

@@ -245,14 +245,14 @@ void AugmentedLagrangian::descend(Rows& Y, Eigen::VectorXd& w, bool refresh) {
     const double slope = dot(gradient, direction);
     double length = 1.0;
     for (int halvings = 0; halvings < 30; ++halvings, length /= 2.0) {
-      Rows trial = Y + length * direction;
-      Eigen::VectorXd trial_c;
-      const double trial_f = value(trial, w, trial_c);
-      if (trial_f > f + 1e-4 * length * slope + 1e-13 * std::abs(f)) continue;
-      centre(problem_, trial);
-      Y = std::move(trial);
-      c = std::move(trial_c);
-      f = trial_f;
+      Rows next = Y + length * direction;
+      Eigen::VectorXd next_c;
+      const double next_f = value(next, w, next_c);
+      if (next_f > f + 1e-4 * length * slope + 1e-13 * std::abs(f)) continue;
+      centre(problem_, next);
+      Y = std::move(next);
+      c = std::move(next_c);
+      f = next_f;
       break;
     }
   }

@@ -101,7 +101,7 @@ struct SpectralSlamOptions {
 /// The estimate, and how it came about.
 struct SpectralSlam {
   SlamEstimate estimate;
-  WindowSearch window;    ///< Without trials where the window was given.
+  WindowSearch window;    ///< Without candidates where the window was given.
   MetricUpgrade upgrade;  ///< Where no landmark was known and heading not asked for.
   Eigen::MatrixXd Y;      ///< 1/2 d^2 at the times of the path, m^2: N x its size.
 };

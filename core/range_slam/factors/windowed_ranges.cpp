@@ -70,7 +70,7 @@ void hold_out(const LandmarkRanges& measurements, const HeldOutBlocks& blocks,
   }
 }
 
-WindowTrial tried(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
+WindowCandidate tried(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
                   const Eigen::VectorXd& some_s, double length_s) {
   const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
   WindowOptions options{.length_s = length_s,
@@ -379,15 +379,15 @@ WindowSearch choose_window(const std::vector<LandmarkRanges>& measurements, cons
   const double all_s = some_s(some_s.size() - 1) - some_s(0);
   WindowSearch search;
   search.options.length_s = all_s;
-  const WindowTrial* best = nullptr;
+  const WindowCandidate* best = nullptr;
   for (int i = 0; i < kLengths; ++i)
-    search.trials.push_back(
+    search.candidates.push_back(
         tried(measurements, path, some_s, all_s * std::pow(std::numbers::sqrt2, -i)));
-  for (const WindowTrial& trial : search.trials) {
-    if (std::isnan(trial.error_m)) continue;
-    if (best == nullptr || trial.covered > best->covered ||
-        (trial.covered == best->covered && trial.error_m < best->error_m))
-      best = &trial;
+  for (const WindowCandidate& candidate : search.candidates) {
+    if (std::isnan(candidate.error_m)) continue;
+    if (best == nullptr || candidate.covered > best->covered ||
+        (candidate.covered == best->covered && candidate.error_m < best->error_m))
+      best = &candidate;
   }
   if (best == nullptr) {
     search.all_covered = false;
@@ -400,9 +400,9 @@ WindowSearch choose_window(const std::vector<LandmarkRanges>& measurements, cons
 
 WindowCurve summary(const WindowSearch& search) {
   WindowCurve curve;
-  for (const WindowTrial& trial : search.trials) {
-    curve.lengths_s.push_back(trial.length_s);
-    curve.held_out_m.push_back(trial.error_m);
+  for (const WindowCandidate& candidate : search.candidates) {
+    curve.lengths_s.push_back(candidate.length_s);
+    curve.held_out_m.push_back(candidate.error_m);
   }
   curve.chosen_s = search.options.length_s;
   return curve;

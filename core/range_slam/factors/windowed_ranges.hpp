@@ -111,7 +111,7 @@ double range_scale_of(const std::vector<LandmarkRanges>& measurements, double fi
                       double last_s, double length_s);
 
 /// One window length that was tried.
-struct WindowTrial {
+struct WindowCandidate {
   double length_s = 0.0;
   double range_scale = 1.0;  ///< Of range_scale_of().
   double error_m =
@@ -122,7 +122,7 @@ struct WindowTrial {
 /// A window length chosen by what it predicts, without ground truth.
 struct WindowSearch {
   WindowOptions options;
-  std::vector<WindowTrial> trials;  ///< By descending length.
+  std::vector<WindowCandidate> candidates;  ///< By descending length.
   bool all_covered = true;          ///< False: no length covers all times; the best of those that
                                     ///< cover the most was taken.
 };
@@ -138,7 +138,7 @@ struct WindowSearch {
 WindowSearch choose_window(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
                            const Eigen::VectorXd& time_s);
 
-/// The lengths and errors of the trials, for records.
+/// The lengths and errors of the candidates, for records.
 WindowCurve summary(const WindowSearch& search);
 
 }  // namespace mapproof

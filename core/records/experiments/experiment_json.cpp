@@ -189,7 +189,7 @@ std::vector<std::vector<double>> combinations_of(const Sweep& sweep) {
   return all;
 }
 
-std::string sweep_problem(const TrialExperiment& experiment, const Sweep& sweep) {
+std::string sweep_problem(const TopicExperiment& experiment, const Sweep& sweep) {
   bool has_sensor = false;
   for (const SensorStudy& sensor : experiment.sensors) {
     if (!has_factors(sensor.sensor.sensor, sweep)) continue;
@@ -235,7 +235,7 @@ std::optional<RecordFault> fault_of(const Experiment& experiment) {
   return std::nullopt;
 }
 
-std::optional<RecordFault> fault_of(const TrialExperiment& experiment) {
+std::optional<RecordFault> fault_of(const TopicExperiment& experiment) {
   const int landmarks = experiment.world.landmarks;
   if (experiment.anchors > landmarks)
     return {{"anchors", fmt::format("{} anchors of {} landmarks", experiment.anchors, landmarks)}};

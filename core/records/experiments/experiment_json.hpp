@@ -10,7 +10,7 @@
 
 #include "core/model/experiment.hpp"
 #include "core/model/study.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "core/records/experiments/external_methods.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
@@ -40,7 +40,7 @@ struct RecordFault {
 std::optional<RecordFault> fault_of(const Experiment& experiment);
 
 /// Sizes of the whole, and every combination of levels of every sweep.
-std::optional<RecordFault> fault_of(const TrialExperiment& experiment);
+std::optional<RecordFault> fault_of(const TopicExperiment& experiment);
 
 /// SensorOptions::noise is at most this.
 inline double greatest_noise(Sensor sensor) {

@@ -48,11 +48,11 @@ SlamExperiment parse_slam_experiment(std::string_view text, const std::string& s
 }
 
 std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance) {
-  return to_json_text(SlamOrder{.experiment = experiment, .provenance = provenance});
+  return to_json_text(SlamStudyStart{.experiment = experiment, .provenance = provenance});
 }
 
-SlamOrder parse_slam_study(std::string_view text, const std::string& source) {
-  return from_json_text<SlamOrder>(text, source);
+SlamStudyStart parse_slam_study(std::string_view text, const std::string& source) {
+  return from_json_text<SlamStudyStart>(text, source);
 }
 
 }  // namespace mapproof

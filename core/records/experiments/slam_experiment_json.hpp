@@ -201,7 +201,7 @@ std::optional<RecordFault> fault_of(const SlamExperiment& experiment);
 template <typename Visitor>
 void fields(Visitor& v, SlamExperiment& experiment) {
   using namespace record_rules;
-  v.file("mapproof.slam_experiment", "A range-only experiment as it is ordered.");
+  v.file("mapproof.slam_experiment", "A range-only experiment.");
   name_fields(v, experiment);
   v.field("seed", experiment.seed,
           {.description = "Of all random numbers: the same seed gives the same study.",
@@ -236,14 +236,14 @@ void fields(Visitor& v, SlamExperiment& experiment) {
 }
 
 /// What study.json of a range-only study holds.
-struct SlamOrder {
+struct SlamStudyStart {
   SlamExperiment experiment;
   Provenance provenance;
 };
 
 /// The head of a study: study.json.
 template <typename Visitor>
-void fields(Visitor& v, SlamOrder& head) {
+void fields(Visitor& v, SlamStudyStart& head) {
   v.file("mapproof.slam_study",
          "study.json of a range-only study: what was asked for, and what made it.");
   v.field("experiment", head.experiment);
@@ -263,6 +263,6 @@ std::string slam_experiment_json(const SlamExperiment& experiment);
 
 /// study.json (mapproof.slam_study).
 std::string slam_study_json(const SlamExperiment& experiment, const Provenance& provenance);
-SlamOrder parse_slam_study(std::string_view text, const std::string& source);
+SlamStudyStart parse_slam_study(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -139,7 +139,7 @@ std::string figure_prefix(const std::string& name) {
   return id.front() >= 'a' && id.front() <= 'z' ? id : "study-" + id;
 }
 
-std::string group_of(const TrialPart& part) { return part.run ? layout_of(*part.run) : part.id; }
+std::string group_of(const TopicPart& part) { return part.run ? layout_of(*part.run) : part.id; }
 
 }  // namespace
 
@@ -182,21 +182,21 @@ Results results_of(const MapRecord& map) {
   return results;
 }
 
-Results results_of(const TrialStudy& study) {
+Results results_of(const TopicStudy& study) {
   Results results{.are_repeats = study.experiment.data.empty()};
   for (const Quantity& quantity : study.design.quantities) results.quantities.declare(quantity);
-  for (const TrialPart& part : study.parts)
-    for (const Trial& trial : part.trials) {
-      RecordRows rows(results, trial.at, trial.series, part.id, group_of(part));
-      for (const auto& [quantity, value] : trial.values) rows.add(quantity, value);
-      rows.add(trial.statuses);
+  for (const TopicPart& part : study.parts)
+    for (const TopicOutcome& outcome : part.outcomes) {
+      RecordRows rows(results, outcome.at, outcome.method, part.id, group_of(part));
+      for (const auto& [quantity, value] : outcome.values) rows.add(quantity, value);
+      rows.add(outcome.statuses);
     }
   sort_results(results);
   return results;
 }
 
-ResultsStudy labelled_results(const TrialStudy& study) {
-  const TrialExperiment& experiment = study.experiment;
+ResultsStudy labelled_results(const TopicStudy& study) {
+  const TopicExperiment& experiment = study.experiment;
   ResultsStudy labelled{.name = figure_prefix(experiment.name),
                         .title = experiment.title,
                         .question = {},
@@ -212,15 +212,15 @@ ResultsStudy labelled_results(const TrialStudy& study) {
     labelled.quantities.push_back(quantity.id);
     labelled.quantity_labels.push_back({.id = quantity.id, .label = quantity.label});
   }
-  for (const TrialSetup& setup : study.design.setups) {
+  for (const TopicSetup& setup : study.design.setups) {
     labelled.setups.push_back({.id = setup.id, .label = setup.title});
-    for (const TrialFactor& factor : setup.factors)
+    for (const SetupFactor& factor : setup.factors)
       if (std::ranges::find(labelled.factors, factor.id, &Label::id) == labelled.factors.end())
         labelled.factors.push_back({.id = factor.id, .label = factor.label, .unit = factor.unit});
   }
-  for (const TrialSeries& series : study.design.series)
-    labelled.methods.push_back({.id = series.id, .label = series.label});
-  for (const TrialDataSet& set : experiment.data)
+  for (const ComparedMethod& method : study.design.methods)
+    labelled.methods.push_back({.id = method.id, .label = method.label});
+  for (const DataSet& set : experiment.data)
     labelled.runs.push_back({.id = set.id, .label = set.title});
   complete(labelled);
   return labelled;
@@ -257,12 +257,12 @@ std::vector<Result> seconds_of(const SlamTimings& timings) {
   return rows;
 }
 
-std::vector<Result> seconds_of(const TrialStudy& study) {
+std::vector<Result> seconds_of(const TopicStudy& study) {
   std::vector<Result> rows;
-  for (const TrialPart& part : study.parts)
-    for (const TrialSeconds& timing : part.seconds)
+  for (const TopicPart& part : study.parts)
+    for (const MethodSeconds& timing : part.seconds)
       rows.push_back({.at = condition("all"),
-                      .method = timing.series,
+                      .method = timing.method,
                       .quantity = "seconds",
                       .run = part.id,
                       .group = group_of(part),

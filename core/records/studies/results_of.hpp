@@ -6,7 +6,7 @@
 #include "core/model/map_record.hpp"
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "core/results/results_study.hpp"
 
 namespace mapproof {
@@ -21,10 +21,10 @@ Results results_of(const Study& study);
 Results results_of(const SlamStudy& study);
 
 /// Setups, factors and quantities are the design's; groups are layouts or data sets.
-Results results_of(const TrialStudy& study);
+Results results_of(const TopicStudy& study);
 
 /// The same under the labels of its design, for the report.
-ResultsStudy labelled_results(const TrialStudy& study);
+ResultsStudy labelled_results(const TopicStudy& study);
 
 /// Of one log, of one map.
 Results results_of(const SlamRun& run);
@@ -34,6 +34,6 @@ Results results_of(const MapRecord& map);
 /// results.
 std::vector<Result> seconds_of(std::span<const Timing> timings);
 std::vector<Result> seconds_of(const SlamTimings& timings);
-std::vector<Result> seconds_of(const TrialStudy& study);
+std::vector<Result> seconds_of(const TopicStudy& study);
 
 }  // namespace mapproof

@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 StudyHead read_slam_head(const std::string& text, const std::string& source) {
-  const SlamOrder order = parse_slam_study(text, source);
-  return {.experiment = to_json_value(order.experiment).dump(),
-          .solver_digest = order.provenance.solver_digest};
+  const SlamStudyStart start = parse_slam_study(text, source);
+  return {.experiment = to_json_value(start.experiment).dump(),
+          .solver_digest = start.provenance.solver_digest};
 }
 
 /// Whether a file can be read as what it should be.
@@ -192,19 +192,19 @@ void write_paths(const SlamRun& run, const OutputFolder& folder, const fs::path&
 SlamStudy read_slam_study(const fs::path& folder) {
   const SlamFiles files{folder};
   require_study(folder);
-  SlamOrder order = parse_slam_study(read_file(files.study()), files.study().string());
+  SlamStudyStart start = parse_slam_study(read_file(files.study()), files.study().string());
   SlamStudy study;
-  study.name = order.experiment.name;
-  study.title = order.experiment.title;
-  study.facts = facts_of(order.experiment);
-  study.seed = order.experiment.seed;
-  study.provenance = std::move(order.provenance);
-  read_runs(files, order.experiment, study);
-  read_convergence(files, order.experiment, study);
-  if (order.experiment.histories && is_there(files.histories()))
+  study.name = start.experiment.name;
+  study.title = start.experiment.title;
+  study.facts = facts_of(start.experiment);
+  study.seed = start.experiment.seed;
+  study.provenance = std::move(start.provenance);
+  read_runs(files, start.experiment, study);
+  read_convergence(files, start.experiment, study);
+  if (start.experiment.histories && is_there(files.histories()))
     study.histories =
         parse_range_histories(read_file(files.histories()), files.histories().string());
-  if (order.experiment.space && is_there(files.space()))
+  if (start.experiment.space && is_there(files.space()))
     study.space = parse_space_run(read_file(files.space()), files.space().string());
   return study;
 }

@@ -34,7 +34,7 @@ struct RecordProblem {
 
 /// What a folder of records holds, of any kind of study.
 struct StudyContents {
-  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.trial_study",
+  std::string kind;  ///< "mapproof.study", "mapproof.slam_study", "mapproof.topic_study",
                      ///< "mapproof.results_study", "mapproof.map", "mapproof.slam_run": the schema
                      ///< of its first file.
   Provenance provenance;

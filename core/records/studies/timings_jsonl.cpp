@@ -34,8 +34,8 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
       timings.slam.methods.push_back(std::move(one));
     else if constexpr (std::is_same_v<T, FactorizationCost>)
       timings.slam.factorization.push_back(std::move(one));
-    else if constexpr (std::is_same_v<T, TrialSeconds>)
-      timings.trials.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, MethodSeconds>)
+      timings.outcomes.push_back(std::move(one));
     else
       timings.sessions.push_back(std::move(one));
   };
@@ -50,7 +50,7 @@ std::string timings_header() { return json_line({{"schema", schema_value(kTiming
 std::string timing_line(const Timing& timing) { return json_line(to_json_value(timing)); }
 std::string timing_line(const SlamTiming& timing) { return json_line(to_json_value(timing)); }
 std::string timing_line(const FactorizationCost& cost) { return json_line(to_json_value(cost)); }
-std::string timing_line(const TrialSeconds& timing) { return json_line(to_json_value(timing)); }
+std::string timing_line(const MethodSeconds& timing) { return json_line(to_json_value(timing)); }
 std::string session_line(const Session& session) { return json_line(to_json_value(session)); }
 
 Timings parse_timings(std::string_view text, const std::string& source) {

@@ -9,7 +9,7 @@
 
 #include "core/model/slam_study.hpp"
 #include "core/model/study.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "core/records/studies/slam_fields.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"
@@ -52,10 +52,10 @@ void fields(Visitor& v, FactorizationCost& cost) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, TrialSeconds& timing) {
-  v.tag("kind", "trial");
+void fields(Visitor& v, MethodSeconds& timing) {
+  v.tag("kind", "method");
   v.field("part", timing.part, {.description = "Its id.", .max_bytes = 200});
-  v.field("series", timing.series, record_rules::kMethod);
+  v.field("method", timing.method, record_rules::kMethod);
   v.field("seconds", timing.seconds, record_rules::kSeconds);
 }
 
@@ -72,10 +72,10 @@ void fields(Visitor& v, Session& session) {
 }
 
 /// A line behind the first one.
-using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, TrialSeconds, Session>;
+using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, MethodSeconds, Session>;
 
 /// timings.jsonl: one JSON object per line: the schema, then {"kind": "map", ...},
-/// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "trial", ...} or
+/// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "method", ...} or
 /// {"kind": "session", ...}.
 ///
 /// Lines are appended, a batch at a time, by OutputFolder::append(): to rewrite the whole file for
@@ -84,7 +84,7 @@ using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, TrialSeco
 struct Timings {
   std::vector<Timing> maps;
   SlamTimings slam;
-  std::vector<TrialSeconds> trials;
+  std::vector<MethodSeconds> outcomes;
   std::vector<Session> sessions;
 };
 
@@ -94,7 +94,7 @@ std::string timings_header();
 std::string timing_line(const Timing& timing);
 std::string timing_line(const SlamTiming& timing);
 std::string timing_line(const FactorizationCost& cost);
-std::string timing_line(const TrialSeconds& timing);
+std::string timing_line(const MethodSeconds& timing);
 std::string session_line(const Session& session);
 
 /// All whole lines in their order. @throws IoError naming the line.

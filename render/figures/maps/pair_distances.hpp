@@ -6,7 +6,7 @@
 
 #include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {

@@ -23,8 +23,8 @@
 #include "core/json/record_reader.hpp"
 #include "core/records/studies/folder_replacement.hpp"
 #include "core/records/studies/study_folder.hpp"
-#include "core/topics/study_kind.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/study_kind.hpp"
+#include "core/studies/validate.hpp"
 #include "render/decode/image_reader.hpp"
 #include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
@@ -278,12 +278,12 @@ void require_comparable_files(const fs::path& baseline, const fs::path& current)
 
 constexpr std::size_t kLongestName = 4096;  // Characters, as printed.
 
-std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFiles& before,
+std::vector<std::string> chosen_ids(const ApprovalRequest& request, const ApprovalFiles& before,
                                     const ApprovalFiles& after) {
   std::set<std::string> known;
   for (const ApprovalFiles* side : {&before, &after})
     for (const auto& [id, paths] : *side) known.insert(id);
-  if (order.all) {
+  if (request.all) {
     // Further baselines ID@KEY are replaced or kept with their item ID.
     std::erase_if(known, [&](const std::string& id) {
       return !after.contains(id) && after.contains(id.substr(0, id.rfind('@')));
@@ -292,7 +292,7 @@ std::vector<std::string> chosen_ids(const ApprovalOrder& order, const ApprovalFi
   }
   const std::vector<std::string_view> names(known.begin(), known.end());
   std::vector<std::string> ids;
-  for (const std::string& id : order.ids) {
+  for (const std::string& id : request.ids) {
     // The id itself, or as a diff prints it if a terminal cannot show it.
     const auto own = known.contains(id) ? known.find(id)
                                         : std::ranges::find_if(known, [&](const std::string& one) {
@@ -325,9 +325,9 @@ class Planner {
         before_(approval_files(baseline)),
         after_(approval_files(current)) {}
 
-  ApprovalPlan plan(const ApprovalOrder& order) {
+  ApprovalPlan plan(const ApprovalRequest& request) {
     require_comparable({baseline_, before_}, {current_, after_});
-    std::vector<std::string> ids = chosen_ids(order, before_, after_);
+    std::vector<std::string> ids = chosen_ids(request, before_, after_);
     const auto is_records = [](const std::string& id) {
       return id == kRecordsItem || id.starts_with("records/");
     };
@@ -337,15 +337,15 @@ class Planner {
     for (const std::string& id : ids) {
       const std::size_t before = steps_.size();
       try {
-        add_id(id, order.key, whole);
+        add_id(id, request.key, whole);
       } catch (const InvalidInput& error) {
-        if (!order.all) throw;
+        if (!request.all) throw;
         steps_.resize(before);
         plan.refused.push_back(id + ": " + error.what());
       }
     }
     plan.steps = std::move(steps_);
-    if (order.all && !order.force) require_most_stays(plan.steps);
+    if (request.all && !request.force) require_most_stays(plan.steps);
     return plan;
   }
 
@@ -477,14 +477,14 @@ bool is_key(const std::string& key) {
 }  // namespace
 
 ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
-                           const ApprovalOrder& order) {
-  if (!is_key(order.key))
-    throw InvalidInput("the key \"" + printable(order.key) +
+                           const ApprovalRequest& request) {
+  if (!is_key(request.key))
+    throw InvalidInput("the key \"" + printable(request.key) +
                        "\" may hold letters, digits, '.', '_' and '-' alone");
   std::error_code error;
   if (!fs::exists(current, error)) throw IoError(current.string(), "does not exist");
   refuse_links_out(current);
-  return Planner(baseline, current).plan(order);
+  return Planner(baseline, current).plan(request);
 }
 
 std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baseline,

@@ -15,7 +15,7 @@ struct ApprovalStep {
 };
 
 /// What is to become the new baseline.
-struct ApprovalOrder {
+struct ApprovalRequest {
   std::vector<std::string> ids;  ///< The ids of items.
   bool all = false;              ///< Every item of either side.
   std::string key;               ///< Images become further baselines ID@KEY; [A-Za-z0-9._-]*.
@@ -43,7 +43,7 @@ struct ApprovalPlan {
 ///         schema of its records cannot be read.
 /// @note Reads each file of the items once or twice.
 ApprovalPlan approval_plan(const std::filesystem::path& baseline,
-                           const std::filesystem::path& current, const ApprovalOrder& order);
+                           const std::filesystem::path& current, const ApprovalRequest& request);
 
 /// Why an item cannot be approved by itself.
 struct ApprovalRefusal {

@@ -20,7 +20,7 @@
 #include "core/records/maps/map_json.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/studies/slam_store.hpp"
-#include "core/topics/study_kind.hpp"
+#include "core/studies/study_kind.hpp"
 
 namespace mapproof {
 namespace {

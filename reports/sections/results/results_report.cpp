@@ -14,28 +14,28 @@
 #include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_contents.hpp"
 #include "reports/sections/results/results_view.hpp"
-#include "reports/sections/trials/trial_means.hpp"
+#include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
 
-bool is_of_data(const TrialStudy& study) { return !study.experiment.data.empty(); }
+bool is_of_data(const TopicStudy& study) { return !study.experiment.data.empty(); }
 
-std::size_t planned_parts(const TrialExperiment& experiment) {
+std::size_t planned_parts(const TopicExperiment& experiment) {
   if (!experiment.data.empty()) return experiment.data.size();
   return static_cast<std::size_t>(experiment.layouts) * static_cast<std::size_t>(experiment.poses);
 }
 
-std::string title_of(const TrialStudy& study, const std::string& part) {
-  const auto set = std::ranges::find(study.experiment.data, part, &TrialDataSet::id);
+std::string title_of(const TopicStudy& study, const std::string& part) {
+  const auto set = std::ranges::find(study.experiment.data, part, &DataSet::id);
   return set == study.experiment.data.end() ? part : set->title;
 }
 
-void add_extent(const TrialStudy& study, KeyValues& facts) {
-  const TrialExperiment& experiment = study.experiment;
+void add_extent(const TopicStudy& study, KeyValues& facts) {
+  const TopicExperiment& experiment = study.experiment;
   if (is_of_data(study)) {
-    for (const TrialDataSet& set : experiment.data)
+    for (const DataSet& set : experiment.data)
       facts.items.push_back({set.title, {"SHA-256 " + set.digest, Emphasis::kCode}});
     return;
   }
@@ -48,8 +48,8 @@ void add_extent(const TrialStudy& study, KeyValues& facts) {
   facts.items.push_back({"Steps", {fmt::format("{}", experiment.steps), Emphasis::kPlain}});
 }
 
-std::string title_of(const TrialStudy& study, const TrialPart& part, const TrialMap& map) {
-  const auto setup = std::ranges::find(study.design.setups, map.at.setup, &TrialSetup::id);
+std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
+  const auto setup = std::ranges::find(study.design.setups, map.at.setup, &TopicSetup::id);
   std::string title = is_of_data(study) || setup == study.design.setups.end()
                           ? title_of(study, part.id)
                           : setup->title;
@@ -205,10 +205,10 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
 
 }  // namespace
 
-FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
+FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
-  for (const TrialPart& part : study.parts)
-    for (const TrialMap& map : part.maps) {
+  for (const TopicPart& part : study.parts)
+    for (const TopicMap& map : part.maps) {
       const std::string title = title_of(study, part, map);
       maps.figures.push_back(measured_map_figure(
           {prefix + "-map-" + slug_of(map.id), title, map.map, map.pairs, map.certainty}));
@@ -220,19 +220,19 @@ FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix) {
   return maps;
 }
 
-std::optional<Table> trial_seconds_table(const TrialStudy& study, const std::string& prefix) {
+std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix) {
   if (!is_of_data(study)) return std::nullopt;
   Table table;
   table.id = "seconds--" + prefix;
   table.caption = "What it took";
   table.columns.push_back({"Method", "", "", ""});
-  for (const TrialPart& part : study.parts)
+  for (const TopicPart& part : study.parts)
     table.columns.push_back({title_of(study, part.id), "s", "", ""});
-  for (const TrialSeries& series : study.design.series) {
+  for (const ComparedMethod& series : study.design.series) {
     Row line{{TextCell{series.label}}, "", false};
     bool any = false;
-    for (const TrialPart& part : study.parts) {
-      const auto timing = std::ranges::find(part.seconds, series.id, &TrialSeconds::series);
+    for (const TopicPart& part : study.parts) {
+      const auto timing = std::ranges::find(part.seconds, series.id, &MethodSeconds::series);
       any |= timing != part.seconds.end();
       line.cells.push_back(timing == part.seconds.end() ? Cell(MissingCell{})
                                                         : NumberCell{timing->seconds, 3});
@@ -246,7 +246,7 @@ std::optional<Table> trial_seconds_table(const TrialStudy& study, const std::str
   return table;
 }
 
-std::string trial_incomplete(const TrialStudy& study) {
+std::string topic_incomplete(const TopicStudy& study) {
   const std::size_t planned = planned_parts(study.experiment);
   if (study.parts.size() >= planned) return "";
   return fmt::format(
@@ -254,9 +254,9 @@ std::string trial_incomplete(const TrialStudy& study) {
       counted(static_cast<long long>(planned), is_of_data(study) ? "data set" : "run"));
 }
 
-std::vector<Block> trial_provenance(const TrialStudy& study, std::span<const Session> sessions,
+std::vector<Block> topic_provenance(const TopicStudy& study, std::span<const Session> sessions,
                                     const std::string& command, const std::string& prefix) {
-  const TrialExperiment& experiment = study.experiment;
+  const TopicExperiment& experiment = study.experiment;
   std::vector<Block> blocks;
   blocks.emplace_back(
       plain("Every number here comes from the study\u2019s records; this command makes them and "

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/trial_study.hpp"
+#include "core/model/topic_study.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_contents.hpp"
@@ -41,19 +41,19 @@ Report results_report(const ResultsReportInput& input);
 /// with its title.
 std::vector<Section> results_sections(const ResultsReportInput& input);
 
-/// The maps of a study of trials, and the distances of the pairs that they were made of.
+/// The maps of the study of a topic, and the distances of the pairs that they were made of.
 /// @param prefix  Begins the ids: "missing" gives "missing-map-ID", "missing-pairs-ID".
-FigureGroup trial_maps(const TrialStudy& study, const std::string& prefix);
+FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
 
 /// Seconds of each series on each data set; empty for a simulated study, or without any.
-std::optional<Table> trial_seconds_table(const TrialStudy& study, const std::string& prefix);
+std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix);
 
 /// "2 of 5 runs are done; ..."; empty if all are.
-std::string trial_incomplete(const TrialStudy& study);
+std::string topic_incomplete(const TopicStudy& study);
 
 /// What was asked for, and what made it.
 /// @param command  The one that makes the study and its report again.
-std::vector<Block> trial_provenance(const TrialStudy& study, std::span<const Session> sessions,
+std::vector<Block> topic_provenance(const TopicStudy& study, std::span<const Session> sessions,
                                     const std::string& command, const std::string& prefix);
 
 }  // namespace mapproof

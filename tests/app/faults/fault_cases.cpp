@@ -14,7 +14,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/records/studies/folder_lock.hpp"
-#include "core/topics/study_kind.hpp"
+#include "core/studies/study_kind.hpp"
 #include "tests/app/range_logs.hpp"
 #include "tests/app/two_studies.hpp"
 #include "tests/support/faults.hpp"
@@ -89,12 +89,12 @@ const fs::path& prepared(const FaultCase& tried) {
 }
 
 /// One case in its own folder.
-struct Trial {
+struct Attempt {
   TemporaryFolder folder;
   const FaultCase& tried;
   std::string cores;
 
-  Trial(const FaultCase& one, std::string on) : tried(one), cores(std::move(on)) {
+  Attempt(const FaultCase& one, std::string on) : tried(one), cores(std::move(on)) {
     fs::copy(prepared(tried), folder.path(), fs::copy_options::recursive);
   }
   std::vector<std::string> command() const {
@@ -132,7 +132,7 @@ const WholeRun& whole_run(const FaultCase& tried, const std::string& cores) {
   static std::map<std::string, WholeRun> runs;
   const auto [run, is_new] = runs.try_emplace(tried.name + cores);
   if (is_new) {
-    const Trial clean(tried, cores);
+    const Attempt clean(tried, cores);
     const Faults none("");
     const Outcome outcome = clean.run();
     EXPECT_EQ(outcome.exit_code, tried.exit_code) << tried.name << ": " << outcome.error;
@@ -171,11 +171,11 @@ std::string difference(const Files& a, const Files& b) {
   return names;
 }
 
-void expect_next_run_whole(const Trial& trial, const Files& whole) {
-  const Outcome again = trial.run();
-  EXPECT_EQ(again.exit_code, trial.tried.exit_code) << again.error;
-  EXPECT_EQ(difference(trial.files(), whole), "") << "the next run's files differ";
-  trial.tried.check(trial.folder.path());
+void expect_next_run_whole(const Attempt& attempt, const Files& whole) {
+  const Outcome again = attempt.run();
+  EXPECT_EQ(again.exit_code, attempt.tried.exit_code) << again.error;
+  EXPECT_EQ(difference(attempt.files(), whole), "") << "the next run's files differ";
+  attempt.tried.check(attempt.folder.path());
 }
 
 /// One line, and the exit code that goes with it.
@@ -203,12 +203,12 @@ bool erase_leftovers(Files& files) {
 void fail_at(const FaultCase& tried, const std::string& cores, const std::string& kind, long call,
              const Files& whole) {
   SCOPED_TRACE(tried.name + " on cores " + cores + ", " + kind + " " + std::to_string(call));
-  const Trial trial(tried, cores);
-  const Files before = trial.files();
+  const Attempt attempt(tried, cores);
+  const Files before = attempt.files();
   {
     const Faults faults(at_call(kind, call));
-    const Outcome outcome = trial.run();
-    Files found = trial.files();
+    const Outcome outcome = attempt.run();
+    Files found = attempt.files();
     if (outcome.exit_code == tried.exit_code) {
       EXPECT_EQ(lines_of_program(outcome.error), 0) << outcome.error;
       // Where the old folder cannot be removed, the new one is there all the same.
@@ -226,15 +226,15 @@ void fail_at(const FaultCase& tried, const std::string& cores, const std::string
       std::erase_if(found, [](const auto& file) { return file.first.ends_with("report.html"); });
     expect_whole(found, before, whole);
   }
-  tried.check(trial.folder.path());
-  expect_next_run_whole(trial, whole);
+  tried.check(attempt.folder.path());
+  expect_next_run_whole(attempt, whole);
 }
 
-void expect_survived(const Trial& trial, const Files& before, const Files& whole) {
-  Files found = trial.files();
+void expect_survived(const Attempt& attempt, const Files& before, const Files& whole) {
+  Files found = attempt.files();
   erase_leftovers(found);
   expect_whole(found, before, whole);
-  expect_next_run_whole(trial, whole);
+  expect_next_run_whole(attempt, whole);
 }
 
 // The cases.
@@ -396,13 +396,13 @@ void expect_kills_survived(const FaultCase& tried, const std::string& kind, long
   EXPECT_GT(whole.calls.at(kind), 0) << tried.name << " makes no " << kind;
   for_each_call(whole.calls.at(kind), at_most, [&](long call) {
     SCOPED_TRACE(tried.name + ", killed at " + kind + " " + std::to_string(call));
-    const Trial trial(tried, "0,1");
-    const Files before = trial.files();
+    const Attempt attempt(tried, "0,1");
+    const Files before = attempt.files();
     {
       const Faults kill(at_call(kind, call, "kill"));
-      EXPECT_EQ(trial.run().exit_code, -1);
+      EXPECT_EQ(attempt.run().exit_code, -1);
     }
-    expect_survived(trial, before, whole.files);
+    expect_survived(attempt, before, whole.files);
   });
 }
 
@@ -410,19 +410,19 @@ void expect_random_kills_survived(const FaultCase& tried, int times, unsigned se
   using Clock = std::chrono::steady_clock;
   const WholeRun& whole = whole_run(tried, "0,1");
   const auto start = Clock::now();
-  Trial(tried, "0,1").run();
+  Attempt(tried, "0,1").run();
   const std::chrono::duration<double> length = Clock::now() - start;
   Random random(seed);
   for (int i = 0; i < times; ++i) {
-    const Trial trial(tried, "0,1");
-    const Files before = trial.files();
+    const Attempt attempt(tried, "0,1");
+    const Files before = attempt.files();
     const std::chrono::duration<double> moment = random.uniform() * length;
     SCOPED_TRACE(tried.name + ", killed after " + std::to_string(moment.count()) + " s");
-    const pid_t process = start_mapproof(tried.command(trial.folder.path()));
+    const pid_t process = start_mapproof(tried.command(attempt.folder.path()));
     std::this_thread::sleep_for(moment);
     ::kill(process, SIGKILL);
     ::waitpid(process, nullptr, 0);
-    expect_survived(trial, before, whole.files);
+    expect_survived(attempt, before, whole.files);
   }
 }
 

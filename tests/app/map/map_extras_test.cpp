@@ -121,14 +121,14 @@ bool reaches(const std::string& folder, int steps) {
   return false;
 }
 
-TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
+TEST(MapIncremental, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   const TemporaryFolder folder;
   const Survey survey;
   const std::string file = folder.file("live.csv", "step,landmark,value\n" + survey.rows(0, 100));
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const std::string out = folder.path() / "out";
   const pid_t process =
-      start_mapproof({"map", file, "--follow", "--every", "20", "--sensor", "bearing", "--method",
+      start_mapproof({"map", file, "--incremental", "--every", "20", "--sensor", "bearing", "--method",
                       "smacof", "--anchors", anchors, "--out", out});
   ASSERT_TRUE(reaches(out, 99));
   std::ofstream(file, std::ios::app) << survey.rows(100, 300) << "300,post 1,0.";
@@ -146,17 +146,17 @@ TEST(MapFollow, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
                 .exit_code,
             0);
   const MapRecord followed = map_in(out), whole = map_in(folder.path() / "whole");
-  EXPECT_EQ(followed.step, 300);
-  EXPECT_EQ(followed.frame, Frame::kGroundTruth);
-  EXPECT_LT((followed.estimate - whole.estimate).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_EQ(input.step, 300);
+  EXPECT_EQ(input.frame, Frame::kGroundTruth);
+  EXPECT_LT((input.estimate - whole.estimate).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(MapFollow, EndsWithARemarkWhereTheFileIsCutShort) {
+TEST(MapIncremental, EndsWithARemarkWhereTheFileIsCutShort) {
   const TemporaryFolder folder;
   const Survey survey;
   const std::string file = folder.file("live.csv", survey.rows(0, 50));
   const std::string out = folder.path() / "out";
-  const pid_t process = start_mapproof({"map", file, "--follow", "--every", "10", "--sensor",
+  const pid_t process = start_mapproof({"map", file, "--incremental", "--every", "10", "--sensor",
                                         "bearing", "--method", "lpca", "--out", out});
   ASSERT_TRUE(reaches(out, 49));
   std::ofstream(file, std::ios::trunc) << "0,post 1,0.5\n";
@@ -167,14 +167,14 @@ TEST(MapFollow, EndsWithARemarkWhereTheFileIsCutShort) {
             std::string::npos);
 }
 
-TEST(MapFollow, NeedsAKindAndAKnownInterval) {
+TEST(MapIncremental, NeedsAKindAndAKnownInterval) {
   const TemporaryFolder folder;
   const std::string file = folder.file("long.csv", Survey().rows(0, 20));
   const std::string out = folder.path() / "out";
-  EXPECT_EQ(mapproof({"map", file, "--follow", "--out", out}).exit_code, 2);
+  EXPECT_EQ(mapproof({"map", file, "--incremental", "--out", out}).exit_code, 2);
   for (const char* every : {"0", "1.5", "s", "-3s", "soon"})
     EXPECT_EQ(
-        mapproof({"map", file, "--follow", "--sensor", "bearing", "--out", out, "--every", every})
+        mapproof({"map", file, "--incremental", "--sensor", "bearing", "--out", out, "--every", every})
             .exit_code,
         2)
         << every;

@@ -210,12 +210,12 @@ TEST(OptionTable, NamesEveryOptionOfTheHelpThatMayConflict) {
     EXPECT_TRUE(listed.contains(name)) << name << " is not in the help";
 }
 
-TEST(OptionTable, TheHelpOfFollowNamesTheOptionsThatItRefuses) {
+TEST(OptionTable, TheHelpOfIncrementalNamesTheOptionsThatItRefuses) {
   Parser parser;
-  const std::string help = parser.app.get_option("--follow")->get_description();
+  const std::string help = parser.app.get_option("--incremental")->get_description();
   const std::string refused = help.substr(help.find("Not with"));
   for (const OptionPair& row : options_apart())
-    if (row.other == "--follow" && !is_condition(option_named(row.option))) {
+    if (row.other == "--incremental" && !is_condition(option_named(row.option))) {
       EXPECT_NE(refused.find(option_word(row.option)), std::string::npos) << row.option;
     }
 }

@@ -55,7 +55,7 @@ double share_right(const ObservationHistory& found, const ObservationHistory& gr
 
 TEST(Assignment, IsTheBestOfAllPermutations) {
   Random random(1);
-  for (int trial = 0; trial < 50; ++trial) {
+  for (int round = 0; round < 50; ++round) {
     Eigen::MatrixXd costs(5, 6);
     for (Eigen::Index k = 0; k < costs.size(); ++k) costs.data()[k] = random.uniform(-1.0, 1.0);
     const std::vector<Eigen::Index> found = least_assignment(costs);

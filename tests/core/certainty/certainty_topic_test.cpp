@@ -3,21 +3,21 @@
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
-#include "core/trials/certainty.hpp"
-#include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "core/topics/certainty.hpp"
+#include "core/topics/topics.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
 
-TrialExperiment small_study() {
-  TrialExperiment experiment;
+TopicExperiment small_study() {
+  TopicExperiment experiment;
   experiment.name = "certainty";
   experiment.topic = "certainty";
   experiment.steps = 200;
   experiment.world.landmarks = 15;
   experiment.world.side_m = 1.4;
-  for (const TrialOption& option : kCertaintyTopic.options)
+  for (const TopicOption& option : kCertaintyTopic.options)
     experiment.options[std::string(option.name)] = option.usual;
   experiment.options["walks"] = {6};
   experiment.options["tried"] = {2};
@@ -27,11 +27,11 @@ TrialExperiment small_study() {
   return experiment;
 }
 
-TrialPart made(const TrialExperiment& experiment) {
+TopicPart made(const TopicExperiment& experiment) {
   Random random(9);
   const World world = scatter_landmarks(experiment.world, random);
   const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TrialPart part = kCertaintyTopic.make({.experiment = experiment,
+  TopicPart part = kCertaintyTopic.make({.experiment = experiment,
                                          .part = "layout-1-pose-1",
                                          .run = {},
                                          .world = &world,
@@ -45,21 +45,21 @@ TrialPart made(const TrialExperiment& experiment) {
 }
 
 TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
-  const TrialExperiment experiment = small_study();
-  TrialStudy study;
+  const TopicExperiment experiment = small_study();
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kCertaintyTopic.design(experiment);
   study.parts = {made(experiment)};
   // 2 sensors x 2 levels x 4 methods, and 2 lengths of blocks x 2 methods.
-  EXPECT_EQ(study.parts[0].trials.size(), 20U);
-  for (const Trial& trial : study.parts[0].trials) {
-    ASSERT_EQ(trial.values.size(), study.design.quantities.size());
-    EXPECT_GE(trial.values.at("mean_covered_percent"), 0.0);
-    EXPECT_LE(trial.values.at("mean_covered_percent"), 100.0);
-    EXPECT_GT(trial.values.at("spread_m"), 0.0);
+  EXPECT_EQ(study.parts[0].outcomes.size(), 20U);
+  for (const TopicOutcome& outcome : study.parts[0].outcomes) {
+    ASSERT_EQ(outcome.values.size(), study.design.quantities.size());
+    EXPECT_GE(outcome.values.at("mean_covered_percent"), 0.0);
+    EXPECT_LE(outcome.values.at("mean_covered_percent"), 100.0);
+    EXPECT_GT(outcome.values.at("spread_m"), 0.0);
   }
   std::vector<std::string> methods;
-  for (const TrialSeries& series : study.design.series) methods.push_back(series.id);
+  for (const ComparedMethod& method : study.design.methods) methods.push_back(method.id);
   EXPECT_EQ(methods, (std::vector<std::string>{"lpca", "smacof", "smacof-knn-K8", "isomap-K8"}));
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
   ASSERT_TRUE(study.parts[0].maps[0].certainty);
@@ -68,10 +68,10 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
 }
 
 TEST(CertaintyTopic, MakesTheSameAgain) {
-  const TrialExperiment experiment = small_study();
-  const TrialPart once = made(experiment), again = made(experiment);
-  for (std::size_t i = 0; i < once.trials.size(); ++i)
-    EXPECT_EQ(once.trials[i].values, again.trials[i].values);
+  const TopicExperiment experiment = small_study();
+  const TopicPart once = made(experiment), again = made(experiment);
+  for (std::size_t i = 0; i < once.outcomes.size(); ++i)
+    EXPECT_EQ(once.outcomes[i].values, again.outcomes[i].values);
 }
 
 TEST(Coverage, CountsByHand) {

@@ -5,14 +5,14 @@
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
-#include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "core/topics/topics.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
 
 TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
-  TrialExperiment experiment;
+  TopicExperiment experiment;
   experiment.topic = "choice";
   experiment.steps = 300;
   experiment.world.landmarks = 16;
@@ -21,7 +21,7 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
   Random random(9);
   const World world = scatter_landmarks(experiment.world, random);
   const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TrialStudy study;
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kChoiceTopic.design(experiment);
   study.parts = {kChoiceTopic.make({.experiment = experiment,
@@ -33,11 +33,11 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
                                     .seed = 5,
                                     .data = {},
                                     .with_maps = true})};
-  EXPECT_EQ(study.parts[0].trials.size(), 2U * 2U * study.design.series.size());
-  for (const Trial& trial : study.parts[0].trials) {
-    EXPECT_GE(trial.values.at("regret_m"), 0.0) << trial.series;
-    if (trial.series != "anchors") {
-      EXPECT_GE(trial.values.at("regret_shape_m"), 0.0) << trial.series;
+  EXPECT_EQ(study.parts[0].outcomes.size(), 2U * 2U * study.design.methods.size());
+  for (const TopicOutcome& outcome : study.parts[0].outcomes) {
+    EXPECT_GE(outcome.values.at("regret_m"), 0.0) << outcome.method;
+    if (outcome.method != "anchors") {
+      EXPECT_GE(outcome.values.at("regret_shape_m"), 0.0) << outcome.method;
     }
   }
   const auto sentences = conclusions_of(study);

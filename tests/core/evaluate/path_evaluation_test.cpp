@@ -181,8 +181,8 @@ TEST(PathEvaluation, TooFewAssociatedPosesAreRefused) {
 
 TEST(TimeAssociation, IsThatOfASearchThroughAll) {
   Random random(4);
-  for (int trial = 0; trial < 50; ++trial) {
-    Eigen::VectorXd a(30), b(30 + trial % 3);
+  for (int round = 0; round < 50; ++round) {
+    Eigen::VectorXd a(30), b(30 + round % 3);
     for (Eigen::VectorXd* times : {&a, &b}) {
       for (double& time : *times) time = std::floor(random.uniform(0.0, 40.0)) / 4.0;
       std::sort(times->begin(), times->end());

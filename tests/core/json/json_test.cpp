@@ -33,7 +33,7 @@ TEST(JsonParser, SaysThatATruncatedFileIsTruncated) {
             "within a value");
 }
 
-TEST(JsonParser, DoesNotCallATruncatedFileWhatIsFollowedByMore) {
+TEST(JsonParser, DoesNotCallATruncatedFileWhatIsIncrementalByMore) {
   EXPECT_EQ(parse_error("[1]]").find("truncated"), std::string::npos);
 }
 

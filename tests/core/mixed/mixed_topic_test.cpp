@@ -5,14 +5,14 @@
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
-#include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "core/topics/topics.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
 
 TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
-  TrialExperiment experiment;
+  TopicExperiment experiment;
   experiment.topic = "mixed";
   experiment.steps = 1000;
   experiment.world.landmarks = 25;
@@ -24,7 +24,7 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
   Random random(9);
   const World world = scatter_landmarks(experiment.world, random);
   const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TrialStudy study;
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kMixedTopic.design(experiment);
   study.parts = {kMixedTopic.make({.experiment = experiment,
@@ -38,8 +38,8 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
                                    .with_maps = true})};
   // 2 sensors with two methods and 3 mixes at 4 levels, 3 sensors with two methods and 3 mixes at
   // 2.
-  ASSERT_EQ(study.parts[0].trials.size(), 46U);
-  for (const Trial& trial : study.parts[0].trials) EXPECT_GT(trial.values.at("mpe_m"), 0.0);
+  ASSERT_EQ(study.parts[0].outcomes.size(), 46U);
+  for (const TopicOutcome& outcome : study.parts[0].outcomes) EXPECT_GT(outcome.values.at("mpe_m"), 0.0);
   const std::vector<std::string> sentences = conclusions_of(study);
   // Of each setup the gain of mixing, then the cost of choosing by the neighbourhoods.
   ASSERT_EQ(sentences.size(), 6U);

@@ -1,4 +1,4 @@
-#include "core/trials/topics.hpp"
+#include "core/topics/topics.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 #include "tests/support/samples/scans.hpp"
 #include "tests/support/samples/worlds.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -38,15 +38,15 @@ void write_set(const test::TemporaryFolder& folder, const std::string& name,
   folder.file(name + "/Robot5_Measurement.dat", "");
 }
 
-TrialExperiment experiment() {
-  TrialExperiment experiment;
+TopicExperiment experiment() {
+  TopicExperiment experiment;
   experiment.name = experiment.topic = "mrclam";
   experiment.options = {{"neighbours", {5}}, {"replicates", {12}}, {"block_scans", {10}}};
   return experiment;
 }
 
-TrialPart made(const TrialExperiment& experiment, const TrialData& data) {
-  const TrialContext context{.experiment = experiment,
+TopicPart made(const TopicExperiment& experiment, const DataSetFolder& data) {
+  const TopicTask context{.experiment = experiment,
                              .part = data.set.id,
                              .run = {},
                              .anchors = {},
@@ -56,8 +56,8 @@ TrialPart made(const TrialExperiment& experiment, const TrialData& data) {
   return kMrclamTopic.make(context);
 }
 
-const Trial& trial(const TrialPart& part, const std::string& series) {
-  return *std::ranges::find(part.trials, series, &Trial::series);
+const TopicOutcome& outcome(const TopicPart& part, const std::string& method) {
+  return *std::ranges::find(part.outcomes, method, &TopicOutcome::method);
 }
 
 TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
@@ -65,7 +65,7 @@ TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
   write_set(folder, "MRCLAM_Dataset2", true);
   write_set(folder, "an other", true);
   folder.file("notes/readme.txt", "no set");
-  const std::vector<TrialData> sets = kMrclamTopic.data_sets(folder.path());
+  const std::vector<DataSetFolder> sets = kMrclamTopic.data_sets(folder.path());
   ASSERT_EQ(sets.size(), 2U);
   EXPECT_EQ(sets[0].set.id, "an-other");
   EXPECT_EQ(sets[1].set.id, "mrclam-dataset2");
@@ -77,40 +77,40 @@ TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
 TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   const test::TemporaryFolder folder;
   write_set(folder, "set", true);
-  const TrialExperiment ordered = experiment();
-  const TrialPart part = made(ordered, kMrclamTopic.data_sets(folder.path()).at(0));
-  const TrialDesign design = kMrclamTopic.design(ordered);
-  ASSERT_EQ(part.trials.size(), design.series.size());
-  const Trial pairs = trial(part, "pairs");
+  const TopicExperiment ordered = experiment();
+  const TopicPart part = made(ordered, kMrclamTopic.data_sets(folder.path()).at(0));
+  const TopicDesign design = kMrclamTopic.design(ordered);
+  ASSERT_EQ(part.outcomes.size(), design.methods.size());
+  const TopicOutcome pairs = outcome(part, "pairs");
   EXPECT_LT(pairs.values.at("mpe_m"), 1e-8);
   EXPECT_LT(pairs.values.at("rigid_m"), 1e-8);
   EXPECT_EQ(pairs.values.at("mapped"), 9.0);
   // Scans with wrong landmark IDs have scores and no maps of their own.
-  ASSERT_EQ(part.maps.size() + 4, design.series.size());
+  ASSERT_EQ(part.maps.size() + 4, design.methods.size());
   ASSERT_TRUE(part.maps.back().certainty);
   EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
-  EXPECT_GT(trial(part, "swapped").values.at("rigid_m"), 0.1);
-  EXPECT_LT(trial(part, "swapped-corrected").values.at("rigid_m"), 1e-6);
-  EXPECT_GE(trial(part, "swapped-corrected").values.at("faults"), 1.0);
-  EXPECT_LT(trial(part, "misnamed-corrected").values.at("rigid_m"), 1e-6);
+  EXPECT_GT(outcome(part, "swapped").values.at("rigid_m"), 0.1);
+  EXPECT_LT(outcome(part, "swapped-corrected").values.at("rigid_m"), 1e-6);
+  EXPECT_GE(outcome(part, "swapped-corrected").values.at("faults"), 1.0);
+  EXPECT_LT(outcome(part, "misnamed-corrected").values.at("rigid_m"), 1e-6);
   EXPECT_FALSE(part.maps.back().pairs.empty());
   // A quantity that does not apply to a strategy is not a lost result.
-  for (const Trial& one : part.trials)
+  for (const TopicOutcome& one : part.outcomes)
     for (const auto& [quantity, value] : one.values)
-      EXPECT_FALSE(std::isnan(value)) << one.series << ", " << quantity;
-  EXPECT_FALSE(trial(part, "bearing-cmds").values.contains("pair_m"));
-  EXPECT_FALSE(trial(part, "swapped").values.contains("faults"));
+      EXPECT_FALSE(std::isnan(value)) << one.method << ", " << quantity;
+  EXPECT_FALSE(outcome(part, "bearing-cmds").values.contains("pair_m"));
+  EXPECT_FALSE(outcome(part, "swapped").values.contains("faults"));
 }
 
 TEST(MrclamTopic, WithoutGroundTruthThereAreMapsAndNoErrors) {
   const test::TemporaryFolder folder;
   write_set(folder, "set", false);
-  const TrialPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
-  EXPECT_FALSE(trial(part, "pairs").values.contains("mpe_m"));
-  EXPECT_FALSE(trial(part, "pairs").values.contains("rigid_m"));
-  EXPECT_LT(trial(part, "pairs").values.at("pair_m"), 1e-8);
+  const TopicPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
+  EXPECT_FALSE(outcome(part, "pairs").values.contains("mpe_m"));
+  EXPECT_FALSE(outcome(part, "pairs").values.contains("rigid_m"));
+  EXPECT_LT(outcome(part, "pairs").values.at("pair_m"), 1e-8);
   EXPECT_TRUE(part.maps.back().map.estimate.allFinite());
-  TrialStudy study;
+  TopicStudy study;
   study.experiment = experiment();
   study.parts = {part};
   study.parts[0].id = "set";

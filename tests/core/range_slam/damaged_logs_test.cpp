@@ -66,7 +66,7 @@ TEST_P(DamagedMat, WithSeveralBytesReplacedItIsALogOrAnError) {
   test::write_mat(sample_log(), folder / "a.mat", GetParam());
   const std::string bytes = read_file(folder / "a.mat");
   Random random(11);
-  for (int trial = 0; trial < 300; ++trial) {
+  for (int round = 0; round < 300; ++round) {
     std::string damaged = bytes;
     for (int i = 0; i < 4; ++i)
       damaged[128 + random.next() % (damaged.size() - 128)] = static_cast<char>(random.next());
@@ -90,9 +90,9 @@ TEST(DamagedTexts, AreALogOrAnError) {
   Random random(13);
   const std::string odd = "\n\0,;\t-eE.\"#9nai \xFF"s;
   for (const auto& [name, text] : texts) {
-    for (int trial = 0; trial < 60; ++trial) {
+    for (int round = 0; round < 60; ++round) {
       std::string damaged =
-          text.substr(0, text.size() - (trial % 3 == 0 ? random.next() % text.size() : 0));
+          text.substr(0, text.size() - (round % 3 == 0 ? random.next() % text.size() : 0));
       for (int i = 0; i < 3; ++i)
         damaged[random.next() % damaged.size()] = odd[random.next() % odd.size()];
       const fs::path path = folder.file(name, damaged);

@@ -8,7 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/records/ranges/range_logs.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/temporary_folder.hpp"

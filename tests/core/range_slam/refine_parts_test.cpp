@@ -129,7 +129,7 @@ void expect_true_jacobians(const Residual& residual, const std::vector<int>& siz
 
 TEST(RefineResiduals, HaveTheirCentralDifferencesAsJacobians) {
   Random random(9);
-  for (int trial = 0; trial < 20; ++trial) {
+  for (int round = 0; round < 20; ++round) {
     KeyMotion motion{.step = {0.5, 0.1, 0.2}};
     motion.root_information << 3, 0, 0, 1, 2, 0, -1, 0.5, 4;
     expect_true_jacobians(MotionResidual(motion), {3, 3}, random);

@@ -134,8 +134,8 @@ TEST(SpectralSlam, GivenTheWindowThatItChoseDoesTheSame) {
   const test::Drive d = drive({.range_sigma_m = 0.1, .range_scale = 1.05}, 3);
   const SpectralSlam chosen = spectral_slam(d.log, d.odometry);
   const SpectralSlam given = spectral_slam(d.log, d.odometry, {.window = chosen.window.options});
-  EXPECT_FALSE(chosen.window.trials.empty());
-  EXPECT_TRUE(given.window.trials.empty());
+  EXPECT_FALSE(chosen.window.candidates.empty());
+  EXPECT_TRUE(given.window.candidates.empty());
   EXPECT_EQ(given.estimate.path.positions_m, chosen.estimate.path.positions_m);
   EXPECT_EQ(given.estimate.range_scale, chosen.estimate.range_scale);
 }

@@ -15,7 +15,7 @@
 #include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

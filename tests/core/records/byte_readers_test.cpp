@@ -14,7 +14,7 @@
 #include "core/records/observations/observations.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/range_slam/sample_log.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/support/byte_sources.hpp"

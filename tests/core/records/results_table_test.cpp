@@ -15,12 +15,12 @@
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/study_store.hpp"
-#include "core/records/studies/trial_json.hpp"
-#include "core/records/studies/trial_store.hpp"
-#include "core/topics/study_kind.hpp"
-#include "core/topics/trials.hpp"
-#include "core/trials/topic.hpp"
-#include "core/trials/topics.hpp"
+#include "core/records/studies/topic_json.hpp"
+#include "core/records/studies/topic_store.hpp"
+#include "core/studies/study_kind.hpp"
+#include "core/studies/topic_studies.hpp"
+#include "core/topics/topic.hpp"
+#include "core/topics/topics.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
 
@@ -65,23 +65,23 @@ SlamStudy made_up_slam_study() {
 }
 
 /// Numbers for all that the design of an experiment on disk has, every third of them lost.
-TrialStudy made_up_trials(const TrialExperiment& experiment) {
-  TrialStudy study = planned_study(experiment, test::made_up_provenance());
+TopicStudy made_up_topic_study(const TopicExperiment& experiment) {
+  TopicStudy study = planned_study(experiment, test::made_up_provenance());
   double number = 0.1;
   for (int layout = 1; layout <= 2; ++layout) {
-    TrialPart part;
+    TopicPart part;
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
-    for (const TrialSetup& setup : study.design.setups)
-      for (const TrialSeries& series : study.design.series)
+    for (const TopicSetup& setup : study.design.setups)
+      for (const ComparedMethod& method : study.design.methods)
         for (const Condition& at : conditions_of(setup)) {
-          Trial trial{.at = at, .series = series.id, .values = {}, .statuses = {}};
+          TopicOutcome outcome{.at = at, .method = method.id, .values = {}, .statuses = {}};
           for (std::size_t i = 0; i < study.design.quantities.size(); ++i) {
             number *= 1.7;
             if (number > 1e9) number *= 1e-12;
-            trial.values[study.design.quantities[i].id] = i % 3 == 2 ? kNaN : number;
+            outcome.values[study.design.quantities[i].id] = i % 3 == 2 ? kNaN : number;
           }
-          part.trials.push_back(std::move(trial));
+          part.outcomes.push_back(std::move(outcome));
         }
     study.parts.push_back(std::move(part));
   }
@@ -102,7 +102,7 @@ TEST(ResultsTable, OfEveryTopicReadsBackAsItsResults) {
     const std::string file =
         fmt::format("{}/experiments/{}.json", MAPPROOF_SOURCE_DIR, topic->name);
     const Results results = results_of(
-        made_up_trials(parse_trial_experiment(read_file(file), file, input_of_topics())));
+        made_up_topic_study(parse_topic_experiment(read_file(file), file, input_of_topics())));
     ASSERT_FALSE(results.rows.empty()) << topic->name;
     expect_same(read_back(results), results.rows);
     ++topics;

@@ -15,7 +15,7 @@
 #include "core/records/observations/observations.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
 #include "tests/support/schemas/file_schemas.hpp"
@@ -56,7 +56,7 @@ void gather_silent_keys(const json& node, const std::string& at, std::vector<std
 }
 
 TEST(Schemas, DescribeEveryKeyOfAnExperiment) {
-  for (const char* name : {"experiment", "slam_experiment", "trial_experiment"}) {
+  for (const char* name : {"experiment", "slam_experiment", "topic_experiment"}) {
     std::vector<std::string> silent;
     gather_silent_keys(json::parse(test::file_schemas().at(std::string(name) + ".schema.json")),
                        name, silent);

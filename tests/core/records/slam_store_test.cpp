@@ -8,7 +8,7 @@
 #include "core/base/files/files.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/studies/study_store.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/records/samples.hpp"
 #include "tests/core/records/slam_samples.hpp"
 

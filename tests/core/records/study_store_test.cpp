@@ -298,7 +298,7 @@ TEST(Timings, NameTheLineThatIsDamaged) {
   EXPECT_EQ(
       error_of([&] { read_timings(folder.path()); }),
       (folder / "timings.jsonl").string() +
-          ": line 1: /kind: expected map, slam, factorization, trial or session, got \"nap\"");
+          ": line 1: /kind: expected map, slam, factorization, method or session, got \"nap\"");
 }
 
 }  // namespace

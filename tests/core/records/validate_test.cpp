@@ -1,4 +1,4 @@
-#include "core/topics/validate.hpp"
+#include "core/studies/validate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,24 +2,24 @@
 
 #include <gtest/gtest.h>
 
-#include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "core/topics/topics.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 #include "tests/support/samples/incomplete.hpp"
 
 namespace mapproof {
 namespace {
 
 TEST(SubmapsTopic, ComparesPartsWithTheWholeAndReportsWhichIsWorse) {
-  TrialExperiment experiment;
+  TopicExperiment experiment;
   experiment.topic = kSubmapsTopic.name;
-  for (const TrialOption& option : kSubmapsTopic.options)
+  for (const TopicOption& option : kSubmapsTopic.options)
     experiment.options[std::string(option.name)] = option.usual;
   experiment.options["sizes"] = {16, 100};
   experiment.options["overlaps"] = {0.5};
   experiment.options["shares_sensor_range"] = {0.5};
   experiment.options["usual_size"] = {16};
   const test::WalkedRoom room = test::walked_room(1, 400, 30);
-  TrialStudy study;
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kSubmapsTopic.design(experiment);
   study.parts.push_back(kSubmapsTopic.make({.experiment = experiment,
@@ -33,13 +33,13 @@ TEST(SubmapsTopic, ComparesPartsWithTheWholeAndReportsWhichIsWorse) {
                                             .with_maps = false}));
   // Its MOE allows for a reflection, and the label states it.
   EXPECT_EQ(study.design.quantities[1], known_quantity("moe_unmirrored_percent"));
-  // Six series at each of four levels, and two more where data are missing.
-  EXPECT_EQ(study.parts.front().trials.size(), 26U);
-  for (const Trial& trial : study.parts.front().trials) {
-    EXPECT_EQ(trial.values.at("mapped_percent"), 100.0) << trial.series;
+  // Six method at each of four levels, and two more where data are missing.
+  EXPECT_EQ(study.parts.front().outcomes.size(), 26U);
+  for (const TopicOutcome& outcome : study.parts.front().outcomes) {
+    EXPECT_EQ(outcome.values.at("mapped_percent"), 100.0) << outcome.method;
     // Parts that hold all landmarks are the whole.
-    if (trial.at == condition("size", {{"submap_landmarks", 100.0}})) {
-      EXPECT_FALSE(trial.values.contains("residual_percent"));
+    if (outcome.at == condition("size", {{"submap_landmarks", 100.0}})) {
+      EXPECT_FALSE(outcome.values.contains("residual_percent"));
     }
   }
   const auto sentences = conclusions_of(study);

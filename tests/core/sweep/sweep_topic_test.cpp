@@ -6,18 +6,18 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/experiment/run.hpp"
-#include "core/records/studies/trial_json.hpp"
+#include "core/records/studies/topic_json.hpp"
 #include "core/simulate/sensors.hpp"
-#include "core/topics/trials.hpp"
-#include "core/trials/topics.hpp"
-#include "reports/sections/trials/topic_text.hpp"
+#include "core/studies/topic_studies.hpp"
+#include "core/topics/topics.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
 
 /// A small experiment whose sweeps are these.
 std::string text_with(const std::string& sweeps, const std::string& more = "") {
-  return R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+  return R"({"schema": {"name": "mapproof.topic_experiment", "version": 1}, "name": "s",
              "topic": "sweep", "seed": 5, "steps": 150, "world": {"landmarks": 16},)" +
          more + R"("sensors": {"visibility": {"methods": {"isomap": {"K": [5]}}},
                      "bearing": {"methods": {"lpca": {}, "smacof-knn": {"K": [6]}}}},
@@ -25,8 +25,8 @@ std::string text_with(const std::string& sweeps, const std::string& more = "") {
          sweeps + "]}";
 }
 
-TrialExperiment parsed(const std::string& sweeps, const std::string& more = "") {
-  return parse_trial_experiment(text_with(sweeps, more), "s.json", input_of_topics());
+TopicExperiment parsed(const std::string& sweeps, const std::string& more = "") {
+  return parse_topic_experiment(text_with(sweeps, more), "s.json", input_of_topics());
 }
 
 std::string refusal(const std::string& sweeps, const std::string& more = "") {
@@ -38,36 +38,36 @@ std::string refusal(const std::string& sweeps, const std::string& more = "") {
   return "";
 }
 
-TrialStudy study_of(const TrialExperiment& experiment) {
-  TrialStudy study;
+TopicStudy study_of(const TopicExperiment& experiment) {
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kSweepTopic.design(experiment);
   study.parts = {simulate_part(experiment, {1, 1})};
   return study;
 }
 
-/// NaN if there is no such trial.
-double mpe_of(const TrialStudy& study, const Condition& at, const std::string& series) {
-  for (const Trial& trial : study.parts.front().trials)
-    if (trial.at == at && trial.series == series) return trial.values.at("mpe_m");
+/// NaN if there is no such outcome.
+double mpe_of(const TopicStudy& study, const Condition& at, const std::string& method) {
+  for (const TopicOutcome& outcome : study.parts.front().outcomes)
+    if (outcome.at == at && outcome.method == method) return outcome.values.at("mpe_m");
   return std::nan("");
 }
 
 TEST(SweepTopic, TriesEveryCombinationOfEverySensorThatHasTheFactors) {
-  const TrialStudy study = study_of(
+  const TopicStudy study = study_of(
       parsed(R"({"anchors": [3, 6]}, {"bearing_noise_deg": [0, 5], "steps": [50, 100, 150]})"));
   ASSERT_EQ(study.design.setups.size(), 3U);
   EXPECT_EQ(study.design.setups[0].id, "visibility-anchors");
   EXPECT_EQ(study.design.setups[2].id, "bearing-bearing-noise-deg-steps");
   EXPECT_EQ(conditions_of(study.design.setups[2]).size(), 6U);
-  EXPECT_EQ(study.parts.front().trials.size(), 2U + 2U * 2U + 2U * 6U);
+  EXPECT_EQ(study.parts.front().outcomes.size(), 2U + 2U * 2U + 2U * 6U);
   EXPECT_EQ(study.design.quantities[0].id, "mpe_m");
   EXPECT_EQ(study.design.quantities[1].id, "moe_percent");
   EXPECT_EQ(conclusions_of(study).size(), 3U);
 }
 
 TEST(SweepTopic, AtTheExperimentsOwnLevelsIsTheExperiment) {
-  const TrialStudy study = study_of(parsed(
+  const TopicStudy study = study_of(parsed(
       R"({"side_m": [2.5, 3]}, {"landmarks": [16, 20]}, {"steps": [100, 150]}, {"anchors": [4]},
          {"bearing_noise_deg": [0, 5]}, {"landmark_diameter_m": [0.048]})"));
   std::vector<double> same;
@@ -86,21 +86,21 @@ TEST(SweepTopic, AtTheExperimentsOwnLevelsIsTheExperiment) {
 }
 
 TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
-  const TrialExperiment experiment =
+  const TopicExperiment experiment =
       parsed(R"({"side_m": [1.5, 4]}, {"anchors": [3, 6], "bearing_noise_deg": [0, 5]})");
-  TrialStudy study;
+  TopicStudy study;
   study.experiment = experiment;
   study.design = kSweepTopic.design(experiment);
-  TrialPart& part = study.parts.emplace_back();
-  for (const TrialSetup& setup : study.design.setups) {
+  TopicPart& part = study.parts.emplace_back();
+  for (const TopicSetup& setup : study.design.setups) {
     double mpe_m = 0.1;
     for (const Condition& at : conditions_of(setup)) {
-      part.trials.push_back({.at = at,
-                             .series = "lpca",
+      part.outcomes.push_back({.at = at,
+                             .method = "lpca",
                              .values = {{"mpe_m", mpe_m}, {"moe_percent", 1.0}},
                              .statuses = {}});
-      part.trials.push_back({.at = at,
-                             .series = "smacof-knn-K6",
+      part.outcomes.push_back({.at = at,
+                             .method = "smacof-knn-K6",
                              .values = {{"mpe_m", 0.2}, {"moe_percent", 1.0}},
                              .statuses = {}});
       mpe_m += 0.3;
@@ -119,24 +119,24 @@ TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
 }
 
 TEST(SweepTopic, SpellsMethodsAsAllStudiesDo) {
-  const TrialExperiment experiment = parse_trial_experiment(
-      R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+  const TopicExperiment experiment = parse_topic_experiment(
+      R"({"schema": {"name": "mapproof.topic_experiment", "version": 1}, "name": "s",
           "topic": "sweep", "steps": 150, "world": {"landmarks": 16},
           "sensors": {"bearing": {"methods": {"lpca": {}, "isomap": {"K": [6]},
                                               "kpca-gaussian": {"sigma2": [0.05]}}}},
           "sweeps": [{"anchors": [4]}]})",
       "s.json", input_of_topics());
-  const TrialStudy study = study_of(experiment);
+  const TopicStudy study = study_of(experiment);
   std::vector<std::string> ids;
-  for (const TrialSeries& series : study.design.series) ids.push_back(series.id);
+  for (const ComparedMethod& method : study.design.methods) ids.push_back(method.id);
   std::ranges::sort(ids);
   EXPECT_EQ(ids, (std::vector<std::string>{"isomap-K6", "kpca-gaussian-sigma2-0.05", "lpca"}));
-  const std::string text = trial_study_json(study);
-  EXPECT_EQ(trial_study_json(parse_trial_study(text, "study.json")), text);
+  const std::string text = topic_study_json(study);
+  EXPECT_EQ(topic_study_json(parse_topic_study(text, "study.json")), text);
 }
 
 TEST(SweepTopic, PairsLayoutsWalksAndNoiseAcrossLevels) {
-  const TrialExperiment experiment = parsed(R"({"bearing_noise_deg": [0, 2, 4]})");
+  const TopicExperiment experiment = parsed(R"({"bearing_noise_deg": [0, 2, 4]})");
   const SensorStudy& bearing = experiment.sensors[1];
   const auto at = [&](const std::string& factor, double level) {
     return at_levels(experiment, bearing, {{factor, {level}}}, {level});
@@ -159,7 +159,7 @@ TEST(SweepTopic, PairsLayoutsWalksAndNoiseAcrossLevels) {
 }
 
 TEST(SweepTopic, LimitsTheReachOfEverySensor) {
-  const TrialExperiment experiment = parsed(R"({"reach_m": [0.5, 1]})");
+  const TopicExperiment experiment = parsed(R"({"reach_m": [0.5, 1]})");
   for (const SensorStudy& sensor : experiment.sensors) {
     const Experiment one = at_levels(experiment, sensor, experiment.sweeps[0], {0.5});
     const RunWorld made = make_run_world(one, {1, 1});
@@ -208,9 +208,9 @@ TEST(SweepTopic, RefusesWhatCannotBeInOneLine) {
 
 TEST(SweepTopic, IsTheOnlyOneThatSweeps) {
   const std::string text =
-      R"({"schema": {"name": "mapproof.trial_experiment", "version": 1}, "name": "s",
+      R"({"schema": {"name": "mapproof.topic_experiment", "version": 1}, "name": "s",
           "topic": "missing", "sweeps": [{"steps": [50]}]})";
-  EXPECT_THROW(parse_trial_experiment(text, "s.json", input_of_topics()), IoError);
+  EXPECT_THROW(parse_topic_experiment(text, "s.json", input_of_topics()), IoError);
 }
 
 }  // namespace

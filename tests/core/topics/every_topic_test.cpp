@@ -11,10 +11,10 @@
 #include "core/base/files/files.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
-#include "core/topics/study_kind.hpp"
-#include "core/topics/validate.hpp"
-#include "core/trials/topic.hpp"
-#include "core/trials/topics.hpp"
+#include "core/studies/study_kind.hpp"
+#include "core/studies/validate.hpp"
+#include "core/topics/topic.hpp"
+#include "core/topics/topics.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {

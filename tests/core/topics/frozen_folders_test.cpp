@@ -4,8 +4,8 @@
 
 #include "core/base/files/files.hpp"
 #include "core/records/studies/results_table.hpp"
-#include "core/topics/study_kind.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/study_kind.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/core/records/samples.hpp"
 
 namespace mapproof {
@@ -30,7 +30,7 @@ TEST_P(FrozenFolder, IsValidFileByFile) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Version1, FrozenFolder,
-                         ::testing::Values("study", "slam_study", "trial_study"),
+                         ::testing::Values("study", "slam_study", "topic_study"),
                          [](const auto& folder) { return std::string(folder.param); });
 
 }  // namespace

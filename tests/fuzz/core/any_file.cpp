@@ -1,7 +1,7 @@
 // What takes any file: the unpacker, and `validate`.
 #include "core/records/experiments/profiles.hpp"
-#include "core/topics/trials.hpp"
-#include "core/topics/validate.hpp"
+#include "core/studies/topic_studies.hpp"
+#include "core/studies/validate.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/byte_sources.hpp"
@@ -36,14 +36,14 @@ const Added kValidate({.name = "validate",
                        .seeds = {"observations", "landmarks", "maps", "experiments",
                                  "study/study.json", "slam_study/study.json"}});
 
-void read_trial_experiment(std::string_view bytes) {
+void read_topic_experiment(std::string_view bytes) {
   const InputOfTopic topics = input_of_topics();
-  parse_trial_experiment(bytes, kSource, topics);
-  for (const std::string& profile : profile_names(bytes, kSource, "mapproof.trial_experiment"))
-    parse_trial_experiment(bytes, kSource, topics, profile);
+  parse_topic_experiment(bytes, kSource, topics);
+  for (const std::string& profile : profile_names(bytes, kSource, "mapproof.topic_experiment"))
+    parse_topic_experiment(bytes, kSource, topics, profile);
 }
 
-const Added kTrialExperiment({.name = "experiment-trial", .run = read_trial_experiment});
+const Added kTopicExperiment({.name = "experiment-topic", .run = read_topic_experiment});
 
 }  // namespace
 }  // namespace mapproof::fuzz

@@ -5,7 +5,7 @@
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/records/studies/trial_json.hpp"
+#include "core/records/studies/topic_json.hpp"
 #include "tests/fuzz/properties.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -50,7 +50,7 @@ const Added kMaps(of_records("study-maps", parse_maps, maps_json, {"study/maps"}
 const Added kDetails(of_records("study-details", parse_details, details_json, {"study/details"}));
 
 const Added kSlamStudy(of_records("slam-study", parse_slam_study,
-                                  [](const SlamOrder& order) {
+                                  [](const SlamStudyStart& order) {
                                     return slam_study_json(order.experiment, order.provenance);
                                   },
                                   {"slam_study/study.json"}));
@@ -62,28 +62,28 @@ const Added kHistories(of_records("slam-histories", parse_range_histories, range
 const Added kSpace(of_records("slam-space", parse_space_run, space_run_json,
                               {"slam_study/space.json"}));
 
-const Added kTrialStudy(of_records("trial-study", parse_trial_study, trial_study_json,
-                                   {"trial_study/study.json"}));
-const Added kTrialPart(of_records(
-    "trial-part",
+const Added kTopicStudy(of_records("topic-study", parse_topic_study, topic_study_json,
+                                   {"topic_study/study.json"}));
+const Added kTopicPart(of_records(
+    "topic-part",
     [](std::string_view text, const std::string& source) {
-      return parse_trial_part(text, source, nullptr);
+      return parse_topic_part(text, source, nullptr);
     },
-    [](const ReadTrialPart& read) { return trial_part_json(read.part, read.digest); }));
+    [](const ReadTopicPart& read) { return topic_part_json(read.part, read.digest); }));
 
 std::string lines_of(const Timings& timings) {
   std::string text = timings_header();
   for (const auto& one : timings.maps) text += timing_line(one);
   for (const auto& one : timings.slam.methods) text += timing_line(one);
   for (const auto& one : timings.slam.factorization) text += timing_line(one);
-  for (const auto& one : timings.trials) text += timing_line(one);
+  for (const auto& one : timings.outcomes) text += timing_line(one);
   for (const auto& one : timings.sessions) text += session_line(one);
   return text;
 }
 
 const Added kTimings(of_records("timings", parse_timings, lines_of,
                                 {"study/timings.jsonl", "slam_study/timings.jsonl",
-                                 "trial_study/timings.jsonl"}));
+                                 "topic_study/timings.jsonl"}));
 
 }  // namespace
 }  // namespace mapproof::fuzz

@@ -41,7 +41,7 @@ void read_all(HistoryStore store) {
     store.findings(facts.number);
     for (const NightlyStudy& study : store.studies(facts.number)) {
       store.scores(facts.number, study.name);
-      store.trend(study.name, study.order_digest, 10, facts.number);
+      store.trend(study.name, study.experiment_digest, 10, facts.number);
     }
   }
   store.digests();

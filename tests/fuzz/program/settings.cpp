@@ -27,8 +27,8 @@ const Added kApprovals({.name = "approvals", .run = [](auto bytes) {
                         }});
 const Added kPrune({.name = "prune-rule",
                     .run = [](auto bytes) { parse_prune_rule(std::string(bytes)); }});
-const Added kOrder({.name = "order-digest",
-                    .run = [](auto bytes) { order_digest(std::string(bytes), kSource); },
+const Added kOrder({.name = "experiment-digest",
+                    .run = [](auto bytes) { experiment_digest(std::string(bytes), kSource); },
                     .seeds = {"study/study.json"}});
 
 /// The page of a report by a template of the user's, beside empty ones.

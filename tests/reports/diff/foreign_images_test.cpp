@@ -206,8 +206,8 @@ TEST(ForeignImages, WhateverIsPlantedOnFlatGroundIsFoundAndSoIsItsLoss) {
   const std::vector<HarmlessPair> pairs = harmless_pairs();
   Random random(22);
   int promised = 0;
-  for (int trial = 0; trial < 2000; ++trial) {
-    const HarmlessPair& pair = pairs[trial % pairs.size()];
+  for (int round = 0; round < 2000; ++round) {
+    const HarmlessPair& pair = pairs[round % pairs.size()];
     const Planting planting = random_planting(random);
     const int contrast = static_cast<int>(random.uniform(12.0, 120.0));
     const PixelBox place = flat_place(pair, planting, random);
@@ -243,9 +243,9 @@ TEST(ForeignImages, ALargerToleranceFailsNothingThatASmallerOnePasses) {
   const std::vector<HarmlessPair> pairs = harmless_pairs();
   Random random(7);
   int passed = 0, failed = 0;
-  for (int trial = 0; trial < 60; ++trial) {
-    HarmlessPair pair = pairs[trial % pairs.size()];
-    if (trial % 3 != 0) {  // Noise, and something planted that may be small.
+  for (int round = 0; round < 60; ++round) {
+    HarmlessPair pair = pairs[round % pairs.size()];
+    if (round % 3 != 0) {  // Noise, and something planted that may be small.
       const double level = random.uniform(0.0, 6.0);
       for (std::uint32_t& pixel : pair.current.pixels) {
         const auto change = static_cast<int>(std::lround(level * random.normal()));

@@ -35,7 +35,7 @@ NightlyRun nightly_of(int number, const ForeignNightlyRun& plan = {}) {
                                    .host = "host"}};
   NightlyStudy study{.name = "mine",
                      .kind = std::string(kResultsStudy),
-                     .order_digest = "d",
+                     .experiment_digest = "d",
                      .draws_groups = true,
                      .runs = 18};
   study.labels = plan.labels;
@@ -210,7 +210,7 @@ TEST(ForeignNightlyRuns, FindingsAndRemarksHaveTheLabelsOfTheStudyAndKeepItsIds)
 
 TEST(ForeignNightlyRuns, OfATopicHaveTheLabelsOfItsDesign) {
   const NightlyStudy nightly_run =
-      read_nightly_study(std::filesystem::path(MAPPROOF_TEST_DATA) / "trial_study", "topic");
+      read_nightly_study(std::filesystem::path(MAPPROOF_TEST_DATA) / "topic_study", "topic");
   EXPECT_EQ(nightly_run.labels.setups.at("visibility"), "Ellipses of maps from visibility");
   EXPECT_EQ(nightly_run.labels.methods.at("isomap"), "ISOMAP, K = 8");
   EXPECT_TRUE(read_nightly_study(std::filesystem::path(MAPPROOF_TEST_DATA) / "study", "ours")

@@ -9,7 +9,7 @@
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/slam_fields.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "core/records/studies/trial_json.hpp"
+#include "core/records/studies/topic_json.hpp"
 #include "tests/support/schemas/record_schema.hpp"
 
 namespace mapproof::test {
@@ -63,13 +63,13 @@ std::map<std::string, std::string> file_schemas() {
           {"slam_convergence.schema.json", json_text(json_schema<ConvergenceCurve>())},
           {"slam_experiment.schema.json", experiment_schema<SlamExperiment>()},
           {"slam_run.schema.json", json_text(json_schema<SlamRun>())},
-          {"slam_study.schema.json", json_text(json_schema<SlamOrder>())},
+          {"slam_study.schema.json", json_text(json_schema<SlamStudyStart>())},
           {"space_run.schema.json", json_text(json_schema<SpaceRun>())},
           {"study.schema.json", json_text(json_schema<Study>())},
           {"timing.schema.json", json_text(timing_schema())},
-          {"trial_experiment.schema.json", experiment_schema<TrialExperimentFile>()},
-          {"trial_part.schema.json", json_text(json_schema<TrialPartFile>())},
-          {"trial_study.schema.json", json_text(json_schema<TrialStudy>())}};
+          {"topic_experiment.schema.json", experiment_schema<TopicExperimentFile>()},
+          {"topic_part.schema.json", json_text(json_schema<TopicPartFile>())},
+          {"topic_study.schema.json", json_text(json_schema<TopicStudy>())}};
 }
 
 }  // namespace mapproof::test

@@ -1,0 +1,458 @@
+#include "core/studies/validate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <new>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files/byte_source.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
+#include "core/json/text_input.hpp"
+#include "core/records/detections/detections.hpp"
+#include "core/records/detections/mrclam.hpp"
+#include "core/records/detections/scan_rows.hpp"
+#include "core/records/maps/map_csv.hpp"
+#include "core/records/maps/map_json.hpp"
+#include "core/records/observations/input_kind.hpp"
+#include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/observations/observation_json.hpp"
+#include "core/records/observations/observations.hpp"
+#include "core/records/ranges/range_log_forms.hpp"
+#include "core/records/ranges/range_logs.hpp"
+#include "core/records/studies/folder_lock.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "core/records/studies/study_folder.hpp"
+#include "core/records/studies/timings_jsonl.hpp"
+#include "core/records/tables/respelling.hpp"
+#include "core/records/tables/table_stream.hpp"
+#include "core/studies/study_kind.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A problem that is known in words.
+class CheckedProblem : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+bool is_map(const TableRow& header) {
+  return header.cells.size() >= 6 && header.cells[0] == "name" && header.cells[3] == "true_x_m" &&
+         std::ranges::find(header.cells, "anchor") != header.cells.end();
+}
+
+bool is_results_table(const TableRow& header) {
+  return header.cells.size() >= 3 && header.cells[0] == "setup" && header.cells[1] == "method" &&
+         header.cells[2] == "quantity";
+}
+
+bool is_part_of_mrclam(const std::filesystem::path& path) {
+  const std::string name = unpacked_name(path.filename()).string();
+  return name == "Barcodes.dat" || name.ends_with("_Measurement.dat");
+}
+
+/// A table in memory as a source.
+ByteSource memory_source(const std::string& name, const std::string& bytes) {
+  return {name, [&bytes, at = std::size_t{0}](std::span<char> to) mutable {
+            const std::size_t count = std::min(to.size(), bytes.size() - at);
+            std::copy_n(bytes.data() + at, count, to.begin());
+            at += count;
+            return count;
+          }};
+}
+
+/// What a table may hold where nobody states it, in this order.
+struct Guess {
+  Sensor sensor;
+  AngleUnit unit;
+};
+constexpr std::array kGuesses = {
+    Guess{Sensor::kVisibility, AngleUnit::kRadians}, Guess{Sensor::kRange, AngleUnit::kRadians},
+    Guess{Sensor::kBearing, AngleUnit::kRadians}, Guess{Sensor::kBearing, AngleUnit::kDegrees}};
+
+constexpr const char* kDegreesRemark = "The bearings are in degrees: `map` needs --degrees";
+
+void take_observations(const ObservationSource& source, Finding& finding) {
+  finding.input = summary_of(source);
+  finding.remarks.insert(finding.remarks.end(), source.remarks.begin(), source.remarks.end());
+}
+
+/// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is
+/// the most helpful: values that fit none are often degrees.
+void check_observations(const std::string& bytes, const std::string& name,
+                        const ValidateOptions& options, Finding& finding) {
+  const auto read = [&](Sensor sensor, const TableFormat& format) {
+    ByteSource source = memory_source(name, bytes);
+    return read_observations(source, sensor, format);
+  };
+  finding.kind = "observations";
+  std::string problem;
+  if (const auto sensor = sensor_named(options.sensor)) {
+    take_observations(read(*sensor, options.format), finding);
+  } else {
+    for (const Guess& guess : kGuesses) {
+      TableFormat format = options.format;
+      if (guess.unit == AngleUnit::kDegrees) format.unit = guess.unit;
+      try {
+        take_observations(read(guess.sensor, format), finding);
+        if (guess.unit != options.format.unit && guess.unit == AngleUnit::kDegrees)
+          finding.remarks.emplace_back(kDegreesRemark);
+        finding.remarks.push_back(
+            fmt::format("The sensor is not stated: the values fit {}", finding.input->sensor));
+        problem.clear();
+        break;
+      } catch (const IoError& error) {
+        if (problem.empty() ||
+            (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
+          problem = error.what();
+      }
+    }
+    if (!problem.empty()) throw CheckedProblem(problem);
+  }
+  finding.kind = finding.input->reading.form == "long table" ? "long CSV observations"
+                                                             : "wide CSV observations";
+}
+
+void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  finding.kind = "detections";
+  DetectionSource read = read_detections(source, options.format);
+  const MeasuredColumns measured{
+      .range = std::ranges::any_of(read.log.detections,
+                                   [](const Detection& seen) { return !std::isnan(seen.range_m); }),
+      .bearing = std::ranges::any_of(read.log.detections, [](const Detection& seen) {
+        return !std::isnan(seen.bearing_rad);
+      })};
+  finding.input = summary_of(read, !options.sensor.empty()              ? options.sensor
+                                   : measured.range && measured.bearing ? "range-bearing"
+                                   : measured.range                     ? "range"
+                                   : measured.bearing                   ? "bearing"
+                                                                        : "visibility");
+  finding.remarks = read.remarks;
+}
+
+/// Reads a table of any kind that mapproof knows, as `map` reads it: detections, long, wide or
+/// transposed observations, landmarks with positions, a map.
+/// @throws IoError if it is none, or is broken.
+void check_table_once(const std::string& bytes, const std::string& name,
+                      const ValidateOptions& options, Finding& finding) {
+  const std::string_view text = checked_text(bytes, name);
+  ByteSource source = memory_source(name, bytes);
+  if (options.format.layout == Layout::kAuto && is_detections(source, options.format)) {
+    try {
+      return check_detections(source, options, finding);
+    } catch (const IoError&) {
+      ValidateOptions degrees = options;
+      degrees.format.unit = AngleUnit::kDegrees;
+      ByteSource again = memory_source(name, bytes);
+      if (options.format.unit == AngleUnit::kDegrees) throw;
+      try {
+        check_detections(again, degrees, finding);
+        finding.remarks.emplace_back(kDegreesRemark);
+        return;
+      } catch (const IoError&) {  // In degrees, it has a problem as well: the first is reported.
+      }
+      throw;
+    }
+  }
+  TableReader reader(text, name);
+  TableRow first;
+  const bool is_stated = !options.sensor.empty() || options.format.layout != Layout::kAuto;
+  if (!is_stated && reader.next(first) && is_map(first)) {
+    finding.kind = "map CSV";
+    parse_map_csv(text, name);
+  } else if (!is_stated && is_landmarks_table(text, name) && !has_long_header(text, name) &&
+             !starts_as_long(text, name)) {
+    finding.kind = "landmarks with positions";
+    parse_landmarks(text, name);
+  } else {
+    check_observations(bytes, name, options, finding);
+  }
+}
+
+/// Makes a comment of the line that an error names, so that what follows it is checked, too.
+/// @return False if it names none, or the first row.
+bool leave_out_line(std::string& bytes, std::string_view error) {
+  const std::size_t at = error.find(": line ");
+  std::size_t line = 0;
+  if (at == std::string_view::npos) return false;
+  const std::string_view digits = error.substr(at + 7);
+  std::from_chars(digits.data(), digits.data() + digits.size(), line);
+  std::size_t begin = 0;
+  bool is_first = true;
+  for (std::size_t i = 1; i < line; ++i) {
+    is_first = is_first && (bytes[begin] == '#' || bytes[begin] == '\n');
+    begin = bytes.find('\n', begin);
+    if (begin == std::string::npos) return false;
+    ++begin;
+    if (begin == bytes.size()) return false;
+  }
+  if (is_first || bytes[begin] == '#') return false;
+  bytes.insert(begin, "#");
+  return true;
+}
+
+/// Reads a table until it is fine, or ten problems are known: a line with a problem is left out.
+void check_table(ByteSource& input, const ValidateOptions& options, Finding& finding) {
+  constexpr std::size_t kLarge = 64'000'000, kMostProblems = 10;
+  const std::string name = input.name();
+  if (is_part_of_mrclam(input.path()))
+    throw IoError(name, "is one file of an MRCLAM data set: check the folder");
+  if (first_row_is(input, is_results_table))
+    throw IoError(name, "is a table of results without its study.json: check the study's folder");
+  if (input.holds_more_than(kLarge) && is_detections(input, options.format))
+    return check_detections(input, options, finding);
+  std::string bytes = input.rest();
+  std::vector<std::string> problems;
+  while (problems.size() < kMostProblems) {
+    try {
+      check_table_once(bytes, name, options, finding);
+      break;
+    } catch (const std::runtime_error& error) {
+      const std::string problem = error.what();
+      if (!problems.empty() && problem.find(": line ") == std::string::npos) break;
+      problems.push_back(problem);
+      if (!leave_out_line(bytes, problem)) break;
+    }
+  }
+  if (problems.empty()) return;
+  finding.input.reset();
+  finding.remarks.clear();
+  finding.problem = problems.front();
+  finding.further.assign(problems.begin() + 1, problems.end());
+}
+
+/// Files that are of no study's kind.
+constexpr std::array kOtherFiles = {
+    StudyFile{"mapproof.map", [](auto text, auto& source) { parse_map(text, source); }},
+    StudyFile{"mapproof.observations",
+              [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
+    StudyFile{"mapproof.detections",
+              [](auto text, auto& source) { parse_detections(text, source); }},
+};
+
+/// Null if core has no such schema.
+const StudyFile* file_of(std::string_view schema) {
+  const auto find = [&](std::span<const StudyFile> files) -> const StudyFile* {
+    const auto found = std::ranges::find(files, schema, &StudyFile::schema);
+    return found == files.end() ? nullptr : &*found;
+  };
+  for (const StudyKind* kind : all_study_kinds())
+    if (const StudyFile* file = find(kind->files)) return file;
+  return find(kOtherFiles);
+}
+
+void check_json(std::string_view text, const ForeignReader& foreign, Finding& finding) {
+  const JsonDocument document = parse_json(text, finding.path);
+  const SchemaId schema = schema_of(document.cursor());
+  finding.kind = printable(fmt::format("{} {}", schema.name, schema.version));
+  if (const StudyFile* known = file_of(schema.name))
+    known->check(text, finding.path);
+  else if (foreign && foreign(schema.name, text, finding.path))
+    return;
+  else if (!schema.name.starts_with("mapproof."))
+    document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
+}
+
+/// Lines of JSON: a file of many values.
+bool is_timings(ByteSource& source) {
+  return source.path().filename() == "timings.jsonl" ||
+         (is_json(source) && json_schema(source) == "mapproof.timings");
+}
+
+/// A graph may hold a range log, or detections, as `slam` and `map` read them.
+void check_range_log(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  finding.kind = "range log";
+  const std::string_view start = source.peek();
+  if (!start.starts_with("VERTEX") && !start.starts_with("EDGE_")) {
+    read_range_log(source);
+    return;
+  }
+  const std::string bytes = source.rest(), name = source.name();
+  try {
+    ByteSource log = memory_source(name, bytes);
+    read_range_log(log);
+  } catch (const IoError& error) {
+    const std::string problem = error.what();
+    try {
+      ByteSource graph = memory_source(name, bytes);
+      check_detections(graph, options, finding);
+    } catch (const IoError&) {
+      finding.kind = "range log";
+      throw CheckedProblem(problem);
+    }
+  }
+}
+
+void check_source(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options,
+                  Finding& finding) {
+  const bool is_stated = !options.sensor.empty() || !options.format.columns.empty() ||
+                         options.format.layout != Layout::kAuto;
+  if (!is_stated && is_range_log(source)) {
+    check_range_log(source, options, finding);
+  } else if (is_timings(source)) {
+    finding.kind = "timings";
+    parse_timings(source.rest(), finding.path);
+  } else if (unpacked_name(source.path()).filename() == "results.csv") {
+    finding.kind = "results";
+    const StudyContents study =
+        read_study_contents(source.path().parent_path(), {.keeps_on = true});
+    const std::string text = source.rest();
+    parse_results_csv(text, source.name(), study.results.quantities);
+    // Of our own studies the table is made from the records.
+    const StudyKind* kind = kind_of_study(source.path().parent_path());
+    if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
+        text != results_csv(study.results.rows))
+      throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
+  } else if (const std::string companion = is_stated ? "" : check_range_companion(source);
+             !companion.empty()) {
+    finding.kind = companion;
+  } else {
+    respell(source);
+    if (is_json(source))
+      check_json(source.rest(), foreign, finding);
+    else
+      check_table(source, options, finding);
+  }
+}
+
+Finding check(const fs::path& path, const ForeignReader& foreign,
+              const ValidateOptions& options = {}) {
+  try {
+    ByteSource source(path);
+    return validate(source, foreign, options);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    return {.path = input_name(path), .kind = {}, .problem = error.what()};
+  }
+}
+
+/// What is read again of a study's or a map's folder; figures and pages are of other kinds.
+std::vector<fs::path> our_files(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    const bool is_ours = entry->path().extension() == ".json" ||
+                         entry->path().filename() == "timings.jsonl" ||
+                         entry->path().filename() == "map.csv" ||
+                         entry->path().filename() == "results.csv" || is_leftover(entry->path());
+    if (is_ours && entry->is_regular_file(ignored)) paths.push_back(entry->path());
+  }
+  if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
+  std::ranges::sort(paths);
+  return paths;
+}
+
+Finding check_as(const std::string& kind, const fs::path& folder,
+                 const std::function<void()>& read) {
+  Finding finding{.path = folder.string(), .kind = kind, .problem = {}};
+  try {
+    read();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+Finding check_study(const fs::path& folder) {
+  std::vector<std::string> remarks;
+  Finding finding = check_as("study", folder, [&] {
+    if (const StudyKind* kind = kind_of_study(folder)) remarks = kind->check(folder);
+  });
+  finding.remarks = std::move(remarks);
+  return finding;
+}
+
+/// The studies right below a folder that holds none itself.
+std::vector<fs::path> studies_below(const fs::path& folder) {
+  std::vector<fs::path> studies;
+  std::error_code error;
+  if (is_study(folder)) return studies;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (is_study(entry->path())) studies.push_back(entry->path());
+  std::ranges::sort(studies);
+  return studies;
+}
+
+std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
+  std::vector<Finding> findings;
+  std::error_code error;
+  const std::vector<fs::path> studies = studies_below(folder);
+  const bool is_ours = is_study(folder) || !studies.empty() ||
+                       fs::is_regular_file(folder / "map.json", error) ||
+                       fs::is_regular_file(folder / "slam.json", error);
+  if (is_ours) refuse_links_out(folder);
+  if (is_study(folder)) findings.push_back(check_study(folder));
+  for (const fs::path& study : studies) findings.push_back(check_study(study));
+  if (is_ours) {
+    for (const fs::path& path : our_files(folder)) {
+      findings.push_back(check(path, foreign));
+      if (is_leftover(path))
+        findings.back().problem = findings.back().path + ": left by a killed process";
+      // What is wrong with a file is wrong with its study and its table: it is reported once.
+      const std::string problem = findings.back().problem;
+      const auto last = std::prev(findings.end());
+      if (!problem.empty())
+        findings.erase(
+            std::remove_if(findings.begin(), last,
+                           [&](const Finding& finding) { return finding.problem == problem; }),
+            last);
+    }
+    return findings;
+  }
+  if (is_range_log_folder(folder))
+    return {check_as("range log", folder, [&] { read_range_log(folder); })};
+  if (is_mrclam(folder))
+    return {
+        check_as("MRCLAM observations", folder, [&] { read_mrclam(folder, Sensor::kVisibility); })};
+  throw IoError(folder.string(),
+                "is a folder with no study, no map, no range log and no MRCLAM data in it");
+}
+
+}  // namespace
+
+Finding validate(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options) {
+  Finding finding{.path = source.name(), .kind = {}, .problem = {}};
+  try {
+    check_source(source, foreign, options, finding);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    finding.problem = error.what();
+  }
+  return finding;
+}
+
+std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign,
+                              const ValidateOptions& options) {
+  if (!is_folder(path)) return {check(path, foreign, options)};
+  try {
+    return check_folder(path, foreign);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& problem) {
+    return {{.path = path.string(), .kind = {}, .problem = problem.what()}};
+  }
+}
+
+}  // namespace mapproof

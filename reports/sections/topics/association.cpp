@@ -1,0 +1,56 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string association_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "A share of the landmark IDs is permuted: among single measurements of a step that are known "
+      "to be without an ID, the same without that knowledge, or among whole rows over intervals of "
+      "{:g} steps. What does mapping with the IDs as given cost, what leaving doubtful "
+      "measurements out, "
+      "and what is won by estimating the correspondence? Maps are of SMACOF over K = {:g} "
+      "neighbours.",
+      number_option(experiment, "stretch"), number_option(experiment, "neighbours"));
+}
+
+std::vector<std::string> association_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicSetup& setup : study.design.setups) {
+    std::vector<std::string> levels, right, given, estimated;
+    for (const double level : levels_of(setup)) {
+      const auto mean = [&](const char* method, const char* quantity) {
+        return topic_mean(study, condition_at(setup, level), method, quantity);
+      };
+      if (level == 0.0 || std::isnan(mean("given", "mpe_m")) ||
+          std::isnan(mean("estimated", "mpe_m")))
+        continue;
+      levels.push_back(fmt::format("{:g}", level));
+      right.push_back(fmt::format("{:.0f}", mean("estimated", "correct_percent")));
+      given.push_back(fmt::format("{:.3f}", mean("given", "mpe_m")));
+      estimated.push_back(fmt::format("{:.3f}", mean("estimated", "mpe_m")));
+    }
+    if (levels.empty()) continue;
+    sentences.push_back(
+        fmt::format("{}: of {} % of wrong landmark IDs, {} % are corrected; the mean MPE is {} m "
+                    "with the IDs as given and {} m with those estimated.",
+                    setup.title, all_listed(levels), all_listed(right), all_listed(given),
+                    all_listed(estimated)));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kAssociationWords = {.topic = "association",
+                                      .question = association_question,
+                                      .conclusions = association_conclusions};
+
+}  // namespace mapproof

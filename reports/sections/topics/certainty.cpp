@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string certainty_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. Of "
+      "{:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
+      "landmarks that are not anchors, how many have that mean in their 95 % ellipse, and how many "
+      "the ground truth?",
+      number_option(experiment, "walks"), number_option(experiment, "tried"));
+}
+
+/// The least and the greatest of means over all methods and levels of a setup.
+std::pair<double, double> range_of(const TopicStudy& study, const TopicSetup& setup,
+                                   const char* quantity) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const ComparedMethod& method : study.design.methods)
+    for (const Condition& at : conditions_of(setup)) {
+      const double mean = topic_mean(study, at, method.id, quantity);
+      if (std::isnan(mean)) continue;
+      low = std::min(low, mean);
+      high = std::max(high, mean);
+    }
+  return {low, high};
+}
+
+std::vector<std::string> certainty_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicSetup& setup : study.design.setups) {
+    const auto [low, high] = range_of(study, setup, "mean_covered_percent");
+    if (low > high) continue;
+    sentences.push_back(fmt::format(
+        "{}: the 95 % ellipses hold the mean of the method's own maps for {:.1f} to {:.1f} % of "
+        "the landmarks, by method and level; the 93 to 97 % aimed at are {}.",
+        setup.title, low, high, low >= 93.0 && high <= 97.0 ? "met by all" : "not met by all"));
+    const auto [ground_truth_low, ground_truth_high] =
+        range_of(study, setup, "ground_truth_covered_percent");
+    const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
+    sentences.push_back(fmt::format(
+        "{}: they hold the ground truth for {:.1f} to {:.1f} % of them, since the mean map itself "
+        "is {:.3f} to {:.3f} m off: ellipses measure random errors, not the bias of a method.",
+        setup.title, ground_truth_low, ground_truth_high, bias_low, bias_high));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kCertaintyWords = {
+    .topic = "certainty", .question = certainty_question, .conclusions = certainty_conclusions};
+
+}  // namespace mapproof

@@ -1,0 +1,68 @@
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Series that are not criteria.
+constexpr const char* kRandomPick = "random";
+constexpr const char* kFixedMethod = "fixed";
+
+std::string choice_question(const TopicExperiment&) {
+  return "All methods with several parameters map the same observations. How much worse than the "
+         "best of these maps is the one that a criterion picks without the ground truth? "
+         "With anchors it judges maps fitted to them, and is judged by their MPE; without, it "
+         "judges the shapes alone, and is judged by the MPE with the affine map fitted on all "
+         "landmarks.";
+}
+
+/// The mean of a quantity over all setups and levels.
+double mean_over_all(const TopicStudy& study, std::string_view method, const char* quantity) {
+  double sum = 0.0;
+  int count = 0;
+  for (const TopicSetup& setup : study.design.setups)
+    for (const Condition& at : conditions_of(setup))
+      for (const double value : topic_values(study, at, method, quantity)) {
+        sum += value;
+        ++count;
+      }
+  return count > 0 ? sum / count : kNaN;
+}
+
+std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
+  std::string best;
+  double least = HUGE_VAL;
+  for (const ComparedMethod& method : study.design.methods) {
+    const double regret = mean_over_all(study, method.id, quantity);
+    if (std::isnan(regret)) continue;
+    if (method.id == kRandomPick || method.id == kFixedMethod || regret >= least) continue;
+    least = regret;
+    best = method.label;
+  }
+  return fmt::format(
+      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {:.3f} m "
+      "worse than the best map on average; a fixed method is {:.3f} m worse and a random pick "
+      "{:.3f} m.",
+      when, best, least, mean_over_all(study, kFixedMethod, quantity),
+      mean_over_all(study, kRandomPick, quantity));
+}
+
+std::vector<std::string> choice_conclusions(const TopicStudy& study) {
+  return {choice_sentence(study, "regret_m", "With anchors"),
+          choice_sentence(study, "regret_shape_m", "Without anchors")};
+}
+
+}  // namespace
+
+const TopicWords kChoiceWords = {
+    .topic = "choice", .question = choice_question, .conclusions = choice_conclusions};
+
+}  // namespace mapproof

@@ -1,0 +1,66 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr const char* kFitTest = "slam";
+
+std::string doubt_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "Simulated drives with single ranges to four to seven landmarks have noise from a third to "
+      "three times the usual one, and in every other drive errors that hang together in time. One "
+      "fault is put into a copy of each, at several sizes. Does the test of the fit report it, is "
+      "its cause the right one, and how often is there an alarm without any fault? The landmarks' "
+      "constant offsets have a standard deviation of {:g} m.",
+      number_option(experiment, "offset_sigma_m"));
+}
+
+std::string fault_sentence(const TopicStudy& study, const TopicSetup& setup) {
+  std::vector<std::string> parts;
+  for (const Condition& at : conditions_of(setup)) {
+    const std::vector<double> reported = topic_values(study, at, kFitTest, "reported_percent");
+    if (reported.empty()) continue;
+    parts.push_back(fmt::format("{} {:.0f} / {:.0f} %", level_words(setup, at),
+                                topic_mean(study, at, kFitTest, "reported_percent"),
+                                topic_mean(study, at, kFitTest, "named_percent")));
+  }
+  if (parts.empty()) return "";
+  return fmt::format("{}: reported / cause named right at {}.", setup.title, all_listed(parts));
+}
+
+std::vector<std::string> doubt_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicSetup& setup : study.design.setups) {
+    if (!setup.factors.empty()) {
+      if (std::string sentence = fault_sentence(study, setup); !sentence.empty())
+        sentences.push_back(std::move(sentence));
+      continue;
+    }
+    const Condition at = condition_at(setup, 0.0);
+    sentences.push_back(fmt::format(
+        "Of {} fault-free logs {:.1f} % have an alarm, and of {:.1f} % the verdict is that they do "
+        "not "
+        "fit. Of those that fit, {:.1f} % of the landmarks lie in their 95 % ellipse; the mean "
+        "squared error over its variance is {:.2f}, where 2 is right.",
+        topic_values(study, at, kFitTest, "alarm_percent").size(),
+        topic_mean(study, at, kFitTest, "alarm_percent"),
+        topic_mean(study, at, kFitTest, "denied_percent"),
+        topic_mean(study, at, kFitTest, "inside_percent"),
+        topic_mean(study, at, kFitTest, "nees")));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kDoubtWords = {
+    .topic = "doubt", .question = doubt_question, .conclusions = doubt_conclusions};
+
+}  // namespace mapproof

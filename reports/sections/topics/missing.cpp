@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string missing_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
+      "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {0:g} "
+      "dimensions fill the missing data, the landmarks' means fill them, or distances are taken "
+      "over "
+      "pairwise-complete distances; covisible pairs are the {1:g} landmarks that each is most "
+      "often observed "
+      "with. kNN-SMACOF (K = {2:g}) and ISOMAP (K = {3:g}) map the distances; maps are aligned to "
+      "the anchors in least squares.",
+      number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"),
+      number_option(experiment, "smacof_neighbours"),
+      number_option(experiment, "isomap_neighbours"));
+}
+
+/// "PPCA, SMACOF 0.057 m; ...": the three best at one level, and the worst.
+std::string ranking(const TopicStudy& study, const Condition& at) {
+  std::vector<std::pair<double, std::string>> means;
+  for (const ComparedMethod& method : study.design.methods) {
+    const double mean = topic_mean(study, at, method.id, "mpe_m");
+    if (!std::isnan(mean)) means.emplace_back(mean, method.label);
+  }
+  std::ranges::sort(means);
+  constexpr std::size_t kBest = 3;
+  std::string words;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    const bool last = k + 1 == means.size();
+    if (k >= kBest && !last) continue;
+    words += fmt::format("{}{} {:.3f} m",
+                         k == 0               ? ""
+                         : last && k >= kBest ? "; worst: "
+                                              : "; ",
+                         means[k].second, means[k].first);
+  }
+  return words;
+}
+
+/// Mean over parts and levels of one way's MPE less that of the best way there; NaN without any.
+/// @param method  Its kNN-SMACOF maps, or the advised ones.
+double regret_m(const TopicStudy& study, const std::string& method) {
+  double sum = 0.0, count = 0.0;
+  for (const TopicPart& part : study.parts)
+    for (const TopicOutcome& outcome : part.outcomes) {
+      if (outcome.method != method || !std::isfinite(topic_value(outcome, "mpe_m"))) continue;
+      double best = topic_value(outcome, "mpe_m");
+      for (const TopicOutcome& other : part.outcomes)
+        if (other.at == outcome.at && std::isfinite(topic_value(other, "mpe_m")))
+          best = std::min(best, topic_value(other, "mpe_m"));
+      sum += topic_value(outcome, "mpe_m") - best;
+      count += 1.0;
+    }
+  return count > 0.0 ? sum / count : kNaN;
+}
+
+std::string advice_words(const TopicStudy& study) {
+  return fmt::format(
+      "Choosing the strategy by the pattern of missing data costs {:.3f} m of MPE over the best "
+      "map of each outcome "
+      "on average; pairwise-complete distances always cost {:.3f} m, PPCA always {:.3f} m.",
+      regret_m(study, "auto"), regret_m(study, "pairwise-complete-smacof-knn"),
+      regret_m(study, "ppca-smacof-knn"));
+}
+
+std::vector<std::string> missing_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  if (const double regret = regret_m(study, "auto"); !std::isnan(regret))
+    sentences.push_back(advice_words(study));
+  for (const TopicSetup& setup : study.design.setups)
+    for (const double level : levels_of(setup)) {
+      const Condition at = condition_at(setup, level);
+      const std::string words = ranking(study, at);
+      if (words.empty() || (level != levels_of(setup).back() && level != 50.0)) continue;
+      sentences.push_back(
+          fmt::format("{}, {}, mean MPE: {}.", setup.title, level_words(setup, at), words));
+    }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kMissingWords = {
+    .topic = "missing", .question = missing_question, .conclusions = missing_conclusions};
+
+}  // namespace mapproof

@@ -1,0 +1,69 @@
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string moved_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "Landmarks seen with range and bearing from up to {:g} m; one of them is at another position "
+      "from "
+      "a random step in the middle half on. Is it named, is another one named, and how far off is "
+      "the step? Each run tries {:g} landmarks, one at a time.",
+      number_option(experiment, "reach_m"), number_option(experiment, "tried"));
+}
+
+/// The mean of a quantity at each level that has one: "0, 50 and 100".
+std::string means_text(const TopicStudy& study, const TopicSetup& setup, const char* quantity) {
+  std::vector<std::string> means;
+  for (const Condition& at : conditions_of(setup))
+    if (const double mean = topic_mean(study, at, "permutations", quantity); !std::isnan(mean))
+      means.push_back(fmt::format("{:.0f}", mean));
+  return all_listed(means);
+}
+
+double greatest_mean(const TopicStudy& study, const TopicSetup& setup, const char* quantity) {
+  double greatest = 0.0;
+  for (const Condition& at : conditions_of(setup))
+    if (const double mean = topic_mean(study, at, "permutations", quantity); mean > greatest)
+      greatest = mean;
+  return greatest;
+}
+
+std::vector<std::string> moved_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  const double still =
+      topic_mean(study, condition("distance", {{"moved_m", 0.0}}), "permutations", "false_percent");
+  if (!std::isnan(still))
+    sentences.push_back(fmt::format(
+        "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
+        still));
+  for (const TopicSetup& setup : study.design.setups) {
+    std::vector<std::string> levels;
+    for (const double level : levels_of(setup))
+      if (!std::isnan(
+              topic_mean(study, condition_at(setup, level), "permutations", "named_percent")))
+        levels.push_back(fmt::format("{:g}", level));
+    if (levels.empty()) continue;
+    sentences.push_back(fmt::format(
+        "{}: at {} ({}) the moved landmark is named in {} % of the logs, another one in {:.1f} % "
+        "at most; the step is {:.0f} steps off on average at most.",
+        setup.title, all_listed(levels), label_with_unit(setup.factors.front()),
+        means_text(study, setup, "named_percent"), greatest_mean(study, setup, "false_percent"),
+        greatest_mean(study, setup, "step_error")));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kMovedWords = {
+    .topic = "moved", .question = moved_question, .conclusions = moved_conclusions};
+
+}  // namespace mapproof

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::string mrclam_question(const TopicExperiment&) {
+  return "Robots in a hall see landmarks by their barcodes, with range and bearing. How good a map "
+         "can be made of these scans alone, without poses or odometry: from which landmarks are "
+         "seen together, from bearings, from ranges, from range and bearing together? The scans of "
+         "all robots are pooled. Errors are of the landmarks that are not anchors, after the "
+         "affine "
+         "map to the anchors: the four landmarks furthest out along the diagonals. And if labels "
+         "are wrong: can they be found from the scans themselves, and corrected?";
+}
+
+double method_value(const TopicPart& part, std::string_view method, std::string_view quantity) {
+  const auto outcome = std::ranges::find(part.outcomes, method, &TopicOutcome::method);
+  return outcome == part.outcomes.end() ? kNaN : topic_value(*outcome, quantity);
+}
+
+/// "Visibility, ISOMAP (1.46 m)": the best of some methods on a set; empty if none has an error.
+std::string best_alone(const TopicStudy& study, const TopicPart& part, std::string_view start) {
+  const ComparedMethod* best = nullptr;
+  for (const ComparedMethod& method : study.design.methods) {
+    const double error = method_value(part, method.id, "mpe_m");
+    if (!method.id.starts_with(start) || std::isnan(error)) continue;
+    if (best == nullptr || error < method_value(part, best->id, "mpe_m")) best = &method;
+  }
+  return best == nullptr
+             ? std::string()
+             : fmt::format("{} ({:.3f} m)", best->label, method_value(part, best->id, "mpe_m"));
+}
+
+std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicPart& part : study.parts) {
+    const double error = method_value(part, "pairs", "mpe_m");
+    if (std::isnan(error)) {
+      sentences.push_back(fmt::format(
+          "{}: no error can be determined; {:.0f} landmarks are mapped from range and bearing.",
+          part.id, std::max(0.0, method_value(part, "pairs", "mapped"))));
+      continue;
+    }
+    sentences.push_back(
+        fmt::format("{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m "
+                    "after a rigid fit; the error is over distances of pairs, without poses.",
+                    part.id, error, method_value(part, "pairs", "rigid_m")));
+    std::vector<std::string> others;
+    for (const char* start : {"visibility", "bearing", "range"})
+      if (const std::string best = best_alone(study, part, start); !best.empty())
+        others.push_back(best);
+    if (!others.empty())
+      sentences.push_back(fmt::format("{}: the best of each sensor alone: {}.", part.id,
+                                      listed(others, others.size() + 1)));
+    if (const double swapped = method_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
+      sentences.push_back(fmt::format(
+          "{}: with two landmark IDs swapped in half of the scans the map is {:.3f} m off, "
+          "corrected "
+          "{:.3f} "
+          "m; with a landmark called by another's name in all scans {:.3f} m, corrected {:.3f} m.",
+          part.id, swapped, method_value(part, "swapped-corrected", "mpe_m"),
+          method_value(part, "misnamed", "mpe_m"),
+          method_value(part, "misnamed-corrected", "mpe_m")));
+  }
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kMrclamWords = {
+    .topic = "mrclam", .question = mrclam_question, .conclusions = mrclam_conclusions};
+
+}  // namespace mapproof

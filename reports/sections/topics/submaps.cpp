@@ -1,0 +1,70 @@
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
+
+namespace mapproof {
+namespace {
+
+std::vector<MethodSetting> submap_settings(const TopicExperiment& experiment) {
+  const double K = number_option(experiment, "neighbours");
+  return {{Method::kSmacofKnn, K}, {Method::kIsomap, K}, {Method::kSde, K}};
+}
+
+std::string submaps_question(const TopicExperiment& experiment) {
+  return fmt::format(
+      "Bearings are mapped as a whole, and in overlapping groups of landmarks whose maps are "
+      "joined by similarities: with groups of several sizes, with overlaps of several shares of "
+      "groups of {0:g}, and in groups of {0:g} where a share of the entries, those of distant "
+      "landmarks, is missing. Maps are aligned to the anchors in least squares.",
+      number_option(experiment, "usual_size"));
+}
+
+/// Sub-maps compared with the whole with one method: means by level, and where chance does not
+/// explain the difference.
+std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
+                               const MethodSetting& setting) {
+  const std::string whole = fmt::format("whole-{}", info(setting.method).name);
+  const std::string parts = fmt::format("parts-{}", info(setting.method).name);
+  std::vector<std::string> levels, of_whole, of_parts, worse, better;
+  for (const double level : levels_of(setup)) {
+    const Condition at = condition_at(setup, level);
+    const auto difference = topic_difference(study, at, parts, whole, "mpe_m");
+    if (!difference) continue;
+    levels.push_back(fmt::format("{:g}", level));
+    of_parts.push_back(fmt::format("{:.3f}", topic_mean(study, at, parts, "mpe_m")));
+    of_whole.push_back(fmt::format("{:.3f}", topic_mean(study, at, whole, "mpe_m")));
+    if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
+      (difference->mean > 0.0 ? worse : better).push_back(levels.back());
+  }
+  if (levels.empty()) return "";
+  const std::set<std::string> wholes(of_whole.begin(), of_whole.end());
+  std::string words = fmt::format(
+      "{}, {}: at {} ({}) the mean MPE of the parts joined is {} m, of the whole {} m", setup.title,
+      label(setting), all_listed(levels), label_with_unit(setup.factors.front()),
+      all_listed(of_parts), wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
+  if (!worse.empty()) words += "; worse beyond chance at " + all_listed(worse);
+  if (!better.empty()) words += "; better beyond chance at " + all_listed(better);
+  return words + (worse.empty() && better.empty() ? "; no difference is beyond chance." : ".");
+}
+
+std::vector<std::string> submaps_conclusions(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicSetup& setup : study.design.setups)
+    for (const MethodSetting& setting : submap_settings(study.experiment))
+      if (std::string words = submaps_comparison(study, setup, setting); !words.empty())
+        sentences.push_back(std::move(words));
+  return sentences;
+}
+
+}  // namespace
+
+const TopicWords kSubmapsWords = {
+    .topic = "submaps", .question = submaps_question, .conclusions = submaps_conclusions};
+
+}  // namespace mapproof

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/topic_study.hpp"
+#include "core/statistics/intervals.hpp"
+
+namespace mapproof {
+
+/// A outcome's value of a quantity; NaN if nothing came out or the quantity does not apply.
+double topic_value(const TopicOutcome& outcome, std::string_view quantity);
+
+/// What all parts of a study came to for one quantity, over them all: for conclusions.
+///
+/// @return Of the finite values alone, in the order of the parts.
+/// @throws InvalidInput if the design has no such quantity.
+std::vector<double> topic_values(const TopicStudy& study, const Condition& at,
+                                 std::string_view method, std::string_view quantity);
+
+/// Their mean; NaN without any.
+double topic_mean(const TopicStudy& study, const Condition& at, std::string_view method,
+                  std::string_view quantity);
+
+/// "noise of bearings 20°", "observations 2000": the levels of a condition of the setup with what
+/// they are of; empty if it has no factors.
+std::string level_words(const TopicSetup& setup, const Condition& at);
+
+/// The label of a method of the design; its id if there is none of it.
+std::string series_label(const TopicDesign& design, std::string_view id);
+
+/// "share missing [%]", "observations".
+std::string label_with_unit(const SetupFactor& factor);
+
+/// "a, b and c", all of them.
+std::string all_listed(const std::vector<std::string>& words);
+
+/// How far one method is from another, run by run: `method` less `other` wherever both have a
+/// value.
+/// @return Its mean, and the 95 % interval over layouts (none with one layout); empty without any
+///         pair.
+std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Condition& at,
+                                             std::string_view method, std::string_view other,
+                                             std::string_view quantity);
+
+/// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
+/// without an interval there is no statement on significance: "better, in one layout".
+std::string verdict_words(const MeanEstimate& difference);
+
+}  // namespace mapproof

@@ -1,0 +1,35 @@
+#include "reports/sections/topics/topic_text.hpp"
+
+#include <algorithm>
+
+namespace mapproof {
+namespace {
+
+const TopicWords* words_of(std::string_view topic) {
+  const auto all = all_topic_words();
+  const auto found = std::ranges::find(all, topic, &TopicWords::topic);
+  return found == all.end() ? nullptr : *found;
+}
+
+}  // namespace
+
+std::span<const TopicWords* const> all_topic_words() {
+  static constexpr const TopicWords* kAll[] = {&kCertaintyWords, &kChoiceWords,  &kAssociationWords,
+                                               &kDoubtWords,     &kMissingWords, &kMixedWords,
+                                               &kMovedWords,     &kMrclamWords,  &kIncrementalWords,
+                                               &kSubmapsWords,   &kSweepWords};
+  return kAll;
+}
+
+std::string question_of(const TopicExperiment& experiment) {
+  const TopicWords* words = words_of(experiment.topic);
+  return words == nullptr ? "" : words->question(experiment);
+}
+
+std::vector<std::string> conclusions_of(const TopicStudy& study) {
+  const TopicWords* words = words_of(study.experiment.topic);
+  return words == nullptr || study.parts.empty() ? std::vector<std::string>()
+                                                 : words->conclusions(study);
+}
+
+}  // namespace mapproof

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/topic_study.hpp"
+
+namespace mapproof {
+
+/// The words of a topic (core/topics/topic.hpp).
+struct TopicWords {
+  std::string_view topic;  ///< In files: "missing".
+  /// What is asked and how it is tried, two or three sentences.
+  std::string (*question)(const TopicExperiment& experiment) = nullptr;
+  /// What came out, with numbers, a sentence each.
+  std::vector<std::string> (*conclusions)(const TopicStudy& study) = nullptr;
+};
+
+extern const TopicWords kCertaintyWords, kChoiceWords, kAssociationWords, kDoubtWords,
+    kMissingWords, kMixedWords, kMovedWords, kMrclamWords, kIncrementalWords, kSubmapsWords,
+    kSweepWords;
+
+/// Of every topic, in their order.
+std::span<const TopicWords* const> all_topic_words();
+
+/// Empty of a topic that is not known.
+std::string question_of(const TopicExperiment& experiment);
+
+/// None of a topic that is not known, or without any part.
+std::vector<std::string> conclusions_of(const TopicStudy& study);
+
+}  // namespace mapproof
