@@ -25,11 +25,11 @@ namespace mapproof {
 struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
-  std::string kind;               ///< A sensor's name, kRangeBearing, or empty: as in the file.
+  std::string sensor;             ///< A sensor's name, kRangeBearing, or empty: as in the file.
   TableOptions table = {};        ///< How the files are to be read.
   std::string scan_window;        ///< Seconds, or with a unit; empty: found from the gaps.
   std::vector<std::string> with;  ///< Files of other sensors,
-  std::vector<std::string> with_kind;  ///< and what each holds.
+  std::vector<std::string> with_sensor;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;
   int jobs = 1;              ///< Threads.
@@ -72,7 +72,7 @@ struct MapJob {
   /// Called with what was understood of each file.
   std::function<void(const std::string& path, const InputSummary&)> understood = {};
 
-  bool is_range_bearing() const { return kind == kRangeBearing; }
+  bool is_range_bearing() const { return sensor == kRangeBearing; }
   bool chooses_method() const;
   /// Whether the method may be chosen although none is named: nothing that is asked for prevents
   /// it.

@@ -58,19 +58,19 @@ void set_stop_rules(MapJob& job) {
 void open_observations(MapJob& job) {
   if (is_folder(job.path)) {
     // A method of one sensor takes its visibility, see read_observations().
-    if (job.kind.empty() && job.may_choose_method() && is_mrclam(job.path))
-      job.kind = kRangeBearing;
+    if (job.sensor.empty() && job.may_choose_method() && is_mrclam(job.path))
+      job.sensor = kRangeBearing;
     return;
   }
   job.source = std::make_shared<ByteSource>(job.path);
   const TableFormat format = job.table_format();
-  if (!job.kind.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
+  if (!job.sensor.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
     return;
   const MeasuredColumns measured = measured_in(*job.source, format);
-  job.kind = measured.range && measured.bearing ? std::string(kRangeBearing)
-             : measured.range                   ? std::string(name(Sensor::kRange))
-             : measured.bearing                 ? std::string(name(Sensor::kBearing))
-                                                : std::string(name(Sensor::kVisibility));
+  job.sensor = measured.range && measured.bearing ? std::string(kRangeBearing)
+               : measured.range                   ? std::string(name(Sensor::kRange))
+               : measured.bearing                 ? std::string(name(Sensor::kBearing))
+                                                  : std::string(name(Sensor::kVisibility));
 }
 
 /// Completes a parsed job: unless the map is incremental, opens the file and detects its sensor if
@@ -79,7 +79,7 @@ void open_observations(MapJob& job) {
 /// @throws InvalidInput for what does not go together, or an unknown method or parameter; IoError
 ///         if a file cannot be read.
 void complete(MapJob& job) {
-  if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
+  if (job.sensor.empty() && job.method == kPairs) job.sensor = kRangeBearing;
   // A stream cannot be opened before it is read.
   if (!job.incremental) open_observations(job);
   require_known_method(job);
@@ -92,7 +92,7 @@ void complete(MapJob& job) {
 
 /// How the incremental map of the job is made.
 IncrementalRequest incremental_request(const MapJob& job) {
-  const std::optional<Sensor> sensor = sensor_named(job.kind);
+  const std::optional<Sensor> sensor = sensor_named(job.sensor);
   return {.path = job.path,
           .table = {.source = {},
                     .sensor = sensor.value_or(Sensor::kRange),
@@ -144,7 +144,7 @@ int run_map(MapJob job, const Invocation& invocation) {
   refuse_shared_streams(inputs);
   complete(job);
   return job.incremental ? write_incremental(incremental_request(job), location, invocation)
-                    : map_once(std::move(job), location, invocation);
+                         : map_once(std::move(job), location, invocation);
 }
 
 }  // namespace

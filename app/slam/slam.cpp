@@ -197,21 +197,21 @@ void require_incremental(const SlamArguments& arguments) {
 }
 
 int incremental_slam(const SlamArguments& arguments, const Templates& page,
-                  const Invocation& invocation) {
+                     const Invocation& invocation) {
   require_incremental(arguments);
   return write_incremental({.path = arguments.data,
-                         .table = {.format = {.columns = column_names(arguments.columns)},
-                                   .anchors = read_points(arguments.known),
-                                   .ground_truth = read_points(arguments.true_landmarks),
-                                   .fit = {.is_metric = true, .is_rigid = true}},
-                         .source = incremental_ranges,
-                         .every = update_interval(arguments.every)},
-                        {.out = arguments.out,
-                         .observations = arguments.data,
-                         .command = invocation.command,
-                         .page = page,
-                         .disclosure = invocation.disclosure},
-                        invocation);
+                            .table = {.format = {.columns = column_names(arguments.columns)},
+                                      .anchors = read_points(arguments.known),
+                                      .ground_truth = read_points(arguments.true_landmarks),
+                                      .fit = {.is_metric = true, .is_rigid = true}},
+                            .source = incremental_ranges,
+                            .every = update_interval(arguments.every)},
+                           {.out = arguments.out,
+                            .observations = arguments.data,
+                            .command = invocation.command,
+                            .page = page,
+                            .disclosure = invocation.disclosure},
+                           invocation);
 }
 
 int map_ranges(SlamArguments arguments, const Invocation& invocation) {
