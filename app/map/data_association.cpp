@@ -87,8 +87,8 @@ void require_complete(const ObservationSource& source) {
                         printable(history.names[static_cast<std::size_t>(row)])));
 }
 
-void mark_unsure(const ObservationSource& source, const std::vector<std::string>& unsure,
-                 Mask& doubtful) {
+void mark_uncertain(const ObservationSource& source, const std::vector<std::string>& unsure,
+                    Mask& doubtful) {
   if (unsure.size() == 1)
     throw IoError(source.path,
                   "one uncertain landmark ID cannot be confused with another; name two or more");
@@ -176,7 +176,7 @@ EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::stri
   if (source.history.landmarks() < 3)
     throw IoError(source.path,
                   "data association needs three landmarks whose IDs some measurements have");
-  mark_unsure(source, unsure, dealt.doubtful);
+  mark_uncertain(source, unsure, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
   ids.measurements = assigned(source, dealt, found);
   report(source, dealt.doubtful, found, ids);

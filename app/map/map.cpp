@@ -108,7 +108,7 @@ IncrementalRequest incremental_request(const MapJob& job) {
           .every = update_interval(job.every)};
 }
 
-int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
+int map_once(MapJob job, const MapOutput& location, const Invocation& invocation) {
   if (!job.force)
     job.begin = [&](const MapRecord& begun) {
       check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
@@ -133,11 +133,11 @@ int map_once(MapJob job, const MapPlace& location, const Invocation& invocation)
 }
 
 int run_map(MapJob job, const Invocation& invocation) {
-  const MapPlace location{.out = job.out,
-                          .observations = job.path,
-                          .command = invocation.command,
-                          .page = load_templates(job.templates),
-                          .disclosure = invocation.disclosure};
+  const MapOutput location{.out = job.out,
+                           .observations = job.path,
+                           .command = invocation.command,
+                           .page = load_templates(job.templates),
+                           .disclosure = invocation.disclosure};
   check_map_folder(job.out);
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());

@@ -283,7 +283,7 @@ void add_fit_options(CLI::App& app, SlamArguments& arguments) {
                  "Standard deviation of odometry after 1 m, which grows with the root of the way "
                  "[m]; without: estimated")
       ->check(CLI::PositiveNumber);
-  app.add_option("--heading-sigma", arguments.fit.noise.turn_per_metre,
+  app.add_option("--heading-sigma", arguments.fit.noise.heading_per_metre,
                  "Standard deviation of its heading after 1 m [rad]; without: estimated")
       ->check(CLI::PositiveNumber);
   app.add_option("--odometry-scale-sigma", arguments.fit.odometry_scale_sigma,

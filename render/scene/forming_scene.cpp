@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"
 

@@ -37,7 +37,7 @@ std::vector<std::string> studies_of(std::span<const NightlyFinding> findings) {
 std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings) {
   const std::string count = counted(static_cast<long long>(findings), "finding");
   switch (nightly_run.verdict) {
-    case NightlyVerdict::kGood:
+    case NightlyVerdict::kPassed:
       return nightly_run.reference
                  ? fmt::format("Nothing got worse than in nightly run {}.", *nightly_run.reference)
                  : "Not compared: no nightly run to compare with has the same settings.";

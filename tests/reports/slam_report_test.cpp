@@ -1,5 +1,4 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_sections.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 
 #include <algorithm>
@@ -83,7 +82,7 @@ TEST(SlamReport, TellsTheErrorsOfAFlightInSpaceAndItsStatuses) {
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 0.05);
   EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[1].cells[1]));
-  const auto statuses = std::ranges::find(sections, "slam-statuses", &Section::id);
+  const auto statuses = std::ranges::find(sections, "slam-warnings", &Section::id);
   const auto& list = std::get<StatusList>(statuses->blocks.back());
   EXPECT_TRUE(std::ranges::any_of(list.items, [](const StatusList::Item& item) {
     return item.where == "in space, no landmark known" && item.code == "undetermined";
@@ -122,7 +121,7 @@ TEST(SlamSections, StandInOrderAndBesideThoseOfTheOtherPaper) {
       ids_of(report.sections),
       (std::vector<std::string>{"slam-summary", "slam-accuracy", "slam-run-plaza-1",
                                 "slam-run-plaza-2", "slam-simulation", "slam-histories",
-                                "slam-space", "slam-cost", "slam-statuses", "slam-provenance"}));
+                                "slam-space", "slam-cost", "slam-warnings", "slam-provenance"}));
   EXPECT_NO_THROW(check(report));
   const Study other = test::synthetic_study(2, 1);
   const StudyFigures other_figures = test::synthetic_figures(other);
@@ -302,7 +301,7 @@ TEST(SlamReport, OfNothingIsAReport) {
   const Report report = slam_report({study, {}, timings, figures, ""});
   EXPECT_NO_THROW(check(report));
   EXPECT_EQ(ids_of(report.sections),
-            (std::vector<std::string>{"slam-summary", "slam-statuses", "slam-provenance"}));
+            (std::vector<std::string>{"slam-summary", "slam-warnings", "slam-provenance"}));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ constexpr std::array kRetired = {
     RetiredName{kOption, "--repair-labels", "--repair-ids"},
     RetiredName{kOption, "--labels-unsure", "--uncertain-ids"},
     RetiredName{kOption, "--follow", "--incremental"},
+    RetiredName{kValue, "last-good", "last-passing"},
     RetiredName{kValue, "common-steps", "pairwise-complete"},
     RetiredName{kKey, "truth", "ground_truth"},
     RetiredName{kKey, "truth_m", "ground_truth_m"},

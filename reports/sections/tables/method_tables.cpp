@@ -238,7 +238,7 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
     std::string holds = "not tried";
     if (claim.difference_m)
       holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
-                          claim.is_significant() ? "" : ", unsure");
+                          claim.is_significant() ? "" : ", not significant");
     table.rows.push_back({{method_cell(claim.less), method_cell(claim.more), TextCell{holds},
                            mean_cell(claim.difference_m, decimals, true),
                            difference_interval_cell(claim.difference_m, decimals),
