@@ -168,25 +168,6 @@ Paragraph bound_words(const ConvergenceCurve& curve) {
       slope_words(log_log_slope(steps, sines))));
 }
 
-/// Errors of all methods on all logs of real robots; empty without such a log.
-std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
-  const RunList runs = runs_of(study, false);
-  if (runs.empty()) return std::nullopt;
-  Section section{"slam-accuracy", "Range-only SLAM: methods", {}};
-  section.blocks.emplace_back(slam_drive_table(runs));
-  Table errors = is_of_paper(study)
-                     ? slam_error_table("table-plaza", "Methods on the Plaza data sets", runs)
-                     : slam_error_table("slam-errors", "Methods", runs);
-  if (is_of_paper(study))
-    errors.notes.emplace_back(
-        "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
-        "any.");
-  section.blocks.emplace_back(std::move(errors));
-  if (auto alignments = slam_alignment_table(runs))
-    section.blocks.emplace_back(*std::move(alignments));
-  return section;
-}
-
 /// One log of a real robot.
 Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
   Section section = section_of(figures, slam_run_group(run), "Range-only SLAM: " + title_of(run));
@@ -199,26 +180,6 @@ Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
         run.windows->chosen_s)));
   if (auto landmarks = slam_landmark_table(run)) section.blocks.emplace_back(*std::move(landmarks));
   add_remarks(run, section);
-  return section;
-}
-
-/// Empty if nothing was simulated.
-std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures) {
-  const RunList runs = runs_of(study, true);
-  if (runs.empty() && study.convergence.empty()) return std::nullopt;
-  Section section = section_of(figures, kSlamSimulation, "Range-only SLAM: simulation");
-  if (!study.convergence.empty() && is_of_paper(study)) {
-    section.blocks.emplace_back(plain(
-        "The paper gives neither the noise nor the size of the area of its Fig. 1: those used "
-        "here are choices of the experiment, listed under provenance."));
-    section.blocks.emplace_back(bound_words(study.convergence.front()));
-  }
-  if (!runs.empty())
-    section.blocks.emplace_back(
-        slam_error_table("slam-errors-simulation", "Methods on the simulated example", runs));
-  if (!study.convergence.empty())
-    section.blocks.emplace_back(slam_convergence_table(study.convergence));
-  for (const SlamRun* run : runs) add_remarks(*run, section);
   return section;
 }
 
@@ -354,6 +315,43 @@ Section slam_summary_section(const SlamStudy& study) {
       "Squared ranges factor into landmarks and positions; least squares refines both."));
   if (!highlights.items.empty()) section.blocks.emplace_back(std::move(highlights));
   section.blocks.emplace_back(std::move(findings));
+  return section;
+}
+
+std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
+  const RunList runs = runs_of(study, false);
+  if (runs.empty()) return std::nullopt;
+  Section section{"slam-accuracy", "Range-only SLAM: methods", {}};
+  section.blocks.emplace_back(slam_drive_table(runs));
+  Table errors = is_of_paper(study)
+                     ? slam_error_table("table-plaza", "Methods on the Plaza data sets", runs)
+                     : slam_error_table("slam-errors", "Methods", runs);
+  if (is_of_paper(study))
+    errors.notes.emplace_back(
+        "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
+        "any.");
+  section.blocks.emplace_back(std::move(errors));
+  if (auto alignments = slam_alignment_table(runs))
+    section.blocks.emplace_back(*std::move(alignments));
+  return section;
+}
+
+std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures) {
+  const RunList runs = runs_of(study, true);
+  if (runs.empty() && study.convergence.empty()) return std::nullopt;
+  Section section = section_of(figures, kSlamSimulation, "Range-only SLAM: simulation");
+  if (!study.convergence.empty() && is_of_paper(study)) {
+    section.blocks.emplace_back(plain(
+        "The paper gives neither the noise nor the size of the area of its Fig. 1: those used "
+        "here are choices of the experiment, listed under provenance."));
+    section.blocks.emplace_back(bound_words(study.convergence.front()));
+  }
+  if (!runs.empty())
+    section.blocks.emplace_back(
+        slam_error_table("slam-errors-simulation", "Methods on the simulated example", runs));
+  if (!study.convergence.empty())
+    section.blocks.emplace_back(slam_convergence_table(study.convergence));
+  for (const SlamRun* run : runs) add_remarks(*run, section);
   return section;
 }
 

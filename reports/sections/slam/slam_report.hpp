@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,6 +24,12 @@ Report slam_report(const SlamReportInput& input);
 
 /// What the study found on each log, in short.
 Section slam_summary_section(const SlamStudy& study);
+
+/// Empty if nothing was simulated.
+std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures);
+
+/// Errors of all methods on all logs of real robots; empty without such a log.
+std::optional<Section> slam_accuracy_section(const SlamStudy& study);
 
 /// Its sections alone, for a report with others: ids of sections and tables begin with
 /// "slam-", but for the paper's "table-plaza".
