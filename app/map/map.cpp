@@ -174,7 +174,7 @@ Action map_command(CLI::App& app) {
       "Bearings are relative to the robot's heading, counter-clockwise (to the left), in radians;\n"
       "see --degrees and --bearing-convention for others.\n"
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
-      "The exit code is 1 if there is no map; the report says why.\n");
+      "The exit code is 1 if there is no map; the report states why.\n");
   add_map_options(app, *job);
   return [job](const Invocation& invocation) { return run_map(*job, invocation); };
 }

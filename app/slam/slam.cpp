@@ -316,7 +316,7 @@ Action slam_command(CLI::App& app) {
       "times. The window that brings them to common times is chosen by prediction error. Errors "
       "are\n"
       "reported only with ground truth. Without odometry the map may be reflected.\n"
-      "The exit code is 1 if there is no map; the report says why.\n");
+      "The exit code is 1 if there is no map; the report states why.\n");
   add_input_options(app, *arguments);
   add_fit_options(app, *arguments);
   app.add_flag(

@@ -138,24 +138,24 @@ TEST(SlamSummary, BeginsWithWhatIsMissingAndHowToGetIt) {
   const auto* callout = std::get_if<Callout>(&section.blocks.front());
   ASSERT_NE(callout, nullptr);
   EXPECT_EQ(callout->tone, Callout::Tone::kWarning);
-  EXPECT_TRUE(says(section, "give their folder with --plaza"));
+  EXPECT_TRUE(contains_text(section, "give their folder with --plaza"));
   EXPECT_EQ(std::get_if<Callout>(&slam_summary_section(sample_slam_study()).blocks.front()),
             nullptr);
 }
 
 TEST(SlamSummary, FindsErrorsWithTheirAlignmentScaleAndStarts) {
   const Section section = slam_summary_section(sample_slam_study());
-  EXPECT_TRUE(says(section,
+  EXPECT_TRUE(contains_text(section,
                    "Plaza 1: mean position error 0.12 m for refined, scale free (rigid), "
                    "0.41 m for spectral, 4-D (rigid)"))
       << words(section);
-  EXPECT_TRUE(says(section, "dead reckoning (unaligned)"));
-  EXPECT_TRUE(says(section, "Its ranges are 6.6 % too long"));
-  EXPECT_TRUE(says(section,
+  EXPECT_TRUE(contains_text(section, "dead reckoning (unaligned)"));
+  EXPECT_TRUE(contains_text(section, "Its ranges are 6.6 % too long"));
+  EXPECT_TRUE(contains_text(section,
                    "1 of 1 from the spectral answer, 1 of 1 from dead reckoning and 11 of "
                    "12 from random landmarks"));
-  EXPECT_TRUE(says(section, "to the power \u22120.50"));
-  EXPECT_TRUE(says(section, "Fig. 2A is a photograph"));
+  EXPECT_TRUE(contains_text(section, "to the power \u22120.50"));
+  EXPECT_TRUE(contains_text(section, "Fig. 2A is a photograph"));
 }
 
 std::string words(const Opening& opening) {
@@ -261,7 +261,7 @@ TEST(SlamSimulationSection, TellsTheMisprintOfEquationFive) {
   const SlamStudy study = sample_slam_study();
   const StudyFigures figures = slam_figures(study, {});
   const Section section = slam_simulation_section(study, &figures.groups[0]).value();
-  EXPECT_TRUE(says(section, "\u00D5(1/\u03B6\u00B2)")) << words(section);
+  EXPECT_TRUE(contains_text(section, "\u00D5(1/\u03B6\u00B2)")) << words(section);
   const Table& table = table_named(section, "slam-convergence");
   EXPECT_EQ(table.rows.size(), 14u);
   EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 300.0);
@@ -288,7 +288,7 @@ TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
 TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {
   const SlamStudy study = sample_slam_study();
   const auto sections = sections_of(study, test::sample_slam_timings());
-  EXPECT_TRUE(says(sections[2], "Heading increments of the table DR are the ground truth\u2019s"));
+  EXPECT_TRUE(contains_text(sections[2], "Heading increments of the table DR are the ground truth\u2019s"));
   const Table& seconds = table_named(sections[7], "slam-seconds");
   EXPECT_EQ(seconds.rows.size(), 3u);
   EXPECT_TRUE(seconds.caption.ends_with("(varies)"));

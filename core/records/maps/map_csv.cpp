@@ -10,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/retired_names.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/tables/table_reader.hpp"
 

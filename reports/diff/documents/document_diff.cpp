@@ -116,7 +116,7 @@ class TableComparer {
 
   TableDiff compare() {
     if (a_.rows.size() != b_.rows.size()) {
-      tell("the table", counted(std::ssize(a_.rows), "row"), counted(std::ssize(b_.rows), "row"));
+      report("the table", counted(std::ssize(a_.rows), "row"), counted(std::ssize(b_.rows), "row"));
       return std::move(found_);
     }
     for (std::size_t row = 0; row < a_.rows.size(); ++row) compare_row(row);
@@ -125,7 +125,7 @@ class TableComparer {
   }
 
  private:
-  void tell(const std::string& location, const std::string& before, const std::string& after) {
+  void report(const std::string& location, const std::string& before, const std::string& after) {
     found_.cells.shape = true;
     body_differs_ = true;
     note(location, before, after);
@@ -140,8 +140,8 @@ class TableComparer {
   void compare_row(std::size_t row) {
     const Row &first = a_.rows[row], &second = b_.rows[row];
     if (first.size() != second.size())
-      return tell(fmt::format("row {}", row + 1), counted(std::ssize(first), "cell"),
-                  counted(std::ssize(second), "cell"));
+      return report(fmt::format("row {}", row + 1), counted(std::ssize(first), "cell"),
+                    counted(std::ssize(second), "cell"));
     for (std::size_t i = 0; i < first.size(); ++i) {
       found_.cells.numbers += static_cast<long>(numbers_in(first[i]).size());
       const TextChange change = text_change(first[i], second[i], tolerance_);
