@@ -134,8 +134,8 @@ struct NightlyRun {
   std::vector<NightlyFinding> findings = {};
 };
 
-/// One study over the nightly runs that had the same order, oldest first, this nightly run last:
-/// what trends and change points are taken from.
+/// One study over the nightly runs with the same experiment, profile and seed, oldest first, this
+/// nightly run last: what trends and change points are taken from.
 struct StudyTrend {
   std::string name = {};
   Quantities quantities = {};

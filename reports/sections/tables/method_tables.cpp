@@ -250,7 +250,7 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
   }
   table.notes.push_back(
       "By mean MPE, each method at its best parameter, over the runs that both have a score in. "
-      "Unsure: the interval of the difference holds 0, or there is none.");
+      "Not significant: the interval of the difference holds 0, or there is none.");
   table.notes.push_back(interval_note(any_interval));
   return table;
 }
