@@ -125,7 +125,7 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
     figure.notes.push_back(
         {fmt::format("The {} greatest of {} tests.", rows.size(), spec.rows.size())});
   figure.caption = fmt::format(
-      "Tests of the fit of the map to its data: the statistic of each over its bound, which sound "
+      "Tests of the fit of the map to its data: the statistic of each over its bound, which fault-free "
       "data exceed rarely. {}",
       spec.verdict);
   figure.alt =
