@@ -11,7 +11,7 @@
 namespace mapproof {
 namespace {
 
-using test::says;
+using test::contains_text;
 using test::synthetic_study;
 using test::table_named;
 

@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-using test::says;
+using test::contains_text;
 using test::synthetic_mpe;
 using test::synthetic_study;
 using test::table_named;

@@ -16,7 +16,7 @@ namespace mapproof {
 namespace {
 
 using test::sample_slam_study;
-using test::says;
+using test::contains_text;
 using test::table_named;
 using test::words;
 
