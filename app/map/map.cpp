@@ -8,7 +8,7 @@
 
 #include "app/input_streams.hpp"
 #include "app/map/arguments.hpp"
-#include "app/map/incremental_map.hpp"
+#include "app/map/incremental.hpp"
 #include "app/map/option_table.hpp"
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
@@ -90,24 +90,6 @@ void complete(MapJob& job) {
   job.known_ground_truth = read_points(job.ground_truth);
 }
 
-/// How the incremental map of the job is made.
-IncrementalRequest incremental_request(const MapJob& job) {
-  const std::optional<Sensor> sensor = sensor_named(job.sensor);
-  return {.path = job.path,
-          .table = {.source = {},
-                    .sensor = sensor.value_or(Sensor::kRange),
-                    .format = job.table_format(),
-                    .options = {.setting = job.setting, .embedder = job.embedder},
-                    .anchors = job.known_anchors,
-                    .ground_truth = job.known_ground_truth,
-                    .fit = {.affine = job.affine_fit(),
-                            .is_metric = job.is_range_bearing(),
-                            .is_rigid = job.is_rigid()},
-                    .find_moved = job.find_moved},
-          .source = sensor ? incremental_values : incremental_pairs,
-          .every = update_interval(job.every)};
-}
-
 int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
   if (!job.force)
     job.begin = [&](const MapRecord& begun) {
@@ -143,8 +125,9 @@ int run_map(MapJob job, const Invocation& invocation) {
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
   refuse_shared_streams(inputs);
   complete(job);
-  return job.incremental ? write_incremental(incremental_request(job), location, invocation)
-                         : map_once(std::move(job), location, invocation);
+  if (!job.incremental) return map_once(std::move(job), location, invocation);
+  return write_incremental(job, job.is_range_bearing() ? incremental_pairs : incremental_values,
+                           location, invocation);
 }
 
 }  // namespace

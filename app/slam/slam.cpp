@@ -12,7 +12,7 @@
 #include "app/build_facts.hpp"
 #include "app/console.hpp"
 #include "app/input_streams.hpp"
-#include "app/map/incremental_map.hpp"
+#include "app/map/incremental.hpp"
 #include "app/map/map_folder.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
@@ -199,13 +199,17 @@ void require_incremental(const SlamArguments& arguments) {
 int incremental_slam(const SlamArguments& arguments, const Templates& page,
                      const Invocation& invocation) {
   require_incremental(arguments);
-  return write_incremental({.path = arguments.data,
-                            .table = {.format = {.columns = column_names(arguments.columns)},
-                                      .anchors = read_points(arguments.known),
-                                      .ground_truth = read_points(arguments.true_landmarks),
-                                      .fit = {.is_metric = true, .is_rigid = true}},
-                            .source = incremental_ranges,
-                            .every = update_interval(arguments.every)},
+  MapJob job;
+  job.path = arguments.data;
+  job.sensor = name(Sensor::kRange);
+  job.table.columns = arguments.columns;
+  job.anchors = arguments.known;
+  job.known_anchors = read_points(arguments.known);
+  job.known_ground_truth = read_points(arguments.true_landmarks);
+  job.fit = "rigid";
+  job.incremental = true;
+  job.every = arguments.every;
+  return write_incremental(job, incremental_ranges,
                            {.out = arguments.out,
                             .observations = arguments.data,
                             .command = invocation.command,
