@@ -159,6 +159,7 @@ Action map_command(CLI::App& app) {
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
       "The exit code is 1 if there is no map; the report says why.\n");
   add_map_options(app, *job);
+  complete_help(app);
   return [job](const Invocation& invocation) { return run_map(*job, invocation); };
 }
 
