@@ -107,9 +107,7 @@ void add_incremental_options(CLI::App& app, MapJob& job) {
   app.add_flag(
       "--incremental", job.incremental,
       "Read long CSV or detections while the file grows (-: standard input), and update map "
-      "and figure until it ends, or until SIGINT or SIGTERM. Not with --method auto, --with, "
-      "--ellipses, --missing, --submaps, --steps, --drop-unseen, --layout wide, --check-ids, "
-      "--repair-ids or --uncertain-ids");
+      "and figure until it ends, or until SIGINT or SIGTERM");
   app.add_option("--every", job.every,
                  "With --incremental: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();

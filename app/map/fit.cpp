@@ -26,9 +26,10 @@ bool is_cheap(const DetectionLog& log) {
   return pairs * static_cast<double>(log.names.size()) <= kCheapCheck;
 }
 
-/// Landmark IDs are checked where that costs little, unless a step before has done so.
-void check_cheaply(MapDraft& draft, const DetectionLog& log) {
-  if (draft.association || !is_cheap(log)) return;
+/// Landmark IDs are checked where that costs little, unless a step before has done so, and not at
+/// each update of an incremental map.
+void check_cheaply(MapDraft& draft, const DetectionLog& log, const MapJob& job) {
+  if (draft.association || job.incremental || !is_cheap(log)) return;
   draft.association = check_association(log);
 }
 
@@ -63,10 +64,12 @@ Fit joint_fit(const std::vector<ObservationSource>& sources, const Points& map,
 Fit fit_of(MapDraft& draft, const MapJob& job) {
   const Points& map = draft.result.record.estimate;
   const Points& known_m = draft.reference.positions_m;
+  if (const auto* gone = std::get_if<NotKept>(&draft.observed))
+    return {.verdict = FitVerdict::kNotTestable, .why = {gone->fit_lacks}};
   if (const auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
     const DetectionLog& log = scans->log;
     if (job.is_range_bearing()) {
-      check_cheaply(draft, log);
+      check_cheaply(draft, log, job);
       return range_bearing_fit(
           log, map,
           {.known_m = &known_m, .association = draft.association ? &*draft.association : nullptr});

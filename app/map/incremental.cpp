@@ -1,6 +1,16 @@
 #include "app/map/incremental.hpp"
 
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -11,10 +21,13 @@
 #include "core/align/aligned_to.hpp"
 #include "core/align/rigid.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/descriptor.hpp"
+#include "core/base/files/input_file.hpp"
+#include "core/base/files/unpacker.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/incremental/incremental_map.hpp"
-#include "core/map_fit/map_fit.hpp"
+#include "core/json/text_input.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/range_slam/factors/incremental_spectral_map.hpp"
 #include "core/records/detections/detection_stream.hpp"
@@ -24,21 +37,20 @@
 namespace mapproof {
 namespace {
 
-/// Whether anything ties a map to a frame.
-bool is_tied(const Reference& known) { return !known.anchors.empty() || known.has_ground_truth; }
+// Maps of what was read so far.
 
-/// The steps reference, align and score, of what is known of the landmarks so far.
-/// @return Whether anything is known of them.
-bool align_so_far(MapResult& result, const IncrementalTable& table) {
-  const Reference known = known_so_far(result.record, table.anchors, table.ground_truth);
-  align(result, known, table.fit);
-  return is_tied(known);
+/// A map of the landmarks `names` after so many steps.
+MapDraft begin_update(Observed observed, MapOrigin origin, std::vector<std::string> names,
+                      Eigen::Index step) {
+  MapDraft draft{.observed = std::move(observed)};
+  draft.result.record = begin_record(std::move(origin), std::move(names), step);
+  draft.result.read = {{"Landmarks", std::to_string(draft.result.record.names.size())},
+                       {"Steps read", std::to_string(step)}};
+  return draft;
 }
 
-/// The step explain: remarks on the files of anchors and ground truth in the end.
-void explain_so_far(MapResult& result, const IncrementalTable& table) {
-  for (std::string& remark : remarks_of_reference(result.record, table.anchors, table.ground_truth))
-    result.remarks.push_back(std::move(remark));
+void add_remarks(MapDraft& draft, const std::vector<std::string>& remarks) {
+  draft.result.remarks.insert(draft.result.remarks.end(), remarks.begin(), remarks.end());
 }
 
 /// Values of one sensor.
@@ -46,10 +58,11 @@ constexpr std::ptrdiff_t kMostIncremental = 2000;  ///< Landmarks, for the memor
 
 class IncrementalValues : public IncrementalSource {
  public:
-  explicit IncrementalValues(const IncrementalTable& table)
-      : table_(table),
-        stream_(table.source, table.sensor, table.format),
-        map_(table.sensor, table.options) {}
+  explicit IncrementalValues(const MapJob& job)
+      : job_(job),
+        sensor_(*sensor_named(job.sensor)),
+        stream_(input_name(job.path), sensor_, job.table_format()),
+        map_(sensor_, {.setting = job.setting, .embedder = job.embedder}) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -60,9 +73,10 @@ class IncrementalValues : public IncrementalSource {
     const std::vector<StreamedStep> steps = stream_.steps();
     if (steps.empty()) return 0;
     if (std::ssize(stream_.names()) > kMostIncremental)
-      throw IoError(table_.source, fmt::format("names more than {} landmarks, too many for an "
-                                               "incremental map; map the whole file",
-                                               kMostIncremental));
+      throw IoError(input_name(job_.path),
+                    fmt::format("names more than {} landmarks, too many for an "
+                                "incremental map; map the whole file",
+                                kMostIncremental));
     map_.grow(std::ssize(stream_.names()));
     for (const StreamedStep& step : steps) {
       std::vector<StepEntry> entries;
@@ -72,53 +86,39 @@ class IncrementalValues : public IncrementalSource {
     return std::ssize(steps);
   }
 
-  MapResult update() override {
+  MapDraft update() override {
     const IncrementalUpdate update = map_.update();
-    MapResult result;
-    MapRecord& record = result.record;
-    record.id = "map";
-    record.origin = FromSensor{table_.sensor, update.setting};
-    record.step = static_cast<int>(map_.steps());
-    record.names = stream_.names();
-    record.names.resize(static_cast<std::size_t>(map_.landmarks()));
-    record.estimate = update.embedding.coordinates;
-    record.statuses = update.embedding.statuses;
-    record.certificate = update.embedding.certificate;
-    // An incremental map keeps no steps that could be compared with one another.
-    result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
-    align_so_far(result, table_);
-    if (record.frame != Frame::kGroundTruth) align_to_last(record.estimate);
-    return result;
+    std::vector<std::string> names = stream_.names();
+    names.resize(static_cast<std::size_t>(map_.landmarks()));
+    // No steps are kept that could be compared with one another.
+    MapDraft draft =
+        begin_update(NotKept{FitMissing::kNoiseModel}, FromSensor{sensor_, update.setting},
+                     std::move(names), map_.steps());
+    draft.setting = update.setting;
+    take_embedding(draft, update.embedding);
+    draft.reference =
+        known_so_far(draft.result.record, job_.known_anchors, job_.known_ground_truth);
+    return draft;
   }
 
-  MapResult last_update() override {
-    MapResult result = update();
-    result.remarks = stream_.remarks();
-    explain_so_far(result, table_);
-    return result;
+  MapDraft last_update() override {
+    MapDraft draft = update();
+    add_remarks(draft, stream_.remarks());
+    return draft;
   }
 
  private:
-  void align_to_last(Points& estimate) {
-    if (last_.rows() > 0) {
-      Points before = Points::Constant(estimate.rows(), 2, kNaN);
-      before.topRows(last_.rows()) = last_;
-      if (const auto laid = aligned_to(estimate, before)) estimate = *laid;
-    }
-    last_ = estimate;
-  }
-
-  IncrementalTable table_;
+  const MapJob& job_;
+  Sensor sensor_;
   ObservationStream stream_;
   IncrementalMap map_;
-  Points last_ = Points(0, 2);  ///< Without anchors: the map before.
 };
 
 /// Range and bearing.
 class IncrementalPairs : public IncrementalSource {
  public:
-  explicit IncrementalPairs(const IncrementalTable& table)
-      : table_(table), stream_(table.source, table.format) {}
+  explicit IncrementalPairs(const MapJob& job)
+      : job_(job), stream_(input_name(job.path), job.table_format()) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -132,100 +132,65 @@ class IncrementalPairs : public IncrementalSource {
     return std::ssize(scans);
   }
 
-  MapResult update() override {
+  MapDraft update() override {
     DetectionLog log = log_so_far();
-    std::vector<std::string> remarks;
-    if (table_.find_moved) {
+    std::vector<std::string> noticed;
+    if (job_.find_moved) {
       if (watch_.is_due(log.steps))
         for (const NoticedMove& move : watch_.check(scans_, log))
-          remarks.push_back(
+          noticed.push_back(
               fmt::format("After {} scans: {}.", log.steps, described(move.found, log)));
       log = watch_.split(scans_, std::move(log));
     }
-    MapResult result = map_of(log);
-    result.remarks = std::move(remarks);
-    return result;
+    MapDraft draft = map_of(std::move(log));
+    add_remarks(draft, noticed);
+    return draft;
   }
 
-  MapResult last_update() override {
+  MapDraft last_update() override {
     AssociationOutcome outcome{.log = log_so_far()};
-    if (table_.find_moved) {
+    if (job_.find_moved) {
       const auto M = static_cast<Eigen::Index>(outcome.log.names.size());
       outcome =
           with_association_checked(outcome.log, {.find_moved = true}, Points::Constant(M, 2, kNaN));
     }
-    MapResult result = map_of(outcome.log);
-    add_scan_sizes(scan_sizes(outcome.log), result);
-    result.members.push_back({"data_association", association_json(outcome.facts)});
-    for (const auto& more : {stream_.remarks(), outcome.remarks})
-      result.remarks.insert(result.remarks.end(), more.begin(), more.end());
-    explain_so_far(result, table_);
-    return result;
+    const ScanSizes sizes = scan_sizes(outcome.log);
+    MapDraft draft = map_of(std::move(outcome.log));
+    add_scan_sizes(sizes, draft.result);
+    draft.result.members.push_back({"data_association", association_json(outcome.facts)});
+    add_remarks(draft, stream_.remarks());
+    add_remarks(draft, outcome.remarks);
+    return draft;
   }
 
  private:
   DetectionLog log_so_far() const { return scans_.log(stream_.names(), stream_.is_timed()); }
 
-  MapResult map_of(const DetectionLog& log) {
-    MapResult result;
-    MapRecord& record = result.record;
-    record.id = "map";
-    record.origin = FromPairs{};
-    record.step = log.steps;
-    record.names = log.names;
+  MapDraft map_of(DetectionLog log) const {
     const Embedding embedding = pair_map_of(log).embedding;
-    record.estimate = embedding.coordinates;
-    record.statuses = embedding.statuses;
-    result.fit = fit_so_far(log, record);
-    if (!align_so_far(result, table_)) align_to_last(record);
-    return result;
+    DetectionSource source{};
+    source.log = std::move(log);
+    const DetectionLog& kept = source.log;
+    MapDraft draft = begin_update(source, FromPairs{}, kept.names, kept.steps);
+    take_embedding(draft, embedding);
+    draft.reference =
+        known_so_far(draft.result.record, job_.known_anchors, job_.known_ground_truth);
+    return draft;
   }
 
-  /// Of the scans and of what is known of the landmarks so far; landmark IDs are not checked.
-  Fit fit_so_far(const DetectionLog& log, MapRecord record) const {
-    const Reference known = known_so_far(record, table_.anchors, table_.ground_truth);
-    try {
-      return range_bearing_fit(log, record.estimate, {.known_m = &known.positions_m});
-    } catch (const InvalidInput&) {
-      return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
-    }
-  }
-
-  /// Rotated and translated, not reflected: the scans determine the reflection.
-  void align_to_last(MapRecord& record) {
-    std::vector<Eigen::Index> here, there;
-    for (std::size_t i = 0; i < record.names.size(); ++i) {
-      // By name: the second positions of moved landmarks stand behind all landmarks, and their
-      // number grows.
-      const auto found = std::ranges::find(last_names_, record.names[i]);
-      if (found == last_names_.end()) continue;
-      const auto row = static_cast<Eigen::Index>(i);
-      const Eigen::Index last = found - last_names_.begin();
-      if (!record.estimate.row(row).allFinite() || !last_.row(last).allFinite()) continue;
-      here.push_back(row);
-      there.push_back(last);
-    }
-    if (here.size() >= 2)
-      record.estimate = fit_similarity(record.estimate(here, Eigen::all), last_(there, Eigen::all),
-                                       Alignment::kRigid)(record.estimate);
-    last_ = record.estimate;
-    last_names_ = record.names;
-  }
-
-  IncrementalTable table_;
+  const MapJob& job_;
   DetectionStream stream_;
   IncrementalLog scans_;
   MovedWatch watch_{MovedOptions{.is_contrasted = true}};
-  Points last_ = Points(0, 2);  ///< Without anchors and ground truth: the map before.
-  std::vector<std::string> last_names_;
 };
 
+/// Ranges that are taken together.
 constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known ones.
 
 class IncrementalRanges : public IncrementalSource {
  public:
-  explicit IncrementalRanges(const IncrementalTable& table)
-      : table_(table), stream_(table.source, Sensor::kRange, table.format) {}
+  explicit IncrementalRanges(const MapJob& job)
+      : job_(job), stream_(input_name(job.path), Sensor::kRange, job.table_format()) {}
 
   void take(std::string_view bytes) override { stream_.take(bytes); }
   void drop_half_line() override { stream_.drop_half_line(); }
@@ -238,40 +203,33 @@ class IncrementalRanges : public IncrementalSource {
     return steps() - before;
   }
 
-  MapResult update() override {
-    MapResult result;
-    MapRecord& record = result.record;
-    record.id = "map";
-    record.origin = FromRanges{};
-    result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kOdometry}};
-    record.step = static_cast<int>(steps());
+  MapDraft update() override {
+    std::vector<std::string> names;
     for (const Eigen::Index landmark : landmarks_)
-      record.names.push_back(stream_.names()[static_cast<std::size_t>(landmark)]);
-    record.estimate = Points::Zero(std::ssize(record.names), 2);
-    const Reference known = known_so_far(record, table_.anchors, table_.ground_truth);
+      names.push_back(stream_.names()[static_cast<std::size_t>(landmark)]);
+    MapDraft draft =
+        begin_update(NotKept{FitMissing::kOdometry}, FromRanges{}, std::move(names), steps());
+    MapRecord& record = draft.result.record;
+    // The map holds all of its landmarks or none.
+    record.estimate = Points::Zero(std::ssize(landmarks_), 2);
+    draft.reference = known_so_far(record, job_.known_anchors, job_.known_ground_truth);
+    const std::vector<Eigen::Index>& anchors = draft.reference.anchors;
     const SpectralMap map =
-        known.anchors.size() >= kEnoughAnchors
-            ? map_->map({known.anchors, known.positions_m(known.anchors, Eigen::all)})
+        anchors.size() >= kEnoughAnchors
+            ? map_->map({anchors, draft.reference.positions_m(anchors, Eigen::all)})
             : map_->map();
     record.statuses.insert(record.statuses.end(), map.statuses.begin(), map.statuses.end());
     if (map.empty())
       record.estimate.setConstant(kNaN);
     else
       record.estimate = landmarks_of(map.C);
-    if (map.empty()) return result;
-    align(result, known, table_.fit);
-    if (!is_tied(known)) {
-      if (last_)
-        if (const auto laid = aligned_rigidly_to(record.estimate, *last_)) record.estimate = *laid;
-      last_ = record.estimate;
-    }
-    return result;
+    return draft;
   }
 
-  MapResult last_update() override {
-    MapResult result = update();
-    std::vector<std::string>& remarks = result.remarks;
-    for (const std::string& remark : stream_.remarks()) remarks.push_back(remark);
+  MapDraft last_update() override {
+    MapDraft draft = update();
+    std::vector<std::string>& remarks = draft.result.remarks;
+    add_remarks(draft, stream_.remarks());
     if (incomplete_ > 0)
       remarks.push_back(fmt::format("{} without a range to every landmark: left out.",
                                     counted(incomplete_, "step")));
@@ -282,8 +240,7 @@ class IncrementalRanges : public IncrementalSource {
     if (!late.empty())
       remarks.push_back(fmt::format("Not on the map, as the first step has no range to them: {}.",
                                     listed(late, 11)));
-    explain_so_far(result, table_);
-    return result;
+    return draft;
   }
 
  private:
@@ -309,26 +266,308 @@ class IncrementalRanges : public IncrementalSource {
       ++incomplete_;
   }
 
-  IncrementalTable table_;
+  const MapJob& job_;
   ObservationStream stream_;
   std::vector<Eigen::Index> landmarks_;  ///< Of the stream's names, those of the first step.
   std::optional<IncrementalSpectralMap> map_;
   std::size_t incomplete_ = 0;  ///< Steps that lack one of them.
-  std::optional<Points> last_;  ///< Without anchors and ground truth: the map before.
 };
+
+/// The map before, that one without a frame is aligned to.
+class MapBefore {
+ public:
+  /// Aligns the map to the one before, by the landmarks of both, and keeps it for the next. What
+  /// the sensors determine is kept: the scale of ranges, and the reflection with bearings.
+  void align(MapRecord& record) {
+    if (record.estimate.array().isNaN().all()) return;
+    const Points onto = in_rows_of(record);
+    if (std::holds_alternative<FromPairs>(record.origin))
+      align_without_reflection(record.estimate, onto);
+    else if (const auto aligned = std::holds_alternative<FromRanges>(record.origin)
+                                      ? aligned_rigidly_to(record.estimate, onto)
+                                      : aligned_to(record.estimate, onto))
+      record.estimate = *aligned;
+    names_ = record.names;
+    estimate_ = record.estimate;
+  }
+
+ private:
+  /// By name: the second positions of moved landmarks stand behind all landmarks, and their number
+  /// grows.
+  Points in_rows_of(const MapRecord& record) const {
+    Points rows = Points::Constant(record.estimate.rows(), 2, kNaN);
+    for (std::size_t i = 0; i < record.names.size(); ++i)
+      if (const auto found = std::ranges::find(names_, record.names[i]); found != names_.end())
+        rows.row(static_cast<Eigen::Index>(i)) = estimate_.row(found - names_.begin());
+    return rows;
+  }
+
+  static void align_without_reflection(Points& estimate, const Points& onto) {
+    std::vector<Eigen::Index> both;
+    for (Eigen::Index i = 0; i < estimate.rows(); ++i)
+      if (estimate.row(i).allFinite() && onto.row(i).allFinite()) both.push_back(i);
+    if (both.size() >= 2)
+      estimate = fit_similarity(estimate(both, Eigen::all), onto(both, Eigen::all),
+                                Alignment::kRigid)(estimate);
+  }
+
+  std::vector<std::string> names_;
+  Points estimate_ = Points(0, 2);
+};
+
+/// Whether neither anchors nor a ground truth tie the map to a frame.
+bool is_in_own_frame(const MapDraft& draft) {
+  return draft.result.record.frame == Frame::kSimilarity ||
+         (draft.reference.anchors.empty() && !draft.reference.has_ground_truth);
+}
+
+/// The update, ended as any other map is.
+MapResult finished(MapDraft draft, const MapJob& job, MapBefore& before) {
+  draft = last_steps(std::move(draft), job);
+  if (is_in_own_frame(draft)) before.align(draft.result.record);
+  return std::move(draft.result);
+}
+
+// The file that grows.
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kWait_s = 0.2;  ///< Between two checks of a file that does not grow.
+
+volatile std::sig_atomic_t g_asked = 0;
+
+extern "C" void ask_to_end(int) { g_asked = 1; }
+
+/// A file that others write to while it is read, a pipe or a device.
+class StreamedFile {
+ public:
+  /// @param path  "-": standard input. @throws IoError if it cannot be opened.
+  explicit StreamedFile(const std::string& path);
+
+  enum class State {
+    kMore,      ///< Bytes came.
+    kNothing,   ///< None now; there may be more.
+    kEnd,       ///< There will be none: a pipe was closed.
+    kReplaced,  ///< The file was cut short, removed or replaced by another: what follows is none
+                ///< of it.
+  };
+
+  /// Reads what is there, at most 64 KiB. Waits for a pipe up to `seconds`, for a signal less.
+  /// @throws IoError if it cannot be read.
+  State read(std::string& bytes, double seconds);
+
+  const std::string& name() const { return name_; }
+
+ private:
+  bool replaced() const;
+
+  std::string path_;
+  std::string name_;
+  Descriptor file_;
+  bool regular_ = false;
+  long long at_ = 0;
+};
+
+/// Takes SIGINT and SIGTERM as long as it lives: they ask to end, instead of ending the program.
+class EndSignals {
+ public:
+  EndSignals();
+  ~EndSignals();
+  EndSignals(const EndSignals&) = delete;
+  EndSignals& operator=(const EndSignals&) = delete;
+
+  bool asked() const;
+
+ private:
+  struct sigaction interrupt_;
+  struct sigaction terminate_;
+};
+
+StreamedFile::StreamedFile(const std::string& path)
+    : path_(path), name_(input_name(path)), file_(open_streamed(path)) {
+  struct stat status {};
+  if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
+  regular_ = S_ISREG(status.st_mode);
+}
+
+StreamedFile::State StreamedFile::read(std::string& bytes, double seconds) {
+  bytes.clear();
+  pollfd wait{.fd = file_.get(), .events = POLLIN, .revents = 0};
+  // A regular file is always ready: only others are waited for here.
+  if (!regular_ && ::poll(&wait, 1, static_cast<int>(std::ceil(1000.0 * seconds))) <= 0)
+    return State::kNothing;
+  std::array<char, 65536> buffer;
+  const ssize_t count = ::read(file_.get(), buffer.data(), buffer.size());
+  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return State::kNothing;
+  if (count < 0) throw IoError(name_, std::strerror(errno));
+  at_ += count;
+  bytes.assign(buffer.data(), static_cast<std::size_t>(count));
+  if (count > 0) return State::kMore;
+  if (!regular_) return State::kEnd;
+  if (replaced()) return State::kReplaced;
+  // A file as standard input is not streamed: it ends here.
+  if (path_ == "-") return State::kEnd;
+  ::poll(nullptr, 0, static_cast<int>(std::ceil(1000.0 * seconds)));
+  return State::kNothing;
+}
+
+bool StreamedFile::replaced() const {
+  struct stat here {
+  }, there{};
+  if (::fstat(file_.get(), &here) != 0 || here.st_size < at_) return true;
+  if (path_ == "-") return false;
+  return ::stat(path_.c_str(), &there) != 0 || here.st_ino != there.st_ino ||
+         here.st_dev != there.st_dev;
+}
+
+EndSignals::EndSignals() {
+  g_asked = 0;
+  struct sigaction ask {};
+  ask.sa_handler = ask_to_end;
+  ::sigaction(SIGINT, &ask, &interrupt_);
+  ::sigaction(SIGTERM, &ask, &terminate_);
+}
+
+EndSignals::~EndSignals() {
+  ::sigaction(SIGINT, &interrupt_, nullptr);
+  ::sigaction(SIGTERM, &terminate_, nullptr);
+}
+
+bool EndSignals::asked() const { return g_asked != 0; }
+
+/// How often an incremental map is updated.
+struct UpdateInterval {
+  long steps = 0;        ///< After so many; 0: by time.
+  double seconds = 1.0;  ///< After so long, if there is a step more.
+};
+
+/// "100": steps; "2s", "0.5s": seconds. @throws InvalidInput, naming the option.
+UpdateInterval update_interval(const std::string& text) {
+  const bool seconds = text.ends_with('s');
+  const auto number = number_in(std::string_view(text).substr(0, text.size() - (seconds ? 1 : 0)));
+  const bool right =
+      number && *number > 0.0 && *number <= 1e6 && (seconds || *number == std::floor(*number));
+  if (!right)
+    throw InvalidInput("--every: expected a number of steps, or of seconds as 2s, got " +
+                       in_quotes(text));
+  return seconds ? UpdateInterval{.steps = 0, .seconds = *number}
+                 : UpdateInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
+}
+
+/// Whether it is time for an update.
+class Due {
+ public:
+  explicit Due(const UpdateInterval& every) : every_(every) {}
+
+  bool after(long steps) {
+    steps_ += steps;
+    if (steps_ == 0) return false;
+    if (every_.steps > 0) return steps_ >= every_.steps;
+    return std::chrono::duration<double>(Clock::now() - last_).count() >= every_.seconds;
+  }
+
+  void done() {
+    steps_ = 0;
+    last_ = Clock::now();
+  }
+
+ private:
+  UpdateInterval every_;
+  long steps_ = 0;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// A streamed file, and its map so far.
+struct StreamedInput {
+  StreamedFile file;
+  Unpacker unpacker;
+  std::unique_ptr<IncrementalSource> source;
+  std::vector<std::string> remarks = {};  ///< On how it ended.
+};
+
+/// Takes in what comes, and calls `update` whenever it is time.
+/// @return Whether the file came to its end; else it was replaced, or a signal came.
+template <typename Update>
+bool read_to_end(StreamedInput& input, const UpdateInterval& every, const EndSignals& signals,
+                 const Update& update) {
+  Due due(every);
+  std::string bytes;
+  while (!signals.asked()) {
+    const StreamedFile::State state = input.file.read(bytes, kWait_s);
+    if (state == StreamedFile::State::kEnd) return true;
+    if (state == StreamedFile::State::kReplaced) {
+      input.remarks.push_back(input.file.name() +
+                              " was cut short, removed or replaced: the map holds what was read "
+                              "before. Start again for the new file.");
+      return false;
+    }
+    input.source->take(input.unpacker.take(bytes));
+    if (!due.after(input.source->take_steps())) continue;
+    update(input.source->update());
+    due.done();
+  }
+  return false;
+}
+
+/// Takes in the rest. @throws IoError if there were no observations at all.
+void take_rest(StreamedInput& input, bool ended) {
+  IncrementalSource& source = *input.source;
+  if (ended) {
+    input.unpacker.end();
+    source.take(input.unpacker.take({}));
+  }
+  const bool is_cut = input.unpacker.is_cut();
+  if (ended && is_cut)
+    input.remarks.push_back(
+        fmt::format("{} is {}'ed and stops before its end: the map is of what there was.",
+                    input.file.name(), input.unpacker.packing()));
+  if (!ended || is_cut) source.drop_half_line();
+  source.end();
+  source.take_steps();
+  if (source.steps() == 0) throw IoError(input.file.name(), "holds no observations");
+}
 
 }  // namespace
 
-std::unique_ptr<IncrementalSource> incremental_values(const IncrementalTable& table) {
-  return std::make_unique<IncrementalValues>(table);
+std::unique_ptr<IncrementalSource> incremental_values(const MapJob& job) {
+  return std::make_unique<IncrementalValues>(job);
 }
 
-std::unique_ptr<IncrementalSource> incremental_pairs(const IncrementalTable& table) {
-  return std::make_unique<IncrementalPairs>(table);
+std::unique_ptr<IncrementalSource> incremental_pairs(const MapJob& job) {
+  return std::make_unique<IncrementalPairs>(job);
 }
 
-std::unique_ptr<IncrementalSource> incremental_ranges(const IncrementalTable& table) {
-  return std::make_unique<IncrementalRanges>(table);
+std::unique_ptr<IncrementalSource> incremental_ranges(const MapJob& job) {
+  return std::make_unique<IncrementalRanges>(job);
+}
+
+int write_incremental(const MapJob& job, MakeIncremental make, const MapOutput& location,
+                      const Invocation& invocation) {
+  const UpdateInterval every = update_interval(job.every);
+  const MapFolder folder(location.out);
+  const Console& console = invocation.console;
+  const EndSignals signals;
+  StreamedInput input{.file = StreamedFile(job.path),
+                      .unpacker = Unpacker(input_name(job.path)),
+                      .source = make(job)};
+  MapBefore before;
+  const bool ended = read_to_end(input, every, signals, [&](MapDraft draft) {
+    for (const std::string& noticed : draft.result.remarks) console.warning(noticed);
+    const MapResult map = finished(std::move(draft), job, before);
+    write_map(folder, location, map, false);
+    console.detail(fmt::format("{} steps, {} landmarks", map.record.step, map.record.names.size()));
+  });
+  take_rest(input, ended);
+  MapDraft draft = input.source->last_update();
+  draft.result.remarks.insert(draft.result.remarks.begin(), input.remarks.begin(),
+                              input.remarks.end());
+  add_remarks(draft,
+              remarks_of_reference(draft.result.record, job.known_anchors, job.known_ground_truth));
+  const MapResult last = finished(std::move(draft), job, before);
+  write_map(folder, location, last);
+  for (const auto& sentences : {last.remarks, last.warnings})
+    for (const std::string& sentence : sentences) console.warning(sentence);
+  return report_map(last, location, invocation);
 }
 
 }  // namespace mapproof

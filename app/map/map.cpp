@@ -8,7 +8,7 @@
 
 #include "app/input_streams.hpp"
 #include "app/map/arguments.hpp"
-#include "app/map/incremental_map.hpp"
+#include "app/map/incremental.hpp"
 #include "app/map/option_table.hpp"
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
@@ -90,24 +90,6 @@ void complete(MapJob& job) {
   job.known_ground_truth = read_points(job.ground_truth);
 }
 
-/// How the incremental map of the job is made.
-IncrementalRequest incremental_request(const MapJob& job) {
-  const std::optional<Sensor> sensor = sensor_named(job.sensor);
-  return {.path = job.path,
-          .table = {.source = {},
-                    .sensor = sensor.value_or(Sensor::kRange),
-                    .format = job.table_format(),
-                    .options = {.setting = job.setting, .embedder = job.embedder},
-                    .anchors = job.known_anchors,
-                    .ground_truth = job.known_ground_truth,
-                    .fit = {.affine = job.affine_fit(),
-                            .is_metric = job.is_range_bearing(),
-                            .is_rigid = job.is_rigid()},
-                    .find_moved = job.find_moved},
-          .source = sensor ? incremental_values : incremental_pairs,
-          .every = update_interval(job.every)};
-}
-
 int map_once(MapJob job, const MapOutput& location, const Invocation& invocation) {
   if (!job.force)
     job.begin = [&](const MapRecord& begun) {
@@ -134,17 +116,18 @@ int map_once(MapJob job, const MapOutput& location, const Invocation& invocation
 
 int run_map(MapJob job, const Invocation& invocation) {
   const MapOutput location{.out = job.out,
-                           .observations = job.path,
-                           .command = invocation.command,
-                           .page = load_templates(job.templates),
-                           .disclosure = invocation.disclosure};
+                          .observations = job.path,
+                          .command = invocation.command,
+                          .page = load_templates(job.templates),
+                          .disclosure = invocation.disclosure};
   check_map_folder(job.out);
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
   refuse_shared_streams(inputs);
   complete(job);
-  return job.incremental ? write_incremental(incremental_request(job), location, invocation)
-                         : map_once(std::move(job), location, invocation);
+  if (!job.incremental) return map_once(std::move(job), location, invocation);
+  return write_incremental(job, job.is_range_bearing() ? incremental_pairs : incremental_values,
+                           location, invocation);
 }
 
 }  // namespace
@@ -176,6 +159,7 @@ Action map_command(CLI::App& app) {
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
       "The exit code is 1 if there is no map; the report states why.\n");
   add_map_options(app, *job);
+  complete_help(app);
   return [job](const Invocation& invocation) { return run_map(*job, invocation); };
 }
 

@@ -1,6 +1,7 @@
 #include "app/map/option_table.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -223,10 +224,6 @@ constexpr OptionPair kNeeded[] = {
     {"--overlap", "--submaps", "it is the overlap of sub-maps; add --submaps N"},
 };
 
-bool is_asked(std::string_view name, Job job) {
-  return std::ranges::find(kOptions, name, &MapOption::name)->is_asked(job);
-}
-
 /// "no parameter", or the parameter of the job's method and its option.
 std::string parameter_words(Job job) {
   const ParameterInfo* parameter = parameter_of(job);
@@ -247,18 +244,19 @@ std::string reason(const OptionPair& pair, Job job) {
 
 }  // namespace
 
-std::span<const MapOption> map_option_list() { return kOptions; }
-std::span<const OptionPair> options_apart() { return kApart; }
-std::span<const OptionPair> options_needed() { return kNeeded; }
+const OptionTable<MapJob>& map_option_table() {
+  static const OptionTable<MapJob> table{kOptions, kApart, kNeeded};
+  return table;
+}
+
+void complete_help(CLI::App& app) {
+  CLI::Option* incremental = app.get_option("--incremental");
+  incremental->description(incremental->get_description() + ". " +
+                           map_option_table().not_with("--incremental"));
+}
 
 std::string refusal(const MapJob& job) {
-  for (const OptionPair& pair : kApart)
-    if (is_asked(pair.option, job) && is_asked(pair.other, job))
-      return fmt::format("{}: not with {}: {}", pair.option, pair.other, reason(pair, job));
-  for (const OptionPair& pair : kNeeded)
-    if (is_asked(pair.option, job) && !is_asked(pair.other, job))
-      return fmt::format("{}: {}", pair.option, reason(pair, job));
-  return "";
+  return map_option_table().refusal(job, [&](const OptionPair& pair) { return reason(pair, job); });
 }
 
 void require_compatible(const MapJob& job) {

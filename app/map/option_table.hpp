@@ -1,39 +1,23 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "app/map/arguments.hpp"
+#include "app/option_pairs.hpp"
 #include "core/model/method.hpp"
 
 namespace mapproof {
 
-/// An option of `mapproof map`, an option with certain values, or a condition on the job.
-struct MapOption {
-  std::string_view name;  ///< As messages name it: "--ellipses", "--method auto".
-  bool (*is_asked)(const MapJob& job);
-  /// Words of a command line that ask for it; empty: it is only a condition.
-  std::vector<std::string> example = {};
-};
+using MapOption = ListedOption<MapJob>;
 
-/// Two options that do not go together, or, in the table of needs, an option that has a use only
-/// with the other.
-struct OptionPair {
-  std::string_view option, other;
-  /// {method}, {missing}, {sensor}: their values; {has}: what the method has for a parameter.
-  std::string_view why;
-};
+/// Which options of `mapproof map` go together. In the reasons {method}, {missing} and {sensor}
+/// stand for their values, {has} for what the method has for a parameter.
+const OptionTable<MapJob>& map_option_table();
 
-std::span<const MapOption> map_option_list();
-
-/// "--ellipses: not with --incremental: they need hundreds ...".
-std::span<const OptionPair> options_apart();
-
-/// "--overlap: it is the overlap of sub-maps; ...".
-std::span<const OptionPair> options_needed();
+/// States in the help of --incremental which options it does not go with.
+void complete_help(CLI::App& app);
 
 /// The sentence by which the table refuses a job; empty if all that is asked for goes together.
 std::string refusal(const MapJob& job);

@@ -98,9 +98,7 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
                      .ground_truth_m = source.ground_truth_m};
   require_neighbours(job, draft.landmarks);
   check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
-  MapRecord& record = draft.result.record;
-  record.origin = FromSensor{history.sensor, job.setting};
-  record.step = static_cast<int>(steps);
+  draft.result.record = begin_record(FromSensor{history.sensor, job.setting}, history.names, steps);
   const auto missing = static_cast<double>(history.values.array().isNaN().count());
   const auto entries = static_cast<double>(history.values.size());
   draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
@@ -141,10 +139,9 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
     throw IoError(source.path,
                   fmt::format("{} of {} landmarks are not in the first {} scans",
                               draft.landmarks.unseen.size(), log.names.size(), log.steps));
-  MapRecord& record = draft.result.record;
-  record.origin = FromPairs{};
-  if (!job.is_range_bearing()) record.origin = FromSensor{*sensor_named(job.sensor), job.setting};
-  record.step = log.steps;
+  MapOrigin origin = FromPairs{};
+  if (!job.is_range_bearing()) origin = FromSensor{*sensor_named(job.sensor), job.setting};
+  draft.result.record = begin_record(std::move(origin), log.names, log.steps);
   draft.result.read = {{"Landmarks", std::to_string(log.names.size())},
                        {"Steps used", fmt::format("{} of {}", log.steps, scans)},
                        {"Detections", std::to_string(log.detections.size())}};
@@ -158,8 +155,6 @@ MapDraft check(MapDraft draft, const MapJob& job) {
   else if (auto* scans = std::get_if<DetectionSource>(&draft.observed))
     check_scans(*scans, job, draft);
   draft.setting = job.setting;
-  draft.result.record.id = "map";
-  draft.result.record.names = draft.landmarks.names;
   return draft;
 }
 
@@ -220,10 +215,16 @@ MapDraft embed(MapDraft draft, const MapJob& job) {
 
 // Align, score, explain.
 
+/// Whether the map is in metres before anything ties it to a frame.
+bool is_metric(const MapRecord& record) {
+  return std::holds_alternative<FromPairs>(record.origin) ||
+         std::holds_alternative<FromRanges>(record.origin);
+}
+
 MapDraft align_to_reference(MapDraft draft, const MapJob& job) {
   draft.frame = align(draft.result, draft.reference,
                       {.affine = job.affine_fit(),
-                       .is_metric = job.is_range_bearing(),
+                       .is_metric = is_metric(draft.result.record),
                        .is_rigid = job.is_rigid()});
   return draft;
 }
@@ -270,6 +271,8 @@ constexpr std::array kSteps = {
     &kUncertainty,  // Ellipses.
     &kExplanation,
 };
+constexpr auto kLast = std::ranges::find(kSteps, &kFit);
+static_assert(kLast != kSteps.end());
 
 }  // namespace
 
@@ -281,8 +284,24 @@ MapResult make_map(const MapJob& job) {
     draft.result.remarks = source->remarks;
   else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
     draft.result.remarks = scans->remarks;
-  for (const MapStep* step : kSteps) draft = step->take(std::move(draft), job);
-  return std::move(draft.result);
+  for (auto step = kSteps.begin(); step != kLast; ++step)
+    draft = (*step)->take(std::move(draft), job);
+  return last_steps(std::move(draft), job).result;
+}
+
+MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::Index step) {
+  MapRecord record;
+  record.id = std::holds_alternative<FromSensors>(origin) ? "joint" : "map";
+  record.origin = std::move(origin);
+  record.step = static_cast<int>(step);
+  record.names = std::move(names);
+  return record;
+}
+
+MapDraft last_steps(MapDraft draft, const MapJob& job) {
+  for (auto step = kLast; step != kSteps.end(); ++step)
+    draft = (*step)->take(std::move(draft), job);
+  return draft;
 }
 
 void take_embedding(MapDraft& draft, const Embedding& embedding) {

@@ -19,10 +19,16 @@
 
 namespace mapproof {
 
+/// Observations that an incremental map has taken in and does not keep.
+struct NotKept {
+  FitMissing fit_lacks;  ///< Why the fit cannot be tested without them.
+};
+
 /// What was observed, in the form that the map is made from: values of one sensor; detections, of
 /// range and bearing, or of a table of one sensor that is too long for an array of landmarks times
-/// steps; values of several sensors, in common rows once they are checked.
-using Observed = std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>>;
+/// steps; values of several sensors, in common rows once they are checked; or nothing any more.
+using Observed =
+    std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>, NotKept>;
 
 /// Remarks and warnings of a rule for distances, once it was called.
 struct DistanceNotes {
@@ -78,6 +84,16 @@ std::span<const MapStep* const> map_steps();
 ///         landmarks, landmarks never observed (unless dropped or read from a log, where no row can
 ///         be removed), K >= M, too few landmarks. @throws InvalidInput as require_compatible().
 MapResult make_map(const MapJob& job);
+
+/// The record of a map of which nothing is known but what it is made of; its id is "joint" for
+/// several sensors, else "map".
+/// @param step  Number of observations used.
+MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::Index step);
+
+/// The steps after the embedding, which an incremental map takes at each update: fit, alignment,
+/// score, uncertainty, explanation.
+/// @param draft  With an embedding, and a reference in its rows. @throws as make_map().
+MapDraft last_steps(MapDraft draft, const MapJob& job);
 
 /// Takes an embedding, its statuses after those of the distances, and its certificate.
 void take_embedding(MapDraft& draft, const Embedding& embedding);

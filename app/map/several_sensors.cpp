@@ -172,12 +172,9 @@ MapDraft take_common_landmarks(MapDraft draft, const MapJob& job) {
       source.history.values = Eigen::MatrixXd(source.history.values.leftCols(job.steps));
   }
   draft.landmarks.unseen = unseen_by_all(*sources, job, result);
-  result.record.id = "joint";
   FromSensors origin{{}, job.setting};
   for (const ObservationSource& source : *sources) origin.sensors.push_back(source.history.sensor);
-  result.record.origin = std::move(origin);
-  result.record.step = static_cast<int>(sources->front().history.steps());
-  result.record.names = names;
+  result.record = begin_record(std::move(origin), names, sources->front().history.steps());
   return draft;
 }
 
@@ -202,13 +199,11 @@ struct JointMapResult {
 };
 
 /// Not aligned.
-ComparedMap compared(const std::string& what, const ObservationHistory& history,
-                     const MethodSetting& setting, const Embedding& embedding) {
-  ComparedMap map{.what = what, .record = {}};
-  map.record.id = "map";
-  map.record.origin = FromSensor{history.sensor, setting};
-  map.record.step = static_cast<int>(history.steps());
-  map.record.names = history.names;
+/// @param history  Of the sensor, or of the first of them.
+ComparedMap compared(const std::string& what, const ObservationHistory& history, MapOrigin origin,
+                     const Embedding& embedding) {
+  ComparedMap map{.what = what,
+                  .record = begin_record(std::move(origin), history.names, history.steps())};
   map.record.statuses = embedding.statuses;
   map.record.certificate = embedding.certificate;
   map.record.estimate = embedding.coordinates;
@@ -263,29 +258,28 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
 JointMapResult compared_maps(const MixedMap& made, const std::vector<ObservationHistory>& histories,
                              const Reference& reference, AffineFit fit) {
   JointMapResult mixed;
-  const auto add = [&](const std::string& what, std::size_t s, const MethodSetting& setting,
+  const auto add = [&](const std::string& what, std::size_t s, MapOrigin origin,
                        const Embedding& embedding) {
-    mixed.maps.push_back(compared(what, histories[s], setting, embedding));
+    mixed.maps.push_back(compared(what, histories[s], std::move(origin), embedding));
     align_and_score(mixed.maps.back().record, embedding.coordinates, reference, fit);
   };
-  add("joint map", 0, made.setting, made.joint);
+  FromSensors all{{}, made.setting};
+  for (const ObservationHistory& history : histories) all.sensors.push_back(history.sensor);
+  add("joint map", 0, std::move(all), made.joint);
   mixed.maps.front().is_joint = true;
-  mixed.maps.front().record.id = "joint";
-  FromSensors origin{{}, made.setting};
-  for (const ObservationHistory& history : histories) origin.sensors.push_back(history.sensor);
-  mixed.maps.front().record.origin = std::move(origin);
   std::vector<Eigen::MatrixXd> distances;
   std::vector<double> weights;
   for (std::size_t s = 0; s < made.sensors.size(); ++s) {
     const MixedSensor& sensor = made.sensors[s];
-    add(std::string(name(sensor.sensor)) + " alone", s, sensor.setting, sensor.own);
+    add(std::string(name(sensor.sensor)) + " alone", s,
+        FromSensor{histories[s].sensor, sensor.setting}, sensor.own);
     distances.push_back(sensor.distances);
     weights.push_back(sensor.weight);
   }
   for (std::size_t s = 0; s < made.sensors.size(); ++s)
     if (const MixedSensor& sensor = made.sensors[s]; sensor.by_order.coordinates.size() > 0)
-      add(std::string(name(sensor.sensor)) + " alone, by order", s, sensor.setting,
-          sensor.by_order);
+      add(std::string(name(sensor.sensor)) + " alone, by order", s,
+          FromSensor{histories[s].sensor, sensor.setting}, sensor.by_order);
   for (ComparedMap& map : mixed.maps)
     map.continuity = mixed_continuity(distances, weights, map.record.estimate);
   for (std::size_t s = 0; s < made.sensors.size(); ++s) {

@@ -12,8 +12,9 @@
 #include "app/build_facts.hpp"
 #include "app/console.hpp"
 #include "app/input_streams.hpp"
-#include "app/map/incremental_map.hpp"
+#include "app/map/incremental.hpp"
 #include "app/map/map_folder.hpp"
+#include "app/option_pairs.hpp"
 #include "app/result_json.hpp"
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
@@ -53,6 +54,55 @@ struct SlamArguments {
   std::vector<std::string> columns;
   int jobs = 1;
 };
+
+using Arguments = const SlamArguments&;
+
+/// The options that do not go with every other.
+const std::vector<ListedOption<SlamArguments>> kOptions = {
+    {"--odometry", [](Arguments given) { return !given.odometry.empty(); }},
+    {"--ground-truth of a path", [](Arguments given) { return !given.ground_truth.empty(); }},
+    {"--name", [](Arguments given) { return !given.log.name.empty(); }},
+    {"--range-sigma", [](Arguments given) { return given.fit.noise.range_m > 0.0; }},
+    {"--odometry-sigma", [](Arguments given) { return given.fit.noise.way_m > 0.0; }},
+    {"--heading-sigma", [](Arguments given) { return given.fit.noise.heading_per_metre > 0.0; }},
+    {"--odometry-scale-sigma",
+     [](Arguments given) {
+       return given.fit.odometry_scale_sigma != LogFitOptions().odometry_scale_sigma;
+     }},
+    {"--repair", [](Arguments given) { return given.repair; }},
+    {"--incremental", [](Arguments given) { return given.incremental; }},
+    {"--every", [](Arguments given) { return given.every != SlamArguments().every; }},
+};
+
+constexpr std::string_view kRangesAlone =
+    "an incremental map is one of landmarks from ranges alone; map the whole log instead";
+
+constexpr OptionPair kApart[] = {
+    {"--odometry", "--incremental", kRangesAlone},
+    {"--ground-truth of a path", "--incremental", kRangesAlone},
+    {"--name", "--incremental", "an incremental map is named after the file that it is read from"},
+    {"--range-sigma", "--incremental",
+     "an incremental map does not depend on the noise of the ranges"},
+    {"--odometry-sigma", "--incremental", kRangesAlone},
+    {"--heading-sigma", "--incremental", kRangesAlone},
+    {"--odometry-scale-sigma", "--incremental", kRangesAlone},
+    {"--repair", "--incremental",
+     "whether the data fit an incremental map is not tested; map the whole log instead"},
+};
+
+constexpr OptionPair kNeeded[] = {
+    {"--every", "--incremental",
+     "it is the interval of the updates of --incremental; add --incremental"},
+};
+
+const OptionTable<SlamArguments> kOptionTable{kOptions, kApart, kNeeded};
+
+/// @throws InvalidInput for options that do not go together.
+void require_compatible(const SlamArguments& arguments) {
+  const std::string refusal =
+      kOptionTable.refusal(arguments, [](const OptionPair& pair) { return std::string(pair.why); });
+  if (!refusal.empty()) throw InvalidInput(refusal);
+}
 
 /// Whether a file of ground truth holds positions of landmarks rather than a path: its header names
 /// them, or it has three columns without a time.
@@ -184,28 +234,19 @@ std::string slam_text(const SlamRun& run, const fs::path& out) {
   return text + (out / "report.html").string() + "\n";
 }
 
-/// Refuses what is of a log that is there as a whole.
-void require_incremental(const SlamArguments& arguments) {
-  for (const auto& [value, option] : {std::pair(&arguments.odometry, "--odometry"),
-                                      {&arguments.ground_truth, "--ground-truth"},
-                                      {&arguments.log.name, "--name"}})
-    if (!value->empty())
-      throw InvalidInput(
-          fmt::format("{}: not with --incremental, which maps landmarks from ranges alone; map the "
-                      "whole log instead",
-                      option));
-}
-
 int incremental_slam(const SlamArguments& arguments, const Templates& page,
                      const Invocation& invocation) {
-  require_incremental(arguments);
-  return write_incremental({.path = arguments.data,
-                            .table = {.format = {.columns = column_names(arguments.columns)},
-                                      .anchors = read_points(arguments.known),
-                                      .ground_truth = read_points(arguments.true_landmarks),
-                                      .fit = {.is_metric = true, .is_rigid = true}},
-                            .source = incremental_ranges,
-                            .every = update_interval(arguments.every)},
+  MapJob job;
+  job.path = arguments.data;
+  job.sensor = name(Sensor::kRange);
+  job.table.columns = arguments.columns;
+  job.anchors = arguments.known;
+  job.known_anchors = read_points(arguments.known);
+  job.known_ground_truth = read_points(arguments.true_landmarks);
+  job.fit = "rigid";
+  job.incremental = true;
+  job.every = arguments.every;
+  return write_incremental(job, incremental_ranges,
                            {.out = arguments.out,
                             .observations = arguments.data,
                             .command = invocation.command,
@@ -220,9 +261,8 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
   refuse_shared_streams(inputs);
   sort_ground_truths(arguments);
-  if (arguments.incremental) {
-    return incremental_slam(arguments, page, invocation);
-  }
+  require_compatible(arguments);
+  if (arguments.incremental) return incremental_slam(arguments, page, invocation);
   check_result_folder(arguments.out, kSlamFile, "range-only map");
   arguments.log.columns = column_names(arguments.columns, kRangeLogRoles);
   arguments.log.odometry_file = arguments.odometry;
@@ -323,7 +363,8 @@ Action slam_command(CLI::App& app) {
       "--incremental", arguments->incremental,
       "Read long CSV of ranges that are taken together (step, landmark, range [m]) while the file "
       "grows (-: standard input), and update map and figure until it ends, or until SIGINT or "
-      "SIGTERM. Maps landmarks only, in constant memory");
+      "SIGTERM. Maps landmarks only, in constant memory. " +
+          kOptionTable.not_with("--incremental"));
   app.add_option("--every", arguments->every,
                  "With --incremental: update after so many steps (100) or seconds (2s)")
       ->capture_default_str();

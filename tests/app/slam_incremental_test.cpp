@@ -1,4 +1,11 @@
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -90,15 +97,56 @@ TEST(SlamIncremental, OfTooLittleIsNoMap) {
   EXPECT_NE(outcome.error.find("too_few_observations"), std::string::npos) << outcome.error;
 }
 
-TEST(SlamIncremental, RefusesWhatIsOfAWholeLog) {
+/// All long options that the help of `slam` lists.
+std::set<std::string> options_of_slam(const std::string& help) {
+  static const std::regex option(R"(\n {1,8}(?:-\w, )?(--[a-z-]+))");
+  std::set<std::string> names;
+  for (std::sregex_iterator match(help.begin(), help.end(), option), end; match != end; ++match)
+    names.insert((*match)[1]);
+  return names;
+}
+
+TEST(SlamIncremental, RefusesEveryOptionThatHasNoEffect) {
   const TemporaryFolder folder;
   const std::string table = folder.file("ranges.csv", RangeTable().rows);
-  const Outcome outcome =
-      mapproof({"slam", table, "--incremental", "--odometry", table, "--out", folder / "out"});
+  const std::string path = folder.file("path.csv", "t,x,y,heading\n0,0,0,0\n1,1,0,0\n");
+  const std::map<std::string, std::vector<std::string>> refused = {
+      {"--odometry", {table}},
+      {"--ground-truth", {path}},
+      {"--name", {"a"}},
+      {"--range-sigma", {"3"}},
+      {"--odometry-sigma", {"0.1"}},
+      {"--heading-sigma", {"0.2"}},
+      {"--odometry-scale-sigma", {".1"}},
+      {"--repair", {}}};
+  std::set<std::string> known = {"--anchors",     "--columns",   "--every",   "--help",
+                                 "--incremental", "--jobs",      "--json",    "--out",
+                                 "--quiet",       "--templates", "--verbose", "--provenance"};
+  const std::string help = mapproof({"slam", "--help"}).out;
+  const std::string stated = help.substr(help.find("Not with"));
+  for (const auto& [option, value] : refused) {
+    known.insert(option);
+    std::vector<std::string> words = {"slam",  table,          "--incremental",
+                                      "--out", folder / "out", option};
+    words.insert(words.end(), value.begin(), value.end());
+    const Outcome outcome = mapproof(words);
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_TRUE(outcome.error.starts_with("mapproof: " + option)) << outcome.error;
+    EXPECT_NE(outcome.error.find(": not with --incremental: "), std::string::npos) << outcome.error;
+    EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+    EXPECT_NE(stated.find(option), std::string::npos) << option;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  }
+  for (const std::string& option : options_of_slam(help))
+    EXPECT_TRUE(known.contains(option)) << option << " is neither refused nor known to have effect";
+}
+
+TEST(SlamIncremental, IsNeededForAnInterval) {
+  const TemporaryFolder folder;
+  const std::string table = folder.file("ranges.csv", RangeTable().rows);
+  const Outcome outcome = mapproof({"slam", table, "--every", "5", "--out", folder / "out"});
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.error.find("--odometry: not with --incremental"), std::string::npos)
-      << outcome.error;
-  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  EXPECT_NE(outcome.error.find("add --incremental"), std::string::npos) << outcome.error;
 }
 
 }  // namespace

@@ -133,6 +133,38 @@ TEST(IncrementalMapFile, OfRangeAndBearingIsThePlainMapAndNamesWhatMoved) {
             std::string::npos);
 }
 
+TEST(IncrementalMapFile, EndsInTheWarningsAndFactsOfThePlainMap) {
+  const TemporaryFolder folder;
+  const DetectionLog log = noisy_scans(400, 2);
+  const std::string text = bearings_csv(log);
+  // Opposite corners are exchanged, so that the map is rotated by half a turn.
+  DetectionLog exchanged = log;
+  std::swap(exchanged.names[0], exchanged.names[14]);
+  std::swap(exchanged.names[2], exchanged.names[12]);
+  const std::vector<std::string> options = {
+      "--sensor",       "bearing",
+      "--method",       "smacof",
+      "--anchors",      folder.file("anchors.csv", places_csv(exchanged, {0, 2, 12, 14})),
+      "--ground-truth", folder.file("groundtruth.csv", places_csv(log, {1, 5, 7, 9})),
+      "--out"};
+  std::vector<std::string> incremental = options, plain = options;
+  incremental.push_back(folder / "incremental");
+  plain.push_back(folder / "whole");
+  plain.insert(plain.begin(), folder.file("all.csv", text));
+  const json whole = mapped(plain);
+  const Outcome outcome = followed("map", folder, text, incremental);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const json last = json::parse(outcome.out);
+  // The plain map's first warning is on the strategy for missing data, which it alone can choose.
+  ASSERT_EQ(last["warnings"].size(), 1U);
+  EXPECT_EQ(last["warnings"][0], whole["warnings"].back());
+  EXPECT_NE(outcome.error.find("The map cannot be used in metres"), std::string::npos);
+  for (const char* map : {"incremental", "whole"})
+    EXPECT_NE(
+        read_file(folder / (map + std::string("/report.html"))).find("Affine fit to the anchors"),
+        std::string::npos);
+}
+
 TEST(IncrementalMapFile, MayBeGzippedAndCutThere) {
   const TemporaryFolder folder;
   const DetectionLog log = noisy_scans(400, 3);

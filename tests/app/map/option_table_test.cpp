@@ -52,11 +52,14 @@ struct Parser {
   CLI::App app;
   MapJob job;
 
-  Parser() { add_map_options(app, job); }
+  Parser() {
+    add_map_options(app, job);
+    complete_help(app);
+  }
 };
 
 const MapOption& option_named(std::string_view name) {
-  const auto options = map_option_list();
+  const auto options = map_option_table().options;
   const auto found = std::ranges::find(options, name, &MapOption::name);
   if (found == options.end()) throw InvalidInput("no option " + std::string(name));
   return *found;
@@ -125,7 +128,7 @@ class Combination {
   Combination(const MapOption& first, const MapOption& second) {
     add(first);
     add(second);
-    for (const OptionPair& need : options_needed() | std::views::reverse)
+    for (const OptionPair& need : map_option_table().needed | std::views::reverse)
       if (has(need.option) && !has(need.other)) add_if_free(option_named(need.other));
   }
 
@@ -142,10 +145,10 @@ class Combination {
   /// How the sentences begin by which the rows of the table refuse this.
   std::vector<std::string> expected() const {
     std::vector<std::string> sentences;
-    for (const OptionPair& row : options_apart())
+    for (const OptionPair& row : map_option_table().apart)
       if (has(row.option) && has(row.other))
         sentences.push_back(fmt::format("{}: not with {}: ", row.option, row.other));
-    for (const OptionPair& row : options_needed())
+    for (const OptionPair& row : map_option_table().needed)
       if (has(row.option) && !has(row.other)) sentences.push_back(fmt::format("{}: ", row.option));
     return sentences;
   }
@@ -154,7 +157,7 @@ class Combination {
   void add(const MapOption& option) {
     const Words words = words_of(option);
     const MapJob alone = job_of(words);
-    for (const MapOption& other : map_option_list())
+    for (const MapOption& other : map_option_table().options)
       if (!is_condition(other) && other.is_asked(alone)) asked_.insert(other.name);
     words_ = words_ + words;
     job_ = job_of(words_);
@@ -201,7 +204,7 @@ std::set<std::string> options_in_help(const std::string& help) {
 
 TEST(OptionTable, NamesEveryOptionOfTheHelpThatMayConflict) {
   std::set<std::string> known = kFree;
-  for (const MapOption& option : map_option_list())
+  for (const MapOption& option : map_option_table().options)
     if (!is_condition(option)) known.insert(option.example[0]);
   const std::set<std::string> listed = options_in_help(test::mapproof({"map", "--help"}).out);
   for (const std::string& name : listed)
@@ -210,14 +213,16 @@ TEST(OptionTable, NamesEveryOptionOfTheHelpThatMayConflict) {
     EXPECT_TRUE(listed.contains(name)) << name << " is not in the help";
 }
 
-TEST(OptionTable, TheHelpOfIncrementalNamesTheOptionsThatItRefuses) {
+TEST(OptionTable, TheHelpOfIncrementalNamesTheOptionsThatItRefusesAndNoOther) {
   Parser parser;
   const std::string help = parser.app.get_option("--incremental")->get_description();
-  const std::string refused = help.substr(help.find("Not with"));
-  for (const OptionPair& row : options_apart())
-    if (row.other == "--incremental" && !is_condition(option_named(row.option))) {
-      EXPECT_NE(refused.find(option_word(row.option)), std::string::npos) << row.option;
-    }
+  std::string refused = help.substr(help.find("Not with ") + 9);
+  refused.replace(refused.find(" or "), 4, ", ");
+  std::string expected;
+  for (const OptionPair& row : map_option_table().apart)
+    if (row.other == "--incremental")
+      expected += (expected.empty() ? "" : ", ") + std::string(row.option);
+  EXPECT_EQ(refused, expected);
 }
 
 TEST(OptionTable, AcceptsBearingsInDegreesOfTheSecondSensor) {
@@ -228,9 +233,9 @@ TEST(OptionTable, AcceptsBearingsInDegreesOfTheSecondSensor) {
 
 TEST(OptionTable, HoldsNoOptionTwiceAndNoUnknownOption) {
   std::set<std::string_view> names;
-  for (const MapOption& option : map_option_list())
+  for (const MapOption& option : map_option_table().options)
     EXPECT_TRUE(names.insert(option.name).second) << option.name;
-  for (const auto& rows : {options_apart(), options_needed()}) {
+  for (const auto& rows : {map_option_table().apart, map_option_table().needed}) {
     std::set<std::set<std::string_view>> seen;
     for (const OptionPair& row : rows) {
       EXPECT_TRUE(names.contains(row.option)) << row.option;
@@ -245,13 +250,13 @@ TEST(OptionTable, HoldsNoOptionTwiceAndNoUnknownOption) {
 TEST(OptionTable, NoticesEachOptionAndOnlyThatOne) {
   const MapJob none = job_of({});
   EXPECT_EQ(said_of(none), "");
-  for (const MapOption& option : map_option_list()) {
+  for (const MapOption& option : map_option_table().options) {
     if (is_condition(option)) continue;
     EXPECT_FALSE(option.is_asked(none)) << option.name;
     const Words words = words_of(option);
     const MapJob job = job_of(words);
     EXPECT_TRUE(option.is_asked(job)) << option.name;
-    for (const MapOption& other : map_option_list())
+    for (const MapOption& other : map_option_table().options)
       if (!is_condition(other) && other.example[0] != words[0]) {
         EXPECT_FALSE(other.is_asked(job)) << option.name << " asks for " << other.name;
       }
@@ -264,7 +269,7 @@ TEST(OptionTable, NoticesEachOptionAndOnlyThatOne) {
 }
 
 TEST(OptionTable, RefusesWhatDoesNotGoTogetherInItsOwnSentence) {
-  for (const OptionPair& row : options_apart()) {
+  for (const OptionPair& row : map_option_table().apart) {
     const Words words = words_of(option_named(row.option)) + words_of(option_named(row.other));
     const std::string sentence = said_of(job_of(words));
     const std::string begin = fmt::format("{}: not with {}: ", row.option, row.other);
@@ -276,7 +281,7 @@ TEST(OptionTable, RefusesWhatDoesNotGoTogetherInItsOwnSentence) {
 }
 
 TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
-  for (const OptionPair& row : options_needed()) {
+  for (const OptionPair& row : map_option_table().needed) {
     const auto failing = kFailing.find(row.other);
     const Words alone = words_of(option_named(row.option)) +
                         (failing == kFailing.end() ? Words{} : failing->second);
@@ -290,7 +295,7 @@ TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
     // The program takes --method pairs for --sensor range-bearing.
     if (row.option != "--method pairs") expect_refused_by_program(alone, sentence);
     Words both = words_of(option_named(row.option)) + words_of(option_named(row.other));
-    for (const OptionPair& next : options_needed()) {  // What the other one needs in turn.
+    for (const OptionPair& next : map_option_table().needed) {  // What the other one needs in turn.
       if (next.option != row.other) continue;
       const Words needed = words_of(option_named(next.other));
       if (std::ranges::find(both, needed[0]) == both.end()) both = both + needed;
@@ -302,7 +307,7 @@ TEST(OptionTable, RefusesWhatLacksItsNeedAndTakesItWithIt) {
 TEST(OptionTable, RefusesNoOtherPair) {
   int accepted = 0;
   int refused = 0;
-  const auto options = map_option_list();
+  const auto options = map_option_table().options;
   for (auto first = options.begin(); first != options.end(); ++first)
     for (auto second = std::next(first); second != options.end(); ++second) {
       if (is_condition(*first) || is_condition(*second)) continue;
