@@ -116,10 +116,10 @@ int map_once(MapJob job, const MapOutput& location, const Invocation& invocation
 
 int run_map(MapJob job, const Invocation& invocation) {
   const MapOutput location{.out = job.out,
-                          .observations = job.path,
-                          .command = invocation.command,
-                          .page = load_templates(job.templates),
-                          .disclosure = invocation.disclosure};
+                           .observations = job.path,
+                           .command = invocation.command,
+                           .page = load_templates(job.templates),
+                           .disclosure = invocation.disclosure};
   check_map_folder(job.out);
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
