@@ -65,10 +65,6 @@ struct MapJob {
   MethodSetting setting;  ///< Without a parameter: the usual one of these data.
   std::optional<NamedPointsFile> known_anchors;
   std::optional<NamedPointsFile> known_ground_truth;
-  /// Asked before anything is computed, of what is known of the map by then; may throw. Its setting
-  /// lacks what is not known yet: a usual parameter.
-  std::function<void(const MapRecord&)> begin = {};
-
   /// Called with what was understood of each file.
   std::function<void(const std::string& path, const InputSummary&)> understood = {};
 

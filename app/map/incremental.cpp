@@ -316,7 +316,7 @@ class MapBefore {
 };
 
 /// Whether neither anchors nor a ground truth tie the map to a frame.
-bool is_in_own_frame(const MapDraft& draft) {
+bool is_untied(const MapDraft& draft) {
   return draft.result.record.frame == Frame::kSimilarity ||
          (draft.reference.anchors.empty() && !draft.reference.has_ground_truth);
 }
@@ -324,7 +324,7 @@ bool is_in_own_frame(const MapDraft& draft) {
 /// The update, ended as any other map is.
 MapResult finished(MapDraft draft, const MapJob& job, MapBefore& before) {
   draft = last_steps(std::move(draft), job);
-  if (is_in_own_frame(draft)) before.align(draft.result.record);
+  if (is_untied(draft)) before.align(draft.result.record);
   return std::move(draft.result);
 }
 

@@ -90,11 +90,18 @@ void complete(MapJob& job) {
   job.known_ground_truth = read_points(job.ground_truth);
 }
 
+/// Refuses, before anything is computed, a folder that holds another map. Whether a map of pairs
+/// can be fitted to what is known turns out with the map. @throws IoError.
+void check_folder_of(const MapDraft& draft, const MapJob& job) {
+  if (job.force || job.is_range_bearing()) return;
+  MapRecord begun = draft.result.record;
+  begun.anchors = draft.reference.anchors;
+  if (draft.reference.has_ground_truth || !begun.anchors.empty())
+    begun.ground_truth_m = draft.reference.positions_m;
+  check_may_become(job.out, begun, job.chooses_method() || job.may_choose_method());
+}
+
 int map_once(MapJob job, const MapOutput& location, const Invocation& invocation) {
-  if (!job.force)
-    job.begin = [&](const MapRecord& begun) {
-      check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
-    };
   nlohmann::ordered_json inputs = nlohmann::ordered_json::array();
   job.understood = [&](const std::string& path, const InputSummary& summary) {
     invocation.console.info(understood_line(path, summary));
@@ -102,7 +109,11 @@ int map_once(MapJob job, const MapOutput& location, const Invocation& invocation
   };
   std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
   MapResult map;
-  parallel_for(job.jobs, 1, [&](std::size_t) { map = make_map(job); });
+  parallel_for(job.jobs, 1, [&](std::size_t) {
+    MapDraft draft = begin_map(job);
+    check_folder_of(draft, job);
+    map = finish_map(std::move(draft), job);
+  });
   working.reset();
   map.members.push_back({"inputs", std::move(inputs)});
   for (const auto& [what, value] : map.read)

@@ -20,21 +20,24 @@ Eigen::Index infinite_pairs(const Proximities& proximities) {
   return (!proximities.squared_distances.array().isFinite()).count() / 2;
 }
 
-ProximityRule covisible_rule(const std::shared_ptr<DistanceNotes>& notes) {
-  return [notes](const ObservationHistory& history, Eigen::Index steps) {
+DistanceRule covisible_rule() {
+  const auto covisible = [](const ObservationHistory& history, Eigen::Index steps) {
+    return covisible_proximities(history, steps, CovisibleOptions());
+  };
+  const auto noted = [covisible](const ObservationHistory& history, Eigen::Index steps) {
     const CovisibleOptions options;
-    if (notes->remarks.empty())
-      notes->remarks.push_back(fmt::format(
-          "Distances are measured between each landmark and the {} that share most of its "
-          "steps, {} steps or more; other pairs take the shortest path.",
-          options.neighbours, options.least_common));
-    Proximities result = covisible_proximities(history, steps, options);
-    const Eigen::Index left_out = infinite_pairs(result);
+    NotedProximities result{.proximities = covisible(history, steps), .notes = {}};
+    result.notes.remarks.push_back(fmt::format(
+        "Distances are measured between each landmark and the {} that share most of its "
+        "steps, {} steps or more; other pairs take the shortest path.",
+        options.neighbours, options.least_common));
+    const Eigen::Index left_out = infinite_pairs(result.proximities);
     if (left_out > 0)
-      notes->completed = status_of<StatusReason::kNotCovisible>(
+      result.notes.completed = status_of<StatusReason::kNotCovisible>(
           left_out, infinite_pairs(proximities(history, steps)));
     return result;
   };
+  return {noted, covisible};
 }
 
 /// Whether another strategy than the advised one makes much worse maps: data missing at random
@@ -69,27 +72,30 @@ std::string advice_words(StrategyReason why, const MissingPattern& pattern) {
   return "";
 }
 
-ProximityRule filling_rule(Filling filling, int dimensions,
-                           const std::shared_ptr<DistanceNotes>& notes) {
-  return [=](const ObservationHistory& history, Eigen::Index steps) {
-    FillingOptions options;
-    options.filling = filling;
-    options.ppca.dimensions = options.pca.dimensions = dimensions;
+DistanceRule filling_rule(Filling filling, int dimensions) {
+  FillingOptions options;
+  options.filling = filling;
+  options.ppca.dimensions = options.pca.dimensions = dimensions;
+  const auto noted = [options](const ObservationHistory& history, Eigen::Index steps) {
     FilledProximities filled = filled_proximities(history, steps, options);
-    for (const Status& status : filled.statuses)
-      if (std::ranges::find(notes->statuses, status) == notes->statuses.end())
-        notes->statuses.push_back(status);
+    NotedProximities result;
+    result.notes.statuses = filled.statuses;
     const auto missing = history.values.leftCols(steps).array().isNaN().count();
-    if (filled.model.loadings.size() > 0 && notes->remarks.empty()) {
-      notes->remarks.push_back(fmt::format(
+    if (filled.model.loadings.size() > 0) {
+      result.notes.remarks.push_back(fmt::format(
           "Entries filled in by {2} of {1}: {0}. The distances with them differ from the "
           "pairwise-complete ones, where there are any, by {3:.1f} % in the median.",
           missing, counted(filled.model.loadings.cols(), "dimension"),
-          filling == Filling::kPpca ? "PPCA" : "PCA",
+          options.filling == Filling::kPpca ? "PPCA" : "PCA",
           100.0 * median_disagreement(filled.proximities, proximities(history, steps))));
     }
-    return std::move(filled.proximities);
+    result.proximities = std::move(filled.proximities);
+    return result;
   };
+  const auto alone = [options](const ObservationHistory& history, Eigen::Index steps) {
+    return filled_proximities(history, steps, options).proximities;
+  };
+  return {noted, alone};
 }
 
 /// The chosen strategy for missing data.
@@ -138,13 +144,11 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
 
 /// From observations to proximities as it was chosen; empty: as always.
 /// @param choice  Not "auto" (see judged_choice).
-/// @param notes   Filled once the rule is called.
-ProximityRule proximity_rule(const MissingChoice& choice,
-                             const std::shared_ptr<DistanceNotes>& notes) {
+DistanceRule distance_rule(const MissingChoice& choice) {
   const std::optional<Filling> filling = filling_named(choice.way);
   if (filling == Filling::kPpca || filling == Filling::kPca)
-    return filling_rule(*filling, choice.dimensions.value_or(10), notes);
-  if (choice.way == kCovisible) return covisible_rule(notes);
+    return filling_rule(*filling, choice.dimensions.value_or(10));
+  if (choice.way == kCovisible) return covisible_rule();
   return {};
 }
 
@@ -153,8 +157,7 @@ MapDraft judge_missing(MapDraft draft, const MapJob& job) {
   if (source == nullptr) return draft;
   const MissingChoice choice = judged_choice({job.missing, job.dimensions}, source->history,
                                              draft.result.record.step, draft.result);
-  draft.distances.of_map = proximity_rule(choice, draft.distances.notes);
-  draft.distances.of_others = proximity_rule(choice, std::make_shared<DistanceNotes>());
+  draft.distances = distance_rule(choice);
   return draft;
 }
 

@@ -160,27 +160,21 @@ MapDraft check(MapDraft draft, const MapJob& job) {
 
 // Reference.
 
-/// Anchors and ground truth in the rows of the landmarks; then nothing but the map is unknown.
+/// Anchors and ground truth in the rows of the landmarks.
 MapDraft refer(MapDraft draft, const MapJob& job) {
   draft.reference = reference_of(draft.landmarks, job.known_anchors, job.known_ground_truth,
                                  draft.result.remarks);
-  // Whether a map of pairs can be fitted to what is known turns out with the map.
-  if (!job.begin || job.is_range_bearing()) return draft;
-  MapRecord begun = draft.result.record;
-  begun.anchors = draft.reference.anchors;
-  if (draft.reference.has_ground_truth || !begun.anchors.empty())
-    begun.ground_truth_m = draft.reference.positions_m;
-  job.begin(begun);
   return draft;
 }
 
 // Distances, and their embedding.
 
 void embed_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
+  DistanceNotes notes;
   HistoryEmbedder embedder(source.history, draft.result.record.step, job.embedder,
-                           draft.distances.of_map);
+                           draft.distances.noting(notes));
   if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
-  take_embedding(draft, embedder.embed(draft.setting));
+  take_embedding(draft, embedder.embed(draft.setting), notes);
 }
 
 void embed_long_table(const DetectionSource& source, const MapJob& job, MapDraft& draft) {
@@ -271,22 +265,46 @@ constexpr std::array kSteps = {
     &kUncertainty,  // Ellipses.
     &kExplanation,
 };
+constexpr auto kFirstSolver = std::ranges::find(kSteps, &kMissingData);
 constexpr auto kLast = std::ranges::find(kSteps, &kFit);
-static_assert(kLast != kSteps.end());
+static_assert(kFirstSolver < kLast && kLast < kSteps.end());
+
+using StepIterator = decltype(kSteps)::const_iterator;
+
+MapDraft take_steps(StepIterator first, StepIterator last, MapDraft draft, const MapJob& job) {
+  for (; first != last; ++first) draft = (*first)->take(std::move(draft), job);
+  return draft;
+}
 
 }  // namespace
 
 std::span<const MapStep* const> map_steps() { return kSteps; }
 
-MapResult make_map(const MapJob& job) {
+MapDraft begin_map(const MapJob& job) {
   MapDraft draft{.observed = reported(read(job), job)};
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
     draft.result.remarks = source->remarks;
   else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
     draft.result.remarks = scans->remarks;
-  for (auto step = kSteps.begin(); step != kLast; ++step)
-    draft = (*step)->take(std::move(draft), job);
+  return take_steps(kSteps.begin(), kFirstSolver, std::move(draft), job);
+}
+
+MapResult finish_map(MapDraft draft, const MapJob& job) {
+  draft = take_steps(kFirstSolver, kLast, std::move(draft), job);
   return last_steps(std::move(draft), job).result;
+}
+
+ProximityRule DistanceRule::noting(DistanceNotes& notes) const {
+  if (!of_map) return {};
+  return [&notes, rule = of_map](const ObservationHistory& history, Eigen::Index steps) {
+    NotedProximities noted = rule(history, steps);
+    for (const Status& status : noted.notes.statuses)
+      if (std::ranges::find(notes.statuses, status) == notes.statuses.end())
+        notes.statuses.push_back(status);
+    if (notes.remarks.empty()) notes.remarks = std::move(noted.notes.remarks);
+    if (noted.notes.completed) notes.completed = noted.notes.completed;
+    return std::move(noted.proximities);
+  };
 }
 
 MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::Index step) {
@@ -299,13 +317,10 @@ MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::
 }
 
 MapDraft last_steps(MapDraft draft, const MapJob& job) {
-  for (auto step = kLast; step != kSteps.end(); ++step)
-    draft = (*step)->take(std::move(draft), job);
-  return draft;
+  return take_steps(kLast, kSteps.end(), std::move(draft), job);
 }
 
-void take_embedding(MapDraft& draft, const Embedding& embedding) {
-  const DistanceNotes& notes = *draft.distances.notes;
+void take_embedding(MapDraft& draft, const Embedding& embedding, const DistanceNotes& notes) {
   MapResult& result = draft.result;
   MapRecord& record = result.record;
   record.estimate = embedding.coordinates;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,7 +30,7 @@ struct NotKept {
 using Observed =
     std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>, NotKept>;
 
-/// Remarks and warnings of a rule for distances, once it was called.
+/// Remarks and warnings on the distances of a history.
 struct DistanceNotes {
   std::vector<Status> statuses;
   std::vector<std::string> remarks;
@@ -38,11 +38,20 @@ struct DistanceNotes {
   std::optional<Status> completed;
 };
 
-/// How distances are computed from observations.
+struct NotedProximities {
+  Proximities proximities;
+  DistanceNotes notes;
+};
+
+/// How distances are computed from observations; empty: by proximities().
 struct DistanceRule {
-  ProximityRule of_map = {};     ///< See HistoryEmbedder.
-  ProximityRule of_others = {};  ///< The same for candidates and resamples: it notes nothing.
-  std::shared_ptr<DistanceNotes> notes = std::make_shared<DistanceNotes>();  ///< Of `of_map`.
+  std::function<NotedProximities(const ObservationHistory&, Eigen::Index steps)> of_map = {};
+  ProximityRule of_others = {};  ///< The same for candidates and resamples, without the notes.
+
+  /// The rule of the map as an embedder takes it.
+  /// @param notes  Gets the statuses of all calls, and the remarks of the first one. It has to
+  ///               outlive the rule.
+  ProximityRule noting(DistanceNotes& notes) const;
 };
 
 /// A map in the making: what the steps before have found out.
@@ -75,7 +84,8 @@ extern const MapStep kIdCheck, kDataAssociation, kCommonLandmarks, kMissingData,
 /// All steps, in their order.
 std::span<const MapStep* const> map_steps();
 
-/// Maps what a person observed: reads it, and takes the steps.
+/// Reads what a person observed, and takes the steps up to the reference: of the record, only what
+/// an embedding adds is not known then.
 ///
 /// A source that holds its own ground truth (MRCLAM) is aligned, without anchors, to the four
 /// landmarks furthest out along the diagonals of the ground truth's extent.
@@ -83,7 +93,10 @@ std::span<const MapStep* const> map_steps();
 ///         (fewer than three, on one line, unknown, unobserved), a ground truth about other
 ///         landmarks, landmarks never observed (unless dropped or read from a log, where no row can
 ///         be removed), K >= M, too few landmarks. @throws InvalidInput as require_compatible().
-MapResult make_map(const MapJob& job);
+MapDraft begin_map(const MapJob& job);
+
+/// Takes the other steps.
+MapResult finish_map(MapDraft draft, const MapJob& job);
 
 /// The record of a map of which nothing is known but what it is made of; its id is "joint" for
 /// several sensors, else "map".
@@ -92,11 +105,11 @@ MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::
 
 /// The steps after the embedding, which an incremental map takes at each update: fit, alignment,
 /// score, uncertainty, explanation.
-/// @param draft  With an embedding, and a reference in its rows. @throws as make_map().
+/// @param draft  With an embedding, and a reference in its rows. @throws IoError, InvalidInput.
 MapDraft last_steps(MapDraft draft, const MapJob& job);
 
 /// Takes an embedding, its statuses after those of the distances, and its certificate.
-void take_embedding(MapDraft& draft, const Embedding& embedding);
+void take_embedding(MapDraft& draft, const Embedding& embedding, const DistanceNotes& notes = {});
 
 /// @throws IoError if the job's K is not below the number of landmarks.
 void require_neighbours(const MapJob& job, const MappedLandmarks& landmarks);

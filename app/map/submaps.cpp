@@ -30,11 +30,13 @@ MapDraft embed_groups(MapDraft draft, const MapJob& job) {
   MethodSetting& setting = draft.setting;
   if (!setting.parameter)
     setting = HistoryEmbedder(history, steps, job.embedder).usual_setting(setting.method);
-  SubmapOptions options{.groups = {}, .embedder = job.embedder, .rule = draft.distances.of_map};
+  DistanceNotes notes;
+  SubmapOptions options{
+      .groups = {}, .embedder = job.embedder, .rule = draft.distances.noting(notes)};
   options.groups.size = job.submaps;
   if (job.overlap) options.groups.overlap_share = *job.overlap;
   const SubmapEmbedding parts = embed_submaps(history, steps, setting, options);
-  take_embedding(draft, parts.embedding);
+  take_embedding(draft, parts.embedding, notes);
   MapResult& result = draft.result;
   if (parts.joined.submaps.size() > 1) result.remarks.push_back(remark_on(parts, setting.method));
   if (!parts.joined.submaps.empty())

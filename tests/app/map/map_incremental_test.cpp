@@ -137,7 +137,7 @@ TEST(IncrementalMapFile, EndsInTheWarningsAndFactsOfThePlainMap) {
   const TemporaryFolder folder;
   const DetectionLog log = noisy_scans(400, 2);
   const std::string text = bearings_csv(log);
-  // Opposite corners are exchanged, so that the map is rotated by half a turn.
+  // Opposite corners are exchanged, so that the map is rotated by 180 degrees.
   DetectionLog exchanged = log;
   std::swap(exchanged.names[0], exchanged.names[14]);
   std::swap(exchanged.names[2], exchanged.names[12]);
