@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "core/json/fields.hpp"
 #include "render/style/figure_style.hpp"
@@ -12,6 +14,9 @@ namespace mapproof {
 /// folder of the file.
 /// @throws IoError with the file and the JSON pointer.
 FigureStyle read_figure_style(const std::filesystem::path& file);
+
+/// The same from its text; a font stays as it is written.
+FigureStyle figure_style_from_json(std::string_view text, const std::string& source);
 
 // The fields of a style in files (core/json/fields.hpp).
 

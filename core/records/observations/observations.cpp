@@ -319,6 +319,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   const std::string bytes = source.rest();
   const std::string_view text = checked_text(bytes, name);
   if (holds_json && format.scan_window_s) refuse_window(name);
+  if (holds_json) require_columns({}, format.columns, name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
     throw IoError(

@@ -20,7 +20,12 @@ struct RangeLogParts {
   std::optional<Trajectory> ground_truth = {};
   NamedPoints true_landmarks = {};
   std::vector<std::string> remarks = {};
+  ColumnNames columns = {};              ///< That the user names; marked once a table has them.
+  std::vector<std::string> header = {};  ///< Of the table of ranges.
 };
+
+/// The times of the poses of the odometry: its start, then the end of each motion.
+Eigen::VectorXd pose_times(const RangeLogParts& parts);
 
 /// Puts the landmarks in order (of the letters of their names and then of the number behind them if
 /// all names end in a number, else as they first come), sorts the measurements by time, turns true

@@ -70,12 +70,6 @@ constexpr OtherKind kOtherKinds[] = {
 
 }  // namespace
 
-bool is_npz(std::string_view start) {
-  constexpr std::size_t kFirstEntry = 300;
-  return start.starts_with("PK\x03\x04") &&
-         start.substr(0, kFirstEntry).find(".npy") != std::string_view::npos;
-}
-
 void refuse_other_kind(std::string_view start, const std::string& source) {
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF");
   const std::string_view text = first == std::string_view::npos ? start : start.substr(first);

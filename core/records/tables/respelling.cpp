@@ -111,4 +111,22 @@ void respell(ByteSource& source) {
   }
 }
 
+void mark_columns(ByteSource& table, ColumnNames& columns) {
+  respell(table);
+  if (columns.empty()) return;
+  const std::vector<std::string> cells = first_row(table);
+  const ColumnNames found =
+      columns_in(std::vector<std::string_view>(cells.begin(), cells.end()), columns);
+  for (NamedColumn& column : columns)
+    if (std::ranges::find(found, column) != found.end()) column.is_elsewhere = true;
+}
+
+void require_columns(ByteSource& table, const ColumnNames& columns) {
+  if (std::ranges::all_of(columns, &NamedColumn::is_elsewhere)) return;
+  respell(table);
+  if (is_json(table)) return;
+  const std::vector<std::string> cells = first_row(table);
+  require_columns(std::vector<std::string_view>(cells.begin(), cells.end()), columns, table.name());
+}
+
 }  // namespace mapproof

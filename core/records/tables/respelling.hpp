@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "core/base/files/byte_source.hpp"
+#include "core/records/tables/column_names.hpp"
 
 namespace mapproof {
 
@@ -13,6 +14,14 @@ namespace mapproof {
 /// @throws IoError if the source cannot be read as what it is; for a file of another known kind,
 ///         see refuse_other_kind().
 void respell(ByteSource& source);
+
+/// Marks the named columns that a table, which stays unread, has, see NamedColumn::is_elsewhere.
+/// @throws IoError as respell().
+void mark_columns(ByteSource& table, ColumnNames& columns);
+
+/// Refuses named columns that a table, which stays unread, does not have; JSON of a schema is left
+/// to its reader. @throws IoError as respell(), or as require_columns().
+void require_columns(ByteSource& table, const ColumnNames& columns);
 
 /// Refuses what is known by its first bytes and not read: spreadsheets, HDF5, Parquet, pickles,
 /// archives, images, databases, bags.

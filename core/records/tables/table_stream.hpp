@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/files/byte_source.hpp"
 #include "core/records/tables/table_reader.hpp"
@@ -16,6 +17,9 @@ namespace mapproof {
 /// @throws IoError if the source is empty, cannot be read, or begins with what is not a text.
 bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
                   std::optional<char> separator = std::nullopt);
+
+/// The cells of the first row, as first_row_is() finds it; none if there is no row.
+std::vector<std::string> first_row(ByteSource& source);
 
 /// The rows of a table of any length, as TableReader has them; a few megabytes of it are held at a
 /// time.
