@@ -48,8 +48,12 @@ struct Formats {
 
 const std::vector<std::pair<std::string, FileFormat>>& file_formats() {
   static const std::vector<std::pair<std::string, FileFormat>> formats = {
-      {"svg", FileFormat::kSvg}, {"png", FileFormat::kPng},   {"pdf", FileFormat::kPdf},
-      {"eps", FileFormat::kEps}, {"json", FileFormat::kJson}, {"csv", FileFormat::kCsv},
+      {"svg", FileFormat::kSvg},
+      {"png", FileFormat::kPng},
+      {"pdf", FileFormat::kPdf},
+      {"eps", FileFormat::kEps},
+      {"json", FileFormat::kJson},
+      {"csv", FileFormat::kCsv},
       {"matplotlib", FileFormat::kMatplotlib}};
   return formats;
 }
@@ -83,7 +87,8 @@ Formats formats_of(const RenderArguments& arguments) {
   if (formats.animations.empty()) formats.animations = {AnimationFormat::kApng};
   const bool is_alone = !arguments.animations.empty() && arguments.ids.empty();
   if (is_alone && !arguments.as.empty() && (!has_animation || !formats.files.empty()))
-    throw InvalidInput("--as: with --animate alone it is apng, mp4 or gif; name figures by --figure");
+    throw InvalidInput(
+        "--as: with --animate alone it is apng, mp4 or gif; name figures by --figure");
   return formats;
 }
 
@@ -92,12 +97,10 @@ void refuse_idle_options(const StyleArguments& style, const Formats& formats, bo
   const auto has = [&](FileFormat format) { return formats.files.contains(format); };
   const bool is_drawn = has(FileFormat::kSvg) || has(FileFormat::kPng) || has(FileFormat::kPdf) ||
                         has(FileFormat::kEps) || has(FileFormat::kMatplotlib) || has_animation;
-  const std::pair<const char*, bool> options[] = {{"--theme", style.theme.has_value()},
-                                                  {"--width", style.width_in.has_value()},
-                                                  {"--height", style.height_in.has_value()},
-                                                  {"--dpi", style.dpi.has_value()},
-                                                  {"--font", style.font.has_value()},
-                                                  {"--no-title", style.no_title}};
+  const std::pair<const char*, bool> options[] = {
+      {"--theme", style.theme.has_value()},      {"--width", style.width_in.has_value()},
+      {"--height", style.height_in.has_value()}, {"--dpi", style.dpi.has_value()},
+      {"--font", style.font.has_value()},        {"--no-title", style.no_title}};
   for (const auto& [option, given] : options)
     if (given && !is_drawn)
       throw InvalidInput(
@@ -190,14 +193,24 @@ void edit_landmarks(const StyleArguments& style, Drawables& drawables) {
   require_landmarks("--landmarks", all || none ? std::vector<std::string>() : style.landmarks,
                     known);
   for (Figure& figure : drawables.figures)
-    name_landmarks(figure, all    ? known
-                           : none ? std::vector<std::string>()
-                                  : style.landmarks);
+    name_landmarks(figure, all ? known : none ? std::vector<std::string>() : style.landmarks);
+}
+
+std::vector<std::string> texts_of(Drawables drawables) {
+  std::vector<std::string> texts;
+  const auto add = [&](const std::string& text) { texts.push_back(text); };
+  for (Figure& figure : drawables.figures) for_each_text(figure, add);
+  for (Scene& scene : drawables.scenes) for_each_text(scene, add);
+  for (Film& film : drawables.films)
+    for (Scene& frame : film.frames) for_each_text(frame, add);
+  return texts;
 }
 
 /// Titles, landmarks and words as they were asked for.
 void edit(const StyleArguments& arguments, const FigureStyle& style, Drawables& drawables) {
   edit_landmarks(arguments, drawables);
+  if (!style.words.empty())
+    require_known_phrases(style, texts_of(drawables), arguments.file.value_or("--style"));
   const auto words = words_of(style);
   for (Figure& figure : drawables.figures) replace_words(figure, words);
   for (Scene& scene : drawables.scenes) replace_words(scene, words);
@@ -235,7 +248,8 @@ Drawables read_all(const RenderArguments& arguments) {
   for (std::size_t i = 0; i < figures.size(); ++i)
     if (std::ranges::count(figures, figures[i].title, &Figure::title) > 1)
       titles[i] = fmt::format("{} ({})", figures[i].title, arguments.panels[i]);
-  Drawables joined{.root = from ? from->root : fs::path("."), .figures = {}, .scenes = {}, .films = {}};
+  Drawables joined{
+      .root = from ? from->root : fs::path("."), .figures = {}, .scenes = {}, .films = {}};
   joined.figures.push_back(joined_figure(kPanels, figures, titles));
   return joined;
 }
@@ -266,14 +280,18 @@ int list(const Drawables& drawables, const Invocation& invocation) {
 /// The names of the files of one image, for the result.
 std::string files_text(const fs::path& folder, const std::string& id, const Formats& formats) {
   std::string text;
-  const auto add = [&](const std::string& ending) { text += (folder / (id + ending)).string() + "\n"; };
+  const auto add = [&](const std::string& ending) {
+    text += (folder / (id + ending)).string() + "\n";
+  };
   if (formats.files == usual_formats()) {
     add(".svg");
     return text;
   }
   for (const auto& [word, format] : file_formats())
     if (formats.files.contains(format))
-      add(format == FileFormat::kMatplotlib ? ".py" : format == FileFormat::kJson ? ".*.json" : "." + word);
+      add(format == FileFormat::kMatplotlib ? ".py"
+          : format == FileFormat::kJson     ? ".*.json"
+                                            : "." + word);
   if (formats.latex) add(".tex");
   return text;
 }
@@ -290,9 +308,8 @@ void write_films(const Drawables& drawables, const DrawingJob& job, const Format
   for (const Film& film : drawables.films) {
     const CountProgress progress = count_progress(console, "drawing frame");
     write_animation(film, job.theme, job.folder, client,
-                    {.formats = formats.animations, .drawn = [&](std::size_t done) {
-                       progress(done, film.frames.size());
-                     }});
+                    {.formats = formats.animations,
+                     .drawn = [&](std::size_t done) { progress(done, film.frames.size()); }});
   }
 }
 
@@ -380,10 +397,11 @@ Action render_command(CLI::App& app) {
       ->group("Input");
   app.add_flag("--list", arguments->list, "List the ids of what can be drawn")->group("Input");
   add_style_options(app, arguments->style);
-  app.add_option("--as", arguments->as,
-                 "Formats: svg, png, pdf, eps, json, csv (the data), matplotlib (a script), latex "
-                 "(a figure to \\input); of animations apng, mp4, gif. By default svg, png, pdf and "
-                 "json; apng")
+  app.add_option(
+         "--as", arguments->as,
+         "Formats: svg, png, pdf, eps, json, csv (the data), matplotlib (a script), latex "
+         "(a figure to \\input); of animations apng, mp4, gif. By default svg, png, pdf and "
+         "json; apng")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("FORMATS")
