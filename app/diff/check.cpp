@@ -31,7 +31,8 @@ struct CheckArguments {
 
 /// Makes the records of the experiment, its figures and its report.
 void make_candidate(const CheckArguments& arguments, const Invocation& invocation) {
-  const StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.request);
+  const StudyRequest request =
+      read_study_request(experiment_of(arguments.experiment), arguments.request);
   check_data_used({&request, 1}, arguments.request);
   make_study(request, arguments.out, arguments.jobs,
              {invocation.command, invocation.disclosure.host()}, invocation.console);
@@ -56,7 +57,8 @@ void check_paths(const CheckArguments& arguments) {
 
 int check(const CheckArguments& arguments, const Invocation& invocation) {
   check_paths(arguments);
-  const DiffSettings settings = diff_settings(arguments.options, arguments.baseline, invocation.console);
+  const DiffSettings settings =
+      diff_settings(arguments.options, arguments.baseline, invocation.console);
   make_candidate(arguments, invocation);
   check_paths(arguments);  // Now that the candidate's files are there.
   std::error_code error;
@@ -95,7 +97,8 @@ Action check_command(CLI::App& app) {
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->request.profile, "One of the profiles in the experiment, such as quick; full is all of it")
+  app.add_option("--profile", arguments->request.profile,
+                 "One of the profiles in the experiment, such as quick; full is all of it")
       ->capture_default_str()
       ->group("Experiment");
   group_options(app, {{"Comparison", {"--baseline"}}});

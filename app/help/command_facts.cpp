@@ -82,6 +82,13 @@ void add_options(const CLI::App& command, CommandFacts& facts) {
     if (sub->get_name().empty()) add_options(*sub, facts);
 }
 
+/// Its first long name, else its only one: later long names are aliases.
+const std::string& long_name(const OptionFacts& option) {
+  const auto found = std::ranges::find_if(
+      option.names, [](const std::string& name) { return name.starts_with("--"); });
+  return found == option.names.end() ? option.names.front() : *found;
+}
+
 }  // namespace
 
 CommandFacts facts_of(const CLI::App& command) {
@@ -121,7 +128,7 @@ std::string usage_of(const CommandFacts& command) {
     if (!option.is_argument && !option.is_required) continue;
     const std::string one = option.is_argument
                                 ? option.names.front() + (option.takes_several ? "..." : "")
-                                : fmt::format("{} {}", option.names.back(), option.value);
+                                : fmt::format("{} {}", long_name(option), option.value);
     usage += option.is_required ? " " + one : " [" + one + "]";
   }
   return usage;

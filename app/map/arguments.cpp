@@ -40,7 +40,7 @@ void add_method_options(CLI::App& app, MapJob& job) {
 /// What was observed, and what is known of it.
 void add_observation_options(CLI::App& app, MapJob& job) {
   app.add_option(
-         "--sensor", job.kind,
+         "--sensor", job.sensor,
          "What the values are: visibility (0/1), bearing [rad], range [m], or range-bearing; "
          "needed for tables, except detections")
       ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
@@ -49,7 +49,7 @@ void add_observation_options(CLI::App& app, MapJob& job) {
          "Observations of the same landmarks by another sensor, for one joint map. Landmarks "
          "are matched by name; the steps may differ")
       ->take_all();
-  app.add_option("--with-sensor", job.with_kind, "The sensor of each --with")
+  app.add_option("--with-sensor", job.with_sensor, "The sensor of each --with")
       ->transform(one_of({"visibility", "bearing", "range"}))
       ->take_all();
   add_table_options(app, job.table);
@@ -91,7 +91,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
       ->check(CLI::Range(0.0, 0.8));
   app.add_option("--ellipses", job.ellipse_replicates,
                  "Draw the 95 % confidence ellipse of each landmark, from N bootstrap resamples of "
-                 "the steps (default: 200)")
+                 "the steps")
       ->expected(0, 1)
       ->default_str("200")
       ->check(CLI::Range(10, 10000));

@@ -25,13 +25,13 @@ namespace mapproof {
 struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
-  std::string kind;         ///< A sensor's name, kRangeBearing, or empty: as in the file.
+  std::string sensor;       ///< A sensor's name, kRangeBearing, or empty: as in the file.
   TableOptions table = {};  ///< How the files are to be read.
   /// Columns of --columns; marked by complete() where anchors, ground truth or another sensor's
   /// file has them. And those of the files of other sensors, where the observations have them.
   ColumnNames columns = {}, with_columns = {};
-  std::vector<std::string> with;       ///< Files of other sensors,
-  std::vector<std::string> with_kind;  ///< and what each holds.
+  std::vector<std::string> with;         ///< Files of other sensors,
+  std::vector<std::string> with_sensor;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;
   int jobs = 1;              ///< Threads.
@@ -74,7 +74,7 @@ struct MapJob {
   /// Called with what was understood of each file.
   std::function<void(const std::string& path, const InputSummary&)> understood = {};
 
-  bool is_range_bearing() const { return kind == kRangeBearing; }
+  bool is_range_bearing() const { return sensor == kRangeBearing; }
   bool chooses_method() const;
   /// Whether the method may be chosen although none is named: nothing that is asked for prevents
   /// it.

@@ -92,10 +92,10 @@ void mark_unsure(const ObservationSource& source, const std::vector<std::string>
   if (unsure.size() == 1)
     throw IoError(source.path,
                   "one uncertain landmark ID cannot be confused with another; name two or more");
-  for (const std::string& label : unsure) {
-    const auto row = std::ranges::find(source.history.names, label);
+  for (const std::string& id : unsure) {
+    const auto row = std::ranges::find(source.history.names, id);
     if (row == source.history.names.end())
-      throw IoError(source.path, fmt::format("no landmark is named \"{}\"", printable(label)));
+      throw IoError(source.path, fmt::format("no landmark is named \"{}\"", printable(id)));
     doubtful.row(row - source.history.names.begin()).setConstant(true);
   }
 }

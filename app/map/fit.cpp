@@ -73,7 +73,7 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
     }
     if (static_cast<double>(log.steps) * static_cast<double>(log.names.size()) > kMostHistory)
       return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
-    return history_fit(history_of(log, *sensor_named(job.kind)), log.steps, map, known_m);
+    return history_fit(history_of(log, *sensor_named(job.sensor)), log.steps, map, known_m);
   }
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed)) {
     const bool is_real = is_folder(source->path) && is_mrclam(source->path);

@@ -23,7 +23,7 @@ namespace {
 /// loss.
 constexpr double kMissed = 3.0;
 
-std::string label(const DetectionLog& log, int landmark) {
+std::string id_of(const DetectionLog& log, int landmark) {
   return log.names[static_cast<std::size_t>(landmark)];
 }
 
@@ -58,8 +58,8 @@ void add_doubts(const AssociationCheck& check, bool repair, AssociationOutcome& 
 DetectionLog check_pairs(AssociationOutcome& outcome, bool repair) {
   AssociationCheck check = check_association(outcome.log);
   for (const AssociationFinding& finding : check.findings)
-    outcome.facts.push_back({std::string(name(finding.fault)), label(outcome.log, finding.first),
-                             label(outcome.log, finding.second), described(finding, outcome.log),
+    outcome.facts.push_back({std::string(name(finding.fault)), id_of(outcome.log, finding.first),
+                             id_of(outcome.log, finding.second), described(finding, outcome.log),
                              finding.loss_before_m, finding.loss_after_m, repair});
   add_doubts(check, repair, outcome);
   outcome.loss_m = check.loss_after_m;
@@ -74,12 +74,12 @@ DetectionLog check_shared(AssociationOutcome& outcome, DetectionLog log, bool re
   const std::optional<SharedId> shared = shared_id(log);
   if (!shared) return log;
   const std::vector<Eigen::Index> unseen = unseen_in(log);
-  const std::string first = label(log, shared->id);
+  const std::string first = id_of(log, shared->id);
   std::string second;
   int row = static_cast<int>(log.names.size());
   if (unseen.size() == 1) {
     row = static_cast<int>(unseen.front());
-    second = label(log, row);
+    second = id_of(log, row);
   } else {
     log.names.push_back(first + " (second position)");
   }
@@ -97,7 +97,7 @@ DetectionLog check_paths(AssociationOutcome& outcome, const DetectionLog& log,
                          const Points& known_m, bool repair) {
   AnchorCheck check = check_anchor_ids(log, known_m);
   for (const AnchorExchange& exchange : check.exchanges)
-    outcome.facts.push_back({"exchanged", label(log, exchange.first), label(log, exchange.second),
+    outcome.facts.push_back({"exchanged", id_of(log, exchange.first), id_of(log, exchange.second),
                              described(exchange, log), exchange.misfit_before_m,
                              exchange.misfit_after_m, repair});
   if (check.positions < kFewestKnownPositions)
@@ -161,7 +161,7 @@ void split_moved(AssociationOutcome& outcome) {
   MovedCheck check = find_moved(outcome.log, {.is_contrasted = true});
   for (const MovedLandmark& moved : check.moved) {
     outcome.facts.push_back({"moved",
-                             label(outcome.log, moved.landmark),
+                             id_of(outcome.log, moved.landmark),
                              {},
                              described(moved, outcome.log),
                              moved.loss_before_m,
@@ -192,7 +192,7 @@ DetectionLog checked_log(Source& source, const DetectionLog& log, const MapJob& 
   }
   result.remarks.insert(result.remarks.end(), outcome.remarks.begin(), outcome.remarks.end());
   result.warnings.insert(result.warnings.end(), outcome.warnings.begin(), outcome.warnings.end());
-  result.members.push_back({"data_association", labels_json(outcome.facts)});
+  result.members.push_back({"data_association", association_json(outcome.facts)});
   draft.association = std::move(outcome.check);
   return std::move(outcome.log);
 }
@@ -241,17 +241,17 @@ AssociationOutcome with_association_checked(const DetectionLog& log,
   return outcome;
 }
 
-nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts) {
-  nlohmann::ordered_json labels = nlohmann::ordered_json::array();
+nlohmann::ordered_json association_json(const std::vector<AssociationFact>& facts) {
+  nlohmann::ordered_json items = nlohmann::ordered_json::array();
   for (const AssociationFact& fact : facts)
-    labels.push_back({{"what", fact.what},
-                      {"first", fact.first},
-                      {"second", fact.second},
-                      {"found", fact.sentence},
-                      {"before_m", number_or_null(fact.before_m)},
-                      {"after_m", number_or_null(fact.after_m)},
-                      {"repaired", fact.repaired}});
-  return labels;
+    items.push_back({{"what", fact.what},
+                     {"first", fact.first},
+                     {"second", fact.second},
+                     {"found", fact.sentence},
+                     {"before_m", number_or_null(fact.before_m)},
+                     {"after_m", number_or_null(fact.after_m)},
+                     {"repaired", fact.repaired}});
+  return items;
 }
 
 }  // namespace mapproof

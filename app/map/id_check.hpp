@@ -52,6 +52,6 @@ AssociationOutcome with_association_checked(const DetectionLog& log,
                                             const AssociationChoice& choice, const Points& known_m);
 
 /// The findings, for the member "data_association" of --json.
-nlohmann::ordered_json labels_json(const std::vector<AssociationFact>& facts);
+nlohmann::ordered_json association_json(const std::vector<AssociationFact>& facts);
 
 }  // namespace mapproof

@@ -156,7 +156,7 @@ class IncrementalPairs : public IncrementalSource {
     }
     MapResult result = map_of(outcome.log);
     add_scan_sizes(scan_sizes(outcome.log), result);
-    result.members.push_back({"data_association", labels_json(outcome.facts)});
+    result.members.push_back({"data_association", association_json(outcome.facts)});
     for (const auto& more : {stream_.remarks(), outcome.remarks})
       result.remarks.insert(result.remarks.end(), more.begin(), more.end());
     explain_so_far(result, table_);
@@ -262,7 +262,7 @@ class IncrementalRanges : public IncrementalSource {
     align(result, known, table_.fit);
     if (!is_tied(known)) {
       if (last_)
-        if (const auto laid = laid_rigidly_on(record.estimate, *last_)) record.estimate = *laid;
+        if (const auto laid = aligned_rigidly_to(record.estimate, *last_)) record.estimate = *laid;
       last_ = record.estimate;
     }
     return result;

@@ -20,7 +20,7 @@ struct IncrementalTable {
   std::string source = {};                      ///< What to call it in errors.
   Sensor sensor = Sensor::kRange;               ///< Of values alone.
   TableFormat format = {};                      ///< How the table is to be understood.
-  IncrementalOptions options = {};                   ///< Of one sensor.
+  IncrementalOptions options = {};              ///< Of one sensor.
   std::optional<NamedPointsFile> anchors = {};  ///< Fitted to once three of them are on the map.
   std::optional<NamedPointsFile> ground_truth = {};  ///< For scores, of what is known of it so far.
   FrameFit fit = {};

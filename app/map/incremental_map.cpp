@@ -77,7 +77,7 @@ class EndSignals {
 };
 
 StreamedFile::StreamedFile(const std::string& path)
-    : path_(path), name_(input_name(path)), file_(open_growing(path)) {
+    : path_(path), name_(input_name(path)), file_(open_streamed(path)) {
   struct stat status {};
   if (::fstat(file_.get(), &status) != 0) throw IoError(name_, std::strerror(errno));
   regular_ = S_ISREG(status.st_mode);
@@ -152,7 +152,7 @@ class Due {
 };
 
 /// A streamed file, and its map so far.
-struct GrowingInput {
+struct StreamedInput {
   StreamedFile file;
   Unpacker unpacker;
   std::unique_ptr<IncrementalSource> source;
@@ -162,8 +162,8 @@ struct GrowingInput {
 /// Takes in what comes, and calls `update` whenever it is time.
 /// @return Whether the file came to its end; else it was replaced, or a signal came.
 template <typename Update>
-bool read_to_end(GrowingInput& input, const UpdateInterval& every, const EndSignals& signals,
-                   const Update& update) {
+bool read_to_end(StreamedInput& input, const UpdateInterval& every, const EndSignals& signals,
+                 const Update& update) {
   Due due(every);
   std::string bytes;
   while (!signals.asked()) {
@@ -171,8 +171,8 @@ bool read_to_end(GrowingInput& input, const UpdateInterval& every, const EndSign
     if (state == StreamedFile::State::kEnd) return true;
     if (state == StreamedFile::State::kReplaced) {
       input.remarks.push_back(input.file.name() +
-                                 " was cut short, removed or replaced: the map holds what was read "
-                                 "before. Start again for the new file.");
+                              " was cut short, removed or replaced: the map holds what was read "
+                              "before. Start again for the new file.");
       return false;
     }
     input.source->take(input.unpacker.take(bytes));
@@ -184,7 +184,7 @@ bool read_to_end(GrowingInput& input, const UpdateInterval& every, const EndSign
 }
 
 /// Takes in the rest. @throws IoError if there were no observations at all.
-void take_rest(GrowingInput& input, bool ended) {
+void take_rest(StreamedInput& input, bool ended) {
   IncrementalSource& source = *input.source;
   if (ended) {
     input.unpacker.end();
@@ -202,7 +202,7 @@ void take_rest(GrowingInput& input, bool ended) {
 }
 
 /// The map of all there was, explained.
-MapResult last_map(GrowingInput& input) {
+MapResult last_map(StreamedInput& input) {
   MapResult last = input.source->last_update();
   last.remarks.insert(last.remarks.begin(), input.remarks.begin(), input.remarks.end());
   last.facts = {{"Observations", input.file.name()},
@@ -229,13 +229,13 @@ UpdateInterval update_interval(const std::string& text) {
 }
 
 int write_incremental(const IncrementalRequest& request, const MapPlace& location,
-                   const Invocation& invocation) {
+                      const Invocation& invocation) {
   const MapFolder folder(location.out);
   const Console& console = invocation.console;
   const EndSignals signals;
-  GrowingInput input{.file = StreamedFile(request.path),
-                        .unpacker = Unpacker(input_name(request.path)),
-                        .source = nullptr};
+  StreamedInput input{.file = StreamedFile(request.path),
+                     .unpacker = Unpacker(input_name(request.path)),
+                     .source = nullptr};
   IncrementalTable table = request.table;
   table.source = input.file.name();
   input.source = request.source(table);

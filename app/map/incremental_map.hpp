@@ -20,7 +20,7 @@ UpdateInterval update_interval(const std::string& text);
 
 /// The streamed file, and how it is mapped.
 struct IncrementalRequest {
-  std::string path;     ///< "-": standard input. Packed or not.
+  std::string path;        ///< "-": standard input. Packed or not.
   IncrementalTable table;  ///< Its source is set from the path.
   std::unique_ptr<IncrementalSource> (*source)(const IncrementalTable& table) = nullptr;
   UpdateInterval every;
@@ -35,6 +35,6 @@ struct IncrementalRequest {
 /// @throws IoError for what cannot be read, or if the folder holds something else, or another
 ///         process writes there.
 int write_incremental(const IncrementalRequest& request, const MapPlace& location,
-                   const Invocation& invocation);
+                      const Invocation& invocation);
 
 }  // namespace mapproof

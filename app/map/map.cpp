@@ -59,21 +59,21 @@ void set_stop_rules(MapJob& job) {
 void open_observations(MapJob& job) {
   if (is_folder(job.path)) {
     // A method of one sensor takes its visibility, see read_observations().
-    if (job.kind.empty() && job.may_choose_method() && is_mrclam(job.path))
-      job.kind = kRangeBearing;
+    if (job.sensor.empty() && job.may_choose_method() && is_mrclam(job.path))
+      job.sensor = kRangeBearing;
     return;
   }
   job.source = std::make_shared<ByteSource>(job.path);
   require_columns(*job.source, job.columns);
   mark_columns(*job.source, job.with_columns);
   const TableFormat format = job.table_format();
-  if (!job.kind.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
+  if (!job.sensor.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
     return;
   const MeasuredColumns measured = measured_in(*job.source, format);
-  job.kind = measured.range && measured.bearing ? std::string(kRangeBearing)
-             : measured.range                   ? std::string(name(Sensor::kRange))
-             : measured.bearing                 ? std::string(name(Sensor::kBearing))
-                                                : std::string(name(Sensor::kVisibility));
+  job.sensor = measured.range && measured.bearing ? std::string(kRangeBearing)
+               : measured.range                   ? std::string(name(Sensor::kRange))
+               : measured.bearing                 ? std::string(name(Sensor::kBearing))
+                                                  : std::string(name(Sensor::kVisibility));
 }
 
 /// Reads anchors and ground truth, and finds out which named columns they and the files of other
@@ -96,7 +96,7 @@ void read_known_positions(MapJob& job) {
 /// @throws InvalidInput for what does not go together, or an unknown method or parameter; IoError
 ///         if a file cannot be read.
 void complete(MapJob& job) {
-  if (job.kind.empty() && job.method == kPairs) job.kind = kRangeBearing;
+  if (job.sensor.empty() && job.method == kPairs) job.sensor = kRangeBearing;
   read_known_positions(job);
   // A stream cannot be opened before it is read.
   if (!job.incremental) open_observations(job);
@@ -108,7 +108,7 @@ void complete(MapJob& job) {
 
 /// How the incremental map of the job is made.
 IncrementalRequest incremental_request(const MapJob& job) {
-  const std::optional<Sensor> sensor = sensor_named(job.kind);
+  const std::optional<Sensor> sensor = sensor_named(job.sensor);
   return {.path = job.path,
           .table = {.source = {},
                     .sensor = sensor.value_or(Sensor::kRange),

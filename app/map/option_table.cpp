@@ -40,17 +40,17 @@ bool is_filled_in(Job job) {
 
 /// Whether a file has bearings, or may have them: the columns of detections name the sensor.
 bool has_bearings(Job job) {
-  return (job.kind != "range" && job.kind != "visibility") ||
-         std::ranges::find(job.with_kind, "bearing") != job.with_kind.end();
+  return (job.sensor != "range" && job.sensor != "visibility") ||
+         std::ranges::find(job.with_sensor, "bearing") != job.with_sensor.end();
 }
 
 /// All options, and what they come to.
 const std::vector<MapOption> kOptions = {
-    {"--sensor", [](Job job) { return !job.kind.empty(); }},
-    {"--sensor bearing", [](Job job) { return job.kind == "bearing"; }, {"--sensor", "bearing"}},
-    {"--sensor range", [](Job job) { return job.kind == "range"; }, {"--sensor", "range"}},
+    {"--sensor", [](Job job) { return !job.sensor.empty(); }},
+    {"--sensor bearing", [](Job job) { return job.sensor == "bearing"; }, {"--sensor", "bearing"}},
+    {"--sensor range", [](Job job) { return job.sensor == "range"; }, {"--sensor", "range"}},
     {"--sensor visibility",
-     [](Job job) { return job.kind == "visibility"; },
+     [](Job job) { return job.sensor == "visibility"; },
      {"--sensor", "visibility"}},
     {"--sensor range-bearing",
      [](Job job) { return job.is_range_bearing(); },
@@ -78,8 +78,10 @@ const std::vector<MapOption> kOptions = {
      }},
     {"--sensor with bearings", has_bearings},
     {"--with", [](Job job) { return !job.with.empty(); }, {"--with"}},
-    {"--with-sensor", [](Job job) { return !job.with_kind.empty(); }, {"--with-sensor", "bearing"}},
-    {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_kind.size(); }},
+    {"--with-sensor",
+     [](Job job) { return !job.with_sensor.empty(); },
+     {"--with-sensor", "bearing"}},
+    {"a --with-sensor for each", [](Job job) { return job.with.size() == job.with_sensor.size(); }},
     {"--degrees", [](Job job) { return job.table.degrees; }, {"--degrees"}},
     {"--layout wide", [](Job job) { return job.table.layout == "wide"; }, {"--layout", "wide"}},
     {"--layout transposed",
@@ -242,7 +244,7 @@ std::string reason(const OptionPair& pair, Job job) {
   return fmt::format(fmt::runtime(pair.why),
                      fmt::arg("method", method ? info(*method).name : std::string_view("pairs")),
                      fmt::arg("has", parameter_words(job)), fmt::arg("missing", job.missing),
-                     fmt::arg("sensor", job.kind));
+                     fmt::arg("sensor", job.sensor));
 }
 
 }  // namespace

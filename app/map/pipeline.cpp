@@ -36,7 +36,7 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
   TableFormat format = job.table_format();
   format.columns = job.with_columns;
   for (std::size_t k = 0; k < job.with.size(); ++k)
-    sources.push_back(read_observations(job.with[k], sensor_named(job.with_kind[k]), format));
+    sources.push_back(read_observations(job.with[k], sensor_named(job.with_sensor[k]), format));
   for (const ObservationSource& source : sources)
     if (!source.unassociated.empty())
       throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),
@@ -53,13 +53,13 @@ bool may_be_long(const MapJob& job) {
 }
 
 Observed read(const MapJob& job) {
-  const std::optional<Sensor> sensor = job.kind.empty() ? std::nullopt : sensor_named(job.kind);
+  const std::optional<Sensor> sensor = job.sensor.empty() ? std::nullopt : sensor_named(job.sensor);
   if (!job.with.empty()) return read_sensors(job, sensor);
   if (job.is_range_bearing()) return read_scans(job, std::nullopt);
   if (sensor && may_be_long(job)) return read_scans(job, sensor);
   ObservationSource source = read_values(job, sensor);
   MapJob known = job;
-  known.kind = name(source.history.sensor);
+  known.sensor = name(source.history.sensor);
   require_compatible(known);
   return source;
 }
@@ -117,7 +117,7 @@ Observed reported(Observed observed, const MapJob& job) {
   if (const auto* source = std::get_if<ObservationSource>(&observed))
     job.understood(source->path, summary_of(*source));
   else if (const auto* scans = std::get_if<DetectionSource>(&observed))
-    job.understood(scans->path, summary_of(*scans, job.kind));
+    job.understood(scans->path, summary_of(*scans, job.sensor));
   else
     for (const ObservationSource& one : std::get<std::vector<ObservationSource>>(observed))
       job.understood(one.path, summary_of(one));
@@ -144,7 +144,7 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
                               draft.landmarks.unseen.size(), log.names.size(), log.steps));
   MapRecord& record = draft.result.record;
   record.origin = FromPairs{};
-  if (!job.is_range_bearing()) record.origin = FromSensor{*sensor_named(job.kind), job.setting};
+  if (!job.is_range_bearing()) record.origin = FromSensor{*sensor_named(job.sensor), job.setting};
   record.step = log.steps;
   draft.result.read = {{"Landmarks", std::to_string(log.names.size())},
                        {"Steps used", fmt::format("{} of {}", log.steps, scans)},
@@ -190,7 +190,7 @@ void embed_values(const ObservationSource& source, const MapJob& job, MapDraft& 
 }
 
 void embed_long_table(const DetectionSource& source, const MapJob& job, MapDraft& draft) {
-  Embedder embedder(detected_proximities(source.log, *sensor_named(job.kind)), job.embedder);
+  Embedder embedder(detected_proximities(source.log, *sensor_named(job.sensor)), job.embedder);
   if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
   take_embedding(draft, embedder.embed(draft.setting));
 }

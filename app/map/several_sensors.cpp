@@ -69,10 +69,10 @@ void remark_differences(const Sources& sources, const std::vector<std::string>& 
 /// Names, sensors and steps of the files, for the report.
 void list_sources(const Sources& sources, MapResult& result) {
   for (const ObservationSource& source : sources) {
-    const std::string kind(name(source.history.sensor));
+    const std::string sensor(name(source.history.sensor));
     const auto missing = static_cast<double>(source.history.values.array().isNaN().count());
     result.read.emplace_back(
-        "Sensor " + kind,
+        "Sensor " + sensor,
         fmt::format("{}: {}, {} steps, {:.1f} % missing", source.path,
                     counted(source.history.landmarks(), "landmark"), source.history.steps(),
                     100.0 * missing / static_cast<double>(source.history.values.size())));

@@ -22,7 +22,8 @@ constexpr const char* kIndex = "index.html";
 StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
                        const NightlyStudy& study, const IndexFacts& facts) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
-  StudyTrend trend = history.trend(study.name, study.experiment_digest, kTrendRuns, this_run.number);
+  StudyTrend trend =
+      history.trend(study.name, study.experiment_digest, kTrendRuns, this_run.number);
   const bool is_compared = this_run.reference && has_study(history, *this_run.reference, study);
   const fs::path folder = outputs.out / "trends" / study.name;
   HistoryPage shown = trend_page(trend, facts.findings, is_compared,

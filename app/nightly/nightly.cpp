@@ -86,7 +86,8 @@ int make_all(const std::vector<StudyRequest>& requests, const fs::path& folder, 
 }
 
 /// What each study is, from its records.
-std::vector<NightlyStudy> read_all(const std::vector<StudyRequest>& requests, const fs::path& folder) {
+std::vector<NightlyStudy> read_all(const std::vector<StudyRequest>& requests,
+                                   const fs::path& folder) {
   std::vector<NightlyStudy> studies;
   for (const StudyRequest& request : requests)
     studies.push_back(read_nightly_study(folder / request.name, request.name));

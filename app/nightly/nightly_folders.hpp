@@ -19,8 +19,8 @@ int next_nightly_run(HistoryStore& history, const std::filesystem::path& store);
 /// Makes the folder of a nightly run, or takes that of a nightly run of the same requests that was
 /// killed, whose runs then need not be made again; what a nightly run of other requests left is
 /// removed. @throws IoError.
-void begin_nightly_run(const std::filesystem::path& folder, const std::vector<StudyRequest>& requests,
-                       const Console& console);
+void begin_nightly_run(const std::filesystem::path& folder,
+                       const std::vector<StudyRequest>& requests, const Console& console);
 
 /// Notes in the folder what the nightly run found; its presence says that the nightly run was
 /// finished.

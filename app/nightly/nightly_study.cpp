@@ -35,7 +35,7 @@ namespace {
 }  // namespace
 
 std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
-                                            StudyOptions options) {
+                                                StudyOptions options) {
   options.profile_if_there = options.one_of_several = true;
   std::vector<StudyRequest> requests;
   std::map<std::string, std::string> files;  // By the study's name.
@@ -61,13 +61,13 @@ std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& 
 std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests) {
   std::vector<NightlyStudy> studies;
   for (const StudyRequest& request : requests)
-    studies.push_back(
-        {.name = request.name, .experiment_digest = experiment_digest(study_json(request), request.name)});
+    studies.push_back({.name = request.name,
+                       .experiment_digest = experiment_digest(study_json(request), request.name)});
   return studies;
 }
 
-int make_apart(const StudyRequest& request, const fs::path& folder, int jobs, const SessionNames& names,
-               const Console& console) {
+int make_apart(const StudyRequest& request, const fs::path& folder, int jobs,
+               const SessionNames& names, const Console& console) {
   const auto make = [&] { return make_study(request, folder, jobs, names, console), kDone; };
   try {
     // No thread runs yet that the copy would lack. A nightly run that is killed takes its study

@@ -16,7 +16,7 @@ namespace mapproof {
 /// @param options      Its profile is taken of the experiments that have it.
 /// @throws IoError, InvalidInput: among others if two have one name.
 std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
-                                            StudyOptions options);
+                                                StudyOptions options);
 
 /// What the studies of a nightly run will be, before they are made: names and what they are
 /// compared by.

@@ -132,7 +132,7 @@ Figure panel_figure(const std::string& panel, const std::optional<Drawables>& fr
   Drawables drawables = read_drawables(panel);
   if (drawables.figures.empty())
     throw InvalidInput(
-        fmt::format("--panel: {} is a scene, which has no axes to share", printable(panel)));
+        fmt::format("--panel: {} is a 3-D figure, which has no axes to share", printable(panel)));
   return std::move(drawables.figures.front());
 }
 

@@ -139,7 +139,7 @@ void choose(const RenderArguments& arguments, Drawables& drawables) {
     if (found == drawables.films.end())
       throw InvalidInput(fmt::format("--animate: nothing moves in \"{}\" of {}{}", printable(id),
                                      arguments.input,
-                                     moving.empty() ? "; no scene does" : hint(id, moving)));
+                                     moving.empty() ? "; no 3-D figure does" : hint(id, moving)));
     films.push_back(*found);
   }
   drawables.films = std::move(films);
@@ -388,9 +388,10 @@ Action render_command(CLI::App& app) {
       ->expected(2, 100)
       ->type_name("INPUT")
       ->group("Input");
-  app.add_option("--animate", arguments->animations,
-                 "Animate the scenes of these ids, e.g. scene-forming-bearing; without --figure "
-                 "nothing else is drawn")
+  app.add_option(
+         "--animate", arguments->animations,
+         "Animate the 3-D figures of these ids, e.g. scene-forming-bearing; without --figure "
+         "nothing else is drawn")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("IDS")

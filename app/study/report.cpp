@@ -31,7 +31,7 @@ int report(const ReportArguments& arguments, const Invocation& invocation) {
                     .disclosure = invocation.disclosure,
                     .progress = count_progress(invocation.console, "drawing")},
                    lock);
-  invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} scenes", arguments.study,
+  invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} 3-D figures", arguments.study,
                                         view.runs, view.figures.size(), view.scenes.size()));
   invocation.console.result(path.string() + "\n", {{"study", arguments.study},
                                                    {"report", path.string()},

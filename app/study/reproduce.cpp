@@ -9,8 +9,8 @@
 
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
-#include "app/study/study_request.hpp"
 #include "app/study/study_outputs.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
@@ -35,9 +35,9 @@ struct ReproduceArguments {
 
 /// The experiment of that name, or in that file.
 ExperimentText text_of(const std::string& name, const ReproduceArguments& arguments) {
-  return is_experiment_file(name) ? experiment_of(name) : experiment_text(name, arguments.templates);
+  return is_experiment_file(name) ? experiment_of(name)
+                                  : experiment_text(name, arguments.templates);
 }
-
 
 /// The experiments that a name stands for.
 std::vector<std::string> names_of(const ReproduceArguments& arguments) {
@@ -166,7 +166,8 @@ Action reproduce_command(CLI::App& app) {
       ->required();
   add_out_option(app, arguments->out, "Folder for records, figures and report")
       ->capture_default_str();
-  app.add_option("--profile", arguments->options.profile, "One of the profiles of the experiment, such as quick; full is all of it")
+  app.add_option("--profile", arguments->options.profile,
+                 "One of the profiles of the experiment, such as quick; full is all of it")
       ->capture_default_str()
       ->group("Experiment");
   app.add_flag("--print", arguments->print, "Print the experiment's file, to be changed and run")

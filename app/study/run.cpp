@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "app/study/study_request.hpp"
 #include "app/study/study_outputs.hpp"
+#include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
 
 namespace mapproof {
@@ -30,16 +30,17 @@ std::string command_again(const RunArguments& arguments, const StudyRequest& req
 }
 
 int run(const RunArguments& arguments, const Invocation& invocation) {
-  const StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.options);
+  const StudyRequest request =
+      read_study_request(experiment_of(arguments.experiment), arguments.options);
   check_data_used({&request, 1}, arguments.options);
-  make_study(request, arguments.out, arguments.jobs,
-             {command_again(arguments, request, invocation.disclosure), invocation.disclosure.host()},
-             invocation.console);
+  make_study(
+      request, arguments.out, arguments.jobs,
+      {command_again(arguments, request, invocation.disclosure), invocation.disclosure.host()},
+      invocation.console);
   StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;
-  invocation.console.info(fmt::format(
-      "next: {} draws its figures and writes the report",
-      quoted_command({"mapproof", "report", arguments.out})));
+  invocation.console.info(fmt::format("next: {} draws its figures and writes the report",
+                                      quoted_command({"mapproof", "report", arguments.out})));
   invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
   return kDone;
 }
@@ -59,7 +60,8 @@ Action run_command(CLI::App& app) {
                  "The experiment's JSON file, or a name that reproduce takes")
       ->required();
   add_out_option(app, arguments->out, "Folder for the records")->required();
-  app.add_option("--profile", arguments->options.profile, "One of the profiles in the file, such as quick; full is all of it")
+  app.add_option("--profile", arguments->options.profile,
+                 "One of the profiles in the file, such as quick; full is all of it")
       ->capture_default_str()
       ->group("Experiment");
   add_jobs_option(app, arguments->jobs);

@@ -52,7 +52,7 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
       .methods = options.methods};
   const std::string methods = options.methods ? "\n" + read_file(*options.methods) : "";
   StudyRequest request{.digest = sha256_hex(options.profile + "\n" + file.text + methods),
-                   .plan = kind.plan(file.text, file.source, how)};
+                       .plan = kind.plan(file.text, file.source, how)};
   request.name = request.plan.name;
   return request;
 }
@@ -73,14 +73,15 @@ bool needs_data(const ExperimentText& file) {
 
 void check_data_used(std::span<const StudyRequest> requests, const StudyOptions& options) {
   const auto refuse = [&](std::string_view option, std::string_view what) {
-    throw InvalidInput(fmt::format(
-        "{}: {} {}", option,
-        requests.size() == 1 ? "the experiment " + requests.front().name : "none of the experiments",
-        what));
+    throw InvalidInput(fmt::format("{}: {} {}", option,
+                                   requests.size() == 1 ? "the experiment " + requests.front().name
+                                                        : "none of the experiments",
+                                   what));
   };
   constexpr std::string_view kNoData = "uses no such data";
   const auto uses = [&](bool StudyPlan::*data) {
-    return std::ranges::any_of(requests, [&](const StudyRequest& request) { return request.plan.*data; });
+    return std::ranges::any_of(requests,
+                               [&](const StudyRequest& request) { return request.plan.*data; });
   };
   if (options.plaza && !uses(&StudyPlan::uses_plaza)) refuse("--plaza", kNoData);
   if (options.data && !uses(&StudyPlan::uses_data)) refuse("--data", kNoData);
@@ -88,14 +89,17 @@ void check_data_used(std::span<const StudyRequest> requests, const StudyOptions&
     refuse("--methods", "takes no mapping methods of others");
 }
 
-std::vector<std::string> words_of(std::span<const StudyRequest> requests, const StudyOptions& options) {
+std::vector<std::string> words_of(std::span<const StudyRequest> requests,
+                                  const StudyOptions& options) {
   std::vector<std::string> words;
   if (!options.profile.empty() && options.profile != kFull)
     words.insert(words.end(), {"--profile", options.profile});
   // Studies of several experiments have a seed each.
   if (requests.size() == 1 || options.changes.seed)
     words.insert(words.end(), {"--seed", std::to_string(requests.front().plan.seed)});
-  const auto has_runs = [](const StudyRequest& request) { return request.plan.layouts.has_value(); };
+  const auto has_runs = [](const StudyRequest& request) {
+    return request.plan.layouts.has_value();
+  };
   if (const auto request = std::ranges::find_if(requests, has_runs); request != requests.end()) {
     const StudyPlan& plan = request->plan;
     if (options.changes.layouts)
@@ -110,7 +114,7 @@ std::vector<std::string> words_of(std::span<const StudyRequest> requests, const 
 
 std::string study_json(const StudyRequest& request) {
   return request.given.empty() ? request.plan.start(build_provenance()).text
-                             : read_file(request.given / kStudyFile);
+                               : read_file(request.given / kStudyFile);
 }
 
 }  // namespace mapproof

@@ -50,7 +50,8 @@ void check_data_used(std::span<const StudyRequest> requests, const StudyOptions&
 
 /// The words after the command and its name that give the same studies again: --profile, --seed and
 /// the rest.
-std::vector<std::string> words_of(std::span<const StudyRequest> requests, const StudyOptions& options);
+std::vector<std::string> words_of(std::span<const StudyRequest> requests,
+                                  const StudyOptions& options);
 
 /// The text of the study.json that make_study() writes. @throws InvalidInput.
 std::string study_json(const StudyRequest& request);

@@ -30,7 +30,7 @@ std::optional<Points> aligned_to(const Points& points, const Points& onto) {
   return fit_similarity(turned(both, Eigen::all), goal, Alignment::kSimilarity)(turned);
 }
 
-std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto) {
+std::optional<Points> aligned_rigidly_to(const Points& points, const Points& onto) {
   const std::vector<Eigen::Index> both = rows_of_both(points, onto);
   if (both.size() < 3) return std::nullopt;
   return fit_similarity(points(both, Eigen::all), onto(both, Eigen::all),

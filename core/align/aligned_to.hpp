@@ -13,7 +13,7 @@ namespace mapproof {
 std::optional<Points> aligned_to(const Points& points, const Points& onto);
 
 /// The same of metric points: translated, rotated and reflected alone.
-std::optional<Points> laid_rigidly_on(const Points& points, const Points& onto);
+std::optional<Points> aligned_rigidly_to(const Points& points, const Points& onto);
 
 /// How far `points`, aligned to `onto`, lie from it: root mean square over the rows that both have,
 /// in units of that of `onto` about its centre. In [0, 1]; 1 if they cannot be aligned to it.

@@ -205,17 +205,16 @@ void turn_to_minority(const IdentifiedScans& scans, const std::vector<int>& ids,
   const bool in_parts = before > 0 && after > 0;
   const std::size_t outside = before + after;
   if (outside == 0 || (in_parts ? 2 * inside <= 3 * outside : inside <= outside)) return;
-  fit.stretch = before < after
-                      ? StepStretch{fit.stretch.order, fit.stretch.end, positions.size()}
-                      : StepStretch{fit.stretch.order, 0, fit.stretch.begin};
+  fit.stretch = before < after ? StepStretch{fit.stretch.order, fit.stretch.end, positions.size()}
+                               : StepStretch{fit.stretch.order, 0, fit.stretch.begin};
   if (in_parts)
     fit.ids = corrected_ids(scans, ids, fit.fault, fit.stretch);
   else
     for (int& id : fit.ids) id = other_id(fit.fault, id);
   fit.map.positions_m.row(fit.fault.first).swap(fit.map.positions_m.row(fit.fault.second));
   if (in_parts)
-    fit.map = minimized_map(pair_items(scans.pairs, fit.ids, scans.blocks),
-                              fit.map.positions_m, fit.map.width_m);
+    fit.map = minimized_map(pair_items(scans.pairs, fit.ids, scans.blocks), fit.map.positions_m,
+                            fit.map.width_m);
 }
 
 /// A fault that gains little in many scans may be a sensor's error in one part of the hall.
@@ -288,8 +287,7 @@ AssociationCheck check_association(const DetectionLog& log,
     std::optional<HypothesisFit> fit = best_fit(scans, ids, map);
     if (!fit) break;
     const double evidence = (map.cost - fit->map.cost) / residual_variance(map);
-    if (evidence < options.least_evidence ||
-        !convincing(explained(scans, ids, map, *fit), options))
+    if (evidence < options.least_evidence || !convincing(explained(scans, ids, map, *fit), options))
       break;
     turn_to_minority(scans, ids, *fit);
     AssociationFinding finding = found(scans, ids, *fit);

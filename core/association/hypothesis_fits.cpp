@@ -292,8 +292,8 @@ AssociationHypothesis fault_of(const SharedPositions& shared, AssociationFault f
 }
 
 /// The fault in single scans of the whole log, scans being judged at `predicted_m`.
-HypothesisFit converged(const ScanLabels& of, const AssociationHypothesis& fault, const Points& start,
-                     double predicted_m, double width_m) {
+HypothesisFit converged(const ScanIds& of, const AssociationHypothesis& fault, const Points& start,
+                        double predicted_m, double width_m) {
   HypothesisFit fit;
   fit.fault = fault;
   fit.stretch = {0, 0, of.scans.positions.front().size()};
@@ -303,11 +303,11 @@ HypothesisFit converged(const ScanLabels& of, const AssociationHypothesis& fault
 
 /// Both ways of deciding which landmark has which position; of them the simpler one.
 HypothesisFit simpler_fit(const IdentifiedScans& scans, const std::vector<int>& ids,
-                         const SharedPositions& shared, double width_m) {
+                          const SharedPositions& shared, double width_m) {
   const Points& start = shared.map.positions_m;
   Points exchanged = start;
   exchanged.row(shared.first).swap(exchanged.row(shared.second));
-  const ScanLabels of{scans, ids, ids};
+  const ScanIds of{scans, ids, ids};
   const double predicted_m = shared.map.width_m;
   const AssociationHypothesis swap = fault_of(shared, AssociationFault::kSwapped);
   HypothesisFit best = converged(of, swap, start, predicted_m, width_m);
@@ -364,8 +364,8 @@ std::optional<StepStretch> stretch_of(const IdentifiedScans& scans, const std::v
 
 /// The same fault over a stretch, where detections without evidence from their scan are corrected
 /// too.
-HypothesisFit over_stretch(const IdentifiedScans& scans, const std::vector<int>& ids, HypothesisFit fit,
-                        double width_m) {
+HypothesisFit over_stretch(const IdentifiedScans& scans, const std::vector<int>& ids,
+                           HypothesisFit fit, double width_m) {
   const std::optional<StepStretch> stretch = stretch_of(scans, ids, fit);
   if (!stretch) return fit;
   HypothesisFit whole = fit;
@@ -373,8 +373,8 @@ HypothesisFit over_stretch(const IdentifiedScans& scans, const std::vector<int>&
   whole.stretch = *stretch;
   if (whole.fault.fault == AssociationFault::kInPart) whole.fault.fault = AssociationFault::kWrong;
   whole.ids = corrected_ids(scans, ids, whole.fault, *stretch);
-  whole = converged_fit({scans, ids, std::vector(whole.ids)}, whole, fit.map.positions_m,
-                          width_m, width_m);
+  whole = converged_fit({scans, ids, std::vector(whole.ids)}, whole, fit.map.positions_m, width_m,
+                        width_m);
   return whole.map.cost < kAsGood * fit.map.cost ? whole : fit;
 }
 
@@ -389,7 +389,7 @@ bool seen_in_scan(const DetectionLog& log, const std::vector<int>& ids, std::siz
 }
 
 /// What each detection costs in a map under each ID instead of its own, while the others in its
-/// scan keep theirs: detections x landmarks, zero but for those with the ID `label`.
+/// scan keep theirs: detections x landmarks, zero but for those with the ID `ids`.
 Eigen::MatrixXd id_costs(const IdentifiedScans& scans, const std::vector<int>& ids,
                          const RobustMap& map, int id) {
   const Eigen::Index M = map.positions_m.rows();
@@ -476,7 +476,7 @@ RobustMap refolded_map(const IdentifiedScans& scans, const std::vector<PairItem>
 
 /// The fault over the stretch of steps that its map yields.
 HypothesisFit sharp_fit(const IdentifiedScans& scans, const std::vector<int>& ids,
-                       const AssociationHypothesis& one, RobustMap map) {
+                        const AssociationHypothesis& one, RobustMap map) {
   HypothesisFit fit{one, refined_width(scans, ids, one, map), {}, std::move(map)};
   fit.ids = corrected_ids(scans, ids, one, fit.stretch);
   fit.fault.first_m = fit.map.positions_m.row(one.first);
@@ -510,7 +510,7 @@ std::vector<AssociationHypothesis> worth_a_map(const IdentifiedScans& scans,
 }  // namespace
 
 std::optional<HypothesisFit> best_fit(const IdentifiedScans& scans, const std::vector<int>& ids,
-                                     const RobustMap& map) {
+                                      const RobustMap& map) {
   const std::vector<PairItem> items = pair_items(scans.pairs, ids, scans.blocks);
   std::map<AssociationFault, std::pair<AssociationHypothesis, RobustMap>> best;
   for (const AssociationHypothesis& one : worth_a_map(scans, items, map)) {
@@ -523,14 +523,14 @@ std::optional<HypothesisFit> best_fit(const IdentifiedScans& scans, const std::v
   for (const auto& [fault, found] : best) {
     HypothesisFit fit = sharp_fit(scans, ids, found.first, found.second);
     fit = converged_fit({scans, ids, std::vector(fit.ids)}, fit, fit.map.positions_m,
-                            fit.map.width_m, map.width_m);
+                        fit.map.width_m, map.width_m);
     fit = plainest(scans, ids, std::move(fit));
     if (fit.map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(fit);
   }
   std::optional<HypothesisFit> mixed = mixed_fit(scans, ids, map);
   if (mixed)
-    mixed = converged_fit({scans, ids, ids}, *mixed, mixed->map.positions_m, map.width_m,
-                            map.width_m);
+    mixed =
+        converged_fit({scans, ids, ids}, *mixed, mixed->map.positions_m, map.width_m, map.width_m);
   if (mixed && mixed->map.cost < (lowest ? lowest->map.cost : map.cost)) lowest = std::move(mixed);
   std::optional<HypothesisFit> scattered = scattered_fit(scans, ids, map);
   if (scattered && scattered->map.cost < (lowest ? kPlainer * lowest->map.cost : map.cost))
@@ -539,7 +539,7 @@ std::optional<HypothesisFit> best_fit(const IdentifiedScans& scans, const std::v
 }
 
 std::optional<HypothesisFit> mixed_fit(const IdentifiedScans& scans, const std::vector<int>& ids,
-                                      const RobustMap& map) {
+                                       const RobustMap& map) {
   const double much = 8.0 * residual_variance(map);
   const auto M = static_cast<int>(map.positions_m.rows());
   HypothesisFit best;
@@ -571,7 +571,8 @@ std::optional<HypothesisFit> mixed_fit(const IdentifiedScans& scans, const std::
   return best;
 }
 
-HypothesisFit plainest(const IdentifiedScans& scans, const std::vector<int>& ids, HypothesisFit fit) {
+HypothesisFit plainest(const IdentifiedScans& scans, const std::vector<int>& ids,
+                       HypothesisFit fit) {
   if (fit.fault.fault != AssociationFault::kSwapped) return fit;
   const Changes changes = changes_of(ids, fit);
   if (!changes.one_sided()) return fit;
@@ -585,12 +586,12 @@ HypothesisFit plainest(const IdentifiedScans& scans, const std::vector<int>& ids
     if (ids[k] != simple.fault.first) simple.ids[k] = ids[k];
   const double width_m = fit.map.width_m;
   simple = converged_fit({scans, ids, std::vector(simple.ids)}, simple, fit.map.positions_m,
-                           width_m, width_m);
+                         width_m, width_m);
   return simple.map.cost < kAsGood * fit.map.cost ? simple : fit;
 }
 
-std::optional<HypothesisFit> scattered_fit(const IdentifiedScans& scans, const std::vector<int>& ids,
-                                          const RobustMap& map) {
+std::optional<HypothesisFit> scattered_fit(const IdentifiedScans& scans,
+                                           const std::vector<int>& ids, const RobustMap& map) {
   std::optional<HypothesisFit> best;
   const std::vector<SharedPositions> all = shared_positions(scans, ids, map, kSettledPairs);
   for (const SharedPositions& shared : all) {

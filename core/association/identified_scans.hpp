@@ -32,7 +32,7 @@ struct StepStretch {
 /// The stretch of the greatest sum, in one pass. @param gains  Of each index of that order.
 StepStretch greatest_sum(std::size_t order, const Eigen::VectorXd& gains);
 
-/// The landmark of a detection under `label` where the fault holds.
+/// The landmark of a detection under `ids` where the fault holds.
 int other_id(const AssociationHypothesis& one, int id);
 
 /// The IDs with the fault corrected over the stretch; a landmark is seen at most once in a scan.

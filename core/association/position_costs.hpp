@@ -22,9 +22,9 @@ struct PositionCosts {
 };
 
 /// @param map  Its width is that of the cost; unmapped landmarks are partners of no landmark.
-/// @param labels  The IDs to cost, each a row of the map.
+/// @param ids  The IDs to cost, each a row of the map.
 /// @param side  Of the grid, points, >= 2.
-/// @note O(items * side^2) time; 4 * side^2 * blocks * labels bytes.
+/// @note O(items * side^2) time; 4 * side^2 * blocks * ids bytes.
 PositionCosts position_costs(const std::vector<PairItem>& items, const RobustMap& map, int blocks,
                              const std::vector<int>& ids, int side = 20);
 

@@ -19,7 +19,7 @@ struct PairItem {
 };
 
 /// The medians of a log's pairs, block by block, under the given IDs.
-/// @param labels  The landmark ID of each detection; pairs of one landmark with itself are left
+/// @param ids  The landmark ID of each detection; pairs of one landmark with itself are left
 ///         out.
 /// @param most_scans  Scans beyond which a block gives a pair no more weight: a robot that stands
 ///         still repeats the same measurements.

@@ -24,7 +24,7 @@ constexpr double kLeastExtent = 0.15;
 
 }  // namespace
 
-std::vector<int> ids_scan_by_scan(const ScanLabels& of, const AssociationHypothesis& fault,
+std::vector<int> ids_scan_by_scan(const ScanIds& of, const AssociationHypothesis& fault,
                                   const Points& map, double width_m) {
   const auto& [scans, given, ids] = of;
   const double price = kPrice * width_m * width_m / (kScanWidths * kScanWidths);
@@ -52,8 +52,8 @@ std::vector<int> ids_scan_by_scan(const ScanLabels& of, const AssociationHypothe
   return result;
 }
 
-HypothesisFit converged_fit(const ScanLabels& of, HypothesisFit fit, const Points& start,
-                           double predicted_m, double width_m) {
+HypothesisFit converged_fit(const ScanIds& of, HypothesisFit fit, const Points& start,
+                            double predicted_m, double width_m) {
   const IdentifiedScans& scans = of.scans;
   fit.map.positions_m = turned_as_seen(scans, of.ids, start);
   fit.ids = of.ids;

@@ -18,7 +18,7 @@ struct HypothesisFit {
 };
 
 /// The scans of a log with their landmark IDs; all three must outlive it.
-struct ScanLabels {
+struct ScanIds {
   const IdentifiedScans& scans;
   const std::vector<int>& given;  ///< The IDs before the fault is corrected.
   const std::vector<int>& ids;    ///< The current ones: they stay where a scan gives no evidence.
@@ -27,21 +27,21 @@ struct ScanLabels {
 /// Reassigns two IDs scan by scan, each scan as it costs less in a map.
 ///
 /// kSwapped: in a scan both are exchanged, or neither; else detections under the first ID may be of
-/// the second landmark, unless that is in the scan. An ID other than that in `labels` must gain two
+/// the second landmark, unless that is in the scan. An ID other than that in `ids` must gain two
 /// variances.
 /// @param map  Reflected as seen (see scan_costs.hpp).
 /// @note Linear in detections.
-std::vector<int> ids_scan_by_scan(const ScanLabels& of, const AssociationHypothesis& fault,
+std::vector<int> ids_scan_by_scan(const ScanIds& of, const AssociationHypothesis& fault,
                                   const Points& map, double width_m);
 
 /// Alternates between reassigning both IDs and minimizing the map's cost until no ID changes.
 /// @param start  M x 2: the initial map.
 /// @param predicted_m  Width of Huber's cost by which scans are judged; the map's is `width_m`.
-HypothesisFit converged_fit(const ScanLabels& of, HypothesisFit fit, const Points& start,
-                           double predicted_m, double width_m);
+HypothesisFit converged_fit(const ScanIds& of, HypothesisFit fit, const Points& start,
+                            double predicted_m, double width_m);
 
 /// The map, or its reflection, so that its landmarks have the orientation that the scans show.
-/// @param labels  The landmark ID of each detection.
+/// @param ids  The landmark ID of each detection.
 Points turned_as_seen(const IdentifiedScans& scans, const std::vector<int>& ids, Points map);
 
 /// What the detections of one scan cost in a map under different IDs, given the IDs of the others.

@@ -12,10 +12,10 @@ namespace mapproof {
 std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
                                AffineFit fit) {
   if (frame.keeps_scale) {
-    if (frame.anchors.empty()) return laid_rigidly_on(coordinates, frame.positions_m);
+    if (frame.anchors.empty()) return aligned_rigidly_to(coordinates, frame.positions_m);
     Points known = Points::Constant(coordinates.rows(), 2, kNaN);
     known(frame.anchors, Eigen::all) = frame.positions_m(frame.anchors, Eigen::all);
-    return laid_rigidly_on(coordinates, known);
+    return aligned_rigidly_to(coordinates, known);
   }
   if (!frame.anchors.empty()) {
     AlignedMap map = align_to_anchors(coordinates, frame.positions_m, frame.anchors, fit);

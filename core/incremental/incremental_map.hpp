@@ -84,8 +84,8 @@ struct IncrementalUpdate {
 /// An incremental map of observations that arrive in time. A step costs its pairs; an update costs
 /// O(M^2) and the method's own time, independent of the number of steps.
 ///
-/// Each update is the map of the whole history by the same method, within kIncrementalWithin: it has
-/// the same start. To continue from the last map would save iterations, but stress has several
+/// Each update is the map of the whole history by the same method, within kIncrementalWithin: it
+/// has the same start. To continue from the last map would save iterations, but stress has several
 /// minima, and no available test determines which of them the whole history leads to.
 class IncrementalMap {
  public:

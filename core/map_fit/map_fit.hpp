@@ -11,9 +11,9 @@
 
 namespace mapproof {
 
-// When a test of a map of range and bearing is an alarm. The bounds are set between what 72 sound
-// logs of MRCLAM show (sets 1, 2, 3 and 6, their robots and the halves of both) and what faults put
-// into them do: docs/methods/map-fit.md has both.
+// When a test of a map of range and bearing is an alarm. The bounds are set between what 72
+// fault-free logs of MRCLAM show (sets 1, 2, 3 and 6, their robots and the halves of both) and what
+// faults put into them do: docs/methods/map-fit.md has both.
 inline constexpr double kMostGross = 0.05;     ///< ScatterFit::gross.
 inline constexpr double kMostRelative = 0.12;  ///< ScatterFit::relative, if the tail is heavy,
 inline constexpr double kMostTail = 3.3;       ///< ScatterFit::tail, if the scatter is large.
@@ -55,9 +55,9 @@ inline constexpr int kFewestStepsToTest = 60;         ///< For tests over time.
 /// vectors before are compared with those after.
 ///
 /// kIdsExchanged: two landmarks whose distances to the others agree better if their IDs are
-/// exchanged after some time. kWeakBridge, kDisconnected: groups of landmarks with few common
-/// steps, or none. With five known positions or more: what an affine fit of the map misses them by,
-/// and whether one of them, or an exchange of two, explains it.
+/// exchanged after some time. kWeakBridge, kDisconnected: groups of landmarks with few steps
+/// in common, or none. With five known positions or more: what an affine fit of the map misses them
+/// by, and whether one of them, or an exchange of two, explains it.
 /// @param map  M x 2, in any affine frame; NaN rows: not mapped.
 /// @param known_m  M x 2; NaN rows: unknown.
 /// @param most_known_share  Bound of kKnownLandmarksAtOdds. Some methods are far off in sound

@@ -77,7 +77,7 @@ std::vector<double> levels_of(const TopicSetup& setup);
 Condition condition_at(const TopicSetup& setup, double level);
 
 /// One of what is compared with each other: a method, a criterion, a sensor.
-struct ComparedMethod {
+struct StudiedMethod {
   std::string id;     ///< [a-z][A-Za-z0-9.+-]*; a method's is slug(): "isomap-K6", "ppca-isomap".
   std::string label;  ///< "ISOMAP, K = 6".
 };
@@ -95,7 +95,7 @@ struct TopicOption {
 /// What the study of a topic compares, in the order of its tables.
 struct TopicDesign {
   std::vector<TopicSetup> setups;
-  std::vector<ComparedMethod> methods;
+  std::vector<StudiedMethod> methods;
   std::vector<Quantity> quantities;  ///< By which outcomes are judged: study_quantity().
 };
 
@@ -139,7 +139,7 @@ struct TopicPart {
   std::string id;            ///< slug(run), or the data set's: "dataset2".
   std::optional<RunId> run;  ///< Of a simulated one; means and intervals go over those alone.
   std::vector<TopicOutcome> outcomes;
-  std::vector<TopicMap> maps;         ///< Of few parts: the first run's.
+  std::vector<TopicMap> maps;          ///< Of few parts: the first run's.
   std::vector<MethodSeconds> seconds;  ///< Vary from run to run; kept in timings.jsonl.
 };
 
@@ -168,7 +168,7 @@ struct TopicExperiment {
   std::map<std::string, std::vector<double>> options;  ///< Every one of the topic's.
   std::vector<SensorStudy> sensors = {};  ///< Of a topic that sweeps; `steps` is the checkpoint.
   std::vector<Sweep> sweeps = {};         ///< Likewise.
-  std::vector<DataSet> data = {};    ///< Of a topic of data: what was there.
+  std::vector<DataSet> data = {};         ///< Of a topic of data: what was there.
 };
 
 /// An experiment's option. @throws InvalidInput if the experiment does not have it.

@@ -99,8 +99,8 @@ std::vector<SeenOrientation> seen_turns(const DetectionLog& log) {
   return turns;
 }
 
-std::vector<SeenOrientation> turned_otherwise(const std::vector<SeenOrientation>& turns,
-                                              const Points& map) {
+std::vector<SeenOrientation> at_other_orientation(const std::vector<SeenOrientation>& turns,
+                                                  const Points& map) {
   constexpr double kClear = 0.8;
   std::vector<SeenOrientation> alike;
   std::vector<SeenOrientation> mirrored;
@@ -115,8 +115,8 @@ std::vector<SeenOrientation> turned_otherwise(const std::vector<SeenOrientation>
   return scans(alike) < scans(mirrored) ? alike : mirrored;
 }
 
-double scans_turned_otherwise(const std::vector<SeenOrientation>& turns, const Points& map,
-                              double most_scans) {
+double scans_at_other_orientation(const std::vector<SeenOrientation>& turns, const Points& map,
+                                  double most_scans) {
   double alike = 0.0;
   double mirrored = 0.0;
   for (const SeenOrientation& one : turns) {

@@ -30,14 +30,14 @@ std::vector<SeenOrientation> seen_turns(const DetectionLog& log);
 
 /// The triples whose orientation on the map, or on its reflection if that has fewer, differs from
 /// the scans', and whose three landmarks clearly are not on one line.
-std::vector<SeenOrientation> turned_otherwise(const std::vector<SeenOrientation>& turns,
-                                              const Points& map);
+std::vector<SeenOrientation> at_other_orientation(const std::vector<SeenOrientation>& turns,
+                                                  const Points& map);
 
 /// In how many scans the orientation differs from the map's, or from its reflection's if that is
 /// less.
 /// @param most_scans  More scans of a triple do not count.
 /// @param map  M x 2; triples with NaN rows do not count.
-double scans_turned_otherwise(const std::vector<SeenOrientation>& turns, const Points& map,
-                              double most_scans);
+double scans_at_other_orientation(const std::vector<SeenOrientation>& turns, const Points& map,
+                                  double most_scans);
 
 }  // namespace mapproof

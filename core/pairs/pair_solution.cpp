@@ -41,7 +41,7 @@ class Judge {
   }
 
   double cost(const PairSolution& one) const {
-    double sum = scans_turned_otherwise(turns_, one.map.coordinates, kMostSay);
+    double sum = scans_at_other_orientation(turns_, one.map.coordinates, kMostSay);
     for (std::size_t k = 0; k < pairs_.size(); ++k) {
       const double off = one.residuals[k] / width_;
       sum += std::min(pairs_[k].scans, kMostSay) * off * off / (1.0 + off * off);
@@ -117,7 +117,7 @@ class Unfolding {
   /// again.
   std::vector<PairSolution> refolded(const PairSolution& from) {
     const Points& map = from.map.coordinates;
-    std::vector<SeenOrientation> wrong = turned_otherwise(turns_, map);
+    std::vector<SeenOrientation> wrong = at_other_orientation(turns_, map);
     std::ranges::stable_sort(wrong, std::ranges::greater(), &SeenOrientation::scans);
     wrong.resize(std::min(wrong.size(), kTriedTurns));
     std::set<std::vector<Eigen::Index>> tried;

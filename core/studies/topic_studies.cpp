@@ -37,7 +37,7 @@ TopicPart named(TopicPart part, const std::string& id) {
 
 /// What the tasks share.
 struct PlannedTopicStudy {
-  TopicInput input;
+  ExperimentWithData input;
   TopicDesign design;
 };
 
@@ -64,13 +64,14 @@ void add_run_tasks(const std::shared_ptr<const PlannedTopicStudy>& planned, Stud
 }
 
 StudyPlan plan_topic_study(std::string_view text, const std::string& source,
-                      const PlanOptions& options) {
+                           const PlanOptions& options) {
   TopicExperiment experiment =
       parse_topic_experiment(text, source, input_of_topics(), options.profile);
   const bool of_data = topic_named(experiment.topic)->of_data;
   apply(of_data && options.one_of_several ? seed_alone(options.changes) : options.changes,
         experiment, of_data);
-  TopicInput input = with_data(std::move(experiment), of_data ? options.data : std::nullopt);
+  ExperimentWithData input =
+      with_data(std::move(experiment), of_data ? options.data : std::nullopt);
   TopicDesign design = planned_study(input.experiment, {}).design;
   const auto planned = std::make_shared<const PlannedTopicStudy>(
       PlannedTopicStudy{.input = std::move(input), .design = std::move(design)});
@@ -94,12 +95,12 @@ bool needs_data(std::string_view text, const std::string& source) {
 }
 
 void read_topic_parts(const fs::path& folder, const std::string& text, const ContentsAsked& asked,
-                 StudyContents& contents) {
+                      StudyContents& contents) {
   TopicStudy study = parse_topic_study(text, (folder / "study.json").string());
   contents.provenance = study.provenance;
   for (const TopicSetup& setup : study.design.setups)
     contents.labels.setups[setup.id] = setup.title;
-  for (const ComparedMethod& method : study.design.methods)
+  for (const StudiedMethod& method : study.design.methods)
     contents.labels.methods[method.id] = method.label;
   for (const fs::path& path : part_files(folder)) {
     contents.runs[path.stem().string()] = "";
@@ -134,8 +135,8 @@ InputOfTopic input_of_topics() {
   };
 }
 
-TopicInput with_data(TopicExperiment experiment,
-                     const std::optional<std::filesystem::path>& folder) {
+ExperimentWithData with_data(TopicExperiment experiment,
+                             const std::optional<std::filesystem::path>& folder) {
   const Topic& topic = topic_of(experiment);
   if (!topic.of_data) {
     if (folder)
@@ -146,7 +147,7 @@ TopicInput with_data(TopicExperiment experiment,
   if (!folder)
     throw InvalidInput(fmt::format(
         "the experiment {} is made of data: give their folder by --data DIR", experiment.name));
-  TopicInput input{.experiment = std::move(experiment), .data = topic.data_sets(*folder)};
+  ExperimentWithData input{.experiment = std::move(experiment), .data = topic.data_sets(*folder)};
   if (input.data.empty()) throw IoError(folder->string(), "holds no data of the experiment");
   for (const DataSetFolder& data : input.data) input.experiment.data.push_back(data.set);
   return input;

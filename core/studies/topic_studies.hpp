@@ -15,7 +15,7 @@ namespace mapproof {
 InputOfTopic input_of_topics();
 
 /// An experiment with the data sets that it is made of, if its topic wants any.
-struct TopicInput {
+struct ExperimentWithData {
   TopicExperiment experiment;
   std::vector<DataSetFolder> data;
 };
@@ -23,8 +23,8 @@ struct TopicInput {
 /// Looks up the data sets of an experiment's topic, and notes them in the experiment.
 /// @param folder  Of the data; must be given exactly if the topic is of data.
 /// @throws InvalidInput if it is not; IoError if it holds no set.
-TopicInput with_data(TopicExperiment experiment,
-                     const std::optional<std::filesystem::path>& folder);
+ExperimentWithData with_data(TopicExperiment experiment,
+                             const std::optional<std::filesystem::path>& folder);
 
 /// A study of the experiment without any part yet. @throws InvalidInput if there is no such topic.
 TopicStudy planned_study(const TopicExperiment& experiment, const Provenance& provenance);

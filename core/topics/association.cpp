@@ -36,8 +36,8 @@ TopicDesign association_design(const TopicExperiment& experiment) {
                    {kConfused, "Measurements under a wrong landmark ID, not known which", factors},
                    {kStretches, "Landmarks confused over stretches, not known which", factors}};
   design.methods = {{kGiven, "Landmark IDs as given"},
-                   {kLeftOut, "Doubtful measurements left out"},
-                   {kEstimated, "Data association estimated"}};
+                    {kLeftOut, "Doubtful measurements left out"},
+                    {kEstimated, "Data association estimated"}};
   design.quantities = {
       study_quantity("correct_percent", "Confused IDs corrected", "%", Better::kHigher),
       known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent")};
@@ -141,11 +141,11 @@ class ConfusedMaps {
                                      context_.anchors, AffineFit::kLeastSquares);
     const double none = kNaN;
     TopicOutcome outcome{.at = condition_at(setup_, level_),
-                .method = method,
-                .values = {{"mpe_m", map.score ? map.score->mpe_m : none},
-                           {"moe_unmirrored_percent",
-                            map.score ? map.score->moe_unmirrored_percent : none}},
-                .statuses = map.statuses};
+                         .method = method,
+                         .values = {{"mpe_m", map.score ? map.score->mpe_m : none},
+                                    {"moe_unmirrored_percent",
+                                     map.score ? map.score->moe_unmirrored_percent : none}},
+                         .statuses = map.statuses};
     if (outcome.method == kEstimated)
       if (const auto correct = correct_percent(history, ground_truth_, confused.history))
         outcome.values["correct_percent"] = *correct;

@@ -98,7 +98,7 @@ class WalkedWorld {
   /// Confidence ellipses of the first walks, and their coverage.
   /// @param blocks  Their length in units of the usual one.
   TopicOutcome tried(const MethodSetting& setting, Eigen::Index steps, double blocks,
-              TopicPart& part) const {
+                     TopicPart& part) const {
     const Clock::time_point start = Clock::now();
     HistoryCertaintyOptions options{.setting = setting, .embedder = {}};
     options.replicates = static_cast<int>(number_option(context_.experiment, "replicates"));
@@ -155,7 +155,8 @@ class WalkedWorld {
   std::vector<ObservationHistory> histories_;
 };
 
-void add(TopicPart& part, TopicOutcome outcome, const char* setup, const std::string& factor, double level) {
+void add(TopicPart& part, TopicOutcome outcome, const char* setup, const std::string& factor,
+         double level) {
   outcome.at = condition(setup, {{.factor = factor, .value = level}});
   part.outcomes.push_back(std::move(outcome));
 }

@@ -102,11 +102,12 @@ class Picks {
 
  private:
   /// @param shape_error  Empty: the criterion does not apply without anchors.
-  TopicOutcome outcome(std::string_view method, double error, std::optional<double> shape_error) const {
+  TopicOutcome outcome(std::string_view method, double error,
+                       std::optional<double> shape_error) const {
     TopicOutcome outcome{.at = {},
-                .method = std::string(method),
-                .values = {{"regret_m", error - errors_.best}, {"mpe_m", error}},
-                .statuses = {}};
+                         .method = std::string(method),
+                         .values = {{"regret_m", error - errors_.best}, {"mpe_m", error}},
+                         .statuses = {}};
     if (shape_error) outcome.values["regret_shape_m"] = *shape_error - shape_errors_.best;
     return outcome;
   }

@@ -122,7 +122,8 @@ TopicOutcome fault_free_outcome(const TopicTask& context, const RangeDriveOption
   Random random(derive_seed(context.seed, {2}));
   const RangeLog log = simulate_drive(options, {}, random);
   const LogFit fit = fit_log(log, {}, fit_options(context, false));
-  TopicOutcome outcome{.at = condition("sound"), .method = kDoubtMethod, .values = {}, .statuses = {}};
+  TopicOutcome outcome{
+      .at = condition("sound"), .method = kDoubtMethod, .values = {}, .statuses = {}};
   outcome.values["alarm_percent"] = fit.fit.verdict == FitVerdict::kFits ? 0.0 : 100.0;
   outcome.values["denied_percent"] = fit.fit.verdict == FitVerdict::kDoesNotFit ? 100.0 : 0.0;
   if (fit.fit.verdict == FitVerdict::kFits) add_coverage(fit, *log.true_landmarks, outcome);
@@ -130,7 +131,7 @@ TopicOutcome fault_free_outcome(const TopicTask& context, const RangeDriveOption
 }
 
 TopicOutcome fault_outcome(const TopicTask& context, const RangeDriveOptions& options,
-                  const DoubtFault& fault, double percent) {
+                           const DoubtFault& fault, double percent) {
   Random random(derive_seed(context.seed, {2}));
   DriveFaults faults;
   faults.*fault.what = std::min(fault.most, fault.full * percent / 100.0);

@@ -75,7 +75,7 @@ struct Differences {
 
 /// Maps one history incrementally from its first step to its last by one method.
 void add_maps(const TopicTask& context, const MethodSetting& setting,
-            const ObservationHistory& history, TopicPart& part) {
+              const ObservationHistory& history, TopicPart& part) {
   const auto every = static_cast<Eigen::Index>(number_option(context.experiment, "every"));
   const std::vector<double>& levels = list_option(context.experiment, "observations");
   const std::string setup{name(history.sensor)};
@@ -99,21 +99,21 @@ void add_maps(const TopicTask& context, const MethodSetting& setting,
     differences.add(relative_gap(update.coordinates, whole.coordinates));
     const auto outcome = [&](const std::string& method, std::map<std::string, double> values) {
       part.outcomes.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),
-                                                      .value = static_cast<double>(t)}}),
-                             .method = method,
-                             .values = std::move(values),
-                             .statuses = {}});
+                                                        .value = static_cast<double>(t)}}),
+                               .method = method,
+                               .values = std::move(values),
+                               .statuses = {}});
     };
     if (asked) {
       outcome(slug(setting), {{"gap_ppm", 1e6 * differences.last},
-                            {"greatest_gap_ppm", 1e6 * differences.greatest},
-                            {"beyond_percent",
-                             100.0 * differences.beyond / static_cast<double>(differences.updates)},
-                            {"steps_gone_through", static_cast<double>(t - before)}});
+                              {"greatest_gap_ppm", 1e6 * differences.greatest},
+                              {"beyond_percent", 100.0 * differences.beyond /
+                                                     static_cast<double>(differences.updates)},
+                              {"steps_gone_through", static_cast<double>(t - before)}});
       outcome(resampled_method(setting), {{"gap_ppm", 0.0},
-                                        {"greatest_gap_ppm", 0.0},
-                                        {"beyond_percent", 0.0},
-                                        {"steps_gone_through", static_cast<double>(t)}});
+                                          {"greatest_gap_ppm", 0.0},
+                                          {"beyond_percent", 0.0},
+                                          {"steps_gone_through", static_cast<double>(t)}});
     }
     before = t;
   }
@@ -128,7 +128,8 @@ TopicPart make_incremental(const TopicTask& context) {
     options.sensor = sensor;
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
     const ObservationHistory history = observe(*context.world, *context.path, options, noise);
-    for (const MethodSetting& setting : kIncrementalSettings) add_maps(context, setting, history, part);
+    for (const MethodSetting& setting : kIncrementalSettings)
+      add_maps(context, setting, history, part);
   }
   return part;
 }

@@ -124,8 +124,9 @@ class IncompleteHistory {
     const Filling filling =
         advice.way == MissingStrategy::kPpca ? Filling::kPpca : Filling::kCommonSteps;
     const std::string id = method_id(filling, smacof_of(context_.experiment));
-    const auto found = std::ranges::find_if(
-        part_.outcomes, [&](const TopicOutcome& outcome) { return outcome.method == id && outcome.at == at(); });
+    const auto found = std::ranges::find_if(part_.outcomes, [&](const TopicOutcome& outcome) {
+      return outcome.method == id && outcome.at == at();
+    });
     if (found == part_.outcomes.end()) return;
     TopicOutcome outcome = *found;
     outcome.method = kAuto;

@@ -150,15 +150,15 @@ TopicPart make_moved(const TopicTask& context) {
   const double usual = number_option(context.experiment, "noise");
   for (const double length : list_option(context.experiment, "distances_m"))
     part.outcomes.push_back({condition(kDistance, {{kMovedFactor, length}}),
-                           kTest,
-                           tallied(context, length, usual, random, part).values(length > 0.0),
-                           {}});
+                             kTest,
+                             tallied(context, length, usual, random, part).values(length > 0.0),
+                             {}});
   const double length = number_option(context.experiment, "distance_m");
   for (const double noise : list_option(context.experiment, "noises"))
     part.outcomes.push_back({condition(kNoise, {{kNoiseShare, noise}}),
-                           kTest,
-                           tallied(context, length, noise, random, part).values(length > 0.0),
-                           {}});
+                             kTest,
+                             tallied(context, length, noise, random, part).values(length > 0.0),
+                             {}});
   return part;
 }
 

@@ -334,8 +334,8 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
 }
 
 /// @param outcome  Its setup and method are given.
-TopicOutcome scored_outcome(TopicOutcome outcome, const RealWay& way, const RealSet& set, const Made& made,
-                   const MapRecord& map) {
+TopicOutcome scored_outcome(TopicOutcome outcome, const RealWay& way, const RealSet& set,
+                            const Made& made, const MapRecord& map) {
   const Points& own = made.embedding.coordinates;
   outcome.statuses = map.statuses;
   outcome.values["mapped"] =
@@ -366,7 +366,7 @@ void add_way(const RealWay& way, const RealSet& set, const TopicTask& context, T
                  .certainty = {}};
   part.outcomes.push_back(
       scored_outcome({.at = condition(kSetup), .method = way.id, .values = {}, .statuses = {}}, way,
-                   set, made, shown.map));
+                     set, made, shown.map));
   // The last strategy is the final one for pairs: its map shows them and its uncertainty.
   const bool is_last = &way == &kWays[std::size(kWays) - 1];
   if (!is_last) shown.pairs.clear();
@@ -396,7 +396,7 @@ void add_labels(const RealSet& set, const TopicTask& context, TopicPart& part) {
         {context.part, method, std::chrono::duration<double>(Clock::now() - start).count()});
     part.outcomes.push_back(
         scored_outcome({.at = condition(kLabels), .method = method, .values = {}, .statuses = {}},
-                     way, other, made, record_of(way, other, made)));
+                       way, other, made, record_of(way, other, made)));
   };
   for (const SpoiltIds& spoilt : spoilt_ids(set.source.log, context.seed)) {
     add(spoilt.id, spoilt.log, Clock::now());

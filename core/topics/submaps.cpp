@@ -21,7 +21,8 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kSize = "size";
 constexpr const char* kOverlap = "overlap";
 constexpr const char* kSubmapsRange = "sensor-range";
-constexpr const char* kFilled = "-filled";  ///< Ends the id of a method whose missing data PPCA fills.
+constexpr const char* kFilled =
+    "-filled";  ///< Ends the id of a method whose missing data PPCA fills.
 
 std::vector<MethodSetting> settings_of(const TopicExperiment& experiment) {
   const double K = number_option(experiment, "neighbours");
@@ -53,7 +54,7 @@ TopicDesign submaps_design(const TopicExperiment& experiment) {
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(experiment))
       design.methods.push_back({method_id(whole, setting),
-                               fmt::format("{}, {}", whole ? "Whole" : "Parts", label(setting))});
+                                fmt::format("{}, {}", whole ? "Whole" : "Parts", label(setting))});
   for (const bool whole : {true, false}) {
     const MethodSetting setting = settings_of(experiment).front();
     design.methods.push_back(
@@ -99,12 +100,12 @@ class SubmapOutcomes {
     const double mapped = 100.0 * map.positions_m.array().col(0).isFinite().cast<double>().mean();
     const double unknown = kNaN;
     TopicOutcome outcome{.at = at,
-                .method = method,
-                .values = {{"mpe_m", map.score ? map.score->mpe_m : unknown},
-                           {"moe_unmirrored_percent",
-                            map.score ? map.score->moe_unmirrored_percent : unknown},
-                           {"mapped_percent", mapped}},
-                .statuses = map.statuses};
+                         .method = method,
+                         .values = {{"mpe_m", map.score ? map.score->mpe_m : unknown},
+                                    {"moe_unmirrored_percent",
+                                     map.score ? map.score->moe_unmirrored_percent : unknown},
+                                    {"mapped_percent", mapped}},
+                         .statuses = map.statuses};
     if (!way.whole && !std::isnan(made.median_residual))
       outcome.values["residual_percent"] = 100.0 * made.median_residual;
     part_.outcomes.push_back(std::move(outcome));
@@ -147,10 +148,10 @@ TopicPart make_submaps(const TopicTask& context) {
       Way way{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()}, .whole = true};
       way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                 way);
+                   way);
       way.whole = false;
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                 way);
+                   way);
     }
   return part;
 }

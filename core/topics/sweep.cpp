@@ -52,7 +52,8 @@ TopicDesign sweep_design(const TopicExperiment& experiment) {
   for (SweptSetup& swept : setups_of(experiment)) design.setups.push_back(std::move(swept.setup));
   for (const SensorStudy& sensor : experiment.sensors)
     for (const MethodSetting& setting : settings_of(sensor))
-      if (std::ranges::find(design.methods, slug(setting), &ComparedMethod::id) == design.methods.end())
+      if (std::ranges::find(design.methods, slug(setting), &StudiedMethod::id) ==
+          design.methods.end())
         design.methods.push_back({slug(setting), label(setting)});
   design.quantities = {known_quantity("mpe_m"), known_quantity("moe_percent")};
   return design;
@@ -71,10 +72,10 @@ void map_at(const Experiment& experiment, const TopicTask& context, const Condit
                                      experiment.affine_fit);
     add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
     part.outcomes.push_back({.at = at,
-                           .method = slug(setting),
-                           .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
-                                      {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
-                           .statuses = map.statuses});
+                             .method = slug(setting),
+                             .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},
+                                        {"moe_percent", map.score ? map.score->moe_percent : kNaN}},
+                             .statuses = map.statuses});
   }
 }
 

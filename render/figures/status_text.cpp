@@ -394,7 +394,7 @@ const std::map<StatusReason, std::string (*)(const Reason&)> kSentences = {
      [](const Reason& of) -> std::string {
        return fmt::format("The least squares had not converged after {} iterations.", of(0));
      }},
-    {StatusReason::kNoStepLowered,
+    {StatusReason::kNoDecreasingStep,
      [](const Reason&) -> std::string {
        return "No step decreased the cost: this is the initial guess, aligned to the odometry.";
      }},

@@ -46,7 +46,7 @@ std::string words_of_missing(const Displacements& found) {
                     found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far));
   if (found.missing > 0)
     text += fmt::format(
-        "{}{} no place", text.empty() ? "" : " and ",
+        "{}{} no position", text.empty() ? "" : " and ",
         found.missing == 1 ? "1 landmark has" : fmt::format("{} landmarks have", found.missing));
   return text.empty() ? text : text + ".";
 }

@@ -151,16 +151,17 @@ class SpaceScene {
       if ((p - middle).norm() < box_.size()) tube.points.push_back(p);
     const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
     if (far > 0)
-      scene_.notes.push_back({fmt::format("{}: {} far outside.", title,
-                                          far == 1 ? "1 estimated position is"
-                                                   : fmt::format("{} estimated positions are", far)),
-                              ThemeColour::kWarning});
+      scene_.notes.push_back(
+          {fmt::format("{}: {} far outside.", title,
+                       far == 1 ? "1 estimated position is"
+                                : fmt::format("{} estimated positions are", far)),
+           ThemeColour::kWarning});
     if (tube.points.size() > 1) add(std::move(tube));
   }
 
   std::string rods_label() const {
-    if (factor_ == 1.0) return "true to estimated place";
-    return fmt::format("true to estimated place, {:g} \u00D7 as long", factor_);
+    if (factor_ == 1.0) return "ground truth to estimated position";
+    return fmt::format("ground truth to estimated position, {:g} \u00D7 as long", factor_);
   }
 
   /// To the estimates, which then stand where lengthened errors put them.

@@ -175,9 +175,10 @@ std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
 }
 
 std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
-  Statement rows(*database_,
-                 "SELECT id, name, kind, experiment_digest, runs, seconds, peak_memory_mib FROM studies "
-                 "WHERE nightly_run = ? ORDER BY id");
+  Statement rows(
+      *database_,
+      "SELECT id, name, kind, experiment_digest, runs, seconds, peak_memory_mib FROM studies "
+      "WHERE nightly_run = ? ORDER BY id");
   rows.bind(nightly_run);
   std::vector<NightlyStudy> studies;
   while (rows.step()) {
@@ -212,8 +213,8 @@ Scores HistoryStore::scores(int nightly_run, const std::string& study) {
   return scores;
 }
 
-StudyTrend HistoryStore::trend(const std::string& study, const std::string& experiment_digest, int most,
-                               int until) {
+StudyTrend HistoryStore::trend(const std::string& study, const std::string& experiment_digest,
+                               int most, int until) {
   StudyTrend trend{.name = study};
   std::map<std::int64_t, std::size_t> place;  // Of a row of studies.
   Statement rows(
@@ -290,9 +291,10 @@ void HistoryStore::append(const NightlyRun& nightly_run) {
 }
 
 void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
-  Statement insert(*database_,
-                   "INSERT INTO studies (nightly_run, name, kind, experiment_digest, runs, seconds, "
-                   "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
+  Statement insert(
+      *database_,
+      "INSERT INTO studies (nightly_run, name, kind, experiment_digest, runs, seconds, "
+      "peak_memory_mib) VALUES (?, ?, ?, ?, ?, ?, ?)");
   insert.bind(nightly_run)
       .bind(study.name)
       .bind(study.kind)

@@ -42,7 +42,8 @@ class HistoryStore {
 
   /// The study over the last `most` nightly runs that had this order, up to and with `until`.
   /// @throws IoError.
-  StudyTrend trend(const std::string& study, const std::string& experiment_digest, int most, int until);
+  StudyTrend trend(const std::string& study, const std::string& experiment_digest, int most,
+                   int until);
 
   /// Adds a nightly run under its number, in one transaction. @throws IoError; InvalidInput if the
   /// number is taken or not above all others.

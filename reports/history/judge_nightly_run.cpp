@@ -135,10 +135,10 @@ void drop_before(StudyTrend& trend, int nightly_run) {
 
 StudyEvidence evidence_of(HistoryStore& store, const NightlyRun& this_run,
                           const NightlyStudy& study, int pinned) {
-  StudyEvidence evidence{
-      .trend = store.trend(study.name, study.experiment_digest, kTrendRuns, this_run.facts.number - 1),
-      .this_run = study.scores,
-      .draws_groups = study.draws_groups};
+  StudyEvidence evidence{.trend = store.trend(study.name, study.experiment_digest, kTrendRuns,
+                                              this_run.facts.number - 1),
+                         .this_run = study.scores,
+                         .draws_groups = study.draws_groups};
   drop_before(evidence.trend, pinned);
   add_this_run(evidence.trend, this_run.facts, study);
   if (!this_run.facts.reference) return evidence;

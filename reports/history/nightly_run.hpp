@@ -51,10 +51,10 @@ struct FigureFile {
 /// What a nightly run holds of one study.
 struct NightlyStudy {
   std::string name = {};
-  std::string kind = {};          ///< "mapproof.study", "mapproof.slam_study".
-  std::string experiment_digest = {};  ///< SHA-256 of the experiment with its options: nightly runs are
-                                  ///< compared where it is the same.
-  bool draws_groups = false;      ///< StudyContents::draws_groups.
+  std::string kind = {};               ///< "mapproof.study", "mapproof.slam_study".
+  std::string experiment_digest = {};  ///< SHA-256 of the experiment with its options: nightly runs
+                                       ///< are compared where it is the same.
+  bool draws_groups = false;           ///< StudyContents::draws_groups.
   int runs = 0;
   std::optional<double> seconds = {};  ///< Of all sessions that made it.
   std::optional<double> peak_memory_mib = {};

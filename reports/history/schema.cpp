@@ -158,14 +158,13 @@ DROP INDEX findings_by_night;
 CREATE INDEX findings_by_nightly_run ON findings(nightly_run);
 )";
 
-/// Experiments were called orders, and studies of a topic studies of trials.
+/// Studies of a topic and the digests of experiments had other names.
 constexpr const char* kVersion6 = R"(
 ALTER TABLE studies RENAME COLUMN order_digest TO experiment_digest;
 UPDATE studies SET kind = 'mapproof.topic_study' WHERE kind = 'mapproof.trial_study';
 )";
 
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3,
-                                  kVersion4, kVersion5, kVersion6};
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5, kVersion6};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);

@@ -17,8 +17,8 @@ std::string base_method(const StudyLabels& labels, const std::string& method);
 /// Its label; the id if it has none.
 std::string shown_setup(const StudyLabels& labels, const std::string& setup);
 
-/// "My EKF, noise=0.1" of "ekf noise=0.1"; without labels "ISOMAP, K = 6" of "isomap-K6". What is
-/// no method as it is.
+/// "My EKF, noise=0.1" of "ekf noise=0.1"; without labels "ISOMAP, K = 6" of "isomap-K6". A text
+/// that is not a method stays as it is.
 std::string shown_method(const StudyLabels& labels, const std::string& method);
 
 /// method_of() as shown, "bearing, ISOMAP, K = 6"; of a setup without a name the method alone.

@@ -7,7 +7,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
 #include "core/model/points.hpp"
-#include "tests/app/growing_files.hpp"
+#include "tests/app/streamed_input.hpp"
 #include "tests/support/packing.hpp"
 
 namespace mapproof::test {

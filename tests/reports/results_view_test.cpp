@@ -8,7 +8,9 @@
 #include "core/base/not_finite.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "reports/sections/results/results_comparison.hpp"
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
+#include "reports/sections/results/results_tables.hpp"
 #include "reports/tables/write_tables.hpp"
 
 namespace mapproof {

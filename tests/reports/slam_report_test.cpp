@@ -1,5 +1,6 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_contents.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
+#include "reports/sections/slam/slam_tables.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -22,7 +22,7 @@ TopicStudy study_of(double by, double jitter) {
       const double first = 0.1 * layout + 0.01 * pose;
       const double second = first - by + (layout == 2 ? jitter : 0.0);
       part.outcomes = {{at(5.0), "one", {{"mpe_m", first}}, {}},
-                     {at(5.0), "two", {{"mpe_m", second}}, {}}};
+                       {at(5.0), "two", {{"mpe_m", second}}, {}}};
       study.parts.push_back(std::move(part));
     }
   return study;

@@ -121,7 +121,9 @@ __attribute__((destructor)) void write_counts() {
   ::close(file);
 }
 
-long changing(long number, long a, long b, long c, long d = 0, long e = 0) {
+/// @param arguments  Of the system call, at most five.
+long changing(long number, std::array<long, 5> arguments) {
+  const auto [a, b, c, d, e] = arguments;
   return fails(Kind::kDisk) ? -1 : ::syscall(number, a, b, c, d, e);
 }
 
@@ -251,44 +253,45 @@ int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_action
 
 int rename(const char* from, const char* to) {
   if (fails(Kind::kRename)) return -1;
-  return static_cast<int>(changing(SYS_renameat2, AT_FDCWD, at(from), AT_FDCWD, at(to)));
+  return static_cast<int>(changing(SYS_renameat2, {AT_FDCWD, at(from), AT_FDCWD, at(to)}));
 }
 int renameat(int from_folder, const char* from, int to_folder, const char* to) noexcept {
   if (fails(Kind::kRename)) return -1;
-  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to)));
+  return static_cast<int>(changing(SYS_renameat2, {from_folder, at(from), to_folder, at(to)}));
 }
 int renameat2(int from_folder, const char* from, int to_folder, const char* to,
               unsigned flags) noexcept {
   if (fails(Kind::kRename, Kind::kExchange)) return -1;
-  return static_cast<int>(changing(SYS_renameat2, from_folder, at(from), to_folder, at(to), flags));
+  return static_cast<int>(
+      changing(SYS_renameat2, {from_folder, at(from), to_folder, at(to), flags}));
 }
 int linkat(int from_folder, const char* from, int to_folder, const char* to, int flags) noexcept {
   if (fails(Kind::kLink)) return -1;
-  return static_cast<int>(changing(SYS_linkat, from_folder, at(from), to_folder, at(to), flags));
+  return static_cast<int>(changing(SYS_linkat, {from_folder, at(from), to_folder, at(to), flags}));
 }
 int symlink(const char* target, const char* path) noexcept {
-  return static_cast<int>(changing(SYS_symlinkat, at(target), AT_FDCWD, at(path)));
+  return static_cast<int>(changing(SYS_symlinkat, {at(target), AT_FDCWD, at(path)}));
 }
 int unlink(const char* path) noexcept {
-  return static_cast<int>(changing(SYS_unlinkat, AT_FDCWD, at(path), 0));
+  return static_cast<int>(changing(SYS_unlinkat, {AT_FDCWD, at(path), 0}));
 }
 int unlinkat(int folder, const char* path, int flags) noexcept {
-  return static_cast<int>(changing(SYS_unlinkat, folder, at(path), flags));
+  return static_cast<int>(changing(SYS_unlinkat, {folder, at(path), flags}));
 }
 int mkdirat(int folder, const char* path, mode_t mode) noexcept {
-  return static_cast<int>(changing(SYS_mkdirat, folder, at(path), mode));
+  return static_cast<int>(changing(SYS_mkdirat, {folder, at(path), mode}));
 }
 int mkdir(const char* path, mode_t mode) noexcept {
-  return static_cast<int>(changing(SYS_mkdirat, AT_FDCWD, at(path), mode));
+  return static_cast<int>(changing(SYS_mkdirat, {AT_FDCWD, at(path), mode}));
 }
 int chmod(const char* path, mode_t mode) noexcept {
-  return static_cast<int>(changing(SYS_fchmodat, AT_FDCWD, at(path), mode));
+  return static_cast<int>(changing(SYS_fchmodat, {AT_FDCWD, at(path), mode}));
 }
 int fchmod(int file, mode_t mode) noexcept {
-  return static_cast<int>(changing(SYS_fchmod, file, mode, 0));
+  return static_cast<int>(changing(SYS_fchmod, {file, mode, 0}));
 }
 int ftruncate(int file, off_t bytes) noexcept {
-  return static_cast<int>(changing(SYS_ftruncate, file, bytes, 0));
+  return static_cast<int>(changing(SYS_ftruncate, {file, bytes, 0}));
 }
 
 }  // extern "C"

@@ -106,7 +106,7 @@ Descriptor open_input(const fs::path& path) {
   return file;
 }
 
-Descriptor open_growing(const fs::path& path) {
+Descriptor open_streamed(const fs::path& path) {
   const std::string name = input_name(path);
   const std::optional<int> number = handed_in(path);
   const struct stat facts = facts_of(path, number, name);

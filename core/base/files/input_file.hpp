@@ -38,7 +38,7 @@ Descriptor open_input(const std::filesystem::path& path);
 /// Opens an input that is read while it grows: named pipes and devices too. Never waits: a named
 /// pipe that nobody writes to yet has nothing to read.
 /// @throws IoError if it cannot be opened or is a folder.
-Descriptor open_growing(const std::filesystem::path& path);
+Descriptor open_streamed(const std::filesystem::path& path);
 
 /// Reads the next bytes, and waits until there are any. @return How many; 0 at the end.
 /// @throws IoError with `name`.

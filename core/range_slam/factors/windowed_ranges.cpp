@@ -71,7 +71,7 @@ void hold_out(const LandmarkRanges& measurements, const HeldOutBlocks& blocks,
 }
 
 WindowCandidate tried(const std::vector<LandmarkRanges>& measurements, const Trajectory& path,
-                  const Eigen::VectorXd& some_s, double length_s) {
+                      const Eigen::VectorXd& some_s, double length_s) {
   const double first_s = some_s(0), last_s = some_s(some_s.size() - 1);
   WindowOptions options{.length_s = length_s,
                         .range_scale = range_scale_of(measurements, first_s, last_s, length_s)};

@@ -123,8 +123,8 @@ struct WindowCandidate {
 struct WindowSearch {
   WindowOptions options;
   std::vector<WindowCandidate> candidates;  ///< By descending length.
-  bool all_covered = true;          ///< False: no length covers all times; the best of those that
-                                    ///< cover the most was taken.
+  bool all_covered = true;  ///< False: no length covers all times; the best of those that
+                            ///< cover the most was taken.
 };
 
 /// Tries lengths from all the time down by factors of sqrt(2), and takes the one of least error of

@@ -161,7 +161,7 @@ SlamEstimate refine(const RangeLog& log, const SlamEstimate& start, const Refine
   if (solution.outcome.is_usable)
     take_solution(solution, placed_options, estimate);
   else
-    estimate.statuses.push_back(status_of<StatusReason::kNoStepLowered>());
+    estimate.statuses.push_back(status_of<StatusReason::kNoDecreasingStep>());
   const std::size_t known = options.known ? options.known->rows.size() : 0;
   if (known < log.landmarks.size())
     if (auto status = path_on_a_line(estimate.path.positions_m))

@@ -10,8 +10,8 @@ namespace mapproof {
 
 /// An experiment's document of that schema, without its key "profiles".
 /// @param profile  The profile whose merge patch (RFC 7396) is applied; "" for none.
-/// @throws IoError with the location if it is none, lacks that profile, or has a profile that is no
-///         patch.
+/// @throws IoError with the location if it is none, lacks that profile, or has a profile that is not
+///         a patch.
 JsonDocument parse_with_profile(std::string_view text, const std::string& source,
                                 std::string_view schema, const std::string& profile);
 

@@ -218,7 +218,7 @@ ResultsStudy labelled_results(const TopicStudy& study) {
       if (std::ranges::find(labelled.factors, factor.id, &Label::id) == labelled.factors.end())
         labelled.factors.push_back({.id = factor.id, .label = factor.label, .unit = factor.unit});
   }
-  for (const ComparedMethod& method : study.design.methods)
+  for (const StudiedMethod& method : study.design.methods)
     labelled.methods.push_back({.id = method.id, .label = method.label});
   for (const DataSet& set : experiment.data)
     labelled.runs.push_back({.id = set.id, .label = set.title});

@@ -25,7 +25,7 @@ std::optional<RecordFault> fault_of(const Condition& at, const std::string& meth
   }
   if (at.levels.size() > setup->factors.size())
     return {{"levels", "has a factor that the setup does not have"}};
-  if (std::ranges::find(design.methods, method, &ComparedMethod::id) == design.methods.end())
+  if (std::ranges::find(design.methods, method, &StudiedMethod::id) == design.methods.end())
     return {{"method", "the study has no such method"}};
   return std::nullopt;
 }

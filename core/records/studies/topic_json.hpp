@@ -23,7 +23,8 @@ namespace mapproof {
 
 namespace record_rules {
 
-inline constexpr std::size_t kMostOfATopic = 10'000;  ///< Setups, methods, quantities, levels, maps.
+inline constexpr std::size_t kMostOfATopic =
+    10'000;  ///< Setups, methods, quantities, levels, maps.
 inline constexpr std::size_t kMostSweeps = 100;
 inline constexpr std::size_t kMostSweptFactors = 2;
 
@@ -70,14 +71,15 @@ void topic_head_fields(Visitor& v, TopicExperiment& experiment) {
       {.description = "The question of the study; it determines the options.", .max_bytes = 100});
   run_fields(v, experiment);
   v.field("steps", experiment.steps,
-          record_rules::described("Observations of each run.", record_rules::of_factor(Factor::kSteps)));
+          record_rules::described("Observations of each run.",
+                                  record_rules::of_factor(Factor::kSteps)));
   v.field("world", experiment.world,
           {.description = "The room and its landmarks.", .key = Key::kOptional});
   v.field("walk", experiment.walk, {.description = "How the robot moves.", .key = Key::kOptional});
-  v.field(
-      "anchors", experiment.anchors,
-      record_rules::described("Number of anchors: landmarks with known positions, which the map is aligned to.",
-                record_rules::of_factor(Factor::kAnchors)));
+  v.field("anchors", experiment.anchors,
+          record_rules::described(
+              "Number of anchors: landmarks with known positions, which the map is aligned to.",
+              record_rules::of_factor(Factor::kAnchors)));
 }
 
 /// @param rule  Of both keys.
@@ -193,7 +195,7 @@ void fields(Visitor& v, TopicSetup& setup) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, ComparedMethod& method) {
+void fields(Visitor& v, StudiedMethod& method) {
   v.field("id", method.id, record_rules::kMethod);
   v.field("label", method.label, {.max_bytes = 200});
 }

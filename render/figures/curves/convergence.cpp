@@ -238,8 +238,7 @@ Figure factorization_cost_figure(const std::string& id, std::span<const Factoriz
   spec.varies = true;
   spec.caption =
       "Seconds of singular values and upgrade over the number of steps T and of landmarks N, "
-      "beside "
-      "the slopes of O((2N)\u00B2 T). They vary from run to run.";
+      "with the slopes of O((2N)\u00B2 T). They vary from run to run.";
   spec.panels = {
       {"Over steps", "steps T", "seconds", cost_lines(costs, true), SlopeGuide{"slope 1", 1.0}, {}},
       {"Over landmarks",

@@ -1,4 +1,5 @@
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
 
 #include <algorithm>
 #include <cmath>

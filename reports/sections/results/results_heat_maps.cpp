@@ -1,4 +1,4 @@
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_heat_maps.hpp"
 
 #include <algorithm>
 #include <cmath>

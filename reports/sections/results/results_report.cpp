@@ -12,7 +12,8 @@
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_tables.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
@@ -55,7 +56,7 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
                           : setup->title;
   if (setup != study.design.setups.end() && !setup->factors.empty())
     title += ", " + level_words(*setup, map.at);
-  title += ": " + series_label(study.design, map.series);
+  title += ": " + series_label(study.design, map.method);
   if (map.certainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
@@ -228,11 +229,11 @@ std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::str
   table.columns.push_back({"Method", "", "", ""});
   for (const TopicPart& part : study.parts)
     table.columns.push_back({title_of(study, part.id), "s", "", ""});
-  for (const ComparedMethod& series : study.design.series) {
-    Row line{{TextCell{series.label}}, "", false};
+  for (const StudiedMethod& method : study.design.methods) {
+    Row line{{TextCell{method.label}}, "", false};
     bool any = false;
     for (const TopicPart& part : study.parts) {
-      const auto timing = std::ranges::find(part.seconds, series.id, &MethodSeconds::series);
+      const auto timing = std::ranges::find(part.seconds, method.id, &MethodSeconds::method);
       any |= timing != part.seconds.end();
       line.cells.push_back(timing == part.seconds.end() ? Cell(MissingCell{})
                                                         : NumberCell{timing->seconds, 3});

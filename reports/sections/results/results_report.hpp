@@ -8,7 +8,7 @@
 #include "core/model/topic_study.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/results/results_comparison.hpp"
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {

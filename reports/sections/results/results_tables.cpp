@@ -1,4 +1,4 @@
-#include "reports/sections/results/results_contents.hpp"
+#include "reports/sections/results/results_tables.hpp"
 
 #include <algorithm>
 #include <map>

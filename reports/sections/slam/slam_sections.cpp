@@ -1,4 +1,4 @@
-#include "reports/sections/slam/slam_contents.hpp"
+#include "reports/sections/slam/slam_sections.hpp"
 
 #include <cmath>
 
@@ -11,6 +11,7 @@
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/words.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
+#include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 

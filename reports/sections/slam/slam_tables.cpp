@@ -1,4 +1,4 @@
-#include "reports/sections/slam/slam_contents.hpp"
+#include "reports/sections/slam/slam_tables.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,7 +25,7 @@ std::string certainty_question(const TopicExperiment& experiment) {
 std::pair<double, double> range_of(const TopicStudy& study, const TopicSetup& setup,
                                    const char* quantity) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const ComparedMethod& method : study.design.methods)
+  for (const StudiedMethod& method : study.design.methods)
     for (const Condition& at : conditions_of(setup)) {
       const double mean = topic_mean(study, at, method.id, quantity);
       if (std::isnan(mean)) continue;

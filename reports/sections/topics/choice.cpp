@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -40,7 +40,7 @@ double mean_over_all(const TopicStudy& study, std::string_view method, const cha
 std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
   std::string best;
   double least = HUGE_VAL;
-  for (const ComparedMethod& method : study.design.methods) {
+  for (const StudiedMethod& method : study.design.methods) {
     const double regret = mean_over_all(study, method.id, quantity);
     if (std::isnan(regret)) continue;
     if (method.id == kRandomPick || method.id == kFixedMethod || regret >= least) continue;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// The methods of incremental maps, not those computed again.
 std::vector<std::string> carried_on(const TopicDesign& design) {
   std::vector<std::string> ids;
-  for (const ComparedMethod& method : design.methods)
+  for (const StudiedMethod& method : design.methods)
     if (!method.id.ends_with("-whole")) ids.push_back(method.id);
   return ids;
 }

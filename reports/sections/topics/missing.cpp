@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,7 +31,7 @@ std::string missing_question(const TopicExperiment& experiment) {
 /// "PPCA, SMACOF 0.057 m; ...": the three best at one level, and the worst.
 std::string ranking(const TopicStudy& study, const Condition& at) {
   std::vector<std::pair<double, std::string>> means;
-  for (const ComparedMethod& method : study.design.methods) {
+  for (const StudiedMethod& method : study.design.methods) {
     const double mean = topic_mean(study, at, method.id, "mpe_m");
     if (!std::isnan(mean)) means.emplace_back(mean, method.label);
   }

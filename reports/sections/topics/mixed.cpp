@@ -7,8 +7,8 @@
 #include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -29,14 +29,14 @@ std::string mixed_question(const TopicExperiment&) {
 
 /// The method of least mean MPE among some, and that mean; null if none has one.
 struct BestSeries {
-  const ComparedMethod* method = nullptr;
+  const StudiedMethod* method = nullptr;
   double mean_m = HUGE_VAL;
 };
 
 template <typename Names>
 BestSeries best_series(const TopicStudy& study, const Condition& at, const Names& names) {
   BestSeries best;
-  for (const ComparedMethod& method : study.design.methods) {
+  for (const StudiedMethod& method : study.design.methods) {
     if (std::ranges::find(names, method.id) == std::end(names)) continue;
     const double mean = topic_mean(study, at, method.id, "mpe_m");
     if (mean < best.mean_m) best = {&method, mean};
@@ -65,7 +65,8 @@ std::string choice_words(const TopicStudy& study, const TopicSetup& setup) {
       double best_m = HUGE_VAL, joint_m = kNaN;
       for (const TopicOutcome& outcome : part.outcomes) {
         if (outcome.at != at || !std::isfinite(topic_value(outcome, "mpe_m"))) continue;
-        if (pick == nullptr || topic_value(outcome, "continuity") > topic_value(*pick, "continuity"))
+        if (pick == nullptr ||
+            topic_value(outcome, "continuity") > topic_value(*pick, "continuity"))
           pick = &outcome;
         best_m = std::min(best_m, topic_value(outcome, "mpe_m"));
         if (outcome.method == "joint") joint_m = topic_value(outcome, "mpe_m");

@@ -8,8 +8,8 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,8 +31,8 @@ double method_value(const TopicPart& part, std::string_view method, std::string_
 
 /// "Visibility, ISOMAP (1.46 m)": the best of some methods on a set; empty if none has an error.
 std::string best_alone(const TopicStudy& study, const TopicPart& part, std::string_view start) {
-  const ComparedMethod* best = nullptr;
-  for (const ComparedMethod& method : study.design.methods) {
+  const StudiedMethod* best = nullptr;
+  for (const StudiedMethod& method : study.design.methods) {
     const double error = method_value(part, method.id, "mpe_m");
     if (!method.id.starts_with(start) || std::isnan(error)) continue;
     if (best == nullptr || error < method_value(part, best->id, "mpe_m")) best = &method;

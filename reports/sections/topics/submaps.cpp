@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/base/text/unit_text.hpp"
-#include "reports/sections/topics/topic_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
+#include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -51,7 +51,7 @@ std::string in_sentence(const std::string& label) {
 /// "of ISOMAP (K = 6) grows from 0.05 m to 0.1 m": a method's mean MPE at the first and the last
 /// condition; empty where one of them has none.
 std::string ends_words(const TopicStudy& study, const TopicSetup& setup,
-                       const ComparedMethod& method) {
+                       const StudiedMethod& method) {
   const std::vector<Condition> conditions = conditions_of(setup);
   const double first = topic_mean(study, conditions.front(), method.id, "mpe_m");
   const double last = topic_mean(study, conditions.back(), method.id, "mpe_m");
@@ -67,7 +67,7 @@ std::vector<std::string> sweep_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   for (const TopicSetup& setup : study.design.setups) {
     std::vector<std::string> words;
-    for (const ComparedMethod& method : study.design.methods)
+    for (const StudiedMethod& method : study.design.methods)
       if (std::string ends = ends_words(study, setup, method); !ends.empty())
         words.push_back((words.empty() ? "the mean MPE " : "that ") + ends);
     const std::vector<Condition> conditions = conditions_of(setup);

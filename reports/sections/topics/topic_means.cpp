@@ -65,7 +65,7 @@ std::string level_words(const TopicSetup& setup, const Condition& at) {
 }
 
 std::string series_label(const TopicDesign& design, std::string_view id) {
-  const auto found = std::ranges::find(design.methods, id, &ComparedMethod::id);
+  const auto found = std::ranges::find(design.methods, id, &StudiedMethod::id);
   return found == design.methods.end() ? std::string(id) : found->label;
 }
 

@@ -128,8 +128,8 @@ TEST(MapIncremental, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
   const std::string anchors = folder.file("anchors.csv", survey.anchors());
   const std::string out = folder.path() / "out";
   const pid_t process =
-      start_mapproof({"map", file, "--incremental", "--every", "20", "--sensor", "bearing", "--method",
-                      "smacof", "--anchors", anchors, "--out", out});
+      start_mapproof({"map", file, "--incremental", "--every", "20", "--sensor", "bearing",
+                      "--method", "smacof", "--anchors", anchors, "--out", out});
   ASSERT_TRUE(reaches(out, 99));
   std::ofstream(file, std::ios::app) << survey.rows(100, 300) << "300,post 1,0.";
   ASSERT_TRUE(reaches(out, 299));
@@ -173,10 +173,10 @@ TEST(MapIncremental, NeedsAKindAndAKnownInterval) {
   const std::string out = folder.path() / "out";
   EXPECT_EQ(mapproof({"map", file, "--incremental", "--out", out}).exit_code, 2);
   for (const char* every : {"0", "1.5", "s", "-3s", "soon"})
-    EXPECT_EQ(
-        mapproof({"map", file, "--incremental", "--sensor", "bearing", "--out", out, "--every", every})
-            .exit_code,
-        2)
+    EXPECT_EQ(mapproof({"map", file, "--incremental", "--sensor", "bearing", "--out", out,
+                        "--every", every})
+                  .exit_code,
+              2)
         << every;
 }
 

@@ -8,7 +8,7 @@
 #include "core/base/random.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/tables/table_reader.hpp"
-#include "tests/app/growing_files.hpp"
+#include "tests/app/streamed_input.hpp"
 #include "tests/core/association/noisy_scans.hpp"
 #include "tests/support/packing.hpp"
 #include "tests/support/program.hpp"

@@ -23,13 +23,9 @@ constexpr std::size_t kMostSingleHeaders = 60;  ///< Headers that one other unit
 constexpr std::ptrdiff_t kMostFilesOfFolder = 36;
 
 /// Headers whose functions are defined in a file each, which the header names.
-const std::set<std::string> kRegisters = {"app/commands.hpp",
-                                          "app/help/generated.hpp",
-                                          "core/records/ranges/range_log_forms.hpp",
-                                          "core/records/tables/respelling.hpp",
-                                          "reports/sections/figures/figure_builders.hpp",
-                                          "reports/sections/results/results_contents.hpp",
-                                          "reports/sections/slam/slam_contents.hpp"};
+const std::set<std::string> kRegisters = {
+    "app/commands.hpp", "app/help/generated.hpp", "core/records/ranges/range_log_forms.hpp",
+    "core/records/tables/respelling.hpp", "reports/sections/figures/figure_builders.hpp"};
 
 using Texts = std::map<std::string, std::string>;            ///< By path below the project.
 using Users = std::map<std::string, std::set<std::string>>;  ///< Units by header, or by unit.

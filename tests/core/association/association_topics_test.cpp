@@ -38,12 +38,13 @@ TopicStudy small_study(const Topic& topic, std::map<std::string, std::vector<dou
   return study;
 }
 
-const TopicOutcome& outcome(const TopicStudy& study, std::string_view setup, std::string_view method,
-                   double level) {
-  const auto found = std::ranges::find_if(study.parts.front().outcomes, [&](const TopicOutcome& one) {
-    return one.at.setup == setup && one.method == method &&
-           std::get<double>(one.at.levels.at(0).value) == level;
-  });
+const TopicOutcome& outcome(const TopicStudy& study, std::string_view setup,
+                            std::string_view method, double level) {
+  const auto found =
+      std::ranges::find_if(study.parts.front().outcomes, [&](const TopicOutcome& one) {
+        return one.at.setup == setup && one.method == method &&
+               std::get<double>(one.at.levels.at(0).value) == level;
+      });
   EXPECT_NE(found, study.parts.front().outcomes.end());
   return *found;
 }

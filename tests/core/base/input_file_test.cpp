@@ -87,7 +87,7 @@ TEST(InputFile, RefusingANamedPipeDoesNotDisturbWhoWritesToIt) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   EXPECT_FALSE(is_open);
-  const Descriptor reader = open_growing(pipe);
+  const Descriptor reader = open_streamed(pipe);
   writer.join();
   EXPECT_TRUE(is_open);
 }

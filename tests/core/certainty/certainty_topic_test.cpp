@@ -59,7 +59,7 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
     EXPECT_GT(outcome.values.at("spread_m"), 0.0);
   }
   std::vector<std::string> methods;
-  for (const ComparedMethod& method : study.design.methods) methods.push_back(method.id);
+  for (const StudiedMethod& method : study.design.methods) methods.push_back(method.id);
   EXPECT_EQ(methods, (std::vector<std::string>{"lpca", "smacof", "smacof-knn-K8", "isomap-K8"}));
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
   ASSERT_TRUE(study.parts[0].maps[0].certainty);

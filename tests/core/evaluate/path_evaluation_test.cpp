@@ -43,10 +43,11 @@ SpacePath moved(SpacePath path, const SpaceSimilarity& map) {
 }
 
 SpaceSimilarity some_motion(double scale = 1.0) {
-  return {.scale = scale,
-          .rotation = Eigen::AngleAxisd(2.2, Eigen::Vector3d(1.0, -2.0, 0.5).normalized())
-                          .toRotationMatrix(),
-          .offset = {30.0, -7.0, 4.0}};
+  return {
+      .scale = scale,
+      .rotation =
+          Eigen::AngleAxisd(2.2, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()).toRotationMatrix(),
+      .offset = {30.0, -7.0, 4.0}};
 }
 
 /// A path that uses all of space.
@@ -72,9 +73,9 @@ ErrorStatistics ate(const SpacePath& ground_truth, const SpacePath& estimate,
 TEST(PathEvaluation, AStretchedLineHasAnErrorThatGrowsWithTheWay) {
   // 1 % too long: |error| = 0.01 i of pose i = 0 ... n - 1, without alignment.
   const Eigen::Index n = 101;
-  const PathEvaluation result = evaluate_path(
-      straight_line(n), straight_line(n, 1.01),
-      {.alignment = FrameAlignment::kNone, .spacings = {{10.0, PairUnit::kPoses}}});
+  const PathEvaluation result =
+      evaluate_path(straight_line(n), straight_line(n, 1.01),
+                    {.alignment = FrameAlignment::kNone, .spacings = {{10.0, PairUnit::kPoses}}});
   const ErrorStatistics errors = error_statistics(result.poses.error_m);
   EXPECT_NEAR(errors.mean, 0.5, 1e-12);
   EXPECT_NEAR(errors.median, 0.5, 1e-12);
@@ -114,9 +115,9 @@ TEST(PathEvaluation, AYawDriftIsTheRotationOfEveryPair) {
     estimate.orientations[i] =
         Eigen::AngleAxisd(0.1 * static_cast<double>(i) * kPi / 180.0, Eigen::Vector3d::UnitZ())
             .toRotationMatrix();
-  const PathEvaluation result = evaluate_path(
-      ground_truth, estimate,
-      {.alignment = FrameAlignment::kNone, .spacings = {{5.0, PairUnit::kSeconds}}});
+  const PathEvaluation result =
+      evaluate_path(ground_truth, estimate,
+                    {.alignment = FrameAlignment::kNone, .spacings = {{5.0, PairUnit::kSeconds}}});
   EXPECT_NEAR(result.poses.error_deg(60), 6.0, 1e-10);
   ASSERT_EQ(result.relative.size(), 1U);
   EXPECT_EQ(result.relative[0].error_deg.size(), 12);
@@ -130,9 +131,9 @@ TEST(PathEvaluation, MotionsAndScalesAreUndone) {
   EXPECT_LT(
       ate(ground_truth, moved(ground_truth, some_motion()), FrameAlignment::kFirstPose).maximum,
       1e-11);
-  EXPECT_LT(ate(ground_truth, moved(ground_truth, some_motion(0.3)), FrameAlignment::kSimilarity)
-                .maximum,
-            1e-12);
+  EXPECT_LT(
+      ate(ground_truth, moved(ground_truth, some_motion(0.3)), FrameAlignment::kSimilarity).maximum,
+      1e-12);
 }
 
 TEST(PathEvaluation, RelativeErrorsDoNotDependOnAMotionOfEither) {
@@ -152,12 +153,11 @@ TEST(PathEvaluation, TheBestAlignmentIsNoWorseThanManyOthers) {
   const double best = ate(ground_truth, estimate, FrameAlignment::kRigid).rmse;
   Random random(10);
   for (int i = 0; i < 200; ++i) {
-    const SpaceSimilarity other{
-        .rotation = Eigen::Quaterniond(random.normal(), random.normal(), random.normal(),
-                                       random.normal())
-                        .normalized()
-                        .toRotationMatrix(),
-        .offset = ground_truth.positions_m.colwise().mean()};
+    const SpaceSimilarity other{.rotation = Eigen::Quaterniond(random.normal(), random.normal(),
+                                                               random.normal(), random.normal())
+                                                .normalized()
+                                                .toRotationMatrix(),
+                                .offset = ground_truth.positions_m.colwise().mean()};
     EXPECT_LE(best, ate(ground_truth, moved(estimate, other), FrameAlignment::kNone).rmse);
   }
 }

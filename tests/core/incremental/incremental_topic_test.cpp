@@ -35,7 +35,8 @@ TEST(IncrementalTopic, MapsEverySensorIncrementallyToEveryLevel) {
   ASSERT_EQ(study.parts[0].outcomes.size(), 36U);
   for (const TopicOutcome& outcome : study.parts[0].outcomes) {
     EXPECT_GE(outcome.values.at("greatest_gap_ppm"), outcome.values.at("gap_ppm"));
-    EXPECT_LE(outcome.values.at("greatest_gap_ppm"), 1.0) << outcome.at.setup << ' ' << outcome.method;
+    EXPECT_LE(outcome.values.at("greatest_gap_ppm"), 1.0)
+        << outcome.at.setup << ' ' << outcome.method;
     EXPECT_EQ(outcome.values.at("beyond_percent"), 0.0);
     const double steps = std::get<double>(outcome.at.levels.at(0).value);
     EXPECT_EQ(outcome.values.at("steps_gone_through"),

@@ -55,14 +55,14 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
   study.experiment = experiment;
   study.design = kMissingTopic.design(experiment);
   const TopicTask context{.experiment = experiment,
-                             .part = "layout-1-pose-1",
-                             .run = {1, 1},
-                             .world = &room.world,
-                             .path = &room.path,
-                             .anchors = room.anchors,
-                             .seed = 3,
-                             .data = {},
-                             .with_maps = true};
+                          .part = "layout-1-pose-1",
+                          .run = {1, 1},
+                          .world = &room.world,
+                          .path = &room.path,
+                          .anchors = room.anchors,
+                          .seed = 3,
+                          .data = {},
+                          .with_maps = true};
   study.parts.push_back(kMissingTopic.make(context));
   const TopicPart& part = study.parts.front();
   // Covisible pairs are not tried at the two levels of data missing at random.
@@ -73,8 +73,9 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
   }
   ASSERT_EQ(part.maps.size(), 6U);
   for (const TopicMap& map : part.maps) expect_scores_of(map.map, outcome_of(study, map.id), study);
-  EXPECT_EQ(part.outcomes.front().values,
-            kMissingTopic.make(context).outcomes.front().values);  // nothing but its arguments counts
+  EXPECT_EQ(
+      part.outcomes.front().values,
+      kMissingTopic.make(context).outcomes.front().values);  // nothing but its arguments counts
   const std::vector<std::string> sentences = conclusions_of(study);
   ASSERT_FALSE(sentences.empty());
   EXPECT_NE(sentences.front().find(" m"), std::string::npos);

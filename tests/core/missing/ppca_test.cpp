@@ -49,7 +49,7 @@ Eigen::MatrixXd closed_form(const Eigen::MatrixXd& values, Eigen::Index q) {
 }
 
 TEST(Ppca, OfCompleteDataIsTheClosedFormSolution) {
-  const Features matrix = test::incomplete_matrix(6, 200, 2, 0.5, 0.0, 1);
+  const Features matrix = test::incomplete_matrix({6, 200, 2, 0.5, 0.0}, 1);
   const Ppca fitted = ppca(matrix, kExact);
   const Eigen::MatrixXd expected = closed_form(matrix.values, 2);
   EXPECT_LT((covariance_of(fitted.model) - expected).norm(), 1e-6 * expected.norm());
@@ -59,7 +59,7 @@ TEST(Ppca, OfCompleteDataIsTheClosedFormSolution) {
 TEST(Ppca, ConvergesToTheClosedFormFromAStartSpoiltByMissingData) {
   // A column more, of which almost nothing was observed, moves the start away from the solution
   // and the solution hardly at all.
-  Features matrix = test::incomplete_matrix(6, 400, 2, 0.5, 0.0, 2);
+  Features matrix = test::incomplete_matrix({6, 400, 2, 0.5, 0.0}, 2);
   const Eigen::MatrixXd expected = closed_form(matrix.values, 2);
   matrix.values.conservativeResize(6, 1400);
   matrix.values.rightCols(1000).setZero();
@@ -72,7 +72,7 @@ TEST(Ppca, ConvergesToTheClosedFormFromAStartSpoiltByMissingData) {
 }
 
 TEST(Ppca, HasTheLikelihoodOfBruteForceAndNeverReducesIt) {
-  const Features matrix = test::incomplete_matrix(8, 60, 3, 0.4, 0.4, 3);
+  const Features matrix = test::incomplete_matrix({8, 60, 3, 0.4, 0.4}, 3);
   PpcaOptions options{.dimensions = 3, .least_rise = 1e-10, .max_iterations = 2000};
   const Ppca fitted = ppca(matrix, options);
   EXPECT_NEAR(fitted.log_likelihood, brute_force_likelihood(matrix, fitted.model),
@@ -82,7 +82,7 @@ TEST(Ppca, HasTheLikelihoodOfBruteForceAndNeverReducesIt) {
 }
 
 TEST(Ppca, EndsWhereNoStepRaisesTheLikelihood) {
-  const Features matrix = test::incomplete_matrix(5, 80, 2, 0.5, 0.3, 4);
+  const Features matrix = test::incomplete_matrix({5, 80, 2, 0.5, 0.3}, 4);
   const LowRankModel best = ppca(matrix, kExact).model;
   const double h = 1e-4;
   const auto slope = [&](auto&& change) {
@@ -119,7 +119,7 @@ TEST(Ppca, FindsTheLikelihoodThatScipyFindsFromManyStarts) {
 }
 
 TEST(Ppca, FollowsAPermutationOfItsRows) {
-  const Features matrix = test::incomplete_matrix(7, 120, 2, 0.3, 0.4, 5);
+  const Features matrix = test::incomplete_matrix({7, 120, 2, 0.3, 0.4}, 5);
   const std::vector<Eigen::Index> order = {3, 6, 0, 2, 5, 1, 4};
   Features permuted;
   permuted.values = matrix.values(order, Eigen::all);
@@ -130,7 +130,7 @@ TEST(Ppca, FollowsAPermutationOfItsRows) {
 }
 
 TEST(Ppca, ReportsThatItWasStopped) {
-  const Features matrix = test::incomplete_matrix(8, 60, 3, 0.4, 0.4, 3);
+  const Features matrix = test::incomplete_matrix({8, 60, 3, 0.4, 0.4}, 3);
   const Ppca fitted = ppca(matrix, {.dimensions = 3, .least_rise = 0.0, .max_iterations = 1});
   ASSERT_EQ(fitted.statuses.size(), 1U);
   EXPECT_EQ(fitted.statuses.front().code, StatusCode::kNotConverged);
@@ -138,7 +138,7 @@ TEST(Ppca, ReportsThatItWasStopped) {
 
 TEST(Ppca, StaysFiniteWhereDataHaveNoNoiseOrNoSpread) {
   for (const double scale : {0.0, 1e-50, 1.0, 1e50}) {
-    Features matrix = test::incomplete_matrix(6, 40, 1, 0.0, 0.3, 6);
+    Features matrix = test::incomplete_matrix({6, 40, 1, 0.0, 0.3}, 6);
     matrix.values *= scale;
     const Ppca fitted = ppca(matrix, {.dimensions = 4});
     EXPECT_TRUE(fitted.model.loadings.allFinite()) << scale;
@@ -148,7 +148,7 @@ TEST(Ppca, StaysFiniteWhereDataHaveNoNoiseOrNoSpread) {
 }
 
 TEST(Ppca, RefusesWhatItCannotFit) {
-  Features matrix = test::incomplete_matrix(4, 20, 1, 0.1, 0.3, 7);
+  Features matrix = test::incomplete_matrix({4, 20, 1, 0.1, 0.3}, 7);
   EXPECT_THROW(ppca(matrix, {.dimensions = 0}), InvalidInput);
   EXPECT_THROW(ppca(matrix, {.dimensions = 4}), InvalidInput);
   EXPECT_THROW(ppca(matrix, {.dimensions = 2, .max_iterations = 0}), InvalidInput);

@@ -12,7 +12,7 @@ namespace mapproof {
 namespace {
 
 TEST(RegularisedPca, NeverRaisesItsLoss) {
-  const Features matrix = test::incomplete_matrix(9, 70, 3, 0.4, 0.5, 1);
+  const Features matrix = test::incomplete_matrix({9, 70, 3, 0.4, 0.5}, 1);
   const RegularisedPca fitted =
       regularised_pca(matrix, {.dimensions = 4, .least_fall = 0.0, .max_iterations = 200});
   for (std::size_t k = 1; k < fitted.losses.size(); ++k)
@@ -21,7 +21,7 @@ TEST(RegularisedPca, NeverRaisesItsLoss) {
 
 TEST(RegularisedPca, OfCompleteDataShrinksEverySingularValueByThePenalty) {
   // The closed form of least squares with a penalty on the nuclear norm, of rows with mean zero.
-  Features matrix = test::incomplete_matrix(6, 50, 3, 0.2, 0.0, 2);
+  Features matrix = test::incomplete_matrix({6, 50, 3, 0.2, 0.0}, 2);
   matrix.values.colwise() -= Eigen::VectorXd(matrix.values.rowwise().mean());
   const RegularisedPca fitted = regularised_pca(
       matrix, {.dimensions = 3, .penalty_share = 0.1, .least_fall = 0.0, .max_iterations = 3000});
@@ -37,9 +37,9 @@ TEST(RegularisedPca, OfCompleteDataShrinksEverySingularValueByThePenalty) {
 }
 
 TEST(RegularisedPca, FillsLowRankDataAlmostExactlyWithASmallPenalty) {
-  const Features complete = test::incomplete_matrix(12, 300, 2, 0.0, 0.0, 3);
+  const Features complete = test::incomplete_matrix({12, 300, 2, 0.0, 0.0}, 3);
   Features matrix = complete;
-  matrix.observed = test::incomplete_matrix(12, 300, 2, 0.0, 0.4, 3).observed;
+  matrix.observed = test::incomplete_matrix({12, 300, 2, 0.0, 0.4}, 3).observed;
   matrix.values = matrix.values.cwiseProduct(matrix.observed);
   const RegularisedPca fitted = regularised_pca(
       matrix, {.dimensions = 2, .penalty_share = 1e-4, .least_fall = 1e-9, .max_iterations = 2000});
@@ -56,7 +56,7 @@ TEST(RegularisedPca, FillsLowRankDataAlmostExactlyWithASmallPenalty) {
 }
 
 TEST(RegularisedPca, StaysFiniteOfDataThatAreAllZero) {
-  Features matrix = test::incomplete_matrix(5, 30, 1, 0.0, 0.3, 4);
+  Features matrix = test::incomplete_matrix({5, 30, 1, 0.0, 0.3}, 4);
   matrix.values.setZero();
   const RegularisedPca fitted = regularised_pca(matrix, {.dimensions = 3});
   EXPECT_TRUE(fitted.model.loadings.allFinite());
@@ -64,7 +64,7 @@ TEST(RegularisedPca, StaysFiniteOfDataThatAreAllZero) {
 }
 
 TEST(RegularisedPca, RefusesAPenaltyOfZero) {
-  const Features matrix = test::incomplete_matrix(5, 30, 1, 0.1, 0.3, 5);
+  const Features matrix = test::incomplete_matrix({5, 30, 1, 0.1, 0.3}, 5);
   EXPECT_THROW(regularised_pca(matrix, {.dimensions = 2, .penalty_share = 0.0}), InvalidInput);
   EXPECT_THROW(regularised_pca(matrix, {.dimensions = 5}), InvalidInput);
 }

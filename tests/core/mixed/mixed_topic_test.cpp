@@ -39,7 +39,8 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
   // 2 sensors with two methods and 3 mixes at 4 levels, 3 sensors with two methods and 3 mixes at
   // 2.
   ASSERT_EQ(study.parts[0].outcomes.size(), 46U);
-  for (const TopicOutcome& outcome : study.parts[0].outcomes) EXPECT_GT(outcome.values.at("mpe_m"), 0.0);
+  for (const TopicOutcome& outcome : study.parts[0].outcomes)
+    EXPECT_GT(outcome.values.at("mpe_m"), 0.0);
   const std::vector<std::string> sentences = conclusions_of(study);
   // Of each setup the gain of mixing, then the cost of choosing by the neighbourhoods.
   ASSERT_EQ(sentences.size(), 6U);

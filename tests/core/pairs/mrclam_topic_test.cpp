@@ -47,12 +47,12 @@ TopicExperiment experiment() {
 
 TopicPart made(const TopicExperiment& experiment, const DataSetFolder& data) {
   const TopicTask context{.experiment = experiment,
-                             .part = data.set.id,
-                             .run = {},
-                             .anchors = {},
-                             .seed = 1,
-                             .data = data.folder,
-                             .with_maps = true};
+                          .part = data.set.id,
+                          .run = {},
+                          .anchors = {},
+                          .seed = 1,
+                          .data = data.folder,
+                          .with_maps = true};
   return kMrclamTopic.make(context);
 }
 

@@ -73,7 +73,7 @@ TopicStudy made_up_topic_study(const TopicExperiment& experiment) {
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
     for (const TopicSetup& setup : study.design.setups)
-      for (const ComparedMethod& method : study.design.methods)
+      for (const StudiedMethod& method : study.design.methods)
         for (const Condition& at : conditions_of(setup)) {
           TopicOutcome outcome{.at = at, .method = method.id, .values = {}, .statuses = {}};
           for (std::size_t i = 0; i < study.design.quantities.size(); ++i) {

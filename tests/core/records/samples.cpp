@@ -69,19 +69,18 @@ RunDetails made_up_details(const RunId& id) {
   return details;
 }
 
-RunResult made_up_result(const RunId& id) {
-  const double x = id.layout + id.pose / 8.0;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  RunResult result;
-  Run& run = result.run;
+namespace {
+
+/// Numbers that differ from run to run.
+double number_of(const RunId& id) { return id.layout + id.pose / 8.0; }
+
+Run made_up_run(const RunId& id, const Score& score) {
+  const double x = number_of(id);
+  Run run;
   run.id = id;
   run.world = {.side_m = 1.5, .landmark_diameter_m = 0.048, .landmarks_m = Points(4, 2)};
   run.world.landmarks_m << 0.1, 0.2, 1.25, x / 10.0, 1.0 / 3.0, 0.9, 1.1, 1.3;
   run.anchors = {0, 1, 3};
-  const Score score{.mpe_m = x / 7.0,
-                    .moe_percent = 60.0,
-                    .mpe_all_fitted_m = x / 9.0,
-                    .moe_unmirrored_percent = 40.0};
   run.records = {{.sensor = Sensor::kVisibility,
                   .setting = {Method::kLpca, std::nullopt},
                   .step = 50,
@@ -117,17 +116,35 @@ RunResult made_up_result(const RunId& id) {
                                    .starts = {Method::kSmacof},
                                    .submaps = SubmapCount{.count = 1, .submaps = 2}}},
                      .score = std::nullopt}};
-  result.details = made_up_details(id);
+  return run;
+}
+
+/// A map with a landmark that has no position.
+MapRecord made_up_map(const Run& run, const Score& score) {
   MapRecord map;
-  map.id = slug(id) + "/visibility/lpca/50";
+  map.id = slug(run.id) + "/visibility/lpca/50";
   map.step = 50;
   map.names = {"L1", "L2", "L3", "L4"};
   map.estimate = run.world.landmarks_m;
-  map.estimate.row(2).setConstant(nan);
+  map.estimate.row(2).setConstant(std::numeric_limits<double>::quiet_NaN());
   map.ground_truth_m = run.world.landmarks_m;
   map.anchors = run.anchors;
   map.score = score;
-  result.maps = {map};
+  return map;
+}
+
+}  // namespace
+
+RunResult made_up_result(const RunId& id) {
+  const double x = number_of(id);
+  const Score score{.mpe_m = x / 7.0,
+                    .moe_percent = 60.0,
+                    .mpe_all_fitted_m = x / 9.0,
+                    .moe_unmirrored_percent = 40.0};
+  RunResult result;
+  result.run = made_up_run(id, score);
+  result.details = made_up_details(id);
+  result.maps = {made_up_map(result.run, score)};
   result.timings = {{.run = id,
                      .sensor = Sensor::kRange,
                      .setting = {Method::kSmacofKnn, 4.0},

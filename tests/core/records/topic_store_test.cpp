@@ -24,12 +24,13 @@ TopicStudy small_topic_study() {
   study.experiment.seed = 7;
   study.experiment.layouts = 2;
   study.experiment.options = {{"dimensions", {10.0}}, {"shares", {0.1, 0.5}}};
-  study.design = {.setups = {{.id = "random",
-                              .title = "At random",
-                              .factors = {{"share", "share missing", "", {0.1, 0.5}}}}},
-                  .method = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
-                  .quantities = {known_quantity("mpe_m"),
-                                 study_quantity("found", "found", "%", Better::kHigher)}};
+  study.design = {
+      .setups = {{.id = "random",
+                  .title = "At random",
+                  .factors = {{"share", "share missing", "", {0.1, 0.5}}}}},
+      .methods = {{.id = "ppca", .label = "PPCA"}, {.id = "fill", .label = "Mean fill"}},
+      .quantities = {known_quantity("mpe_m"),
+                     study_quantity("found", "found", "%", Better::kHigher)}};
   study.provenance = test::made_up_provenance();
   return study;
 }
@@ -39,13 +40,13 @@ TopicPart made_up_part(const RunId& run) {
   part.id = slug(run);
   part.run = run;
   part.outcomes = {{.at = condition("random", {{"share", 0.1}}),
-                  .method = "ppca",
-                  .values = {{"mpe_m", 0.05}, {"found", 100.0}},
-                  .statuses = {status_with_message(StatusCode::kNotConverged, "after 9 steps")}},
-                 {.at = condition("random", {{"share", 0.5}}),
-                  .method = "fill",
-                  .values = {{"mpe_m", kNaN}},
-                  .statuses = {}}};
+                    .method = "ppca",
+                    .values = {{"mpe_m", 0.05}, {"found", 100.0}},
+                    .statuses = {status_with_message(StatusCode::kNotConverged, "after 9 steps")}},
+                   {.at = condition("random", {{"share", 0.5}}),
+                    .method = "fill",
+                    .values = {{"mpe_m", kNaN}},
+                    .statuses = {}}};
   TopicMap map{.id = "ppca",
                .at = condition("random", {{"share", 0.5}}),
                .method = "ppca",
@@ -90,8 +91,8 @@ TEST(TopicStudy, IsReadBackAsItWasWritten) {
     store.write(part_of(made_up_part({2, 1}), ""));
     store.write(part_of(made_up_part({1, 1}), ""));
     EXPECT_TRUE(holds_part(folder.path(), small_topic_study().design, "layout-1-pose-1", ""));
-    EXPECT_FALSE(
-        holds_part(folder.path(), small_topic_study().design, "layout-1-pose-1", "of another data set"));
+    EXPECT_FALSE(holds_part(folder.path(), small_topic_study().design, "layout-1-pose-1",
+                            "of another data set"));
   }
   const TopicStudy study = read_topic_study(folder.path());
   EXPECT_EQ(topic_study_json(study), topic_study_json(written));

@@ -96,13 +96,13 @@ TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
     double mpe_m = 0.1;
     for (const Condition& at : conditions_of(setup)) {
       part.outcomes.push_back({.at = at,
-                             .method = "lpca",
-                             .values = {{"mpe_m", mpe_m}, {"moe_percent", 1.0}},
-                             .statuses = {}});
+                               .method = "lpca",
+                               .values = {{"mpe_m", mpe_m}, {"moe_percent", 1.0}},
+                               .statuses = {}});
       part.outcomes.push_back({.at = at,
-                             .method = "smacof-knn-K6",
-                             .values = {{"mpe_m", 0.2}, {"moe_percent", 1.0}},
-                             .statuses = {}});
+                               .method = "smacof-knn-K6",
+                               .values = {{"mpe_m", 0.2}, {"moe_percent", 1.0}},
+                               .statuses = {}});
       mpe_m += 0.3;
     }
   }
@@ -128,7 +128,7 @@ TEST(SweepTopic, SpellsMethodsAsAllStudiesDo) {
       "s.json", input_of_topics());
   const TopicStudy study = study_of(experiment);
   std::vector<std::string> ids;
-  for (const ComparedMethod& method : study.design.methods) ids.push_back(method.id);
+  for (const StudiedMethod& method : study.design.methods) ids.push_back(method.id);
   std::ranges::sort(ids);
   EXPECT_EQ(ids, (std::vector<std::string>{"isomap-K6", "kpca-gaussian-sigma2-0.05", "lpca"}));
   const std::string text = topic_study_json(study);

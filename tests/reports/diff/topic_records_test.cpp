@@ -16,7 +16,7 @@ TopicStudy two_runs() {
   study.experiment.topic = "association";
   study.experiment.layouts = 2;
   study.design = {.setups = {{.id = "all", .title = "All"}},
-                  .method = {{.id = "joint", .label = "Joint"}},
+                  .methods = {{.id = "joint", .label = "Joint"}},
                   .quantities = {known_quantity("mpe_m"),
                                  study_quantity("found", "found", "%", Better::kHigher)}};
   return study;
@@ -30,9 +30,9 @@ void write_study(const std::filesystem::path& folder, double mpe_m, double found
     part.run = RunId{.layout = layout, .pose = 1};
     part.id = slug(*part.run);
     part.outcomes = {{.at = condition("all"),
-                    .method = "joint",
-                    .values = {{"mpe_m", mpe_m}, {"found", found}},
-                    .statuses = {}}};
+                      .method = "joint",
+                      .values = {{"mpe_m", mpe_m}, {"found", found}},
+                      .statuses = {}}};
     store.write(part_of(part, ""));
   }
 }

@@ -32,7 +32,8 @@ NightlyRun sample_nightly_run(int number, std::uint64_t seed, const Plant& plant
                 .processor = "x86_64",
                 .cores = 2,
                 .jobs = 2}};
-  NightlyStudy study{.name = "sample", .kind = "mapproof.study", .experiment_digest = "d", .runs = 25};
+  NightlyStudy study{
+      .name = "sample", .kind = "mapproof.study", .experiment_digest = "d", .runs = 25};
   // What a run scores is the same in every nightly run; noise is the nightly run's own.
   Random same(1);
   Random random(derive_seed(seed, {static_cast<std::uint64_t>(number)}));

@@ -20,8 +20,8 @@ WalkedRoom walked_room(std::uint64_t seed, int steps, int landmarks) {
   return walked;
 }
 
-Features incomplete_matrix(Eigen::Index rows, Eigen::Index columns, Eigen::Index dimensions,
-                           double noise, double share, std::uint64_t seed) {
+Features incomplete_matrix(const IncompleteMatrix& of, std::uint64_t seed) {
+  const auto [rows, columns, dimensions, noise, share] = of;
   Random random(seed);
   const auto normal = [&](Eigen::Index m, Eigen::Index n) {
     Eigen::MatrixXd matrix(m, n);

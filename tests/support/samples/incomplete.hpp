@@ -17,9 +17,16 @@ struct WalkedRoom {
 
 WalkedRoom walked_room(std::uint64_t seed, int steps, int landmarks = 50);
 
-/// W x + mean + noise of `columns` standard normal x, a share of its entries missing; every row
-/// keeps one.
-Features incomplete_matrix(Eigen::Index rows, Eigen::Index columns, Eigen::Index dimensions,
-                           double noise, double share, std::uint64_t seed);
+/// A matrix to fill, and what is missing of it.
+struct IncompleteMatrix {
+  Eigen::Index rows = 0;
+  Eigen::Index columns = 0;
+  Eigen::Index dimensions = 0;
+  double noise = 0.0;
+  double share = 0.0;  ///< Of its entries that are missing.
+};
+
+/// W x + mean + noise of standard normal x, one for each column; every row keeps one entry.
+Features incomplete_matrix(const IncompleteMatrix& of, std::uint64_t seed);
 
 }  // namespace mapproof::test

@@ -15,9 +15,15 @@
 namespace mapproof::test {
 namespace {
 
+/// Where a curve is least, and how steep it is around.
+struct Valley {
+  double least, best, steepness;
+};
+
 /// A line that is least at `best` of `x`.
 ErrorLine valley(const std::string& label, const std::string& key, const std::vector<double>& x,
-                 double least, double best, double steepness) {
+                 const Valley& of) {
+  const auto [least, best, steepness] = of;
   ErrorLine line{.label = label, .key = key, .x = x, .mean = {}, .low = {}, .high = {}};
   for (const double value : x) {
     const double off = std::log(value / best);
@@ -115,16 +121,16 @@ ErrorByParameterSpec sample_parameters() {
                  {"σ²", "Gaussian kernel", Scale::kLog, false, {}},
                  {"d", "polynomial kernel", Scale::kLinear, true, {}}};
   spec.groups[0].methods = {
-      method(valley("SMACOF, kNN", "smacof-knn", K, 0.215, 6, 2.0), 6, 5, 0.206),
-      method(valley("ISOMAP", "isomap", K, 0.219, 6.5, 1.4), 6, 6, 0.177),
-      method(valley("LLE", "lle", K, 0.247, 8, 2.5), 8, 8, 0.241),
-      method(valley("Laplacian eigenmap", "lem", K, 0.397, 5, 0.5), 5, 6, 0.352),
-      method(valley("Hessian LLE", "hlle", {6, 7, 8, 9, 10}, 0.231, 8.5, 2.0), 8, 8, 0.192),
-      method(valley("SDE", "sde", K, 0.167, 5, 1.0), 5, 7, 0.138)};
+      method(valley("SMACOF, kNN", "smacof-knn", K, {0.215, 6, 2.0}), 6, 5, 0.206),
+      method(valley("ISOMAP", "isomap", K, {0.219, 6.5, 1.4}), 6, 6, 0.177),
+      method(valley("LLE", "lle", K, {0.247, 8, 2.5}), 8, 8, 0.241),
+      method(valley("Laplacian eigenmap", "lem", K, {0.397, 5, 0.5}), 5, 6, 0.352),
+      method(valley("Hessian LLE", "hlle", {6, 7, 8, 9, 10}, {0.231, 8.5, 2.0}), 8, 8, 0.192),
+      method(valley("SDE", "sde", K, {0.167, 5, 1.0}), 5, 7, 0.138)};
   spec.groups[1].methods = {
-      method(valley("KPCA, Gaussian", "kpca-gauss", width, 1.244, 1, 0.1), 1, 0.5, 0.926)};
+      method(valley("KPCA, Gaussian", "kpca-gauss", width, {1.244, 1, 0.1}), 1, 0.5, 0.926)};
   spec.groups[2].methods = {
-      method(valley("KPCA, polynomial", "kpca-poly", degree, 1.236, 2, 0.2), 2, 8, 0.953)};
+      method(valley("KPCA, polynomial", "kpca-poly", degree, {1.236, 2, 0.2}), 2, 8, 0.953)};
   spec.record_ids = {"layout-1-pose-1"};
   return spec;
 }

@@ -6,27 +6,8 @@
 
 #include "core/model/slam_study.hpp"
 #include "reports/model/report.hpp"
-#include "reports/sections/study_figures.hpp"
 
 namespace mapproof {
-
-/// The register of the sections and tables of slam_report(), each a pure function of the values.
-
-// slam_sections.cpp
-
-/// What the study found on each log, in short.
-Section slam_summary_section(const SlamStudy& study);
-
-/// Errors of all methods on all logs of real robots; empty without such a log.
-std::optional<Section> slam_accuracy_section(const SlamStudy& study);
-
-/// One log of a real robot.
-Section slam_run_section(const SlamRun& run, const FigureGroup* figures);
-
-/// Empty if nothing was simulated.
-std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures);
-
-// slam_tables.cpp
 
 /// Errors of every method on every run under the method's own alignment, which is named in a
 /// column; methods without an error have a row all the same. The least mean of a run among rigidly

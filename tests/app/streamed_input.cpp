@@ -1,4 +1,4 @@
-#include "tests/app/growing_files.hpp"
+#include "tests/app/streamed_input.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>

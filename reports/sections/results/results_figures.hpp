@@ -12,10 +12,6 @@
 
 namespace mapproof {
 
-/// The register of the parts of results_report(), each a pure function of the values.
-
-// results_figures.cpp
-
 /// The heat maps of setups with two factors of numbers, then one group of figures per overview and
 /// block, by their ids. Of an overview the curves of its blocks beside each other. Of a block of
 /// each quantity a curve over a factor of numbers, else the distribution over runs; of comparisons
@@ -33,25 +29,5 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
 /// empty.
 FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
                           const std::vector<GivenPath>& paths);
-
-// results_heat_maps.cpp
-
-/// The group of heat maps of a setup whose conditions differ in two factors of numbers: one per
-/// quantity and method, the factor with more levels across. Its id is the setup's and "grid"; it is
-/// empty for other setups, and where runs are not repeats of each other.
-FigureGroup heat_maps(const ResultsView& view, const Label& setup);
-
-// results_tables.cpp
-
-/// The tables of a block: one per quantity with the levels as columns, or of a single level one
-/// with the quantities as columns; each mean with its interval. Where the study labels its runs,
-/// one per run with the quantities as columns. Ids begin with the block's.
-std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& block);
-
-/// One per quantity that has values there: a method per row, a block of the overview per column.
-std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview);
-
-/// Methods, their mean ranks, and their paired differences from the best one.
-Table comparison_table(const ResultsView& view, const MethodComparison& comparison);
 
 }  // namespace mapproof
