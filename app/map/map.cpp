@@ -134,7 +134,7 @@ int map_once(MapJob job, const MapPlace& location, const Invocation& invocation)
     invocation.console.info(understood_line(path, summary));
     inputs.push_back(understood_json(summary));
   };
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "mapping");
   MapResult map;
   parallel_for(job.jobs, 1, [&](std::size_t) { map = make_map(job); });
   working.reset();

@@ -214,6 +214,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "reading");
   RangeLog log = read_range_log(arguments.data, arguments.log);
   std::optional<KnownLandmarks> known;
   if (anchors) known = known_landmarks_of(log, *anchors);
@@ -222,7 +223,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  working.emplace(invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
   working.reset();
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);

@@ -54,11 +54,14 @@ void check_ends(const std::string& bytes, const std::string& source, std::string
     throw IoError(source, fmt::format("is truncated: it does not end with \"{}\"", end));
 }
 
+/// Those of other programs are named with what converts them.
 void check_pdf(const std::string& bytes, const std::string& source) {
+  if (bytes.find("mapproof") == std::string::npos) refuse_other_kind(bytes, source);
   check_ends(bytes, source, "%PDF-", "%%EOF");
 }
 
 void check_page(const std::string& bytes, const std::string& source) {
+  if (bytes.find("content=\"mapproof\"") == std::string::npos) refuse_other_kind(bytes, source);
   check_ends(bytes, source, "<!DOCTYPE html>", "</html>");
 }
 
@@ -308,7 +311,7 @@ int validate_files(const ValidateArguments& arguments, const Invocation& invocat
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
-  const WorkingLine working(invocation.console, "reading");
+  const ProgressLine working(invocation.console, "reading");
   for (const auto& [path, role] : inputs) {
     options.role = role;
     for (const Finding& finding : validate_all(path, read_foreign, options)) {

@@ -95,44 +95,6 @@ void take_observations(const ObservationSource& source, Finding& finding) {
   finding.remarks.insert(finding.remarks.end(), source.remarks.begin(), source.remarks.end());
 }
 
-/// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is
-/// the most helpful: values that fit none are often degrees.
-void check_observations(const std::string& bytes, const std::string& name,
-                        const ValidateOptions& options, Finding& finding) {
-  if (options.sensor.empty() && options.format.layout == Layout::kAuto)
-    refuse_other_quantities(bytes, name, options);
-  const auto read = [&](Sensor sensor, const TableFormat& format) {
-    ByteSource source = memory_source(name, bytes);
-    return read_observations(source, sensor, format);
-  };
-  finding.kind = "observations";
-  std::string problem;
-  if (const auto sensor = sensor_named(options.sensor)) {
-    take_observations(read(*sensor, options.format), finding);
-  } else {
-    for (const Guess& guess : kGuesses) {
-      TableFormat format = options.format;
-      if (guess.unit == AngleUnit::kDegrees) format.unit = guess.unit;
-      try {
-        take_observations(read(guess.sensor, format), finding);
-        if (guess.unit != options.format.unit && guess.unit == AngleUnit::kDegrees)
-          finding.remarks.emplace_back(kDegreesRemark);
-        finding.remarks.push_back(
-            fmt::format("The sensor is not stated: the values fit {}", finding.input->sensor));
-        problem.clear();
-        break;
-      } catch (const IoError& error) {
-        if (problem.empty() ||
-            (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
-          problem = error.what();
-      }
-    }
-    if (!problem.empty()) throw CheckedProblem(problem);
-  }
-  finding.kind = finding.input->reading.form == "long table" ? "long CSV observations"
-                                                             : "wide CSV observations";
-}
-
 /// Words of headers that are no landmarks: those of odometry, positions and paths, in any case.
 constexpr std::string_view kMeasured[] = {
     "v",        "vx",       "vy",   "omega",   "w",   "speed",    "velocity",  "geschwindigkeit",
@@ -184,6 +146,44 @@ void refuse_other_quantities(std::string_view text, const std::string& name,
       is_geographic ? "Latitudes and longitudes have to be projected to metres (UTM) first"
                     : "--columns ROLE=HEADER names its columns; --odometry, --anchors, "
                       "--ground-truth or --sensor state what it is"));
+}
+
+/// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is
+/// the most helpful: values that fit none are often degrees.
+void check_observations(const std::string& bytes, const std::string& name,
+                        const ValidateOptions& options, Finding& finding) {
+  if (options.sensor.empty() && options.format.layout == Layout::kAuto)
+    refuse_other_quantities(bytes, name, options);
+  const auto read = [&](Sensor sensor, const TableFormat& format) {
+    ByteSource source = memory_source(name, bytes);
+    return read_observations(source, sensor, format);
+  };
+  finding.kind = "observations";
+  std::string problem;
+  if (const auto sensor = sensor_named(options.sensor)) {
+    take_observations(read(*sensor, options.format), finding);
+  } else {
+    for (const Guess& guess : kGuesses) {
+      TableFormat format = options.format;
+      if (guess.unit == AngleUnit::kDegrees) format.unit = guess.unit;
+      try {
+        take_observations(read(guess.sensor, format), finding);
+        if (guess.unit != options.format.unit && guess.unit == AngleUnit::kDegrees)
+          finding.remarks.emplace_back(kDegreesRemark);
+        finding.remarks.push_back(
+            fmt::format("The sensor is not stated: the values fit {}", finding.input->sensor));
+        problem.clear();
+        break;
+      } catch (const IoError& error) {
+        if (problem.empty() ||
+            (guess.sensor == Sensor::kBearing && guess.unit == options.format.unit))
+          problem = error.what();
+      }
+    }
+    if (!problem.empty()) throw CheckedProblem(problem);
+  }
+  const std::string& form = finding.input->reading.form;
+  finding.kind = form.substr(0, form.find(' ')) + " CSV observations";
 }
 
 void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
@@ -536,13 +536,22 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
                 "is a folder with no study, no map, no range log and no MRCLAM data in it");
 }
 
+/// What the table was before it was made a text.
+void take_form(const ByteSource& source, Finding& finding) {
+  finding.input->reading.packing = source.form();
+  if (source.original().empty()) return;
+  finding.input->reading.separator = '\0';
+  if (const std::size_t at = finding.kind.find(" CSV"); at != std::string::npos)
+    finding.kind.erase(at, 4);
+}
+
 }  // namespace
 
 Finding validate(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options) {
   Finding finding{.path = source.name(), .kind = {}, .problem = {}};
   try {
     check_source(source, foreign, options, finding);
-    if (finding.input) finding.input->reading.packing = source.form();
+    if (finding.input) take_form(source, finding);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -75,6 +75,10 @@ void fields(Visitor& v, FigureStyle& style) {
   v.field("draws_title", style.draws_title,
           {.description = "Whether the title is drawn. Missing: in the theme report.",
            .key = Key::kIfAny});
+  v.field("draws_notes", style.draws_notes,
+          {.description = "Whether scores, remarks and warnings are drawn below the title, which "
+                          "the caption has else. Missing: in the theme report.",
+           .key = Key::kIfAny});
   v.field("font", style.font,
           {.description = "TrueType or OpenType file, relative to this one.", .key = Key::kIfAny});
   v.field("font_pt", style.font_pt, size_rule("Size of axis labels, legend and notes.", 3, 72));

@@ -334,6 +334,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   ObservationSource result =
       is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
   result.reading.packing = source.form();
+  if (!source.original().empty()) result.reading.separator = '\0';
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
 }

@@ -215,17 +215,6 @@ bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
   return largest < kSameHeadingChange_rad && most_change > kSomeHeadingChange_rad;
 }
 
-Eigen::VectorXd pose_times(const RangeLogParts& parts) {
-  if (parts.odometry.empty()) return {};
-  Eigen::VectorXd times_s(std::ssize(parts.odometry) + 1);
-  for (Eigen::Index i = 0; i + 1 < times_s.size(); ++i)
-    times_s(i + 1) = parts.odometry[static_cast<std::size_t>(i)].time_s;
-  times_s(0) = parts.start          ? parts.start->time_s
-               : times_s.size() > 2 ? 2.0 * times_s(1) - times_s(2)
-                                    : times_s(1) - 1.0;
-  return times_s;
-}
-
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
   if (parts.columns.empty()) parts.columns = options.columns;
   take_named_files(options, parts);

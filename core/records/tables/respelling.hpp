@@ -37,6 +37,8 @@ std::string npy_csv(std::string_view bytes, const std::string& source);
 std::string npz_csv(std::string_view bytes, const std::string& source);
 /// Objects, or lists of cells, without a schema of mapproof.
 bool holds_json_rows(ByteSource& source);
+/// Whether each line is an object of its own.
+bool holds_json_lines(std::string_view text);
 /// @param text  From checked_text().
 std::string json_rows_csv(std::string_view text, const std::string& source);
 /// Edges EDGE_SE2_XY, EDGE_BEARING_SE2_XY, BR and LANDMARK: step, landmark, range, bearing.

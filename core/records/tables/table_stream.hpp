@@ -38,7 +38,8 @@ class TableStream {
 
   /// After the first row, see ByteSource and TableReader.
   std::string packing() const { return source_.form(); }
-  char separator() const { return separator_; }
+  /// Of a text that another form was made into: none.
+  char separator() const { return source_.original().empty() ? separator_ : '\0'; }
   bool has_decimal_commas() const {
     return had_decimal_commas_ || (reader_ && reader_->has_decimal_commas());
   }
