@@ -24,9 +24,8 @@ constexpr std::string_view kSaveAs = "File > Save As, then CSV UTF-8";
 constexpr std::string_view kRosbag = "examples/ros2/mcap_to_csv.py makes tables of MCAP";
 
 constexpr std::string_view kYaml =
-    "in Python, json.dump(yaml.safe_load(open(\"FILE\")), open(\"table.json\", \"w\")) with json "
-    "and "
-    "yaml";
+    "python3 -c 'import json, yaml; json.dump(yaml.safe_load(open(\"FILE\")), open(\"table.json\", "
+    "\"w\"))'";
 constexpr OtherKind kWebPage = {"", "", "a web page",
                                 "in Python, pandas.read_html(\"FILE\")[0].to_csv(\"table.csv\")"};
 
