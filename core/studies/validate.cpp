@@ -551,7 +551,7 @@ Finding validate(ByteSource& source, const ForeignReader& foreign, const Validat
   Finding finding{.path = source.name(), .kind = {}, .problem = {}};
   try {
     check_source(source, foreign, options, finding);
-    if (finding.input) take_form(source, finding);
+    if (finding.input && finding.input->reading.packing.empty()) take_form(source, finding);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -58,6 +58,12 @@ TEST_F(RenderOfAMap, DrawsItForAColumnOfAPaper) {
 }
 
 TEST_F(RenderOfAMap, OnPaperItsScoreIsInTheCaptionAlone) {
+  const std::string files = std::string(kExamples) + "/hall";
+  ASSERT_EQ(mapproof({"map", files + "/bearings.csv", "--sensor", "bearing", "--method", "lpca",
+                      "--anchors", files + "/anchors.csv", "--ground-truth",
+                      files + "/ground_truth.csv", "--force", "--out", map_})
+                .exit_code,
+            0);
   ASSERT_EQ(render({map_, "--figure", "map", "--theme", "paper", "--as", "svg,latex,matplotlib"})
                 .exit_code,
             0);
@@ -144,7 +150,7 @@ TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
       {{map_, "--as", "csv", "--width", "5"}, "--width: has no effect on csv"},
       {{map_, "--as", "pdf", "--dpi", "300"}, "--dpi: only png has pixels"},
       {{map_, "--theme", "paper", "--no-title"}, "--no-title: no title is drawn anyway"},
-      {{map_, "--as", "mp4"}, "only what --animate names"},
+      {{map_, "--as", "mp4"}, "a map is one still figure"},
       {{map_, "--animate", "scene-x"}, "nothing moves"},
       {{map_, "--figure", "mop"}, "did you mean \"map\"?"},
       {{map_, "--landmarks", "nobody"}, "no landmark \"nobody\""},

@@ -97,6 +97,10 @@ Columns columns_of(const TableRow& header, const std::string& source, const Colu
     columns.factor[*heading.column] = heading.factor;
     is_found[*heading.column] = true;
   }
+  for (const NamedColumn& column : names)
+    for (std::size_t i = 0; i < kRoles.size(); ++i)
+      if (!is_found[i] && column.role == kRoles[i])
+        require_columns(header.cells, {{column.role, column.header}}, source);
   if (std::ranges::find(is_found, false) != is_found.end())
     throw IoError(source, location,
                   fmt::format("expected the columns name, x, y; got {}{}",
