@@ -100,10 +100,11 @@ TEST_F(UserFiles, ValidateTakesNoOdometryPathOrPositionsForBearings) {
 
 TEST_F(UserFiles, ValidateNamesWhatMapproofWrote) {
   const std::string map = at("map");
-  ASSERT_EQ(mapproof({"map", (kHall / "bearings.csv").string(), "--sensor", "bearing", "--anchors",
-                      (kHall / "anchors.csv").string(), "--method", "isomap", "--out", map})
-                .exit_code,
-            0);
+  const Outcome mapped =
+      mapproof({"map", (kHall / "bearings.csv").string(), "--sensor", "bearing", "--anchors",
+                (kHall / "anchors.csv").string(), "--method", "isomap", "--out", map});
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.error;
+  EXPECT_TRUE(mapped.out.starts_with("Method: ISOMAP")) << mapped.out;
   ASSERT_EQ(mapproof({"render", map, "--as", "svg,png,pdf,eps,json,csv,matplotlib,latex", "--out",
                       at("drawn")})
                 .exit_code,
