@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <condition_variable>
 #include <csignal>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -32,11 +31,11 @@ std::string one_line(const std::string& message) { return printable(message, 400
 constexpr std::string_view kWipe = "\r\033[K";
 
 /// The state of the one terminal that the program writes to.
-std::mutex terminal_mutex;                 // NOLINT: there is one terminal.
+std::mutex terminal_mutex;                   // NOLINT: there is one terminal.
 std::atomic<bool> terminal_has_line{false};  // NOLINT: likewise.
 
 /// What the handler of a signal writes: nothing in it may allocate.
-std::array<char, 200> last_words{};      // NOLINT: a handler gets no other argument.
+std::array<char, 200> last_words{};       // NOLINT: a handler gets no other argument.
 std::atomic<std::size_t> last_length{0};  // NOLINT: likewise.
 
 extern "C" void end_with_a_word(int signal) {
@@ -99,14 +98,45 @@ void wipe_progress_line() {
   std::fflush(stderr);
 }
 
-ProgressLine::ProgressLine(bool shown) : shown_(shown), terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressLine::ProgressLine(const Console& console, std::string doing)
+    : shown_(!console.is_quiet()),
+      terminal_(::isatty(STDERR_FILENO) == 1),
+      text_(std::move(doing)) {
+  if (shown_ && terminal_) redrawing_ = std::thread([this] { redraw(); });
+}
 
 ProgressLine::~ProgressLine() {
+  if (redrawing_.joinable()) {
+    {
+      const std::lock_guard lock(mutex_);
+      ended_ = true;
+    }
+    ends_.notify_all();
+    redrawing_.join();
+  }
   if (shown_) wipe_progress_line();
 }
 
+/// What takes long shows that it goes on.
+void ProgressLine::redraw() {
+  constexpr auto kPause = std::chrono::milliseconds(500);
+  std::unique_lock lock(mutex_);
+  while (!ends_.wait_for(lock, kPause, [this] { return ended_; })) {
+    const std::lock_guard terminal(terminal_mutex);
+    if (terminal_has_line && Clock::now() - last_ < 2 * kPause) continue;
+    last_ = Clock::now();
+    std::fputs(fmt::format("{}{}, {:.0f} s", kWipe, text_, seconds()).c_str(), stderr);
+    std::fflush(stderr);
+    terminal_has_line = true;
+  }
+}
+
+double ProgressLine::seconds() const {
+  return std::chrono::duration<double>(Clock::now() - start_).count();
+}
+
 void ProgressLine::operator()(const Progress& progress) {
-  show(progress_text(progress, std::chrono::duration<double>(Clock::now() - start_).count()));
+  show(progress_text(progress, seconds()));
 }
 
 void ProgressLine::show(const std::string& text) {
@@ -114,6 +144,7 @@ void ProgressLine::show(const std::string& text) {
   const std::lock_guard lock(terminal_mutex);
   const Clock::time_point now = Clock::now();
   const auto pause = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
+  text_ = text;
   if (now - last_ < pause) return;
   last_ = now;
   std::fputs((terminal_ ? std::string(kWipe) + text : text + "\n").c_str(), stderr);
@@ -122,41 +153,10 @@ void ProgressLine::show(const std::string& text) {
 }
 
 CountProgress count_progress(const Console& console, std::string doing) {
-  auto line = std::make_shared<ProgressLine>(!console.is_quiet());
+  auto line = std::make_shared<ProgressLine>(console, doing);
   return [line, doing = std::move(doing)](std::size_t done, std::size_t total) {
     line->show(fmt::format("{} {} of {}", doing, done, total));
   };
-}
-
-struct WorkingLine::State {
-  std::mutex mutex;
-  std::condition_variable changed;
-  bool ended = false;
-  std::thread thread;
-};
-
-WorkingLine::WorkingLine(const Console& console, std::string doing)
-    : state_(std::make_unique<State>()) {
-  if (console.is_quiet() || ::isatty(STDERR_FILENO) != 1) return;
-  state_->thread = std::thread([state = state_.get(), doing = std::move(doing)] {
-    ProgressLine line(true);
-    std::unique_lock lock(state->mutex);
-    for (int seconds = 1;; ++seconds) {
-      if (state->changed.wait_for(lock, std::chrono::seconds(1), [&] { return state->ended; }))
-        return;
-      line.show(fmt::format("{}, {} s", doing, seconds));
-    }
-  });
-}
-
-WorkingLine::~WorkingLine() {
-  if (!state_->thread.joinable()) return;
-  {
-    const std::lock_guard lock(state_->mutex);
-    state_->ended = true;
-  }
-  state_->changed.notify_all();
-  state_->thread.join();
 }
 
 std::string progress_text(const Progress& progress, double seconds) {

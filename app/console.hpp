@@ -1,11 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <functional>
-#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
+#include <thread>
 
 #include <nlohmann/json.hpp>
 
@@ -46,11 +48,13 @@ class Console {
   std::string command_;
 };
 
-/// Shows how far a command has come on standard error: one line that is redrawn on a terminal, a
-/// plain line every five seconds elsewhere. Safe from any thread.
+/// Shows on standard error what a command does until it is destroyed: one line that is redrawn on a
+/// terminal, within half a second and then at least every second ("mapping, 12 s"); a plain line
+/// every five seconds elsewhere, of progress alone. Nothing with --quiet. Safe from any thread.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool shown);
+  /// @param doing  Shown until there is progress: "mapping".
+  ProgressLine(const Console& console, std::string doing);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
@@ -62,10 +66,18 @@ class ProgressLine {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void redraw();
+  double seconds() const;
+
   bool shown_;
   bool terminal_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_ = start_;
+  std::string text_;  ///< Guarded, as last_, by the mutex of the terminal.
+  std::mutex mutex_;  ///< Of what follows.
+  std::condition_variable ends_;
+  bool ended_ = false;
+  std::thread redrawing_;  ///< On a terminal alone.
 };
 
 /// Removes the line that is redrawn from the terminal, so that a message can be written. Safe from
@@ -77,19 +89,6 @@ using CountProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// Shows "drawing 7 of 23" until it is destroyed.
 CountProgress count_progress(const Console& console, std::string doing);
-
-/// Shows "mapping, 12 s" on a terminal from the first second on, until it is destroyed.
-class WorkingLine {
- public:
-  WorkingLine(const Console& console, std::string doing);
-  ~WorkingLine();
-  WorkingLine(const WorkingLine&) = delete;
-  WorkingLine& operator=(const WorkingLine&) = delete;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// "12 of 25 runs, 3.1 runs/s, 4 s left", after that many seconds.
 std::string progress_text(const Progress& progress, double seconds);

@@ -110,7 +110,7 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
                             (name[1] == '-' && name.size() > 2));
     if (!is_option || std::ranges::find(names, name) != names.end()) continue;
     const std::string own = command.get_name() + " " + name;
-    for (const std::string& retired : {own, name})
+    for (const std::string& retired : {lower_case(own), lower_case(name)})
       if (const auto now = replacement_of(NameKind::kOption, retired); !now.empty())
         throw InvalidInput(fmt::format("{}: this option is now called {}", name, now));
     // "-K6", "-jx": a short name with its value.
@@ -121,10 +121,11 @@ void check_options(const CLI::App& command, std::span<const std::string> words) 
     if (const CLI::Option* option = meant.empty() ? nullptr : command.get_option_no_throw(meant);
         option != nullptr && meant.starts_with("--") && !option->get_lnames().empty())
       meant = "--" + option->get_lnames().front();
-    throw InvalidInput(fmt::format("{}: {} has no such option; {}\"mapproof help {}\" lists them",
+    const bool is_program = command.get_parent() == nullptr;
+    throw InvalidInput(fmt::format("{}: {} has no such option; {}\"mapproof {}\" lists them",
                                    printable(name), command.get_name(),
                                    meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
-                                   command.get_name()));
+                                   is_program ? "--help" : "help " + command.get_name()));
   }
 }
 
@@ -194,6 +195,8 @@ int run_command_of(int argc, char** argv) {
       if (sub->get_name() == words.front()) command = sub;
     if (command == nullptr) throw InvalidInput(unknown_command(app, words.front()));
     check_options(*command, std::span(words).subspan(1));
+  } else {
+    check_options(app, std::span(words).first(1));
   }
   const std::string about = command == nullptr ? "--help" : "help " + command->get_name();
   try {

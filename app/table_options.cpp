@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "app/command_line.hpp"
+#include "core/records/detections/scan_grouping.hpp"
 
 namespace mapproof {
 namespace {
@@ -24,14 +26,16 @@ std::string_view name(BearingConvention convention) {
   return kConventions[static_cast<std::size_t>(convention)];
 }
 
-TableFormat TableOptions::format() const {
+TableFormat TableOptions::format(std::span<const ColumnRole> roles) const {
   const auto* known = std::ranges::find(kConventions, convention);
   const auto named = static_cast<BearingConvention>(known - kConventions.begin());
   return {.unit = degrees || named == BearingConvention::kCompass ? AngleUnit::kDegrees
                                                                   : AngleUnit::kRadians,
           .layout = layout_named(layout),
           .convention = named,
-          .columns = column_names(columns)};
+          .columns = column_names(columns, roles),
+          .scan_window_s =
+              scan_window.empty() ? std::nullopt : std::optional(scan_window_of(scan_window))};
 }
 
 void add_table_options(CLI::App& app, TableOptions& options) {
@@ -52,7 +56,13 @@ void add_table_options(CLI::App& app, TableOptions& options) {
                  "bearing=3; also step, nanoseconds, robot, range, value, x, y, right")
       ->type_name("NAME=COLUMN")
       ->delimiter(',');
-  group_options(app, {{"Input", {"--degrees", "--bearing-convention", "--layout", "--columns"}}});
+  app.add_option("--scan-window", options.scan_window,
+                 "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
+                 "are one scan (default: found from the gaps between the stamps)")
+      ->type_name("SECONDS");
+  group_options(
+      app,
+      {{"Input", {"--degrees", "--bearing-convention", "--layout", "--columns", "--scan-window"}}});
 }
 
 }  // namespace mapproof

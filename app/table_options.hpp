@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,11 @@ struct TableOptions {
   std::string convention = "counterclockwise";  ///< Of bearings.
   std::vector<std::string> columns;             ///< "time=Zeit".
 
-  /// @throws InvalidInput for columns that name no role, or one twice.
-  TableFormat format() const;
+  std::string scan_window;  ///< Seconds, or with a unit; empty: found from the gaps.
+
+  /// @throws InvalidInput for columns that name none of the roles, or one twice, or for a scan
+  ///         window that is none.
+  TableFormat format(std::span<const ColumnRole> roles = kTableRoles) const;
   /// Whether the table is stated to be one of landmarks and steps.
   bool is_grid() const { return layout == "wide" || layout == "transposed"; }
 };

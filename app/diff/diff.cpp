@@ -30,7 +30,7 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
   check_output_paths(arguments.options, inputs);
   const DiffSettings settings =
       diff_settings(arguments.options, arguments.baseline, invocation.console);
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "comparing");
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "comparing");
   const DiffResult result = folder_diff(arguments.baseline, arguments.current, settings);
   working.reset();
   return hand_out(result, settings, arguments.options, invocation);

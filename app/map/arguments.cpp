@@ -9,7 +9,6 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
 #include "core/missing/filled.hpp"
-#include "core/records/detections/scan_grouping.hpp"
 
 namespace mapproof {
 namespace {
@@ -54,10 +53,6 @@ void add_observation_options(CLI::App& app, MapJob& job) {
       ->transform(one_of({"visibility", "bearing", "range"}))
       ->take_all();
   add_table_options(app, job.table);
-  app.add_option("--scan-window", job.scan_window,
-                 "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "
-                 "are one scan (default: found from the gaps between the stamps)")
-      ->type_name("SECONDS");
   app.add_option("--anchors", job.anchors,
                  "Known positions of three or more landmarks: CSV with name, x [m], y [m]");
   app.add_option("--ground-truth,--truth", job.ground_truth,
@@ -142,7 +137,7 @@ AffineFit MapJob::affine_fit() const {
 
 TableFormat MapJob::table_format() const {
   TableFormat format = table.format();
-  if (!scan_window.empty()) format.scan_window_s = scan_window_of(scan_window);
+  format.columns = columns;
   return format;
 }
 
@@ -160,8 +155,7 @@ void add_map_options(CLI::App& app, MapJob& job) {
   add_jobs_option(app, job.jobs);
   group_options(
       app, {{"Input",
-             {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--scan-window", "--steps",
-              "--drop-unseen"}},
+             {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--steps", "--drop-unseen"}},
             {"Method",
              {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--stress-fall",
               "--only-seen-together", "--submaps", "--overlap"}},

@@ -25,10 +25,12 @@ namespace mapproof {
 struct MapJob {
   std::string path;                         ///< Of the observations.
   std::shared_ptr<ByteSource> source = {};  ///< Opened by complete(); none: the path is a folder.
-  std::string sensor;             ///< A sensor's name, kRangeBearing, or empty: as in the file.
-  TableOptions table = {};        ///< How the files are to be read.
-  std::string scan_window;        ///< Seconds, or with a unit; empty: found from the gaps.
-  std::vector<std::string> with;  ///< Files of other sensors,
+  std::string sensor;       ///< A sensor's name, kRangeBearing, or empty: as in the file.
+  TableOptions table = {};  ///< How the files are to be read.
+  /// Columns of --columns; marked by complete() where anchors, ground truth or another sensor's
+  /// file has them. And those of the files of other sensors, where the observations have them.
+  ColumnNames columns = {}, with_columns = {};
+  std::vector<std::string> with;         ///< Files of other sensors,
   std::vector<std::string> with_sensor;  ///< and what each holds.
   std::string anchors;
   std::string ground_truth;

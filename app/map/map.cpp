@@ -18,6 +18,7 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/parallel.hpp"
 #include "core/records/detections/mrclam.hpp"
+#include "core/records/tables/respelling.hpp"
 
 namespace mapproof {
 namespace {
@@ -63,6 +64,8 @@ void open_observations(MapJob& job) {
     return;
   }
   job.source = std::make_shared<ByteSource>(job.path);
+  require_columns(*job.source, job.columns);
+  mark_columns(*job.source, job.with_columns);
   const TableFormat format = job.table_format();
   if (!job.sensor.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
     return;
@@ -73,6 +76,20 @@ void open_observations(MapJob& job) {
                                                   : std::string(name(Sensor::kVisibility));
 }
 
+/// Reads anchors and ground truth, and finds out which named columns they and the files of other
+/// sensors have. A stream of those is not looked at: it can be read once.
+void read_known_positions(MapJob& job) {
+  job.columns = column_names(job.table.columns);
+  job.known_anchors = read_points(job.anchors, job.columns);
+  job.known_ground_truth = read_points(job.ground_truth, job.columns);
+  job.with_columns = job.columns;
+  for (const std::string& with : job.with) {
+    if (job.columns.empty() || is_folder(with) || handed_in(with)) continue;
+    ByteSource source(with);
+    mark_columns(source, job.columns);
+  }
+}
+
 /// Completes a parsed job: unless the map is incremental, opens the file and detects its sensor if
 /// none is given; checks which options go together, and method and parameter; reads anchors and
 /// ground truth.
@@ -80,14 +97,13 @@ void open_observations(MapJob& job) {
 ///         if a file cannot be read.
 void complete(MapJob& job) {
   if (job.sensor.empty() && job.method == kPairs) job.sensor = kRangeBearing;
+  read_known_positions(job);
   // A stream cannot be opened before it is read.
   if (!job.incremental) open_observations(job);
   require_known_method(job);
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
   set_stop_rules(job);
-  job.known_anchors = read_points(job.anchors);
-  job.known_ground_truth = read_points(job.ground_truth);
 }
 
 /// Refuses, before anything is computed, a folder that holds another map. Whether a map of pairs
@@ -107,7 +123,7 @@ int map_once(MapJob job, const MapOutput& location, const Invocation& invocation
     invocation.console.info(understood_line(path, summary));
     inputs.push_back(understood_json(summary));
   };
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "mapping");
   MapResult map;
   parallel_for(job.jobs, 1, [&](std::size_t) {
     MapDraft draft = begin_map(job);

@@ -134,7 +134,7 @@ std::string map_text(const MapResult& map, const fs::path& out) {
   const bool is_chosen =
       std::ranges::any_of(map.members, [](const auto& member) { return member.name == "choice"; });
   std::string text =
-      fmt::format("{}{}, {}, {} steps", method_label(record),
+      fmt::format("Method: {}{}, {}, {} steps", method_label(record),
                   is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
   if (record.score)
     if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;

@@ -33,9 +33,10 @@ DetectionSource read_scans(const MapJob& job, std::optional<Sensor> value) {
 
 std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sensor> sensor) {
   std::vector<ObservationSource> sources = {read_values(job, sensor)};
+  TableFormat format = job.table_format();
+  format.columns = job.with_columns;
   for (std::size_t k = 0; k < job.with.size(); ++k)
-    sources.push_back(
-        read_observations(job.with[k], sensor_named(job.with_sensor[k]), job.table_format()));
+    sources.push_back(read_observations(job.with[k], sensor_named(job.with_sensor[k]), format));
   for (const ObservationSource& source : sources)
     if (!source.unassociated.empty())
       throw IoError(source.path, fmt::format("line {}", source.unassociated.front().line),

@@ -12,6 +12,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/linalg/planarity.hpp"
+#include "core/records/tables/respelling.hpp"
 
 namespace mapproof {
 namespace {
@@ -126,9 +127,11 @@ std::vector<std::string> never_seen(const MapRecord& record, const NamedPoints& 
 
 }  // namespace
 
-std::optional<NamedPointsFile> read_points(const std::string& path) {
+std::optional<NamedPointsFile> read_points(const std::string& path, ColumnNames& columns) {
   if (path.empty()) return std::nullopt;
-  return NamedPointsFile{.path = input_name(path), .points = read_landmarks(path)};
+  ByteSource source(path);
+  mark_columns(source, columns);
+  return NamedPointsFile{.path = input_name(path), .points = read_landmarks(source, columns)};
 }
 
 std::string quoted_name(const std::string& name) { return "\"" + printable(name) + "\""; }

@@ -19,8 +19,9 @@ struct NamedPointsFile {
   NamedPoints points;
 };
 
-/// Reads the file; empty for an empty path. @throws IoError.
-std::optional<NamedPointsFile> read_points(const std::string& path);
+/// Reads the file; empty for an empty path.
+/// @param columns  That the user names; those that the file has are marked. @throws IoError.
+std::optional<NamedPointsFile> read_points(const std::string& path, ColumnNames& columns);
 
 /// The landmarks that a person's observations are of.
 struct MappedLandmarks {

@@ -16,6 +16,7 @@
 #include "core/base/text/spelling.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_scene.hpp"
+#include "render/plot/layout.hpp"
 #include "render/style/edits.hpp"
 #include "render/style/words.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -69,6 +70,21 @@ std::vector<std::string> format_words() {
   return words;
 }
 
+/// Refuses an animation of what does not move. @throws InvalidInput naming what does.
+[[noreturn]] void refuse_still(AnimationFormat format, const RenderArguments& arguments) {
+  std::vector<std::string> moving;
+  if (!arguments.input.empty())
+    for (const Film& film : read_drawables(arguments.input).films) moving.push_back(film.id);
+  throw InvalidInput(
+      moving.empty()
+          ? fmt::format("--as {}: nothing in {} moves: 3-D figures of studies do (`mapproof "
+                        "reproduce`); a map is one still figure, of which svg, png, pdf and eps "
+                        "can be had",
+                        name(format), printable(arguments.input))
+          : fmt::format("--as {}: only what --animate names is an animation; there are {}",
+                        name(format), fmt::join(moving, ", ")));
+}
+
 Formats formats_of(const RenderArguments& arguments) {
   Formats formats;
   for (const std::string& word : arguments.as) {
@@ -82,8 +98,7 @@ Formats formats_of(const RenderArguments& arguments) {
   if (arguments.as.empty()) formats.files = usual_formats();
   const bool has_animation = !formats.animations.empty();
   if (has_animation && arguments.animations.empty())
-    throw InvalidInput(fmt::format("--as {}: only what --animate names is an animation",
-                                   name(*formats.animations.begin())));
+    refuse_still(*formats.animations.begin(), arguments);
   if (formats.animations.empty()) formats.animations = {AnimationFormat::kApng};
   const bool is_alone = !arguments.animations.empty() && arguments.ids.empty();
   if (is_alone && !arguments.as.empty() && (!has_animation || !formats.files.empty()))
@@ -196,9 +211,21 @@ void edit_landmarks(const StyleArguments& style, Drawables& drawables) {
     name_landmarks(figure, all ? known : none ? std::vector<std::string>() : style.landmarks);
 }
 
+std::vector<std::string> texts_of(Drawables drawables) {
+  std::vector<std::string> texts;
+  const auto add = [&](const std::string& text) { texts.push_back(text); };
+  for (Figure& figure : drawables.figures) for_each_text(figure, add);
+  for (Scene& scene : drawables.scenes) for_each_text(scene, add);
+  for (Film& film : drawables.films)
+    for (Scene& frame : film.frames) for_each_text(frame, add);
+  return texts;
+}
+
 /// Titles, landmarks and words as they were asked for.
 void edit(const StyleArguments& arguments, const FigureStyle& style, Drawables& drawables) {
   edit_landmarks(arguments, drawables);
+  if (!style.words.empty())
+    require_known_phrases(style, texts_of(drawables), arguments.file.value_or("--style"));
   const auto words = words_of(style);
   for (Figure& figure : drawables.figures) replace_words(figure, words);
   for (Scene& scene : drawables.scenes) replace_words(scene, words);
@@ -284,11 +311,36 @@ std::string files_text(const fs::path& folder, const std::string& id, const Form
   return text;
 }
 
+/// The caption, with the notes that the figure does not show. @param drawn  Whether it shows them.
+std::string caption_of(const std::string& caption, const std::vector<Note>& notes, bool drawn) {
+  std::string text = caption;
+  for (const Note& note : notes) {
+    constexpr std::string_view kSign = "\u26A0 ";
+    std::string_view words = note.text;
+    if (words.starts_with(kSign)) words.remove_prefix(kSign.size());
+    if (!drawn && text.find(words) == std::string::npos) text += fmt::format(" {}", words);
+  }
+  return text;
+}
+
+/// Says what a figure does not show in this theme.
+void report_notes(const Drawables& drawables, const Theme& theme, const Console& console) {
+  for (const Figure& figure : drawables.figures)
+    for (const Note& note : figure.notes)
+      if (note.colour == ThemeColour::kWarning && !draws_notes(figure, theme))
+        console.info(fmt::format("{}: for the caption: {}", figure.id, note.text));
+}
+
 void write_latex(const Drawables& drawables, const Theme& theme, const OutputFolder& folder) {
   for (const Figure& figure : drawables.figures)
-    folder.write(figure.id + ".tex", figure_latex(figure.id, figure.caption, theme.width_pt));
+    folder.write(figure.id + ".tex",
+                 figure_latex(figure.id,
+                              caption_of(figure.caption, figure.notes, draws_notes(figure, theme)),
+                              theme.width_pt));
   for (const Scene& scene : drawables.scenes)
-    folder.write(scene.id + ".tex", figure_latex(scene.id, scene.caption, theme.width_pt));
+    folder.write(scene.id + ".tex",
+                 figure_latex(scene.id, caption_of(scene.caption, scene.notes, theme.draws_notes),
+                              theme.width_pt));
 }
 
 void write_films(const Drawables& drawables, const DrawingJob& job, const Formats& formats,
@@ -318,12 +370,14 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   for (const Figure& figure : drawables.figures) images.figures.push_back(&figure);
   for (const Scene& scene : drawables.scenes) images.scenes.push_back(&scene);
   SceneClient client;  // One program draws scenes and films.
-  const DrawingJob job{.folder = folder,
-                       .theme = theme,
-                       .jobs = arguments.jobs,
-                       .formats = formats.files,
-                       .progress = count_progress(invocation.console, "drawing")};
+  DrawingJob job{.folder = folder,
+                 .theme = theme,
+                 .jobs = arguments.jobs,
+                 .formats = formats.files,
+                 .progress = count_progress(invocation.console, "drawing")};
   const Drawn drawn = write_images(images, job, client);
+  job.progress = nullptr;
+  report_notes(drawables, theme, invocation.console);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   if (formats.latex) write_latex(drawables, theme, folder);
   write_films(drawables, job, formats, client, invocation.console);

@@ -1,10 +1,45 @@
 #include "app/render/style_options.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
 #include "render/style/figure_style_fields.hpp"
 #include "render/style/words.hpp"
 
 namespace mapproof {
+namespace {
+
+/// Takes a length with a unit, and makes it inches.
+CLI::Validator length_in_inches() {
+  return {[](std::string& text) -> std::string {
+            constexpr std::pair<std::string_view, double> kUnits[] = {
+                {"", 1.0}, {"in", 1.0}, {"\"", 1.0}, {"cm", 2.54}, {"mm", 25.4}, {"pt", 72.0}};
+            const std::string word = lower_case(trimmed(text));
+            const std::size_t end = word.find_last_of("0123456789.") + 1;
+            const std::optional<double> number = number_in(word.substr(0, end));
+            const auto* unit =
+                std::ranges::find(kUnits, trimmed(std::string_view(word).substr(end)),
+                                  [](const auto& known) { return known.first; });
+            if (!number || !std::isfinite(*number) || unit == std::end(kUnits))
+              return fmt::format(
+                  "\"{}\" is not a length: inches (3.25), or a unit behind it (3.25in, 8cm, 82mm, "
+                  "234pt)",
+                  printable(text));
+            text = fmt::format("{}", *number / unit->second);
+            return "";
+          },
+          ""};
+}
+
+}  // namespace
 
 bool StyleArguments::changes_figures() const {
   return file || theme.value_or("report") != "report" || title || no_title || font || language ||
@@ -18,11 +53,14 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
                  "journal, 3.25 in wide, 8 pt, 300 dpi, without a title. The default is report")
       ->transform(one_of({"report", "paper"}))
       ->group(group);
-  app.add_option("--width", arguments.width_in, "Width of the figure in inches")
+  app.add_option("--width", arguments.width_in,
+                 "Width of the figure in inches, or with a unit, as 8cm, 82mm or 234pt")
+      ->transform(length_in_inches())
       ->check(CLI::Range(2.0, 20.0))
       ->group(group);
   app.add_option("--height", arguments.height_in,
-                 "Height of the figure in inches; of several panels, of one row")
+                 "Height of the figure, as for --width; of several panels, of one row")
+      ->transform(length_in_inches())
       ->check(CLI::Range(1.0, 20.0))
       ->group(group);
   app.add_option("--dpi", arguments.dpi, "Pixels per inch of PNG and of animations")

@@ -86,13 +86,13 @@ fs::path made_slam_folder(const fs::path& folder) {
 
 }  // namespace
 
-KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path) {
-  const NamedPoints points = read_landmarks(path);
+KnownLandmarks known_landmarks_of(const RangeLog& log, const NamedPointsFile& file) {
+  const NamedPoints& points = file.points;
   KnownLandmarks known;
   for (std::size_t i = 0; i < points.names.size(); ++i) {
     const auto found = std::ranges::find(log.landmarks, points.names[i]);
     if (found == log.landmarks.end())
-      throw IoError(input_name(path), points.locations[i],
+      throw IoError(file.path, points.locations[i],
                     fmt::format("landmark \"{}\" is not among the {} that were ranged to ({})",
                                 printable(points.names[i]), log.landmarks.size(),
                                 printable(listed(log.landmarks, 6), 200)));

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "app/map/reference.hpp"
 #include "core/experiment/slam_run.hpp"
-#include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/studies/folder_lock.hpp"
 
 namespace mapproof {
@@ -15,7 +15,7 @@ inline constexpr const char* kSlamFile = "slam.json";
 
 /// Positions of landmarks from a file, as a log's.
 /// @throws IoError naming file and line of a landmark that the log has no range to.
-KnownLandmarks known_landmarks_of(const RangeLog& log, const std::string& path);
+KnownLandmarks known_landmarks_of(const RangeLog& log, const NamedPointsFile& file);
 
 /// Runs every method that the log allows; its remarks name what the log does not allow:
 /// without odometry no windows, no reflection, no refinement; with fewer than four known landmarks

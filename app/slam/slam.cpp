@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <memory>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,6 +24,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/observations/trajectories.hpp"
+#include "core/records/ranges/range_companions.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/slam_store.hpp"
@@ -104,30 +104,12 @@ void require_compatible(const SlamArguments& arguments) {
   if (!refusal.empty()) throw InvalidInput(refusal);
 }
 
-/// Whether a file of ground truth holds positions of landmarks rather than a path: its header names
-/// them, or it has three columns without a time.
-bool holds_landmarks(const std::string& file) {
-  ByteSource source(file);
-  const std::string_view start = source.peek(4096);
-  std::string line(start.substr(0, start.find('\n')));
-  for (char& c : line)
-    if (c == ';' || c == '\t' || c == '\r') c = c == '\r' ? ' ' : ',';
-  const std::string head = "," + lower_case(line) + ",";
-  const auto has = [&](std::initializer_list<std::string_view> words) {
-    return std::ranges::any_of(words, [&](std::string_view word) {
-      return head.find("," + std::string(word)) != std::string::npos;
-    });
-  };
-  if (has({"name", "landmark", "beacon", "tag", "marker", "id,"})) return true;
-  if (has({"t,", "t ", "time", "stamp"})) return false;
-  return std::ranges::count(line, ',') == 2;
-}
-
 /// Puts each file of --ground-truth where it belongs. @throws InvalidInput for two of a kind.
 void sort_ground_truths(SlamArguments& arguments) {
   for (const std::string& typed : arguments.ground_truths) {
     const std::string file = made_file(typed);
-    const bool is_landmarks = holds_landmarks(file);
+    ByteSource source(file);
+    const bool is_landmarks = holds_landmarks(source, arguments.log.columns);
     std::string& place = is_landmarks ? arguments.true_landmarks : arguments.ground_truth;
     if (!place.empty())
       throw InvalidInput(fmt::format("--ground-truth: {} and {} are both {}", printable(place),
@@ -239,10 +221,10 @@ int incremental_slam(const SlamArguments& arguments, const Templates& page,
   MapJob job;
   job.path = arguments.data;
   job.sensor = name(Sensor::kRange);
-  job.table.columns = arguments.columns;
+  job.table.columns = column_names(arguments.columns);
   job.anchors = arguments.known;
-  job.known_anchors = read_points(arguments.known);
-  job.known_ground_truth = read_points(arguments.true_landmarks);
+  job.known_anchors = read_points(arguments.known, job.table.columns);
+  job.known_ground_truth = read_points(arguments.true_landmarks, job.table.columns);
   job.fit = "rigid";
   job.incremental = true;
   job.every = arguments.every;
@@ -260,23 +242,25 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   std::vector<std::string> inputs = {arguments.data, arguments.known, arguments.odometry};
   inputs.insert(inputs.end(), arguments.ground_truths.begin(), arguments.ground_truths.end());
   refuse_shared_streams(inputs);
+  arguments.log.columns = column_names(arguments.columns, kRangeLogRoles);
   sort_ground_truths(arguments);
   require_compatible(arguments);
   if (arguments.incremental) return incremental_slam(arguments, page, invocation);
   check_result_folder(arguments.out, kSlamFile, "range-only map");
-  arguments.log.columns = column_names(arguments.columns, kRangeLogRoles);
+  std::optional<NamedPointsFile> anchors = read_points(arguments.known, arguments.log.columns);
   arguments.log.odometry_file = arguments.odometry;
   arguments.log.ground_truth_file = arguments.ground_truth;
   arguments.log.landmarks_file = arguments.true_landmarks;
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "reading");
   RangeLog log = read_range_log(arguments.data, arguments.log);
   std::optional<KnownLandmarks> known;
-  if (!arguments.known.empty()) known = known_landmarks_of(log, arguments.known);
+  if (anchors) known = known_landmarks_of(log, *anchors);
   invocation.console.info(fmt::format(
       "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
       "{}",
       log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
       log.ground_truth ? "yes" : "no"));
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "mapping");
+  working.emplace(invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
   working.reset();
   for (const std::string& remark : result.run.log.remarks) invocation.console.info(remark);

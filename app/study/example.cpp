@@ -14,6 +14,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/resource.hpp"
+#include "core/base/text/spelling.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 
@@ -53,9 +55,27 @@ void write_new(const fs::path& path, std::string_view bytes) {
   write_file(path, bytes);
 }
 
+/// Refuses what is probably a misspelt name, and an --out that would be ignored.
+void refuse_slip(const ExampleArguments& arguments) {
+  std::vector<std::string_view> names;
+  for (const auto& [name, command] : uses()) names.push_back(name);
+  const std::string word = lower_case(arguments.target);
+  const std::string_view meant = likely_word(word, names);
+  if (!meant.empty() && word.find('/') == std::string::npos)
+    throw InvalidInput(fmt::format(
+        "there is no example \"{}\"; did you mean \"{}\"? For a folder of that name with all "
+        "examples write ./{}",
+        printable(arguments.target), meant, printable(arguments.target)));
+  if (arguments.out != ExampleArguments().out)
+    throw InvalidInput(fmt::format(
+        "--out is the folder for one example: {}. \"{}\" is none of them, but the folder for all",
+        fmt::join(names, ", "), printable(arguments.target)));
+}
+
 /// An example by its name into a folder, or all of them.
 int write_examples(const ExampleArguments& arguments, const Invocation& invocation) {
   const bool is_name = uses().contains(arguments.target);
+  if (!is_name) refuse_slip(arguments);
   const fs::path out = is_name ? fs::path(arguments.out) : fs::path(arguments.target);
   nlohmann::ordered_json object{{"folder", out.string()},
                                 {"files", nlohmann::ordered_json::array()},
@@ -72,7 +92,9 @@ int write_examples(const ExampleArguments& arguments, const Invocation& invocati
     object["commands"].push_back(command);
     text += command + "\n";
   }
-  invocation.console.info(fmt::format("{} files written; to use them:", object["files"].size()));
+  invocation.console.info(fmt::format(
+      "{} of {} written to {}; to use them:", counted(std::ssize(object["files"]), "file"),
+      is_name ? "the example " + arguments.target : "all examples", printable(out.string(), 300)));
   invocation.console.result(text, object);
   return kDone;
 }
@@ -90,7 +112,8 @@ Action example_command(CLI::App& app) {
       "anchors and ground truth. drive: ranges and odometry. study: an experiment. plots: two\n"
       "folders of plots to compare.\n");
   app.add_option("NAME", arguments->target,
-                 "hall, drive, study or plots; any other word: the folder for all of them")
+                 "hall, drive, study or plots: that example, into --out. Any other word: a folder "
+                 "for all of them")
       ->required();
   add_out_option(app, arguments->out, "Folder for the example of that name")->capture_default_str();
   return

@@ -21,7 +21,7 @@ int report(const ReportArguments& arguments, const Invocation& invocation) {
   const Templates page = load_templates(arguments.templates);
   const FolderLock lock(arguments.study);
   remove_leftovers(arguments.study);
-  std::optional<WorkingLine> working(std::in_place, invocation.console, "reading");
+  std::optional<ProgressLine> working(std::in_place, invocation.console, "reading");
   const FolderReport view = read_folder_report(arguments.study, std::nullopt, invocation.command);
   working.reset();
   const std::filesystem::path path =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -105,10 +106,12 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
   if (arguments.print) return print_experiment(arguments, invocation);
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
+  std::optional<ProgressLine> reading(std::in_place, invocation.console, "reading");
   const std::vector<StudyRequest> requests = read_requests(arguments);
   const bool is_alone = requests.size() == 1;
   if (!is_alone) check_folder_of_all(arguments.out);
   const std::string command = command_again(arguments, requests, invocation.disclosure);
+  reading.reset();
   std::string text;
   nlohmann::ordered_json object;
   for (const StudyRequest& request : requests) {
@@ -116,7 +119,9 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
         is_alone ? fs::path(arguments.out) : arguments.out / fs::path(request.name);
     make_study(request, folder, arguments.jobs, {command, invocation.disclosure.host()},
                invocation.console);
+    reading.emplace(invocation.console, "reading the results");
     StudyNumbers numbers = outputs_of_study(folder).numbers(folder);
+    reading.reset();
     for (const std::string& missing : numbers.missing) invocation.console.warning(missing);
     text += numbers.text;
     if (is_alone)
@@ -125,7 +130,9 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
       object["studies"].push_back(std::move(numbers.object));
   }
   const FolderLock lock(arguments.out);
+  reading.emplace(invocation.console, "reading the results");
   const FolderReport report = read_folder_report(arguments.out, command, "");
+  reading.reset();
   const fs::path path = write_report(report,
                                      {.page = page,
                                       .jobs = arguments.jobs,

@@ -30,9 +30,11 @@ std::string command_again(const RunArguments& arguments, const StudyRequest& req
 }
 
 int run(const RunArguments& arguments, const Invocation& invocation) {
+  std::optional<ProgressLine> reading(std::in_place, invocation.console, "reading");
   const StudyRequest request =
       read_study_request(experiment_of(arguments.experiment), arguments.options);
   check_data_used({&request, 1}, arguments.options);
+  reading.reset();
   make_study(
       request, arguments.out, arguments.jobs,
       {command_again(arguments, request, invocation.disclosure), invocation.disclosure.host()},

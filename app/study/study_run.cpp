@@ -53,16 +53,16 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
   }
   say_when_stopped(kContinuesWord);
   const Stopwatch watch;
+  std::optional<ProgressLine> line(std::in_place, console, "starting");
   for (const std::string& remark : request.plan.remarks) console.detail(remark);
   StudyWriter writer(folder, request.plan.start(build_provenance()));
   if (!writer.redone().empty())
     console.warning(fmt::format("{}: its records were made by {}; they are made again",
                                 folder.string(), writer.redone()));
-  ProgressLine line(!console.is_quiet());
   Progress last;
   run_study(request.plan, writer, jobs, [&](const Progress& progress) {
     last = progress;
-    line(progress);
+    (*line)(progress);
   });
   if (last.reused < last.total)
     writer.write_session({.command = names.command,
@@ -72,6 +72,7 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                           .seconds = watch.seconds(),
                           .peak_memory_mib = peak_memory_mib()});
   write_results_table(folder);
+  line.reset();
   console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),
                              solver_digest().substr(0, 12), source_commit(), jobs,
                              watch.seconds()));

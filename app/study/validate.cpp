@@ -17,11 +17,14 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
+#include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/studies/validate.hpp"
 #include "render/image/png_check.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
+#include "render/style/figure_style_fields.hpp"
+#include "render/style/words.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
@@ -51,18 +54,50 @@ void check_ends(const std::string& bytes, const std::string& source, std::string
     throw IoError(source, fmt::format("is truncated: it does not end with \"{}\"", end));
 }
 
+/// Those of other programs are named with what converts them.
 void check_pdf(const std::string& bytes, const std::string& source) {
+  if (bytes.find("mapproof") == std::string::npos) refuse_other_kind(bytes, source);
   check_ends(bytes, source, "%PDF-", "%%EOF");
 }
 
 void check_page(const std::string& bytes, const std::string& source) {
+  if (bytes.find("content=\"mapproof\"") == std::string::npos) refuse_other_kind(bytes, source);
   check_ends(bytes, source, "<!DOCTYPE html>", "</html>");
 }
 
+/// A table, or the snippet that includes a figure.
 void check_latex(const std::string& bytes, const std::string& source) {
+  if (bytes.find("\\includegraphics") != std::string::npos) {
+    if (bytes.find("\\end{figure}") == std::string::npos)
+      throw IoError(source, "is truncated: \\end{figure} is missing");
+    return;
+  }
   for (const char* part : {"\\toprule", "\\bottomrule"})
     if (bytes.find(part) == std::string::npos)
       throw IoError(source, fmt::format("is not a table of mapproof: {} is missing", part));
+}
+
+void check_eps(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "%!PS-Adobe", "%%EOF");
+}
+
+void check_gif(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "GIF8", ";");
+}
+
+void check_mp4(const std::string& bytes, const std::string& source) {
+  if (bytes.size() < 12 || bytes.substr(4, 4) != "ftyp")
+    throw IoError(source, "does not begin as an MP4 does");
+}
+
+/// What `render --as matplotlib` wrote.
+void check_script(const std::string& bytes, const std::string& source) {
+  if (bytes.find("import matplotlib") == std::string::npos)
+    throw IoError(source, "is not a script of mapproof: it does not import matplotlib");
+}
+
+void check_junit(const std::string& bytes, const std::string& source) {
+  check_ends(bytes, source, "<?xml", "</testsuites>");
 }
 
 void check_markdown(const std::string& bytes, const std::string& source) {
@@ -96,10 +131,18 @@ constexpr std::array kOutputs = {
     StagedOutput{".png", {"\x89PNG"}, "figure, PNG", check_png},
     StagedOutput{".pdf", {"%PDF-"}, "figure, PDF", check_pdf},
     StagedOutput{".html", {"<!DOCTYPE html>"}, "report", check_page},
-    StagedOutput{".tex", {"\\begin{table}"}, "table, LaTeX", check_latex},
+    StagedOutput{".eps", {"%!PS-Adobe"}, "figure, EPS", check_eps},
+    StagedOutput{".gif", {"GIF8"}, "animation, GIF", check_gif},
+    StagedOutput{".mp4", {}, "animation, MP4", check_mp4},
+    StagedOutput{".py", {}, "script for matplotlib", check_script},
+    StagedOutput{".xml", {}, "JUnit, XML", check_junit},
+    StagedOutput{
+        ".tex", {"\\begin{table}", "% Needs \\usepackage{graphicx}"}, "LaTeX", check_latex},
     StagedOutput{".md", {}, "table, Markdown", check_markdown},
     StagedOutput{".csv", {}, "table, CSV", check_csv},
 };
+
+constexpr StagedOutput kFigureData{".csv", {}, "data of a figure, CSV", check_csv};
 
 /// The type of an output file by its name; null for files that core reads. Its folder distinguishes
 /// a table's CSV from observations.
@@ -111,9 +154,16 @@ const StagedOutput* output_named(const fs::path& path) {
   return found;
 }
 
+/// The first cells of the data of a figure, see figure_csv().
+bool is_figure_data(ByteSource& source) {
+  constexpr std::string_view kStart = "panel,layer,shape,";
+  return source.peek(kStart.size()) == kStart;
+}
+
 /// By its name; if the name is of no use, as that of a stream, by its first bytes.
 const StagedOutput* output_of(ByteSource& source) {
   const fs::path name = unpacked_name(source.path());
+  if (is_figure_data(source)) return &kFigureData;
   if (name.has_extension()) return output_named(name);
   const std::string_view bytes = source.peek();
   const auto begins = [&](std::string_view start) {
@@ -178,16 +228,52 @@ bool read_foreign(std::string_view schema, std::string_view text, const std::str
     figure_from_json(text, source);
   else if (schema == "mapproof.scene")
     scene_from_json(text, source);
+  else if (schema == "mapproof.style")
+    words_of(figure_style_from_json(text, source));  // Its language has to be known.
   else
     return false;
   return true;
 }
 
 struct ValidateArguments {
-  std::vector<std::string> paths;
+  std::vector<std::string> paths, odometry, anchors, ground_truth;
   std::string sensor;
   TableOptions table;
 };
+
+/// A file, and what it is stated to be.
+struct StatedInput {
+  std::string path;
+  InputRole role;
+};
+
+std::vector<StatedInput> stated_inputs(const ValidateArguments& arguments) {
+  std::vector<StatedInput> inputs;
+  const auto add = [&](const std::vector<std::string>& paths, InputRole role) {
+    for (const std::string& path : paths) inputs.push_back({path, role});
+  };
+  add(arguments.paths, InputRole::kAny);
+  add(arguments.odometry, InputRole::kOdometry);
+  add(arguments.anchors, InputRole::kAnchors);
+  add(arguments.ground_truth, InputRole::kGroundTruth);
+  if (inputs.empty())
+    throw InvalidInput("name a file: FILE, --odometry, --anchors or --ground-truth");
+  return inputs;
+}
+
+/// Marks the named columns that one of several files has: the others need not. A stream is read
+/// once, and a file that cannot be read is reported later.
+void mark_found(const std::vector<StatedInput>& inputs, ColumnNames& columns) {
+  if (inputs.size() < 2) return;
+  for (const StatedInput& input : inputs) {
+    if (columns.empty() || is_folder(input.path) || handed_in(input.path)) continue;
+    try {
+      ByteSource source(input.path);
+      mark_columns(source, columns);
+    } catch (const IoError&) {
+    }
+  }
+}
 
 /// What a file is and what was understood of it, or its problems, a line each.
 std::string finding_text(const Finding& finding) {
@@ -216,18 +302,24 @@ nlohmann::ordered_json finding_json(const Finding& finding) {
 }
 
 int validate_files(const ValidateArguments& arguments, const Invocation& invocation) {
-  refuse_shared_streams(arguments.paths);
-  const ValidateOptions options{.format = arguments.table.format(), .sensor = arguments.sensor};
+  const std::vector<StatedInput> inputs = stated_inputs(arguments);
+  std::vector<std::string> paths;
+  for (const StatedInput& input : inputs) paths.push_back(input.path);
+  refuse_shared_streams(paths);
+  ValidateOptions options{.format = arguments.table.format(kAllRoles), .sensor = arguments.sensor};
+  mark_found(inputs, options.format.columns);
   nlohmann::ordered_json object{{"valid", true}, {"files", nlohmann::ordered_json::array()}};
   std::string text;
   bool all_valid = true;
-  const WorkingLine working(invocation.console, "reading");
-  for (const std::string& path : arguments.paths)
+  const ProgressLine working(invocation.console, "reading");
+  for (const auto& [path, role] : inputs) {
+    options.role = role;
     for (const Finding& finding : validate_all(path, read_foreign, options)) {
       all_valid &= finding.problem.empty();
       object["files"].push_back(finding_json(finding));
       text += finding_text(finding);
     }
+  }
   object["valid"] = all_valid;
   invocation.console.result(text, object);
   return all_valid ? kDone : kNo;
@@ -242,14 +334,25 @@ Action validate_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof validate observations.csv anchors.csv\n"
       "  mapproof validate bearings.csv --sensor bearing --degrees\n"
+      "  mapproof validate ranges.csv --odometry wheels.csv --ground-truth gps.csv --columns "
+      "time=Zeit,distance=Weg\n"
       "  mapproof validate out\n\n"
-      "A table is read as map reads it; up to ten problems are reported.\n"
+      "A table is read as map and slam read it; up to ten problems are reported.\n"
       "Exit code 1 if a file is not valid or not there.\n");
-  app.add_option("FILE", arguments->paths, "Files, or folders of studies and maps")->required();
+  app.add_option("FILE", arguments->paths, "Files, or folders of studies and maps");
   app.add_option("--sensor", arguments->sensor,
                  "What the values of tables are; without it, any that fits")
       ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
-  group_options(app, {{"Input", {"--sensor"}}});
+  const auto add_files = [&](const char* option, std::vector<std::string>& files,
+                             const char* description) {
+    app.add_option(option, files, description)->expected(1)->take_all()->type_name("FILE");
+  };
+  add_files("--odometry", arguments->odometry, "Odometry, as slam takes it");
+  add_files("--anchors", arguments->anchors, "Known positions, as map and slam take them");
+  add_files("--ground-truth,--truth", arguments->ground_truth,
+            "True positions of landmarks or a true path, as map and slam take them");
+  group_options(app, {{"Input", {"FILE", "--sensor"}},
+                      {"Files of one kind", {"--odometry", "--anchors", "--ground-truth"}}});
   add_table_options(app, arguments->table);
   return
       [arguments](const Invocation& invocation) { return validate_files(*arguments, invocation); };

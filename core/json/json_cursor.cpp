@@ -85,6 +85,20 @@ std::string_view otherwise_called(std::string_view key, const std::vector<std::s
   return {};
 }
 
+/// ": "step_m" is a key of "walk""; empty if no object within has such a key.
+std::string nested_hint(std::string_view key, const JsonCursor::NestedKeys& nested) {
+  std::vector<std::string_view> keys;
+  for (const auto& [object, inner] : nested) keys.push_back(inner);
+  const auto same = std::ranges::find(keys, key);
+  std::string_view meant = same == keys.end() ? otherwise_called(key, keys) : *same;
+  if (meant.empty()) meant = likely_word(key, keys);
+  if (meant.empty()) return "";
+  const std::string_view object =
+      nested[static_cast<std::size_t>(std::ranges::find(keys, meant) - keys.begin())].first;
+  return meant == key ? fmt::format(": it is a key of \"{}\"", object)
+                      : fmt::format(": did you mean \"{}\", a key of \"{}\"?", meant, object);
+}
+
 }  // namespace
 
 JsonCursor JsonDocument::cursor() const {
@@ -191,6 +205,11 @@ void JsonCursor::allow_only(std::initializer_list<std::string_view> keys) const 
 }
 
 void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
+  allow_only(keys, [] { return NestedKeys(); });
+}
+
+void JsonCursor::allow_only(const std::vector<std::string_view>& keys,
+                            const std::function<NestedKeys()>& nested) const {
   const JsonItems items = entries();
   for (auto item = items.begin(); item != items.end(); ++item) {
     if (std::ranges::any_of(keys, [&](std::string_view key) { return item.has_key(key); }))
@@ -201,7 +220,8 @@ void JsonCursor::allow_only(const std::vector<std::string_view>& keys) const {
     const std::string_view other = otherwise_called(key, keys);
     const std::string_view meant = other.empty() ? likely_word(key, keys) : other;
     fail("unknown key " + in_quotes(key) +
-         (meant.empty() ? "" : fmt::format(": did you mean \"{}\"?", meant)) +
+         (meant.empty() ? nested_hint(key, nested())
+                        : fmt::format(": did you mean \"{}\"?", meant)) +
          (!meant.empty() && key.ends_with("_deg") ? " Angles are in radians" : ""));
   }
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <initializer_list>
 #include <iterator>
 #include <limits>
@@ -91,6 +92,11 @@ class JsonCursor {
   /// @throws IoError at the first key that is not listed, with the one that was probably meant.
   void allow_only(std::initializer_list<std::string_view> keys) const;
   void allow_only(const std::vector<std::string_view>& keys) const;
+  /// The same; a key of an object within this one is named as such.
+  /// @param nested  Asked if there is such a key: the key of the object, and the key in it.
+  using NestedKeys = std::vector<std::pair<std::string_view, std::string_view>>;
+  void allow_only(const std::vector<std::string_view>& keys,
+                  const std::function<NestedKeys()>& nested) const;
 
   /// All of an array of `least` to `most` elements.
   JsonItems elements(std::size_t least = 0,

@@ -5,8 +5,9 @@
 
 namespace mapproof::record_json {
 
-void Outline::check(const JsonCursor& json) const {
-  json.allow_only(keys);
+void Outline::check(const JsonCursor& json,
+                    const std::function<JsonCursor::NestedKeys()>& nested) const {
+  json.allow_only(keys, nested);
   if (json.size() < least_keys)
     json.fail(fmt::format("expected at least {} of {}, got {}", least_keys, fmt::join(keys, ", "),
                           json.size()));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <concepts>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -132,8 +133,12 @@ struct Outline : FieldVisitor {
     most_keys = most;
   }
 
+  /// @param nested  Keys of the objects within it, for an error.
   /// @throws IoError unless the object has such keys.
-  void check(const JsonCursor& json) const;
+  void check(
+      const JsonCursor& json, const std::function<JsonCursor::NestedKeys()>& nested = [] {
+        return JsonCursor::NestedKeys();
+      }) const;
 };
 
 template <typename T>
@@ -147,6 +152,23 @@ Outline outline_of(T& value) {
   fields(outline, value);
   return outline;
 }
+
+/// The keys of the records that a record holds, with the key of each.
+struct NestedOutline : FieldVisitor {
+  JsonCursor::NestedKeys keys;
+
+  template <typename T>
+  void field(std::string_view key, T& value, const FieldRule& = {}) {
+    if constexpr (Record<T>)
+      for (const std::string_view inner : outline_of(value).keys) keys.emplace_back(key, inner);
+  }
+  template <typename Fields>
+  void group(std::string_view key, Fields visit, const FieldRule& = {}) {
+    Outline outline;
+    visit(outline);
+    for (const std::string_view inner : outline.keys) keys.emplace_back(key, inner);
+  }
+};
 
 }  // namespace record_json
 }  // namespace mapproof

@@ -73,7 +73,11 @@ template <typename T>
 void read_record(const JsonCursor& json, T& value) {
   const Outline outline = outline_of(value);
   if (!outline.file_schema.empty()) expect_schema(json, outline.file_schema);
-  outline.check(json);
+  outline.check(json, [&] {
+    NestedOutline nested;
+    fields(nested, value);
+    return nested.keys;
+  });
   Reader reader(json);
   fields(reader, value);
 }

@@ -13,11 +13,13 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
 #include "core/json/text_input.hpp"
@@ -30,7 +32,8 @@
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/observations.hpp"
-#include "core/records/ranges/range_log_forms.hpp"
+#include "core/records/ranges/range_columns.hpp"
+#include "core/records/ranges/range_companions.hpp"
 #include "core/records/ranges/range_logs.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_table.hpp"
@@ -92,10 +95,65 @@ void take_observations(const ObservationSource& source, Finding& finding) {
   finding.remarks.insert(finding.remarks.end(), source.remarks.begin(), source.remarks.end());
 }
 
+/// Words of headers that are no landmarks: those of odometry, positions and paths, in any case.
+constexpr std::string_view kMeasured[] = {
+    "v",        "vx",       "vy",   "omega",   "w",   "speed",    "velocity",  "geschwindigkeit",
+    "linear",   "angular",  "dist", "lat",     "lon", "latitude", "longitude", "alt",
+    "z",        "qx",       "qy",   "qz",      "qw",  "yaw",      "heading",   "course",
+    "kurs",     "richtung", "turn", "drehung", "weg", "east",     "north",     "easting",
+    "northing", "ost",      "nord"};
+
+/// The cells of a header that name what other tables than those of landmarks and steps hold; none
+/// if most of them do not: a landmark may be called "x", too.
+std::vector<std::string> other_quantities(std::string_view text, const std::string& name,
+                                          const ColumnNames& columns) {
+  constexpr std::array kOfScans = {ColumnRole::kStep,        ColumnRole::kTime,
+                                   ColumnRole::kNanoseconds, ColumnRole::kLandmark,
+                                   ColumnRole::kRobot,       ColumnRole::kValue};
+  TableReader reader(text, name);
+  TableRow header;
+  std::vector<std::string> others;
+  if (!reader.next(header)) return others;
+  const ColumnNames named = columns_in(header.cells, columns);
+  std::size_t unknown = 0;
+  for (std::size_t i = 0; i < header.cells.size(); ++i) {
+    const std::string cell = lower_case(trimmed(header.cells[i]));
+    const std::string word = cell.substr(0, cell.find_first_of(" _[("));
+    const std::optional<ColumnRole> role = column_heading(cell, i, named).role;
+    if (role && std::ranges::find(kOfScans, *role) != kOfScans.end()) continue;
+    if (role || std::ranges::find(kMeasured, word) != std::ranges::end(kMeasured))
+      others.push_back(in_quotes(header.cells[i]));
+    else
+      ++unknown;
+  }
+  if (others.size() < unknown) others.clear();
+  return others;
+}
+
+/// A table that may be anything is not taken for one of landmarks and steps if its header names
+/// other quantities. @throws CheckedProblem with the ways out.
+void refuse_other_quantities(std::string_view text, const std::string& name,
+                             const ValidateOptions& options) {
+  const std::vector<std::string> others = other_quantities(text, name, options.format.columns);
+  if (others.empty()) return;
+  const bool is_geographic = std::ranges::any_of(others, [](const std::string& word) {
+    return word.starts_with("\"lat") || word.starts_with("\"lon");
+  });
+  throw CheckedProblem(fmt::format(
+      "{}: is neither odometry (time, distance, heading change), a path (time, x, y), positions "
+      "(name, x, y) nor detections (time, landmark, range, bearing): its header has {}. {}",
+      name, fmt::join(others, ", "),
+      is_geographic ? "Latitudes and longitudes have to be projected to metres (UTM) first"
+                    : "--columns ROLE=HEADER names its columns; --odometry, --anchors, "
+                      "--ground-truth or --sensor state what it is"));
+}
+
 /// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is
 /// the most helpful: values that fit none are often degrees.
 void check_observations(const std::string& bytes, const std::string& name,
                         const ValidateOptions& options, Finding& finding) {
+  if (options.sensor.empty() && options.format.layout == Layout::kAuto)
+    refuse_other_quantities(bytes, name, options);
   const auto read = [&](Sensor sensor, const TableFormat& format) {
     ByteSource source = memory_source(name, bytes);
     return read_observations(source, sensor, format);
@@ -124,8 +182,8 @@ void check_observations(const std::string& bytes, const std::string& name,
     }
     if (!problem.empty()) throw CheckedProblem(problem);
   }
-  finding.kind = finding.input->reading.form == "long table" ? "long CSV observations"
-                                                             : "wide CSV observations";
+  const std::string& form = finding.input->reading.form;
+  finding.kind = form.substr(0, form.find(' ')) + " CSV observations";
 }
 
 void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
@@ -171,14 +229,15 @@ void check_table_once(const std::string& bytes, const std::string& name,
   }
   TableReader reader(text, name);
   TableRow first;
+  const ColumnNames& columns = options.format.columns;
   const bool is_stated = !options.sensor.empty() || options.format.layout != Layout::kAuto;
   if (!is_stated && reader.next(first) && is_map(first)) {
     finding.kind = "map CSV";
     parse_map_csv(text, name);
-  } else if (!is_stated && is_landmarks_table(text, name) && !has_long_header(text, name) &&
-             !starts_as_long(text, name)) {
+  } else if (!is_stated && is_landmarks_table(text, name, columns) &&
+             !has_long_header(text, name, columns) && !starts_as_long(text, name)) {
     finding.kind = "landmarks with positions";
-    parse_landmarks(text, name);
+    parse_landmarks(text, name, columns);
   } else {
     check_observations(bytes, name, options, finding);
   }
@@ -216,6 +275,7 @@ void check_table(ByteSource& input, const ValidateOptions& options, Finding& fin
     throw IoError(name, "is a table of results without its study.json: check the study's folder");
   if (input.holds_more_than(kLarge) && is_detections(input, options.format))
     return check_detections(input, options, finding);
+  input.take_text();
   std::string bytes = input.rest();
   std::vector<std::string> problems;
   while (problems.size() < kMostProblems) {
@@ -279,7 +339,7 @@ void check_range_log(ByteSource& source, const ValidateOptions& options, Finding
   finding.kind = "range log";
   const std::string_view start = source.peek();
   if (!start.starts_with("VERTEX") && !start.starts_with("EDGE_")) {
-    read_range_log(source);
+    read_range_log(source, {.columns = options.format.columns});
     return;
   }
   const std::string bytes = source.rest(), name = source.name();
@@ -298,11 +358,49 @@ void check_range_log(ByteSource& source, const ValidateOptions& options, Finding
   }
 }
 
+/// Reads a file as what it is stated to be.
+void check_role(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  const ColumnNames& columns = options.format.columns;
+  const Companion companion = options.role == InputRole::kOdometry  ? Companion::kOdometry
+                              : options.role == InputRole::kAnchors ? Companion::kLandmarks
+                              : holds_landmarks(source, columns)    ? Companion::kLandmarks
+                                                                    : Companion::kPath;
+  finding.kind = check_range_companion(source, companion, columns);
+}
+
+/// A table that detections' reader refuses may be one of ranges, which `slam` reads: a landmark may
+/// come twice at one time there.
+void check_table_or_ranges(ByteSource& source, const ValidateOptions& options, Finding& finding) {
+  const ColumnNames& columns = options.format.columns;
+  const bool may_be_ranges = options.sensor.empty() && options.format.layout == Layout::kAuto &&
+                             !options.format.scan_window_s &&
+                             first_row_is(source, [&](const TableRow& row) {
+                               return missing_range_columns(row, columns).empty();
+                             });
+  if (!may_be_ranges) return check_table(source, options, finding);
+  const std::string bytes = source.rest(), name = source.name();
+  ByteSource table = memory_source(name, bytes);
+  check_table(table, options, finding);
+  if (finding.problem.empty()) return;
+  try {
+    ByteSource again = memory_source(name, bytes);
+    read_range_log(again, {.columns = columns});
+    finding = {.path = finding.path, .kind = "range log", .problem = ""};
+  } catch (const IoError&) {  // The problem as detections is reported.
+  }
+}
+
 void check_source(ByteSource& source, const ForeignReader& foreign, const ValidateOptions& options,
                   Finding& finding) {
-  const bool is_stated = !options.sensor.empty() || !options.format.columns.empty() ||
-                         options.format.layout != Layout::kAuto;
-  if (!is_stated && is_range_log(source)) {
+  const ColumnNames& columns = options.format.columns;
+  const bool is_stated = !options.sensor.empty() || options.format.layout != Layout::kAuto ||
+                         options.format.scan_window_s;
+  const bool is_log =
+      options.role == InputRole::kAny && !is_stated && is_range_log(source, columns);
+  if (!is_log) require_columns(source, columns);
+  if (options.role != InputRole::kAny) {
+    check_role(source, options, finding);
+  } else if (is_log) {
     check_range_log(source, options, finding);
   } else if (is_timings(source)) {
     finding.kind = "timings";
@@ -318,15 +416,21 @@ void check_source(ByteSource& source, const ForeignReader& foreign, const Valida
     if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
         text != results_csv(study.results.rows))
       throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
-  } else if (const std::string companion = is_stated ? "" : check_range_companion(source);
+  } else if (const std::string companion = is_stated ? "" : check_range_companion(source, columns);
              !companion.empty()) {
     finding.kind = companion;
   } else {
+    const bool is_unstated_json = is_json(source) && json_schema(source).empty();
     respell(source);
     if (is_json(source))
       check_json(source.rest(), foreign, finding);
     else
-      check_table(source, options, finding);
+      check_table_or_ranges(source, options, finding);
+    if (is_unstated_json && !finding.problem.empty())
+      finding.problem += fmt::format(
+          "; if {} is not a table: it lacks the key \"schema\" with the name and version of its "
+          "format",
+          finding.path);
   }
 }
 
@@ -394,7 +498,8 @@ std::vector<fs::path> studies_below(const fs::path& folder) {
   return studies;
 }
 
-std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign) {
+std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& foreign,
+                                  const ValidateOptions& options) {
   std::vector<Finding> findings;
   std::error_code error;
   const std::vector<fs::path> studies = studies_below(folder);
@@ -421,12 +526,23 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
     return findings;
   }
   if (is_range_log_folder(folder))
-    return {check_as("range log", folder, [&] { read_range_log(folder); })};
+    return {check_as("range log", folder,
+                     [&] { read_range_log(folder, {.columns = options.format.columns}); })};
   if (is_mrclam(folder))
-    return {
-        check_as("MRCLAM observations", folder, [&] { read_mrclam(folder, Sensor::kVisibility); })};
+    return {check_as("MRCLAM observations", folder, [&] {
+      read_mrclam(folder, Sensor::kVisibility, options.format.scan_window_s);
+    })};
   throw IoError(folder.string(),
                 "is a folder with no study, no map, no range log and no MRCLAM data in it");
+}
+
+/// What the table was before it was made a text.
+void take_form(const ByteSource& source, Finding& finding) {
+  finding.input->reading.packing = source.form();
+  if (source.original().empty()) return;
+  finding.input->reading.separator = '\0';
+  if (const std::size_t at = finding.kind.find(" CSV"); at != std::string::npos)
+    finding.kind.erase(at, 4);
 }
 
 }  // namespace
@@ -435,6 +551,7 @@ Finding validate(ByteSource& source, const ForeignReader& foreign, const Validat
   Finding finding{.path = source.name(), .kind = {}, .problem = {}};
   try {
     check_source(source, foreign, options, finding);
+    if (finding.input && finding.input->reading.packing.empty()) take_form(source, finding);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -447,7 +564,7 @@ std::vector<Finding> validate(const fs::path& path, const ForeignReader& foreign
                               const ValidateOptions& options) {
   if (!is_folder(path)) return {check(path, foreign, options)};
   try {
-    return check_folder(path, foreign);
+    return check_folder(path, foreign, options);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& problem) {

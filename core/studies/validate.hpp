@@ -22,9 +22,18 @@ struct Finding {
   std::optional<InputSummary> input = {};  ///< Of observations: what was understood.
 };
 
-/// How tables of observations are to be read, as `map` takes it.
+/// What a file is stated to be.
+enum class InputRole {
+  kAny,
+  kOdometry,     ///< `slam --odometry`.
+  kAnchors,      ///< Known positions of landmarks.
+  kGroundTruth,  ///< True positions of landmarks, or a true path.
+};
+
+/// How tables are to be read, as `map` and `slam` take it.
 struct ValidateOptions {
   TableFormat format = {};
+  InputRole role = InputRole::kAny;
   /// A sensor's name, or "range-bearing"; empty: of detections what they hold, of other tables any
   /// that fits.
   std::string sensor = {};

@@ -12,6 +12,7 @@
 #include "core/base/errors.hpp"
 #include "render/export/matplotlib_script.hpp"
 #include "render/export/python_text.hpp"
+#include "render/plot/layout.hpp"
 
 namespace mapproof {
 namespace {
@@ -98,8 +99,7 @@ class LayerCalls {
     out_ += "texts = " + names_list(labels.text) + "\n";
     call(
         "for at_x, at_y, text in zip(x, y, texts):\n"
-        "    ax.annotate(text, (at_x, at_y), xytext=(4, 4), textcoords=\"offset points\", "
-        "color={}{})",
+        "    labels.append((ax, (at_x, at_y), text, dict(color={}{})))",
         colour(labels.colour), common(""));
   }
   void operator()(const Texts& shown) {
@@ -239,6 +239,78 @@ void add_panel(const Panel& panel, const Theme& theme, std::string_view adjusts,
   out += "legend(ax)\n";
 }
 
+/// Below the axes, so that it covers no data.
+constexpr const char* kLegendBelow = R"(def legend(ax):
+    """Each label once, below the axes."""
+    handles, labels = ax.get_legend_handles_labels()
+    once = dict(zip(labels, handles))
+    if not once:
+        return
+    size = plt.rcParams["legend.fontsize"]
+    wide = ax.get_subplotspec().get_gridspec().ncols * (max(map(len, once)) * 0.6 + 5) * size
+    below = ScaledTranslation(0, -3.5 * size / 72, fig.dpi_scale_trans)
+    ax.legend(once.values(), once.keys(), loc="upper center", bbox_to_anchor=(0.5, 0),
+              bbox_transform=ax.transAxes + below, frameon=False, borderaxespad=0,
+              ncol=max(1, min(len(once), int(72 * fig.get_figwidth() / wide))))
+
+
+)";
+
+/// As mark_labels.hpp places them, by simpler means.
+constexpr const char* kPlaceLabels = R"(labels = []  # Axes, point, text and style.
+
+
+def place_labels():
+    """Each label where it covers fewest marks and labels; a line leads to one farther off."""
+    fig.canvas.draw()
+    point = fig.dpi / 72
+    taken = {}
+    for ax, at, text, style in labels:
+        note = ax.annotate(text, at, xytext=(0, 0), textcoords="offset points", ha="center",
+                           va="center", **style)
+        note.set_in_layout(False)
+        size = note.get_window_extent(fig.canvas.get_renderer())
+        x, y = ax.transData.transform(at)
+        frame = ax.get_window_extent()
+        marks = [ax.transData.transform(line.get_xydata()) for line in ax.lines]
+        marks = np.concatenate(marks) if marks else np.empty((0, 2))
+
+        def cost(box):
+            far, x0, y0, x1, y1 = box
+            covered = (marks[:, 0] > x0 - 2 * point) & (marks[:, 0] < x1 + 2 * point) & (
+                marks[:, 1] > y0 - 2 * point) & (marks[:, 1] < y1 + 2 * point)
+            others = sum(x0 < b[2] and b[0] < x1 and y0 < b[3] and b[1] < y1
+                         for b in taken.get(ax, []))
+            outside = x0 < frame.x0 or x1 > frame.x1 or y0 < frame.y0 or y1 > frame.y1
+            return covered.sum() + 3 * others + 10 * outside + far / 100
+
+        boxes = []
+        for far in (3, 7, 12, 18, 25):
+            for angle in np.arange(0, 2 * np.pi, np.pi / 6):
+                to_x = x + np.cos(angle) * (size.width / 2 + far * point)
+                to_y = y + np.sin(angle) * (size.height / 2 + far * point)
+                boxes.append((far, to_x - size.width / 2, to_y - size.height / 2,
+                              to_x + size.width / 2, to_y + size.height / 2))
+        far, x0, y0, x1, y1 = min(boxes, key=cost)
+        taken.setdefault(ax, []).append((x0, y0, x1, y1))
+        note.set_position((((x0 + x1) / 2 - x) / point, ((y0 + y1) / 2 - y) / point))
+        if far > 7:
+            end = ((np.clip(x, x0, x1) - x) / point, (np.clip(y, y0, y1) - y) / point)
+            line = ax.annotate("", at, xytext=end, textcoords="offset points",
+                               arrowprops=dict(arrowstyle="-", linewidth=0.5, shrinkA=0, shrinkB=2))
+            line.set_in_layout(False)
+
+
+)";
+
+bool has_labels(const Figure& figure) {
+  return std::ranges::any_of(figure.panels, [](const Panel& panel) {
+    return std::ranges::any_of(panel.layers, [](const Layer& layer) {
+      return std::holds_alternative<PointLabels>(layer);
+    });
+  });
+}
+
 /// The columns that the layout would choose at most.
 std::size_t columns_of(const Figure& figure) {
   constexpr std::size_t kMost = 4;
@@ -257,13 +329,15 @@ std::string figure_script(const Figure& figure, const Theme& theme) {
       "from matplotlib.collections import LineCollection\n"
       "from matplotlib.colors import LinearSegmentedColormap, LogNorm, Normalize\n"
       "from matplotlib.patches import ConnectionPatch, Ellipse\n"
-      "from matplotlib.ticker import MaxNLocator\n\n\n"
+      "from matplotlib.ticker import MaxNLocator\n"
+      "from matplotlib.transforms import ScaledTranslation\n\n\n"
       "def outlines(x, y):\n"
       "    \"\"\"The closed outlines; nan ends one and begins the next.\"\"\"\n"
       "    ends = [i for i, one in enumerate(x) if one != one] + [len(x)]\n"
       "    begins = [0] + [end + 1 for end in ends[:-1]]\n"
       "    return [(x[b:e], y[b:e]) for b, e in zip(begins, ends) if e > b]\n\n\n";
-  out += script_legend();
+  out += kLegendBelow;
+  if (has_labels(figure)) out += kPlaceLabels;
   out += fmt::format(
       "fig, grid = plt.subplots({}, {}, figsize=({}, {}), squeeze=False, sharex={}, sharey={},\n"
       "                         layout=\"constrained\")\n"
@@ -283,7 +357,9 @@ std::string figure_script(const Figure& figure, const Theme& theme) {
         "fraction\",\n    axesA=panels[{}], axesB=panels[{}], arrowstyle=\"->\"))\n"
         "panels[{}].annotate({}, (1.05, 0.55), xycoords=\"axes fraction\")\n",
         arrow.from, arrow.from + 1, arrow.from, python_text(arrow.label));
-  out += script_tail(figure.id, theme.draws_title ? figure.title : "", figure.notes);
+  if (has_labels(figure)) out += "place_labels()\n";
+  out += script_tail(figure.id, theme.draws_title ? figure.title : "",
+                     draws_notes(figure, theme) ? figure.notes : std::vector<Note>());
   return out;
 }
 

@@ -1,5 +1,7 @@
 #include "render/plot/layout.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "render/plot/grid_layout.hpp"
@@ -22,7 +24,7 @@ class Head {
     if (theme_.draws_title)
       add(figure_.title, ItemClass::kTitle, theme_.title_font_pt, theme_.text);
     const double em = theme_.tick_font_pt;
-    for (std::size_t i = 0; i < figure_.notes.size(); ++i) {
+    for (std::size_t i = 0; i < figure_.notes.size() && draws_notes(figure_, theme_); ++i) {
       const double end = page_.y0 + kMostOfHead * page_.height() - 3.0 * FontFacts::kLine * em;
       if (y_ > end && i + 1 < figure_.notes.size()) {
         add(fmt::format("… and {} more notes", figure_.notes.size() - i), ItemClass::kNote, em,
@@ -87,6 +89,12 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
 }
 
 }  // namespace
+
+bool draws_notes(const Figure& figure, const Theme& theme) {
+  return theme.draws_notes || std::ranges::all_of(figure.panels, [](const Panel& panel) {
+           return std::ranges::all_of(panel.layers, is_empty);
+         });
+}
 
 Drawing lay_out(const Figure& figure, const Theme& theme) {
   require_valid(figure);

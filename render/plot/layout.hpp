@@ -11,4 +11,8 @@ namespace mapproof {
 /// @throws InvalidInput if the figure cannot be drawn (see `problem`).
 Drawing lay_out(const Figure& figure, const Theme& theme);
 
+/// Whether the figure's notes are drawn: as the theme has it, but for a figure without content,
+/// whose notes say why.
+bool draws_notes(const Figure& figure, const Theme& theme);
+
 }  // namespace mapproof

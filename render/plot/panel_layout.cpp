@@ -267,7 +267,7 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
                    Drawing& drawing) {
   const Box room = draw_panel_title(panel, panel_index, cell, theme, drawing);
   const AxesLayout layout(panel, theme);
-  const Legend legend(panel, theme, 0.62 * cell.width());
+  const Legend legend(panel, theme, cell.width());
   const Arrangement arrangement = Arranger(layout, legend, panel, theme).arrange(room);
   const Box& frame = arrangement.axes.frame;
   draw_panel(layout, panel_index, arrangement.axes, drawing);

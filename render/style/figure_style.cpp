@@ -36,6 +36,7 @@ Theme theme_of(const FigureStyle& style) {
   take(style.height_in, theme.height_pt, kPointsPerInch);
   take(style.dpi, theme.dpi);
   theme.draws_title = style.draws_title.value_or(theme.draws_title);
+  theme.draws_notes = style.draws_notes.value_or(theme.draws_notes);
   take(style.font_pt, theme.font_pt);
   take(style.tick_font_pt, theme.tick_font_pt);
   take(style.title_font_pt, theme.title_font_pt);

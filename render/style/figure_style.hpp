@@ -24,6 +24,7 @@ struct FigureStyle {
   BaseTheme theme = BaseTheme::kReport;
   std::optional<double> width_in = {}, height_in = {}, dpi = {};
   std::optional<bool> draws_title = {};  ///< The report's theme draws it, the paper's does not.
+  std::optional<bool> draws_notes = {};  ///< Likewise.
   std::string font = {};                 ///< File; empty: the embedded font.
   std::optional<double> font_pt = {}, tick_font_pt = {}, title_font_pt = {};
   std::optional<double> line_pt = {}, hairline_pt = {}, marker_pt = {}, space_pt = {};

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "core/json/fields.hpp"
 #include "render/style/figure_style.hpp"
@@ -12,6 +14,9 @@ namespace mapproof {
 /// folder of the file.
 /// @throws IoError with the file and the JSON pointer.
 FigureStyle read_figure_style(const std::filesystem::path& file);
+
+/// The same from its text; a font stays as it is written.
+FigureStyle figure_style_from_json(std::string_view text, const std::string& source);
 
 // The fields of a style in files (core/json/fields.hpp).
 
@@ -69,6 +74,10 @@ void fields(Visitor& v, FigureStyle& style) {
   v.field("dpi", style.dpi, size_rule("Pixels per inch of PNG.", 30.0, 1200.0));
   v.field("draws_title", style.draws_title,
           {.description = "Whether the title is drawn. Missing: in the theme report.",
+           .key = Key::kIfAny});
+  v.field("draws_notes", style.draws_notes,
+          {.description = "Whether scores, remarks and warnings are drawn below the title, which "
+                          "the caption has else. Missing: in the theme report.",
            .key = Key::kIfAny});
   v.field("font", style.font,
           {.description = "TrueType or OpenType file, relative to this one.", .key = Key::kIfAny});

@@ -1,6 +1,8 @@
 #include "render/style/words.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 #include <span>
 #include <variant>
 
@@ -9,6 +11,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/resource.hpp"
+#include "core/base/text/spelling.hpp"
 #include "core/json/record_reader.hpp"
 #include "render/style/figure_style_fields.hpp"
 
@@ -33,26 +36,31 @@ bool is_border(std::string_view text, std::size_t at) {
   return at == 0 || at == text.size() || !is_of_word(text[at - 1]) || !is_of_word(text[at]);
 }
 
-void replace(std::string& text, const Words& words) { text = replaced(text, words); }
+using Use = std::function<void(std::string& text)>;
 
-void replace(std::vector<Note>& notes, const Words& words) {
-  for (Note& note : notes) replace(note.text, words);
+void for_each_text(std::vector<Note>& notes, const Use& use) {
+  for (Note& note : notes) use(note.text);
 }
 
-void replace(Axis& axis, const Words& words) {
-  replace(axis.label, words);
-  for (std::string& name : axis.names) replace(name, words);
+void for_each_text(Axis& axis, const Use& use) {
+  use(axis.label);
+  for (std::string& name : axis.names) use(name);
 }
 
-void replace(Layer& layer, const Words& words) {
+void for_each_text(Layer& layer, const Use& use) {
   std::visit(
       [&](auto& one) {
-        if constexpr (requires { one.label; }) replace(one.label, words);
-        if constexpr (requires { one.bar_label; }) replace(one.bar_label, words);
+        if constexpr (requires { one.label; }) use(one.label);
+        if constexpr (requires { one.bar_label; }) use(one.bar_label);
       },
       layer);
   if (auto* texts = std::get_if<Texts>(&layer))
-    for (std::string& text : texts->text) replace(text, words);
+    for (std::string& text : texts->text) use(text);
+}
+
+/// Whether a text has the phrase as replaced() finds it.
+bool has_phrase(std::string_view text, const std::string& phrase) {
+  return replaced(text, {{phrase, ""}}) != text;
 }
 
 }  // namespace
@@ -90,27 +98,52 @@ std::string replaced(std::string_view text, const Words& words) {
   return made;
 }
 
-void replace_words(Figure& figure, const Words& words) {
-  if (words.empty()) return;
-  for (std::string* text : {&figure.title, &figure.caption, &figure.alt}) replace(*text, words);
-  replace(figure.notes, words);
-  for (PanelArrow& arrow : figure.arrows) replace(arrow.label, words);
+void for_each_text(Figure& figure, const Use& use) {
+  for (std::string* text : {&figure.title, &figure.caption, &figure.alt}) use(*text);
+  for_each_text(figure.notes, use);
+  for (PanelArrow& arrow : figure.arrows) use(arrow.label);
   for (Panel& panel : figure.panels) {
-    replace(panel.title, words);
-    replace(panel.x, words);
-    replace(panel.y, words);
-    for (Layer& layer : panel.layers) replace(layer, words);
+    use(panel.title);
+    for_each_text(panel.x, use);
+    for_each_text(panel.y, use);
+    for (Layer& layer : panel.layers) for_each_text(layer, use);
   }
 }
 
-void replace_words(Scene& scene, const Words& words) {
-  if (words.empty()) return;
-  for (std::string* text : {&scene.title, &scene.caption, &scene.alt}) replace(*text, words);
-  replace(scene.notes, words);
-  for (Part& part : scene.parts) std::visit([&](auto& one) { replace(one.label, words); }, part);
+void for_each_text(Scene& scene, const Use& use) {
+  for (std::string* text : {&scene.title, &scene.caption, &scene.alt}) use(*text);
+  for_each_text(scene.notes, use);
+  for (Part& part : scene.parts) std::visit([&](auto& one) { use(one.label); }, part);
   for (Shot& view : scene.views) {
-    replace(view.title, words);
-    for (Rule& rule : view.rules) replace(rule.label, words);
+    use(view.title);
+    for (Rule& rule : view.rules) use(rule.label);
+  }
+}
+
+void replace_words(Figure& figure, const Words& words) {
+  if (!words.empty())
+    for_each_text(figure, [&](std::string& text) { text = replaced(text, words); });
+}
+
+void replace_words(Scene& scene, const Words& words) {
+  if (!words.empty())
+    for_each_text(scene, [&](std::string& text) { text = replaced(text, words); });
+}
+
+void require_known_phrases(const FigureStyle& style, const std::vector<std::string>& texts,
+                           const std::string& source) {
+  std::set<std::string, std::less<>> known;
+  for (const std::string_view language : languages())
+    for (const auto& [phrase, by] : language_words(language)) known.insert(phrase);
+  for (const auto& [phrase, by] : style.words) {
+    const auto has_it = [&](std::string_view text) { return has_phrase(text, phrase); };
+    if (std::ranges::any_of(known, has_it) || std::ranges::any_of(texts, has_it)) continue;
+    known.insert(texts.begin(), texts.end());
+    const std::string_view meant =
+        likely_word(phrase, std::vector<std::string_view>(known.begin(), known.end()));
+    throw IoError(source, "/words",
+                  fmt::format("no figure says \"{}\"{}", printable(phrase),
+                              meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -22,10 +23,19 @@ std::map<std::string, std::string> language_words(std::string_view language);
 /// `text` with its phrases replaced: the longest one at each word, whole words alone, none twice.
 std::string replaced(std::string_view text, const std::map<std::string, std::string>& words);
 
-/// Replaces phrases in all texts but the names beside points: titles, notes, axes, legends, caption
-/// and description.
+/// All texts but the names beside points: titles, notes, axes, legends, caption and description.
+void for_each_text(Figure& figure, const std::function<void(std::string& text)>& use);
+void for_each_text(Scene& scene, const std::function<void(std::string& text)>& use);
+
+/// Replaces phrases in these texts.
 void replace_words(Figure& figure, const std::map<std::string, std::string>& words);
 void replace_words(Scene& scene, const std::map<std::string, std::string>& words);
+
+/// Refuses phrases of a style that none of the texts has, nor the words of any language: they are
+/// of no figure. @throws IoError naming the nearest one that is known.
+/// @param texts  Of all that is drawn, before phrases are replaced.
+void require_known_phrases(const FigureStyle& style, const std::vector<std::string>& texts,
+                           const std::string& source);
 
 /// The phrases that a style replaces: those of its language, under its own words.
 /// @throws InvalidInput for a language that is not known.

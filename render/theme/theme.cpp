@@ -62,6 +62,7 @@ Theme paper_theme(double width_in) {
   theme.height_pt = 72.0 * std::min(0.8 * width_in, 3.5);
   theme.dpi = 300.0;
   theme.draws_title = false;
+  theme.draws_notes = false;
   theme.font_pt = 8.0;
   theme.tick_font_pt = 8.0;
   theme.title_font_pt = 8.0;

@@ -18,7 +18,8 @@ struct Theme {
 
   FontHandle font = {};  ///< None: the embedded one.
   bool draws_title = true;
-  double font_pt = 0.0;  ///< Axis labels, legend, notes.
+  bool draws_notes = true;  ///< Else the caption has them; a figure without content keeps them.
+  double font_pt = 0.0;     ///< Axis labels, legend, notes.
   double tick_font_pt = 0.0;
   double title_font_pt = 0.0;
   double line_pt = 0.0;
@@ -35,7 +36,8 @@ struct Theme {
 /// For screens: 600 x 450 pt, 1200 x 900 px.
 Theme report_theme();
 
-/// For a journal: 8 pt text, 300 dpi, no title (the caption below the figure has it).
+/// For a journal: 8 pt text, 300 dpi, no title and no notes (the caption below the figure has
+/// them).
 /// @param width_in  Of the column, 2 to 20; 3.25 (single) and 6.75 (double) are usual.
 /// @throws InvalidInput outside that.
 Theme paper_theme(double width_in);

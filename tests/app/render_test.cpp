@@ -57,6 +57,50 @@ TEST_F(RenderOfAMap, DrawsItForAColumnOfAPaper) {
   EXPECT_FALSE(fs::exists(folder_ / "map/figures-paper/map.svg"));
 }
 
+TEST_F(RenderOfAMap, OnPaperItsScoreIsInTheCaptionAlone) {
+  const std::string files = std::string(kExamples) + "/hall";
+  ASSERT_EQ(mapproof({"map", files + "/bearings.csv", "--sensor", "bearing", "--method", "lpca",
+                      "--anchors", files + "/anchors.csv", "--ground-truth",
+                      files + "/ground_truth.csv", "--force", "--out", map_})
+                .exit_code,
+            0);
+  ASSERT_EQ(render({map_, "--figure", "map", "--theme", "paper", "--as", "svg,latex,matplotlib"})
+                .exit_code,
+            0);
+  EXPECT_NE(text_of("map/figures/map.svg").find("class=\"note\""), std::string::npos);
+  EXPECT_EQ(text_of("map/figures-paper/map.svg").find("class=\"note\""), std::string::npos);
+  EXPECT_EQ(text_of("map/figures-paper/map.py").find("suptitle(\"MPE"), std::string::npos);
+}
+
+TEST_F(RenderOfAMap, TakesLengthsWithUnits) {
+  for (const auto& [width, points] :
+       {std::pair("8cm", "226.77"), {"3.25in", "234"}, {"360pt", "360"}}) {
+    const Outcome outcome = render(
+        {map_, "--figure", "map", "--width", width, "--as", "svg", "--out", folder_ / "wide"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    EXPECT_NE(text_of("wide/map.svg").find("width=\"" + std::string(points)), std::string::npos)
+        << width;
+  }
+  EXPECT_NE(render({map_, "--width", "8 feet"}).error.find("is not a length"), std::string::npos);
+}
+
+TEST_F(RenderOfAMap, RefusesPhrasesThatNoFigureHas) {
+  const std::string style = folder_.file(
+      "style.json",
+      R"({"schema": {"name": "mapproof.style", "version": 1}, "words": {"estimat": "Karte"}})");
+  const Outcome outcome = render({map_, "--style", style, "--out", folder_ / "o"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("no figure says \"estimat\"; did you mean \"estimate\"?"),
+            std::string::npos)
+      << outcome.error;
+}
+
+TEST_F(RenderOfAMap, SaysThatAMapDoesNotMove) {
+  const Outcome outcome = render({map_, "--as", "gif"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("a map is one still figure"), std::string::npos) << outcome.error;
+}
+
 TEST_F(RenderOfAMap, TakesItsFileOrItsFolderOfFigures) {
   for (const std::string& input :
        {map_ + "/figures/map.figure.json", map_ + "/figures", map_ + "/map.json", map_}) {
@@ -106,7 +150,7 @@ TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
       {{map_, "--as", "csv", "--width", "5"}, "--width: has no effect on csv"},
       {{map_, "--as", "pdf", "--dpi", "300"}, "--dpi: only png has pixels"},
       {{map_, "--theme", "paper", "--no-title"}, "--no-title: no title is drawn anyway"},
-      {{map_, "--as", "mp4"}, "only what --animate names"},
+      {{map_, "--as", "mp4"}, "a map is one still figure"},
       {{map_, "--animate", "scene-x"}, "nothing moves"},
       {{map_, "--figure", "mop"}, "did you mean \"map\"?"},
       {{map_, "--landmarks", "nobody"}, "no landmark \"nobody\""},
@@ -146,7 +190,17 @@ TEST(RenderOfARangeMap, DrawsItsFiguresAgain) {
   const TemporaryFolder folder;
   ASSERT_EQ(
       mapproof({"slam", std::string(kExamples) + "/drive", "--out", folder / "slam"}).exit_code, 0);
-  const Outcome outcome = mapproof({"render", folder / "slam", "--theme", "paper", "--as", "pdf"});
+  const Outcome outcome =
+      mapproof({"render", folder / "slam", "--theme", "paper", "--as", "pdf,svg"});
+  // A column's width has room for every legend.
+  for (const auto& entry : fs::directory_iterator(folder.path() / "slam/figures-paper"))
+    if (entry.path().extension() == ".svg") {
+      const std::string svg = read_file(entry.path());
+      for (std::size_t at = svg.find("class=\"legend-text\""); at != std::string::npos;
+           at = svg.find("class=\"legend-text\"", at + 1))
+        EXPECT_EQ(svg.substr(at, svg.find("</g>", at) - at).find("\u2026"), std::string::npos)
+            << entry.path();
+    }
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_FALSE(fs::is_empty(folder.path() / "slam/figures-paper"));
 }

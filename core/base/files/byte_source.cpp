@@ -41,8 +41,11 @@ ByteSource::ByteSource(const std::filesystem::path& path)
   read_ = [file, name = name_](std::span<char> to) { return read_some(*file, to, name); };
 }
 
-ByteSource::ByteSource(std::string name, ReadBytes read)
-    : name_(std::move(name)), read_(std::move(read)), unpacker_(name_) {}
+ByteSource::ByteSource(std::string name, ReadBytes read, std::string original)
+    : name_(std::move(name)),
+      read_(std::move(read)),
+      original_(std::move(original)),
+      unpacker_(name_) {}
 
 /// Bytes as the text that they are; decides what it is at the first character beyond ASCII.
 std::string ByteSource::decoded(std::string bytes) {
@@ -69,9 +72,11 @@ void ByteSource::take_text() {
 }
 
 std::string ByteSource::form() const {
-  std::string form(unpacker_.packing());
-  if (text_ != Text::kWindows1252) return form;
-  return form.empty() ? "Windows-1252" : form + ", Windows-1252";
+  std::string form = original_;
+  for (const std::string_view part :
+       {unpacker_.packing(), std::string_view(text_ == Text::kWindows1252 ? "Windows-1252" : "")})
+    if (!part.empty()) form += (form.empty() ? "" : ", ") + std::string(part);
+  return form;
 }
 
 /// Appends `count` bytes behind the peeked ones; fewer only at the end.

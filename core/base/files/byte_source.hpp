@@ -34,7 +34,8 @@ class ByteSource {
 
   /// Reads from a function.
   /// @param name  The name of the input in errors.
-  ByteSource(std::string name, ReadBytes read);
+  /// @param original  What the input was before the function made a text of it: "JSON lines".
+  ByteSource(std::string name, ReadBytes read, std::string original = "");
 
   /// The name in errors: the path, or "standard input".
   const std::string& name() const { return name_; }
@@ -61,11 +62,14 @@ class ByteSource {
   /// @note Holds some `count` bytes in memory, except for a file that is not packed.
   bool holds_more_than(std::size_t count);
 
+  /// What the input was before it was made a text; empty: it was a text.
+  const std::string& original() const { return original_; }
+
   /// "gzip", "xz" or "UTF-16"; empty if the input is none, or not begun.
   std::string_view packing() const { return unpacker_.packing(); }
 
-  /// The packing of what was read so far, and "Windows-1252" of a text that is: "gzip,
-  /// Windows-1252".
+  /// The packing of what was read so far, "Windows-1252" of a text that is, and what it was before:
+  /// "gzip, Windows-1252".
   std::string form() const;
 
   /// Bytes of the whole input, estimated from the bytes so far if it is packed; empty for a
@@ -85,6 +89,7 @@ class ByteSource {
   std::string name_;
   std::filesystem::path path_;
   ReadBytes read_;
+  std::string original_ = {};
   std::optional<std::size_t> size_;  ///< Bytes of the file, packed or not; empty: not known.
   Unpacker unpacker_;
   bool is_over_ = false;           ///< read_ has reached its end.

@@ -44,16 +44,21 @@ std::string_view nearest_word(std::string_view word, std::span<const std::string
 }
 
 std::string_view likely_word(std::string_view word, std::span<const std::string_view> candidates) {
+  const auto goes_on = [&](std::string_view candidate) {
+    return !word.empty() && candidate.size() > word.size() && candidate.starts_with(word);
+  };
   for (const std::string_view candidate : candidates)
-    if (!word.empty() && candidate.size() > word.size() && candidate.starts_with(word) &&
-        candidate[word.size()] == '_')
+    if (goes_on(candidate) && (candidate[word.size()] == '_' || candidate[word.size()] == '-'))
       return candidate;
   for (const std::string_view candidate : candidates)
     if (is_swapped(word, candidate)) return candidate;
   const std::string_view nearest = nearest_word(word, candidates);
   if (word.size() > kCompared || nearest.empty()) return {};
   const std::size_t allowed = std::max<std::size_t>(1, std::min(word.size(), nearest.size()) / 3);
-  return edit_distance(word, nearest) <= allowed ? nearest : std::string_view();
+  if (edit_distance(word, nearest) <= allowed) return nearest;
+  constexpr std::size_t kFewest = 3;  // Letters that begin one word and hardly another.
+  const auto longer = std::ranges::find_if(candidates, goes_on);
+  return word.size() >= kFewest && longer != candidates.end() ? *longer : std::string_view();
 }
 
 }  // namespace mapproof

@@ -9,8 +9,8 @@ namespace mapproof {
 /// none. Ties go to the earlier one.
 std::string_view nearest_word(std::string_view word, std::span<const std::string_view> candidates);
 
-/// The same, but empty unless the words are near enough to be a slip of the hand, or the word lacks
-/// what stands behind an underscore: "mpe" of "mpe_m".
+/// The same, but empty unless the words are near enough to be a slip of the hand, or a candidate
+/// goes on from the word: "mpe_m" from "mpe", "path-own" from "path", "yairi2007" from "yairi".
 std::string_view likely_word(std::string_view word, std::span<const std::string_view> candidates);
 
 }  // namespace mapproof

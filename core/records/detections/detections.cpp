@@ -244,6 +244,7 @@ DetectionSource read_detections(ByteSource& source, const TableFormat& format) {
   respell(source);
   if (!is_json(source)) return read_long_detections(source, format);
   if (format.scan_window_s) refuse_window(source.name());
+  require_columns({}, format.columns, source.name());
   const std::string bytes = source.rest();
   return parse_detections(checked_text(bytes, source.name()), source.name());
 }

@@ -28,7 +28,8 @@ bool is_index(std::string_view cell) {
 /// Which roles a row of headings names.
 class NamedRoles {
  public:
-  NamedRoles(const TableRow& row, const ColumnNames& columns) {
+  NamedRoles(const TableRow& row, const ColumnNames& names) {
+    const ColumnNames columns = columns_in(row.cells, names);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const std::optional<ColumnRole> role = column_heading(row.cells[i], i, columns).role;
       if (role)
@@ -72,14 +73,9 @@ void set_column(DetectionColumns& columns, ColumnRole role, std::size_t cell,
   columns.read.emplace_back(name(role), header);
 }
 
-/// @throws IoError if a column that the user names is not there, or too little is there.
-void require_columns(const DetectionColumns& columns, const std::string& source,
-                     const std::string& location, const ColumnNames& names) {
-  for (const NamedColumn& column : names)
-    if (!columns[column.role])
-      throw IoError(source, location,
-                    fmt::format("no column {}, which --columns names for {}",
-                                in_quotes(column.header), name(column.role)));
+/// @throws IoError if too little is there.
+void require_detections(const DetectionColumns& columns, const std::string& source,
+                        const std::string& location) {
   const std::string others = columns.unread.empty()
                                  ? ""
                                  : fmt::format("; there is {}: --columns ROLE=HEADER names them",
@@ -110,9 +106,10 @@ bool names_value_columns(const TableRow& row, const ColumnNames& names) {
 
 bool is_long_header(const TableRow& row, const ColumnNames& names) {
   bool is_known = false;
+  const ColumnNames named = columns_in(row.cells, names);
   for (std::size_t i = 0; i < row.cells.size(); ++i) {
     if (is_time_cell(row.cells[i])) return false;
-    is_known = is_known || column_heading(row.cells[i], i, names).role;
+    is_known = is_known || column_heading(row.cells[i], i, named).role;
   }
   return is_known;
 }
@@ -131,10 +128,12 @@ MeasuredColumns measured_columns(const TableRow& row, const ColumnNames& names) 
 DetectionColumns detection_columns(const TableRow& header, const std::string& source,
                                    const ColumnNames& names) {
   const std::string location = fmt::format("line {}", header.line);
+  require_columns(header.cells, names, source);
+  const ColumnNames named = columns_in(header.cells, names);
   DetectionColumns columns;
   columns.width = header.cells.size();
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    const ColumnHeading heading = column_heading(header.cells[i], i, names);
+    const ColumnHeading heading = column_heading(header.cells[i], i, named);
     if (!heading.role) {
       if (!is_index(header.cells[i])) columns.unread.push_back(in_quotes(header.cells[i]));
       continue;
@@ -152,13 +151,14 @@ DetectionColumns detection_columns(const TableRow& header, const std::string& so
     columns.factor[static_cast<std::size_t>(*heading.role)] = heading.factor;
     if (heading.unit) columns.unit = heading.unit;
   }
-  require_columns(columns, source, location, names);
+  require_detections(columns, source, location);
   return columns;
 }
 
 DetectionColumns usual_detection_columns(const TableRow& first, const std::string& source,
                                          const ColumnNames& names) {
-  if (!names.empty()) return detection_columns(first, source, names);
+  require_columns(first.cells, names, source);
+  if (!columns_in(first.cells, names).empty()) return detection_columns(first, source, names);
   const std::size_t width = first.cells.size();
   if (width != 4 && width != 2)
     throw IoError(source, fmt::format("line {}", first.line),

@@ -23,15 +23,38 @@
 namespace mapproof {
 namespace {
 
-/// Which cell of a row holds the name, x and y.
-using Columns = std::array<std::size_t, 3>;
+/// Which cell of a row holds the name, x and y, and the factors of the last two to metres.
+struct Columns {
+  std::array<std::size_t, 3> cell = {0, 1, 2};
+  std::array<double, 3> factor = {1.0, 1.0, 1.0};
+};
 
 constexpr std::array kRoles = {ColumnRole::kLandmark, ColumnRole::kX, ColumnRole::kY};
 
-/// 0, 1 or 2 for a heading of the column of names, x or y; 3 for any other.
-std::size_t column_named(std::string_view cell) {
-  const std::optional<ColumnRole> role = column_heading(cell, 0, {}).role;
-  return role ? static_cast<std::size_t>(std::ranges::find(kRoles, *role) - kRoles.begin()) : 3;
+/// What a heading says of a column: 0, 1 or 2 for names, x or y, and the factor; none for others.
+struct Heading {
+  std::optional<std::size_t> column;
+  double factor = 1.0;
+  std::string unknown_unit = {};
+};
+
+Heading heading_of(std::string_view cell, std::size_t number, const ColumnNames& named) {
+  const ColumnHeading heading = column_heading(cell, number, named);
+  if (heading.role) {
+    const auto found = std::ranges::find(kRoles, *heading.role);
+    if (found == kRoles.end()) return {};
+    return {static_cast<std::size_t>(found - kRoles.begin()), heading.factor, heading.unknown_unit};
+  }
+  const auto is_named = [&](ColumnRole role) {
+    return std::ranges::find(named, role, &NamedColumn::role) != named.end();
+  };
+  if (const auto factor = column_factor(cell, ColumnRole::kX, kEastWords);
+      factor && !is_named(ColumnRole::kX))
+    return {1, *factor};
+  if (const auto factor = column_factor(cell, ColumnRole::kY, kNorthWords);
+      factor && !is_named(ColumnRole::kY))
+    return {2, *factor};
+  return {};
 }
 
 /// A row of three cells or more without a number.
@@ -42,60 +65,99 @@ bool is_landmarks_header(const TableRow& row) {
          !(row.cells.size() == 3 && (is_missing(row.cells[1]) || is_missing(row.cells[2])));
 }
 
+/// "; latitudes and longitudes ..." for a header that names them.
+std::string remedy_for(const TableRow& header) {
+  for (const std::string_view cell : header.cells) {
+    const std::string word = lower_case(trimmed(cell));
+    if (word.starts_with("lat") || word.starts_with("lon"))
+      return "; latitudes and longitudes have to be projected to metres (UTM) first";
+  }
+  return "; --columns landmark=HEADER,x=HEADER,y=HEADER names others";
+}
+
 /// @throws IoError unless each of name, x and y is there once; others are not read.
-Columns columns_of(const TableRow& header, const std::string& source) {
+Columns columns_of(const TableRow& header, const std::string& source, const ColumnNames& names) {
+  const ColumnNames named = columns_in(header.cells, names);
   Columns columns{};
   std::array<bool, 3> is_found{};
   const std::string location = fmt::format("line {}", header.line);
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
-    const std::size_t column = column_named(header.cells[i]);
-    if (column == 3) continue;
-    if (is_found[column])
+    const Heading heading = heading_of(header.cells[i], i, named);
+    if (!heading.column) continue;
+    if (is_found[*heading.column])
       throw IoError(source, location,
-                    "expected the columns name, x, y once; got " + in_quotes(header.cells[i]));
-    columns[column] = i;
-    is_found[column] = true;
+                    fmt::format("expected the columns name, x, y once; got {}; --columns "
+                                "{}=HEADER names the one to read",
+                                in_quotes(header.cells[i]), name(kRoles[*heading.column])));
+    if (!heading.unknown_unit.empty())
+      throw IoError(source, location,
+                    fmt::format("{}: coordinates in that unit are not known; m, cm, mm or km",
+                                in_quotes(header.cells[i])));
+    columns.cell[*heading.column] = i;
+    columns.factor[*heading.column] = heading.factor;
+    is_found[*heading.column] = true;
   }
-  for (std::size_t column = 0; column < 3; ++column)
-    if (!is_found[column])
-      throw IoError(source, location,
-                    fmt::format("expected the columns name, x, y; got {}",
-                                in_quotes(fmt::format("{}", fmt::join(header.cells, ",")))));
+  for (const NamedColumn& column : names)
+    for (std::size_t i = 0; i < kRoles.size(); ++i)
+      if (!is_found[i] && column.role == kRoles[i])
+        require_columns(header.cells, {{column.role, column.header}}, source);
+  if (std::ranges::find(is_found, false) != is_found.end())
+    throw IoError(source, location,
+                  fmt::format("expected the columns name, x, y; got {}{}",
+                              in_quotes(fmt::format("{}", fmt::join(header.cells, ","))),
+                              remedy_for(header)));
   return columns;
 }
 
-double read_coordinate(std::string_view cell, const std::string& source, std::size_t line) {
+/// Of a table without a header: name, x, y, or as the user numbers them.
+Columns numbered_columns(const TableRow& first, const ColumnNames& names) {
+  Columns columns{};
+  for (std::size_t column = 0; column < kRoles.size(); ++column)
+    for (const NamedColumn& named : names)
+      for (std::size_t i = 0; named.role == kRoles[column] && i < first.cells.size(); ++i)
+        if (is_named(named, first.cells[i], i)) columns.cell[column] = i;
+  return columns;
+}
+
+double read_coordinate(std::string_view cell, double factor, const std::string& source,
+                       std::size_t line) {
   const std::string location = fmt::format("line {}", line);
   if (is_missing(cell)) throw IoError(source, location, "a coordinate is missing");
   const std::optional<double> value = number_in(cell);
   if (!value) throw IoError(source, location, number_problem(cell));
-  if (!(std::abs(*value) <= kFarthest_m))
+  if (!(std::abs(factor * *value) <= kFarthest_m))
     throw IoError(
         source, location,
         fmt::format("coordinates are in metres, at most {}, got {}", kFarthest_m, in_quotes(cell)));
-  return *value;
+  return factor * *value;
 }
 
-NamedPoints parse_table(std::string_view text, const std::string& source) {
+NamedPoints parse_table(std::string_view text, const std::string& source,
+                        const ColumnNames& names_of_columns) {
   TableReader reader(text, source);
   TableRow row;
-  Columns columns = {0, 1, 2};
-  std::size_t width = columns.size();
+  Columns columns;
+  std::size_t width = kRoles.size();
   NameList names(source);
   std::vector<double> coordinates;
   for (bool is_first = true; reader.next(row); is_first = false) {
     if (is_first && is_landmarks_header(row)) {
-      columns = columns_of(row, source);
+      columns = columns_of(row, source, names_of_columns);
       width = row.cells.size();
       continue;
+    }
+    if (is_first && !columns_in(row.cells, names_of_columns).empty()) {
+      columns = numbered_columns(row, names_of_columns);
+      width = row.cells.size();
     }
     if (row.cells.size() != width)
       throw IoError(source, fmt::format("line {}", row.line),
                     fmt::format("has {} cells, expected {}", row.cells.size(),
                                 width == 3 ? "name, x, y" : fmt::format("{}", width)));
-    names.add(row.cells[columns[0]], row.line);
-    coordinates.push_back(read_coordinate(row.cells[columns[1]], source, row.line));
-    coordinates.push_back(read_coordinate(row.cells[columns[2]], source, row.line));
+    names.add(row.cells[columns.cell[0]], row.line);
+    for (const std::size_t axis : {1U, 2U})
+      coordinates.push_back(
+          read_coordinate(row.cells[columns.cell[axis]], columns.factor[axis], source, row.line));
   }
   return named_points(names, coordinates, source);
 }
@@ -111,36 +173,43 @@ bool is_groundtruth(std::string_view text, const std::string& source) {
 
 }  // namespace
 
-NamedPoints read_landmarks(ByteSource& source) {
+NamedPoints read_landmarks(ByteSource& source, const ColumnNames& names) {
   respell(source);
   const std::string bytes = source.rest();
-  return parse_landmarks(checked_text(bytes, source.name()), source.name());
+  return parse_landmarks(checked_text(bytes, source.name()), source.name(), names);
 }
 
-NamedPoints read_landmarks(const std::filesystem::path& path) {
+NamedPoints read_landmarks(const std::filesystem::path& path, const ColumnNames& names) {
   ByteSource source(path);
-  return read_landmarks(source);
+  return read_landmarks(source, names);
 }
 
-NamedPoints parse_landmarks(std::string_view text, const std::string& source) {
-  return is_groundtruth(text, source) ? parse_groundtruth(text, source) : parse_table(text, source);
+NamedPoints parse_landmarks(std::string_view text, const std::string& source,
+                            const ColumnNames& names) {
+  return is_groundtruth(text, source) ? parse_groundtruth(text, source)
+                                      : parse_table(text, source, names);
 }
 
-bool is_landmarks_table(std::string_view text, const std::string& source) {
+bool is_landmarks_table(std::string_view text, const std::string& source,
+                        const ColumnNames& names) {
   if (is_groundtruth(text, source)) return true;
   TableReader reader(text, source);
   TableRow row;
   if (!reader.next(row)) return false;
   if (is_landmarks_header(row)) {
-    const auto names = [&](std::size_t column) {
-      return std::ranges::find(row.cells, column, column_named) != row.cells.end();
-    };
-    return names(1) && names(2);
+    const ColumnNames named = columns_in(row.cells, names);
+    std::array<bool, 3> is_found{};
+    for (std::size_t i = 0; i < row.cells.size(); ++i) {
+      if (const Heading heading = heading_of(row.cells[i], i, named); heading.column)
+        is_found[*heading.column] = true;
+      if (column_heading(row.cells[i], i, named).role == ColumnRole::kTime) return false;
+    }
+    return is_found[1] && is_found[2];
   }
-  std::set<std::string, std::less<>> names;
+  std::set<std::string, std::less<>> labels;
   do {
     if (row.cells.size() != 3 || !number_in(row.cells[1]) || !number_in(row.cells[2]) ||
-        !names.emplace(row.cells[0]).second)
+        !labels.emplace(row.cells[0]).second)
       return false;
   } while (reader.next(row));
   return true;

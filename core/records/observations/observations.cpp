@@ -319,6 +319,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   const std::string bytes = source.rest();
   const std::string_view text = checked_text(bytes, name);
   if (holds_json && format.scan_window_s) refuse_window(name);
+  if (holds_json) require_columns({}, format.columns, name);
   if (holds_json) return parse_observations(text, name, kind);
   if (!kind)
     throw IoError(
@@ -333,6 +334,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   ObservationSource result =
       is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
   result.reading.packing = source.form();
+  if (!source.original().empty()) result.reading.separator = '\0';
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
   return result;
 }

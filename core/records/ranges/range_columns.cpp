@@ -82,12 +82,12 @@ std::optional<Cell> cell_of(const RangeColumn& column, const TableRow& header,
                                 column.label, name(column.role)));
     found = Cell{column.role, i, *factor, *factor != 1.0};
   }
-  if (!found && column.is_needed)
-    throw IoError(source, location,
-                  fmt::format("no column of {}: expected {} in the header; --columns {}=HEADER "
-                              "names another",
-                              column.label, usual_headers(column.role), name(column.role)));
-  return found;
+  if (found || !column.is_needed) return found;
+  require_named(column.role, header, source, names);
+  throw IoError(source, location,
+                fmt::format("no column of {}: expected {} in the header; --columns {}=HEADER "
+                            "names another",
+                            column.label, usual_headers(column.role), name(column.role)));
 }
 
 /// In the unit of the column. @param is_time  A date does as well.
@@ -122,6 +122,12 @@ void scale_times(const std::vector<Cell>& cells, Eigen::MatrixXd& values) {
 }
 
 }  // namespace
+
+void require_named(ColumnRole role, const TableRow& header, const std::string& source,
+                   const ColumnNames& names) {
+  const auto named = std::ranges::find(names, role, &NamedColumn::role);
+  if (named != names.end()) require_columns(header.cells, {{named->role, named->header}}, source);
+}
 
 std::vector<ColumnRole> missing_columns(const TableRow& header,
                                         const std::vector<RangeColumn>& columns,

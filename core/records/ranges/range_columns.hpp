@@ -20,6 +20,11 @@ struct RangeColumn {
   bool is_needed = true;
 };
 
+/// @throws IoError naming the headers that there are, if the user names a column of that role that
+///         the table does not have.
+void require_named(ColumnRole role, const TableRow& header, const std::string& source,
+                   const ColumnNames& names);
+
 /// Of the columns those that are needed and that a header does not name.
 std::vector<ColumnRole> missing_columns(const TableRow& header,
                                         const std::vector<RangeColumn>& columns,

@@ -15,7 +15,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/range_log_forms.hpp"
+#include "core/records/ranges/range_companions.hpp"
 
 namespace mapproof {
 namespace {
@@ -216,7 +216,10 @@ bool turns_are_the_ground_truths(const std::vector<Motion>& motions,
 }
 
 RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
+  if (parts.columns.empty()) parts.columns = options.columns;
   take_named_files(options, parts);
+  const std::vector<std::string_view> header(parts.header.begin(), parts.header.end());
+  require_columns(header, parts.columns, parts.source);
   if (parts.measurements.empty()) throw IoError(parts.source, "holds no ranges");
   RangeLog log{.name = parts.name,
                .landmarks = names_of(parts),

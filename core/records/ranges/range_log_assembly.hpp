@@ -1,26 +1,12 @@
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/model/range_log.hpp"
 #include "core/records/ranges/range_log_options.hpp"
-#include "core/records/ranges/range_tables.hpp"
+#include "core/records/ranges/range_log_parts.hpp"
 
 namespace mapproof {
-
-/// What the readers of the several formats gather before a log is made of it.
-struct RangeLogParts {
-  std::string source;  ///< File or folder, for errors.
-  std::string name;
-  std::vector<NamedMeasurement> measurements = {};  ///< In the order of the file.
-  std::vector<Motion> odometry = {};
-  std::optional<StartPose> start = {};
-  std::optional<Trajectory> ground_truth = {};
-  NamedPoints true_landmarks = {};
-  std::vector<std::string> remarks = {};
-};
 
 /// Puts the landmarks in order (of the letters of their names and then of the number behind them if
 /// all names end in a number, else as they first come), sorts the measurements by time, turns true

@@ -13,8 +13,6 @@
 
 namespace mapproof {
 
-struct RangeLogParts;
-
 /// The register of the forms that read_range_log() describes; range_log_NAME.cpp reads the form
 /// NAME. Files next to a file are found by its path.
 RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options);
@@ -25,15 +23,6 @@ RangeLog read_range_log_text(ByteSource& source, const RangeLogOptions& options)
 /// The path of NAME_TD.txt or NAME_DR.txt, packed or not, without that end; empty for others. Of
 /// the form text.
 std::filesystem::path text_stem(const std::filesystem::path& path);
-
-/// Reads the files that the options name in place of what was gathered. @throws IoError.
-void take_named_files(const RangeLogOptions& options, RangeLogParts& parts);
-
-/// Checks a file that goes with ranges: a path as TUM or KITTI have it, and tables of odometry or
-/// of a true path.
-/// @return What it is: "path, TUM". Empty: it is none of them, and unread.
-/// @throws IoError as read_range_log().
-std::string check_range_companion(ByteSource& source);
 
 // range_log_path.cpp: the ground truth's path.
 

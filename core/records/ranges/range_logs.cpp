@@ -150,6 +150,8 @@ RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
                [&](const TableRow& row) {
                  header = in_quotes(fmt::format("{}", fmt::join(row.cells, ", ")));
                  missing = missing_range_columns(row, options.columns);
+                 for (const ColumnRole role : missing)
+                   require_named(role, row, source.name(), options.columns);
                  return row.cells.size() > 2 &&
                         std::ranges::none_of(row.cells, [](std::string_view cell) {
                           return number_in(cell).has_value();
@@ -170,12 +172,13 @@ bool is_range_log_folder(const fs::path& folder) {
   return fs::exists(plain_or_packed(folder / "ranges.csv"), error);
 }
 
-bool is_range_log(ByteSource& source) {
-  const Form seen = form_seen(source), named = form_named(source.path());
+bool is_range_log(ByteSource& source, const ColumnNames& columns) {
+  const Form seen = form_seen(source, columns), named = form_named(source.path());
   if (seen == Form::kCsv)
     return named == Form::kCsv ||
-           !first_row_is(source,
-                         [](const TableRow& row) { return names_detection_columns(row); }) ||
+           !first_row_is(
+               source,
+               [&](const TableRow& row) { return names_detection_columns(row, columns); }) ||
            first_row_is(source, names_beacons);
   if (seen == Form::kText || seen == Form::kNone)
     return named != Form::kNone && named != Form::kCsv;

@@ -35,6 +35,6 @@ bool is_range_log_folder(const std::filesystem::path& folder);
 /// Whether a source, which stays unread, is one of the forms above that nothing else is: not four
 /// numbers a row, and of tables that could be detections as well ranges.csv alone.
 /// @throws IoError if it cannot be read.
-bool is_range_log(ByteSource& source);
+bool is_range_log(ByteSource& source, const ColumnNames& columns = {});
 
 }  // namespace mapproof

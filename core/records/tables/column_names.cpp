@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {
@@ -229,6 +230,35 @@ ColumnNames column_names(const std::vector<std::string>& parts, std::span<const 
     columns.push_back({*found, part.substr(sign + 1)});
   }
   return columns;
+}
+
+ColumnNames columns_in(HeaderCells header, const ColumnNames& names) {
+  ColumnNames columns;
+  for (const NamedColumn& column : names)
+    for (std::size_t i = 0; i < header.size(); ++i)
+      if (is_named(column, header[i], i)) {
+        columns.push_back(column);
+        break;
+      }
+  return columns;
+}
+
+void require_columns(HeaderCells header, const ColumnNames& names, const std::string& source) {
+  const ColumnNames found = columns_in(header, names);
+  for (const NamedColumn& column : names) {
+    if (column.is_elsewhere || std::ranges::find(found, column) != found.end()) continue;
+    if (header.empty())
+      throw IoError(source, fmt::format("is not a table: --columns {}=... has no effect on it",
+                                        name(column.role)));
+    constexpr std::size_t kMost = 20;
+    std::vector<std::string> cells;
+    for (const std::string_view cell : header.first(std::min(header.size(), kMost)))
+      cells.push_back(in_quotes(cell));
+    throw IoError(source,
+                  fmt::format("no column {}, which --columns names for {}; there are {}{}",
+                              in_quotes(column.header), name(column.role), fmt::join(cells, ", "),
+                              header.size() > kMost ? ", ..." : ""));
+  }
 }
 
 ColumnHeading column_heading(std::string_view cell, std::size_t number,

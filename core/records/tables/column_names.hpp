@@ -40,6 +40,8 @@ std::string_view name(ColumnRole role);
 struct NamedColumn {
   ColumnRole role;
   std::string header;  ///< Its cell in the header, or the column's number, from 1.
+  /// Another table of those that are read together has it: this one need not.
+  bool is_elsewhere = false;
 
   bool operator==(const NamedColumn&) const = default;
 };
@@ -54,6 +56,14 @@ inline constexpr std::array kRangeLogRoles = {
     ColumnRole::kTime,  ColumnRole::kNanoseconds, ColumnRole::kRobot,         ColumnRole::kLandmark,
     ColumnRole::kRange, ColumnRole::kDistance,    ColumnRole::kHeadingChange, ColumnRole::kSideways,
     ColumnRole::kX,     ColumnRole::kY,           ColumnRole::kHeading};
+
+/// All of them: of files of any kind.
+inline constexpr std::array kAllRoles = {
+    ColumnRole::kStep,     ColumnRole::kTime,          ColumnRole::kNanoseconds,
+    ColumnRole::kRobot,    ColumnRole::kLandmark,      ColumnRole::kRange,
+    ColumnRole::kBearing,  ColumnRole::kValue,         ColumnRole::kX,
+    ColumnRole::kY,        ColumnRole::kRight,         ColumnRole::kHeading,
+    ColumnRole::kDistance, ColumnRole::kHeadingChange, ColumnRole::kSideways};
 
 /// "time=Zeit,landmark=Objekt" in parts, "landmark=Objekt" each.
 /// @throws InvalidInput for what names none of the roles, or one twice.
@@ -76,11 +86,28 @@ ColumnHeading column_heading(std::string_view cell, std::size_t number, const Co
 /// Whether the user names that column of the table, by its header's cell or its number from 0.
 bool is_named(const NamedColumn& column, std::string_view cell, std::size_t number);
 
+/// The cells of a header, or of the first row of a table without one.
+using HeaderCells = std::span<const std::string_view>;
+
+/// Those of the named columns that a table has. The others go by their usual words there.
+ColumnNames columns_in(HeaderCells header, const ColumnNames& names);
+
+/// @param header  Empty: of a file that is not a table.
+/// @throws IoError naming the headers that there are, for a named column that neither this table
+///         nor another one has.
+void require_columns(HeaderCells header, const ColumnNames& names, const std::string& source);
+
 /// The factor to metres, seconds or radians of a column whose header's cell is one of the words, in
 /// any case, with a unit of the role or without. Empty: it is none of them, or of another unit.
 /// @param words  In small letters, without blanks, dots and underscores.
 std::optional<double> column_factor(std::string_view cell, ColumnRole role,
                                     std::span<const std::string_view> words);
+
+/// What tables of positions and paths call x and y besides.
+inline constexpr std::array<std::string_view, 8> kEastWords = {
+    "east", "easting", "ost", "rechtswert", "px", "posx", "xpos", "positionx"};
+inline constexpr std::array<std::string_view, 8> kNorthWords = {
+    "north", "northing", "nord", "hochwert", "py", "posy", "ypos", "positiony"};
 
 /// The same of a column that the user names: of the unit behind the first word, if there is one.
 double named_column_factor(std::string_view cell, ColumnRole role);

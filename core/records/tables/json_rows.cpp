@@ -196,8 +196,10 @@ std::string lines_csv(std::string_view text, const std::string& source) {
   return table.csv();
 }
 
-/// Whether the first line is a whole object, and there are more lines.
-bool are_lines(std::string_view text) {
+}  // namespace
+
+bool holds_json_lines(std::string_view bytes) {
+  const std::string_view text = trimmed(bytes, kWhiteSpace);
   const std::size_t end = text.find('\n');
   if (end == std::string_view::npos) return false;
   const std::string_view first = trimmed(text.substr(0, end));
@@ -205,8 +207,6 @@ bool are_lines(std::string_view text) {
   return first.starts_with('{') && first.ends_with('}') && next != std::string_view::npos &&
          text[next] == '{';
 }
-
-}  // namespace
 
 bool holds_json_rows(ByteSource& source) {
   const std::string_view start = source.peek();
@@ -219,7 +219,7 @@ bool holds_json_rows(ByteSource& source) {
 }
 
 std::string json_rows_csv(std::string_view text, const std::string& source) {
-  if (are_lines(trimmed(text, kWhiteSpace))) return lines_csv(text, source);
+  if (holds_json_lines(text)) return lines_csv(text, source);
   const Json root = parse_json(text, source).tree();
   JsonTable table(source);
   if (root.is_array()) {

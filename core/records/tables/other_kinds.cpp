@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/tables/respelling.hpp"
 
 namespace mapproof {
@@ -20,6 +23,12 @@ struct OtherKind {
 constexpr std::string_view kSaveAs = "File > Save As, then CSV UTF-8";
 constexpr std::string_view kRosbag = "examples/ros2/mcap_to_csv.py makes tables of MCAP";
 
+constexpr std::string_view kYaml =
+    "python3 -c 'import json, yaml; json.dump(yaml.safe_load(open(\"FILE\")), open(\"table.json\", "
+    "\"w\"))'";
+constexpr OtherKind kWebPage = {"", "", "a web page",
+                                "in Python, pandas.read_html(\"FILE\")[0].to_csv(\"table.csv\")"};
+
 /// The first that fits counts.
 constexpr OtherKind kOtherKinds[] = {
     {"PK\x03\x04", "xl/", "an Excel workbook", kSaveAs},
@@ -30,8 +39,9 @@ constexpr OtherKind kOtherKinds[] = {
     {"\xD0\xCF\x11\xE0", "", "an old Excel workbook", kSaveAs},
     {"<?xml", "gnumeric", "a Gnumeric workbook", "ssconvert FILE table.csv", true},
     {"<?xml", "", "XML", "a table is CSV or JSON", true},
-    {"<!DOCTYPE html", "", "a web page", "save the data themselves", true},
-    {"<html", "", "a web page", "save the data themselves", true},
+    {"%YAML", "", "YAML", kYaml, true},
+    {"---\n", "", "YAML", kYaml, true},
+    {"---\r\n", "", "YAML", kYaml, true},
     {"\x89HDF\r\n", "", "HDF5", "in Python, pandas.read_hdf or h5py reads it; write CSV or .npy"},
     {"MATLAB 7.3", "", "MATLAB 7.3 (HDF5)", "in MATLAB, writematrix(X, \"table.csv\")"},
     {"MATLAB 5.0", "", "a MATLAB file", "in MATLAB, writematrix(X, \"table.csv\")"},
@@ -54,7 +64,7 @@ constexpr OtherKind kOtherKinds[] = {
     {"# .PCD", "", "a point cloud", "mapproof reads detections of landmarks", true},
     {"ply\n", "", "a point cloud", "mapproof reads detections of landmarks", true},
     {"LASF", "", "a point cloud", "mapproof reads detections of landmarks"},
-    {"%PDF", "", "a PDF", "save the data themselves", true},
+    {"%PDF", "", "a PDF", "pdftotext -layout FILE makes text of it, Tabula a table", true},
     {"\x89PNG", "", "a PNG image", "save the data themselves; `mapproof diff` compares images"},
     {"\xFF\xD8\xFF", "", "a JPEG image", "save the data themselves"},
     {"GIF8", "", "a GIF image", "save the data themselves"},
@@ -68,13 +78,35 @@ constexpr OtherKind kOtherKinds[] = {
     {"version https://git-lfs", "", "a pointer of Git LFS", "git lfs pull", true},
 };
 
-}  // namespace
-
-bool is_npz(std::string_view start) {
-  constexpr std::size_t kFirstEntry = 300;
-  return start.starts_with("PK\x03\x04") &&
-         start.substr(0, kFirstEntry).find(".npy") != std::string_view::npos;
+/// Whether the first tag is of HTML, in any case, behind comments.
+bool is_web_page(std::string_view text) {
+  std::string start = lower_case(trimmed(text.substr(0, 2000), kWhiteSpace));
+  while (start.starts_with("<!--")) {
+    const std::size_t end = start.find("-->");
+    if (end == std::string::npos) return false;
+    start = trimmed(std::string_view(start).substr(end + 3), kWhiteSpace);
+  }
+  return start.starts_with("<!doctype html") || start.starts_with("<html");
 }
+
+/// Whether the first line that is not a comment is "- key: value", "- key:" or "key: value".
+bool is_yaml(std::string_view text) {
+  while (text.starts_with('#')) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  std::string_view line = trimmed(text.substr(0, text.find('\n')));
+  if (line.starts_with("- ")) line.remove_prefix(2);
+  const std::size_t colon = line.find(':');
+  const bool is_pair = colon != std::string_view::npos && colon > 0 &&
+                       (colon + 1 == line.size() || line[colon + 1] == ' ');
+  constexpr std::string_view kOfKeys =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.\"'";
+  return is_pair && line.substr(0, colon).find_first_not_of(kOfKeys) == std::string_view::npos;
+}
+
+[[noreturn]] void refuse(const OtherKind& kind, const std::string& source) {
+  throw IoError(source, fmt::format("is {}, which is not read: {}", kind.what, kind.remedy));
+}
+
+}  // namespace
 
 void refuse_other_kind(std::string_view start, const std::string& source) {
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF");
@@ -85,7 +117,9 @@ void refuse_other_kind(std::string_view start, const std::string& source) {
   for (const OtherKind& kind : kOtherKinds)
     if ((has_control || kind.is_text) && text.starts_with(kind.magic) &&
         text.find(kind.within) != std::string_view::npos)
-      throw IoError(source, fmt::format("is {}, which is not read: {}", kind.what, kind.remedy));
+      refuse(kind, source);
+  if (is_web_page(text)) refuse(kWebPage, source);
+  if (is_yaml(text)) refuse({"", "", "YAML", kYaml}, source);
 }
 
 }  // namespace mapproof

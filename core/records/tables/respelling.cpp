@@ -20,15 +20,17 @@ namespace {
 
 constexpr std::string_view kNpy = "\x93NUMPY";
 
-/// A table's text as a source.
-ByteSource source_of(std::string name, std::string text) {
+/// A table's text as a source. @param original  What it was: "NumPy .npy".
+ByteSource source_of(std::string name, std::string text, std::string original) {
   const auto bytes = std::make_shared<const std::string>(std::move(text));
-  return {std::move(name), [bytes, at = std::size_t{0}](std::span<char> to) mutable {
+  return {std::move(name),
+          [bytes, at = std::size_t{0}](std::span<char> to) mutable {
             const std::size_t count = std::min(to.size(), bytes->size() - at);
             std::copy_n(bytes->data() + at, count, to.begin());
             at += count;
             return count;
-          }};
+          },
+          std::move(original)};
 }
 
 bool is_graph(const TableRow& row) {
@@ -90,13 +92,14 @@ void respell(ByteSource& source) {
   const std::string_view start = source.peek();
   if (start.starts_with(kNpy)) {
     const std::string bytes = source.rest();
-    source = source_of(called, npy_csv(bytes, name));
+    source = source_of(called, npy_csv(bytes, name), "NumPy .npy");
   } else if (is_npz(start)) {
     const std::string bytes = source.rest();
-    source = source_of(called, npz_csv(bytes, name));
+    source = source_of(called, npz_csv(bytes, name), "NumPy .npz");
   } else if (holds_json_rows(source)) {
     const std::string bytes = source.rest();
-    source = source_of(called, json_rows_csv(checked_text(bytes, name), name));
+    source = source_of(called, json_rows_csv(checked_text(bytes, name), name),
+                       holds_json_lines(bytes) ? "JSON lines" : "JSON");
   } else {
     refuse_other_kind(start, name);
     const bool may_be_graph = start.starts_with("VERTEX") || start.starts_with("EDGE_") ||
@@ -106,9 +109,27 @@ void respell(ByteSource& source) {
       const bool is_known = first_row_is(source, is_graph, TableReader::kBlanks);
       if (!is_known) return;
       const std::string bytes = source.rest();
-      source = source_of(called, graph_csv(checked_text(bytes, name), name));
+      source = source_of(called, graph_csv(checked_text(bytes, name), name), "a graph of g2o");
     }
   }
+}
+
+void mark_columns(ByteSource& table, ColumnNames& columns) {
+  respell(table);
+  if (columns.empty()) return;
+  const std::vector<std::string> cells = first_row(table);
+  const ColumnNames found =
+      columns_in(std::vector<std::string_view>(cells.begin(), cells.end()), columns);
+  for (NamedColumn& column : columns)
+    if (std::ranges::find(found, column) != found.end()) column.is_elsewhere = true;
+}
+
+void require_columns(ByteSource& table, const ColumnNames& columns) {
+  if (std::ranges::all_of(columns, &NamedColumn::is_elsewhere)) return;
+  respell(table);
+  if (is_json(table)) return;
+  const std::vector<std::string> cells = first_row(table);
+  require_columns(std::vector<std::string_view>(cells.begin(), cells.end()), columns, table.name());
 }
 
 }  // namespace mapproof

@@ -164,11 +164,14 @@ std::optional<std::size_t> label_column(const TableFacts& facts, const TableForm
 }  // namespace
 
 TableShape table_shape(std::string_view text, const std::string& source,
-                       const TableFormat& format) {
+                       const TableFormat& stated) {
   TableReader reader(text, source);
   TableRow row;
   TableShape shape;
   if (!reader.next(row)) return shape;
+  require_columns(row.cells, stated.columns, source);
+  TableFormat format = stated;
+  format.columns = columns_in(row.cells, stated.columns);
   TableFacts facts{.first = {row.cells.begin(), row.cells.end()}};
   shape.has_header = is_first_row_header(facts.first, format);
   if (!shape.has_header) facts.labels.add(row.cells.front());

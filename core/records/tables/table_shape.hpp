@@ -28,7 +28,7 @@ struct TableShape {
 /// dates; or the header names landmarks, and the first column counts, ascends or holds values.
 /// Certainly wide: the rows have names that are texts; or the header names or counts steps. In
 /// doubt: more rows than columns whose rows have no names, or numbers that ascend.
-/// @param text  From checked_text(). @throws IoError as TableReader.
+/// @param text  From checked_text(). @throws IoError as TableReader, or as require_columns().
 /// @note Splits the whole table once.
 TableShape table_shape(std::string_view text, const std::string& source, const TableFormat& format);
 

@@ -57,6 +57,15 @@ bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& r
   }
 }
 
+std::vector<std::string> first_row(ByteSource& source) {
+  std::vector<std::string> cells;
+  first_row_is(source, [&](const TableRow& row) {
+    cells.assign(row.cells.begin(), row.cells.end());
+    return true;
+  });
+  return cells;
+}
+
 /// The next rows to the front of bytes_; false: there are no more.
 bool TableStream::read_rows() {
   lines_ += static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.begin() + whole_, '\n'));

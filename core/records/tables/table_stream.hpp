@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/files/byte_source.hpp"
 #include "core/records/tables/table_reader.hpp"
@@ -16,6 +17,9 @@ namespace mapproof {
 /// @throws IoError if the source is empty, cannot be read, or begins with what is not a text.
 bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& row)>& sort,
                   std::optional<char> separator = std::nullopt);
+
+/// The cells of the first row, as first_row_is() finds it; none if there is no row.
+std::vector<std::string> first_row(ByteSource& source);
 
 /// The rows of a table of any length, as TableReader has them; a few megabytes of it are held at a
 /// time.
@@ -34,7 +38,8 @@ class TableStream {
 
   /// After the first row, see ByteSource and TableReader.
   std::string packing() const { return source_.form(); }
-  char separator() const { return separator_; }
+  /// Of a text that another form was made into: none.
+  char separator() const { return source_.original().empty() ? separator_ : '\0'; }
   bool has_decimal_commas() const {
     return had_decimal_commas_ || (reader_ && reader_->has_decimal_commas());
   }

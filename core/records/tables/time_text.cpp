@@ -194,7 +194,10 @@ std::string time_problem(std::string_view cell) {
   const auto slashes = std::ranges::count_if(cell, [](char c) { return c == '/' || c == '-'; });
   if (slashes == 2 && !cell.empty() && is_digit(cell.front()) &&
       cell.find_first_not_of("0123456789/-:., apmAPM") == std::string_view::npos)
-    return in_quotes(cell) + " is not a time, or its day and month may be either; write 2026-11-03";
+    return in_quotes(cell) +
+           " is not a time, or its day and month may be either: write dates as 2026-11-03 (in a "
+           "spreadsheet the cell format YYYY-MM-DD; in Python pandas.to_datetime(table[\"time\"], "
+           "format=\"%m/%d/%Y %H:%M\"))";
   std::string problem = number_problem(cell);
   if (problem != in_quotes(cell) + " is not a number") return problem;
   return in_quotes(cell) + " is not a time: neither a number nor a date such as " +

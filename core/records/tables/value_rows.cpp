@@ -23,7 +23,8 @@ ValueRows::ValueRows(const std::string& source, Sensor sensor, const TableFormat
 
 bool ValueRows::begin(const TableRow& first) {
   const bool is_header = is_long_header(first, columns_);
-  if (!is_header && columns_.empty()) return false;
+  require_columns(first.cells, columns_, scans_.source());
+  if (!is_header && columns_in(first.cells, columns_).empty()) return false;
   scans_.set_columns(detection_columns(first, scans_.source(), columns_));
   if (!scans_.columns()[ColumnRole::kValue]) scans_.fail(first.line, "no column is named value");
   return is_header;

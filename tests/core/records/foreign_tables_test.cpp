@@ -381,6 +381,11 @@ TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
             std::string::npos);
   EXPECT_NE(table_error(npy_of<double>("|O8", expected_ranges(), false)).find("astype"),
             std::string::npos);
+  std::string records = npy_of<double>("<f8", expected_ranges(), false);
+  records.replace(records.find("'<f8'"), 5, "[('t','<f8')]");
+  records[8] = static_cast<char>(records[8] + 8);
+  EXPECT_NE(table_error(records).find("pandas.DataFrame(array).to_csv"), std::string::npos);
+
 }
 
 TEST(OtherFiles, AreNamedWithWhatConvertsThem) {

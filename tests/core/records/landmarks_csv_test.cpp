@@ -48,10 +48,19 @@ TEST(LandmarksCsv, NamesTheLineThatIsWrong) {
   EXPECT_EQ(landmarks_error("a,0,0\nb,1,1\na,2,2\n"),
             "line 3: landmark \"a\" is already on line 1");
   EXPECT_EQ(landmarks_error(",0,0\n"), "line 1: a landmark without a name");
-  EXPECT_EQ(landmarks_error("name,north,east\na,0,0\n"),
-            "line 1: expected the columns name, x, y; got \"name,north,east\"");
+  EXPECT_EQ(landmarks_error("name,up,down\na,0,0\n"),
+            "line 1: expected the columns name, x, y; got \"name,up,down\"; --columns "
+            "landmark=HEADER,x=HEADER,y=HEADER names others");
   EXPECT_EQ(landmarks_error("name,x,y\n"), "holds no landmarks");
   EXPECT_EQ(landmarks_error(""), "is empty");
+}
+
+TEST(LandmarksCsv, ReadsTheUnitOfTheHeaderAndEastAndNorth) {
+  const test::TemporaryFolder folder;
+  const NamedPoints read =
+      read_landmarks(folder.file("a.csv", "name,north [cm],east [km]\na,100,2\n"));
+  EXPECT_DOUBLE_EQ(read.positions_m(0, 0), 2000.0);
+  EXPECT_DOUBLE_EQ(read.positions_m(0, 1), 1.0);
 }
 
 }  // namespace
