@@ -10,7 +10,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/pairs/orientation.hpp"
-#include "core/pairs/pair_solution.hpp"
 #include "tests/support/samples/scans.hpp"
 #include "tests/support/samples/worlds.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/base/random.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/refinement/key_poses.hpp"
-#include "core/range_slam/refinement/refine_problem.hpp"
+#include "core/range_slam/refinement/refine.hpp"
 #include "core/range_slam/refinement/refine_starts.hpp"
 #include "core/range_slam/trilateration.hpp"
 #include "tests/core/range_slam/slam_worlds.hpp"
