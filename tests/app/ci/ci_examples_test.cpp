@@ -62,7 +62,7 @@ def test_file(figure_check, tmp_path):
     draw().savefig(tmp_path / "drawn.svg")
     figure_check(tmp_path / "drawn.svg", "path.svg")
 )");
-  const auto run = [&](const std::string& height, const std::string& option = "-q") {
+  const auto run = [&](const std::string& height, const std::string& option = "--tb=short") {
     return run_in(folder.path(), {"HEIGHT=" + height, python(), "-m", "pytest", "-q", "-p",
                                   "no:cacheprovider", option});
   };
