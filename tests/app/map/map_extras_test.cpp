@@ -145,10 +145,10 @@ TEST(MapIncremental, GoesOnWithAFileAndEndsWithTheMapOfTheWhole) {
                       "--out", folder.path() / "whole"})
                 .exit_code,
             0);
-  const MapRecord followed = map_in(out), whole = map_in(folder.path() / "whole");
-  EXPECT_EQ(input.step, 300);
-  EXPECT_EQ(input.frame, Frame::kGroundTruth);
-  EXPECT_LT((input.estimate - whole.estimate).cwiseAbs().maxCoeff(), 1e-6);
+  const MapRecord incremental = map_in(out), whole = map_in(folder.path() / "whole");
+  EXPECT_EQ(incremental.step, 300);
+  EXPECT_EQ(incremental.frame, Frame::kGroundTruth);
+  EXPECT_LT((incremental.estimate - whole.estimate).cwiseAbs().maxCoeff(), 1e-6);
 }
 
 TEST(MapIncremental, EndsWithARemarkWhereTheFileIsCutShort) {

@@ -27,10 +27,10 @@ json mapped(std::vector<std::string> arguments) {
   return outcome.exit_code == 0 ? json::parse(outcome.out) : json();
 }
 
-void expect_same_landmarks(const json& input, const json& whole) {
-  ASSERT_EQ(input.at("landmarks").size(), whole.at("landmarks").size());
+void expect_same_landmarks(const json& incremental, const json& whole) {
+  ASSERT_EQ(incremental.at("landmarks").size(), whole.at("landmarks").size());
   for (std::size_t i = 0; i < whole.at("landmarks").size(); ++i) {
-    const json& here = followed["landmarks"][i];
+    const json& here = incremental["landmarks"][i];
     const json& there = whole["landmarks"][i];
     EXPECT_EQ(here["name"], there["name"]);
     EXPECT_NEAR(here["x_m"].get<double>(), there["x_m"].get<double>(), 1e-6);
