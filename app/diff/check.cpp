@@ -47,9 +47,10 @@ void read_words(CheckArguments& arguments, const CLI::App& app) {
   // The parser keeps the "--" that ended the options.
   arguments.is_command = std::ranges::count(app.remaining(), "--") > 0;
   if (!arguments.is_command && arguments.words.size() > 1)
-    throw InvalidInput(fmt::format("check takes one experiment, not \"{}\" as well; a command "
-                                   "stands behind --",
-                                   printable(arguments.words[1])));
+    throw InvalidInput(
+        fmt::format("check takes one experiment, not \"{}\" as well; a command "
+                    "stands behind --",
+                    printable(arguments.words[1])));
   if (arguments.is_command)
     for (const char* option : kOfExperiments)
       if (app.get_option(option)->count() > 0)
@@ -98,7 +99,7 @@ void check_paths(const CheckArguments& arguments) {
 struct Baseline {
   std::string folder;  ///< What is compared.
   std::string text;    ///< As the user named it.
-  std::string place;   ///< The folder that `approve` changes.
+  std::string target;  ///< The folder that `approve` changes.
   bool exists = false;
 };
 
@@ -124,13 +125,13 @@ void name_baseline(DiffResult& result, const Baseline& baseline, const GitBaseli
     rename(item.judgement.cause);
     for (ImageFile& image : item.images) rename(image.diff.reason);
   }
-  result.baseline = baseline.place;
+  result.baseline = baseline.target;
   result.remarks.push_back(fmt::format("The baseline is {}, commit {}.", printable(baseline.text),
                                        git.commit().substr(0, kShortHash)));
   if (!git.left_out().empty())
-    result.remarks.push_back(
-        fmt::format("Links and submodules in it are not compared:  {}{}.",
-                    printable(git.left_out().front()), git.left_out().size() > 1 ? ", …" : ""));
+    result.remarks.push_back(fmt::format("Links and submodules in it are not compared:  {}{}.",
+                                         printable(git.left_out().front()),
+                                         git.left_out().size() > 1 ? ", …" : ""));
 }
 
 int hand_out_without_baseline(const CheckArguments& arguments, const Baseline& baseline,
@@ -138,8 +139,8 @@ int hand_out_without_baseline(const CheckArguments& arguments, const Baseline& b
   invocation.console.warning(fmt::format(
       "{}: there is no baseline. The candidate is kept in {}; check it, and if it is right: {}",
       printable(baseline.text), printable(arguments.out),
-      quoted_command({"mapproof", "approve", baseline.place, arguments.out, "--all"})));
-  DiffResult result = no_baseline(baseline.place, arguments.out, settings);
+      quoted_command({"mapproof", "approve", baseline.target, arguments.out, "--all"})));
+  DiffResult result = no_baseline(baseline.target, arguments.out, settings);
   return hand_out(result, settings, arguments.options, invocation);
 }
 
@@ -148,7 +149,7 @@ int check(CheckArguments arguments, const CLI::App& app, const Invocation& invoc
   check_paths(arguments);
   std::optional<GitBaseline> git;
   if (!arguments.baseline_ref.empty()) git.emplace(parse_git_folder(arguments.baseline_ref));
-  const std::string settings_folder = !git           ? arguments.baseline
+  const std::string settings_folder = !git            ? arguments.baseline
                                       : git->exists() ? git->folder().string()
                                                       : git->working_folder();
   const DiffSettings settings =
@@ -156,9 +157,8 @@ int check(CheckArguments arguments, const CLI::App& app, const Invocation& invoc
   make_candidate(arguments, invocation);
   check_paths(arguments);  // Now that the candidate's files are there.
   const Baseline baseline = baseline_of(arguments, git);
-  arguments.options.folder = baseline.place;
-  if (!baseline.exists)
-    return hand_out_without_baseline(arguments, baseline, settings, invocation);
+  arguments.options.folder = baseline.target;
+  if (!baseline.exists) return hand_out_without_baseline(arguments, baseline, settings, invocation);
   DiffResult result = folder_diff(baseline.folder, arguments.out, settings);
   if (git) name_baseline(result, baseline, *git);
   return hand_out(result, settings, arguments.options, invocation);

@@ -59,8 +59,9 @@ fs::path settings_beside(const std::string& baseline) {
 /// How many of the outputs replace the text.
 std::ptrdiff_t to_standard_output(const DiffOptions& options, const Console& console) {
   const std::array locations = {&options.page, &options.junit, &options.markdown};
-  return (console.is_json() ? 1 : 0) + std::ranges::count_if(
-      locations, [](const std::string* location) { return *location == kStandardOutput; });
+  return (console.is_json() ? 1 : 0) +
+         std::ranges::count_if(
+             locations, [](const std::string* location) { return *location == kStandardOutput; });
 }
 
 /// Whether the environment variable is that text, or with "" any.
@@ -86,14 +87,16 @@ std::string attachment_prefix(const std::string& images) {
 std::string markdown_prefix(const DiffOptions& options) {
   if (!options.image_url.empty()) return options.image_url;
   const fs::path images = real_path(options.images);
-  const fs::path page = options.markdown == kStandardOutput ? fs::current_path()
-                                                            : real_path(options.markdown).parent_path();
+  const fs::path page = options.markdown == kStandardOutput
+                            ? fs::current_path()
+                            : real_path(options.markdown).parent_path();
   return images.lexically_relative(page).generic_string();
 }
 
 /// A path in the repository, as GitHub names it.
 std::string path_in_repository(const std::string& folder) {
-  const fs::path root = real_path(is_set("GITHUB_WORKSPACE") ? std::getenv("GITHUB_WORKSPACE") : ".");
+  const fs::path root =
+      real_path(is_set("GITHUB_WORKSPACE") ? std::getenv("GITHUB_WORKSPACE") : ".");
   const fs::path path = real_path(folder);
   return lies_in(path, root) ? path.lexically_relative(root).generic_string() : folder;
 }
@@ -133,8 +136,8 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
       ->capture_default_str();
   group_options(app, {{"Comparison", {"--allow", "--settings", "--include", "--exclude"}},
                       {"Output",
-                       {"--page", "--templates", "--junit", "--markdown", "--images",
-                        "--image-url", "--annotations"}}});
+                       {"--page", "--templates", "--junit", "--markdown", "--images", "--image-url",
+                        "--annotations"}}});
   app.get_option("--image-url")->needs("--images")->type_name("URL");
   for (const char* pattern : {"--include", "--exclude"})
     app.get_option(pattern)->type_name("PATTERN");
@@ -191,8 +194,7 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   if (console.is_json()) text = invocation.disclosure.text(json_text(diff_json(result)));
   if (wants_github_lines(options))
     std::cerr << invocation.disclosure.text(github_lines(
-        result,
-        path_in_repository(options.folder.empty() ? result.baseline : options.folder)));
+        result, path_in_repository(options.folder.empty() ? result.baseline : options.folder)));
   // Without a baseline one line has been written already.
   if (to_standard_output(options, console) == 0 && result.has_baseline) {
     text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);

@@ -13,8 +13,8 @@ namespace mapproof {
 /// What the commands that compare have in common.
 struct DiffOptions {
   std::string page, junit, markdown;     ///< Files to write; empty: none.
-  std::optional<std::string> templates;     ///< Folder whose templates replace the embedded ones.
-  std::string allow;                        ///< "better,style".
+  std::optional<std::string> templates;  ///< Folder whose templates replace the embedded ones.
+  std::string allow;                     ///< "better,style".
   std::string settings;  ///< File; empty: mapproof-diff.json next to the baseline, if it is there.
   std::vector<std::string> include, exclude;  ///< Patterns of items and files.
   std::string images;                         ///< Folder for the images of what differs.

@@ -39,8 +39,8 @@ bool leads_out(std::string_view path) {
   for (std::size_t at = 0; at <= path.size();) {
     const std::size_t end = std::min(path.find('/', at), path.size());
     std::string part(path.substr(at, end - at));
-    std::ranges::transform(
-        part, part.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(part, part.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (part == ".." || part == ".git") return true;
     at = end + 1;
   }
@@ -143,8 +143,7 @@ void extract(const GitFolder& source, std::span<const GitFile> files, const Outp
     if (answer.output.compare(at, head.size(), head) != 0 ||
         answer.output.size() < at + head.size() + file.bytes)
       throw IoError(source.text(), "git does not give " + printable(file.path));
-    folder.write(file.path,
-                 std::string_view(answer.output).substr(at + head.size(), file.bytes));
+    folder.write(file.path, std::string_view(answer.output).substr(at + head.size(), file.bytes));
     at += head.size() + file.bytes + 1;
   }
 }
@@ -177,15 +176,13 @@ GitBaseline::GitBaseline(const GitFolder& source) {
   const std::string up = required(source, {"rev-parse", "--show-cdup"}).line();
   working_folder_ = source.path.starts_with("./") ? source.path.substr(2) : up + source.path;
   if (working_folder_.empty()) working_folder_ = ".";
-  const GitAnswer commit =
-      git({"rev-parse", "--verify", "--quiet", source.ref + "^{commit}"});
+  const GitAnswer commit = git({"rev-parse", "--verify", "--quiet", source.ref + "^{commit}"});
   if (!commit.end.is_success())
     refuse(source.text(), fmt::format("git has no commit \"{}\" here. A clone for CI may lack it: "
                                       "\"git fetch origin BRANCH\" gets it",
                                       printable(source.ref)));
   commit_ = commit.line();
-  const GitAnswer tree =
-      git({"rev-parse", "--verify", "--quiet", commit_ + ":" + source.path});
+  const GitAnswer tree = git({"rev-parse", "--verify", "--quiet", commit_ + ":" + source.path});
   exists_ = tree.end.is_success();
   if (!exists_) return;
   if (required(source, {"cat-file", "-t", tree.line()}).line() != "tree")

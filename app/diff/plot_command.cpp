@@ -32,9 +32,12 @@ constexpr const char* kMark = ".mapproof-candidate";
 using Stamp = std::array<std::int64_t, 6>;
 
 Stamp stamp_of(const struct stat& status) {
-  return {static_cast<std::int64_t>(status.st_ino), status.st_size,
-          status.st_mtim.tv_sec,                    status.st_mtim.tv_nsec,
-          status.st_ctim.tv_sec,                    status.st_ctim.tv_nsec};
+  return {static_cast<std::int64_t>(status.st_ino),
+          status.st_size,
+          status.st_mtim.tv_sec,
+          status.st_mtim.tv_nsec,
+          status.st_ctim.tv_sec,
+          status.st_ctim.tv_nsec};
 }
 
 /// The regular files below a folder.

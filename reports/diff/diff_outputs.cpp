@@ -78,9 +78,9 @@ bool is_shown(std::string_view path) {
 /// A table with the images of one file.
 std::string image_table(const ItemImages& images, const ImageLinks& links) {
   std::string head, rule, row;
-  for (const auto& [name, path] : {std::pair("baseline", &images.baseline),
-                                   std::pair("current", &images.current),
-                                   std::pair("difference", &images.difference)}) {
+  for (const auto& [name, path] :
+       {std::pair("baseline", &images.baseline), std::pair("current", &images.current),
+        std::pair("difference", &images.difference)}) {
     if (path->empty()) continue;
     const std::string url = url_of(links, *path);
     head += fmt::format("| {} ", name);
@@ -233,12 +233,12 @@ std::string github_lines(const DiffResult& result, const std::string& folder) {
     const std::string below = file_below(result, item);
     const std::string file =
         below.empty() ? folder : (std::filesystem::path(folder) / below).generic_string();
-    out += fmt::format(
-        "::error file={},title={}::{}\n", github_text(printable(file, kLongest), true),
-        github_text(printable("mapproof: " + item.id, kLongest), true),
-        github_text(fmt::format("{}: {}", label(item.judgement.verdict),
-                                printable(item.judgement.cause, kLongest)),
-                    false));
+    out +=
+        fmt::format("::error file={},title={}::{}\n", github_text(printable(file, kLongest), true),
+                    github_text(printable("mapproof: " + item.id, kLongest), true),
+                    github_text(fmt::format("{}: {}", label(item.judgement.verdict),
+                                            printable(item.judgement.cause, kLongest)),
+                                false));
   }
   if (failed.size() > shown)
     out += fmt::format("::error title=mapproof::and {} more items do not pass\n",

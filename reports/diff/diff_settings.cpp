@@ -69,7 +69,8 @@ std::vector<Verdict> DiffSettings::allowed_of(const std::string& id) const {
 
 bool DiffSettings::compares(const std::string& id, const std::string& format) const {
   const auto names = [&](const std::string& pattern) {
-    return matches_glob(pattern, id) || (!format.empty() && matches_glob(pattern, id + "." + format));
+    return matches_glob(pattern, id) ||
+           (!format.empty() && matches_glob(pattern, id + "." + format));
   };
   if ((!include.empty() && std::ranges::none_of(include, names)) ||
       std::ranges::any_of(exclude, names))

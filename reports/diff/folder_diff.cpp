@@ -299,13 +299,12 @@ void remark_selection(const Selection& selection, DiffResult& result) {
   std::vector<std::string> left_out;
   for (const std::string& id : selection.left_out) left_out.push_back(printable(id));
   if (!left_out.empty())
-    result.remarks.push_back(
-        fmt::format("Left out, {} by the settings:  {}.",
-                    counted(static_cast<long long>(left_out.size()), "item"),
-                    listed(left_out, kMostNames)));
+    result.remarks.push_back(fmt::format("Left out, {} by the settings:  {}.",
+                                         counted(static_cast<long long>(left_out.size()), "item"),
+                                         listed(left_out, kMostNames)));
   if (!selection.unmatched.empty())
-    result.remarks.push_back("Settings that match nothing:  " +
-                             listed(selection.unmatched, kMostNames) + ".");
+    result.remarks.push_back(
+        "Settings that match nothing:  " + listed(selection.unmatched, kMostNames) + ".");
 }
 
 /// Sorts the items and judges the whole.
@@ -395,8 +394,8 @@ DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
                     std::back_inserter(result.items));
   add_documents(result.items, {}, sides.current, sides.file_name, settings);
   for (DiffItem& item : result.items)
-    item.passes =
-        item.judgement.verdict == Verdict::kNew && passes(item.judgement, settings.allowed_of(item.id));
+    item.passes = item.judgement.verdict == Verdict::kNew &&
+                  passes(item.judgement, settings.allowed_of(item.id));
   conclude(result);
   return result;
 }

@@ -38,9 +38,10 @@ void remove_earlier(const OutputFolder& folder) {
   const fs::path path = folder.path();
   if (!fs::exists(path, error) || fs::is_empty(path, error)) return;
   if (!fs::is_regular_file(path / kList, error))
-    throw InvalidInput(fmt::format("--images {}: holds files that are not images of an earlier "
-                                   "comparison; name another folder",
-                                   printable(path.string())));
+    throw InvalidInput(
+        fmt::format("--images {}: holds files that are not images of an earlier "
+                    "comparison; name another folder",
+                    printable(path.string())));
   const std::string list = read_file(path / kList, kLargestList);
   for (std::size_t at = 0; at < list.size();) {
     const std::size_t end = std::min(list.find('\n', at), list.size());
@@ -73,8 +74,8 @@ std::string copy(const fs::path& from, const std::string& to, const OutputFolder
 /// The heat map. @return Its path; empty if there is none.
 std::string write_difference(const ImageFile& file, const ImageOptions& options,
                              const std::string& to, const OutputFolder& folder) {
-  if (file.baseline.empty() || file.current.empty() ||
-      file.diff.state == ImageState::kUnreadable || file.diff.state == ImageState::kIdentical)
+  if (file.baseline.empty() || file.current.empty() || file.diff.state == ImageState::kUnreadable ||
+      file.diff.state == ImageState::kIdentical)
     return "";
   Image heat;
   try {
@@ -120,8 +121,8 @@ std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSe
       ItemImages images{.id = item.id, .format = file.format};
       images.baseline = copy(file.baseline, start + "baseline." + file.format, folder);
       images.current = copy(file.current, start + "current." + file.format, folder);
-      images.difference = write_difference(file, settings.images_of(item.id),
-                                           start + "difference.png", folder);
+      images.difference =
+          write_difference(file, settings.images_of(item.id), start + "difference.png", folder);
       for (const std::string& path : images.paths()) list += path + "\n";
       if (!images.paths().empty()) all.push_back(std::move(images));
     }

@@ -111,8 +111,8 @@ TEST(CheckACommand, ComparesInANamedFolderOnlyWhatTheCommandWrote) {
     Plots::add(work, std::string(id) + ".png", std::string(id) + ".png");
   const Outcome all = plots.check(plain + Plots::draw_all(), {"--writes", work});
   EXPECT_EQ(all.exit_code, 0) << "written again with the same bytes" << all.out << all.error;
-  const Outcome one = plots.check(plain + Plots::draw("map-usual.png", "map-usual.png"),
-                                  {"--writes", work});
+  const Outcome one =
+      plots.check(plain + Plots::draw("map-usual.png", "map-usual.png"), {"--writes", work});
   EXPECT_EQ(one.exit_code, 1) << "an old file is not what the command wrote";
   EXPECT_NE(one.out.find("curve-usual: is not in the current"), std::string::npos) << one.out;
   EXPECT_EQ(plots.check(Plots::draw_all(), {"--writes", plots.baseline}).exit_code, 2);
@@ -199,8 +199,9 @@ TEST(CheckACommand, ImagesAndLinksShowWhatDiffers) {
   const Plots plots;
   const std::string images = plots.folder / "images", markdown = plots.folder / "diff.md",
                     junit = plots.folder / "diff.xml";
-  const std::vector<std::string> options = {"--images", images, "--markdown", markdown,
-                                            "--junit",  junit,  "--image-url", "https://ci.example/7"};
+  const std::vector<std::string> options = {
+      "--images", images, "--markdown",  markdown,
+      "--junit",  junit,  "--image-url", "https://ci.example/7"};
   EXPECT_EQ(plots.check(Plots::draw_changed(), options).exit_code, 1);
   for (const char* name : {"baseline.png", "current.png"})
     EXPECT_TRUE(fs::exists(images + "/map-usual.png/" + name)) << name;
@@ -227,14 +228,15 @@ TEST(CheckACommand, OnGitHubItemsThatDoNotPassAreErrorsAtTheirFiles) {
   const Plots plots;
   const Environment hub{{"GITHUB_ACTIONS", "true"},
                         {"GITHUB_WORKSPACE", plots.folder.path().c_str()}};
-  const Outcome outcome = plots.check(Plots::draw_changed() +
-                                      Plots::draw("'a,b:c%.png'", "curve-log.png"));
+  const Outcome outcome =
+      plots.check(Plots::draw_changed() + Plots::draw("'a,b:c%.png'", "curve-log.png"));
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.error.find("::error file=baseline/map-usual.png,title=mapproof%3A map-usual::"),
             std::string::npos)
       << outcome.error;
-  EXPECT_NE(outcome.error.find("file=baseline/a%2Cb%3Ac%25.png,title=mapproof%3A a%2Cb%3Ac%25::new"),
-            std::string::npos)
+  EXPECT_NE(
+      outcome.error.find("file=baseline/a%2Cb%3Ac%25.png,title=mapproof%3A a%2Cb%3Ac%25::new"),
+      std::string::npos)
       << outcome.error;
   EXPECT_EQ(plots.check(Plots::draw_all()).error.find("::error"), std::string::npos);
   EXPECT_EQ(plots.check(Plots::draw_changed(), {"--annotations", "none"}).error.find("::error"),
@@ -259,8 +261,8 @@ struct Repository {
     commit("Plots");
   }
   Outcome run(std::vector<std::string> words) const {
-    std::vector<std::string> command = {"git",        "-C", root, "-c", "user.name=Somebody",
-                                        "-c", "user.email=somebody@example.org"};
+    std::vector<std::string> command = {
+        "git", "-C", root, "-c", "user.name=Somebody", "-c", "user.email=somebody@example.org"};
     command.insert(command.end(), words.begin(), words.end());
     return run_program(command);
   }
@@ -272,8 +274,8 @@ struct Repository {
   /// Runs the program in the repository.
   Outcome check(const std::string& ref, const std::string& script,
                 const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> words = {"env",   "-C",  root, program(), "check", "--baseline-ref",
-                                      ref, "--out", plots.out};
+    std::vector<std::string> words = {
+        "env", "-C", root, program(), "check", "--baseline-ref", ref, "--out", plots.out};
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), {"--", "sh", "-c", script});
     return run_program(words);
@@ -318,9 +320,9 @@ TEST(CheckWithGit, RefusesHostileRefsAndLeavesLinksOut) {
   const Repository repository;
   for (const char* ref :
        {"plots", ":plots", "--upload-pack=touch hacked:plots", "-h:plots", "main..main:plots",
-        "^main:plots", "main:../plots", "main:/etc", "main:.git", "main:.GIT/hooks", "HEAD^{/x}:plots",
-        "main\n:plots", "a b:plots", "$(touch hacked):plots", ";touch hacked;:plots",
-        "main:plots/../.."}) {
+        "^main:plots", "main:../plots", "main:/etc", "main:.git", "main:.GIT/hooks",
+        "HEAD^{/x}:plots", "main\n:plots", "a b:plots", "$(touch hacked):plots",
+        ";touch hacked;:plots", "main:plots/../.."}) {
     const Outcome outcome = repository.check(ref, Plots::draw_all());
     EXPECT_EQ(outcome.exit_code, 2) << ref << outcome.out;
     EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
@@ -334,13 +336,33 @@ TEST(CheckWithGit, RefusesHostileRefsAndLeavesLinksOut) {
   EXPECT_NE(outcome.out.find("Links and submodules in it are not compared:"), std::string::npos);
 }
 
+TEST(CheckWithGit, RefusesTreesWhoseNamesLeadOut) {
+  const Repository repository;
+  for (const char* name : {"..", ".git"}) {
+    const std::string script =
+        std::string(
+            "set -e; file=$(git hash-object -w plots/map-usual.png); "
+            "inner=$(printf '100644 blob %s\\t") +
+        name +
+        "\\n' $file | git mktree); "
+        "outer=$(printf '040000 tree %s\\tplots\\n' $inner | git mktree); "
+        "git update-ref refs/heads/hostile $(git -c user.name=S -c user.email=s@example.org "
+        "commit-tree -m Hostile $outer)";
+    const Outcome made = run_program({"env", "-C", repository.root, "bash", "-c", script});
+    ASSERT_EQ(made.exit_code, 0) << made.error;
+    const Outcome outcome = repository.check("hostile:plots", Plots::draw_all());
+    EXPECT_EQ(outcome.exit_code, 2) << name;
+    EXPECT_NE(outcome.error.find("cannot be written safely"), std::string::npos) << outcome.error;
+  }
+}
+
 TEST(CheckScripts, OfMatplotlibPassTwiceAndFailWhenAPointMoves) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib here";
   const Plots plots;
   const std::string script = plots.folder.file("plot.py", kMatplotlibScript);
   const auto check = [&](const std::string& value) {
-    return mapproof({"check", "--baseline", plots.baseline, "--out", plots.out, "--", python(),
-                     script, value});
+    return mapproof(
+        {"check", "--baseline", plots.baseline, "--out", plots.out, "--", python(), script, value});
   };
   fs::remove_all(plots.baseline);
   EXPECT_EQ(check("2").exit_code, 1);
@@ -359,8 +381,8 @@ TEST(CheckScripts, OfGnuplotPassTwiceAndFailWhenACurveMoves) {
   const auto check = [&](const std::string& slope) {
     const std::string script = plots.folder.file(
         "plot.gp", "set terminal svg\nset output 'line.svg'\nplot " + slope + "*x\n");
-    return mapproof({"check", "--baseline", plots.baseline, "--out", plots.out, "--", "gnuplot",
-                     script});
+    return mapproof(
+        {"check", "--baseline", plots.baseline, "--out", plots.out, "--", "gnuplot", script});
   };
   EXPECT_EQ(check("2").exit_code, 1);
   EXPECT_EQ(mapproof({"approve", plots.baseline, plots.out, "--all"}).exit_code, 0);

@@ -90,17 +90,20 @@ TEST(CiExamples, TheCtestFunctionFailsATestWhoseFigureChanged) {
   folder.file("CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.21)
 project(figures NONE)
 enable_testing()
-list(APPEND CMAKE_MODULE_PATH ")" + kExamples.string() + R"(")
+list(APPEND CMAKE_MODULE_PATH ")" + kExamples.string() +
+                                    R"(")
 include(MapproofFigureTest)
 foreach(image map-usual curve-log)
   mapproof_add_figure_test(NAME ${image}
-    COMMAND ${CMAKE_COMMAND} "-DFROM=)" + images + R"(/${image}.png" -P ${CMAKE_SOURCE_DIR}/copy.cmake
+    COMMAND ${CMAKE_COMMAND} "-DFROM=)" +
+                                    images + R"(/${image}.png" -P ${CMAKE_SOURCE_DIR}/copy.cmake
     BASELINE ${CMAKE_SOURCE_DIR}/baseline EXCLUDE "*.pdf" ALLOW better new LABELS figures)
 endforeach()
 )");
   const Outcome configured = run_in(folder.path(), {"cmake", "-S", ".", "-B", "build"});
   ASSERT_EQ(configured.exit_code, 0) << configured.out << configured.error;
-  const Outcome outcome = run_in(folder / "build", {"ctest", "--output-on-failure", "-L", "figures"});
+  const Outcome outcome =
+      run_in(folder / "build", {"ctest", "--output-on-failure", "-L", "figures"});
   EXPECT_NE(outcome.out.find("50% tests passed, 1 tests failed out of 2"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("map: png, by its pixels alone"), std::string::npos) << outcome.out;
@@ -120,9 +123,10 @@ std::string command_of(const char* example) {
 TEST(CiExamples, TheirCommandsCompareAChangeWithTheBranchItIsFor) {
   if (!has_matplotlib()) GTEST_SKIP() << "no matplotlib here";
   const TemporaryFolder folder;
-  const std::string plot = "import pathlib, runpy, sys, os\n"
-                           "os.chdir(pathlib.Path(__file__).parent / 'plots')\n"
-                           "sys.argv = ['draw.py', '2']\nrunpy.run_path('../draw.py')\n";
+  const std::string plot =
+      "import pathlib, runpy, sys, os\n"
+      "os.chdir(pathlib.Path(__file__).parent / 'plots')\n"
+      "sys.argv = ['draw.py', '2']\nrunpy.run_path('../draw.py')\n";
   const auto shell = [&](const fs::path& where, const std::string& command) {
     const Outcome outcome = run_in(where, {"bash", "-e", "-o", "pipefail", "-c", command});
     EXPECT_EQ(outcome.exit_code, 0) << command << outcome.out << outcome.error;
@@ -155,8 +159,8 @@ TEST(CiExamples, TheirCommandsCompareAChangeWithTheBranchItIsFor) {
 }
 
 TEST(OurCi, HasStepsThatAreScriptsOfTheProjectWithOptionsThatExist) {
-  const Outcome outcome = run_program(
-      {"python3", (kSource / "tests/app/ci/ci_files.py").string(), kSource.string()});
+  const Outcome outcome =
+      run_program({"python3", (kSource / "tests/app/ci/ci_files.py").string(), kSource.string()});
   if (outcome.exit_code == 77 || outcome.exit_code == 127) GTEST_SKIP() << "no PyYAML here";
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
 }
@@ -165,9 +169,9 @@ TEST(OurCi, ComparesTheFiguresOfAChange) {
   const TemporaryFolder folder;
   const std::string out = folder / "figures";
   const Environment hub{{"GITHUB_STEP_SUMMARY", (folder / "summary.md").c_str()}};
-  const Outcome outcome = run_program({(kSource / "scripts/check").string(), "figures", "--program",
-                                       program(), "--base-program", program(), "--profile", "tiny",
-                                       "--out", out, kSmall});
+  const Outcome outcome =
+      run_program({(kSource / "scripts/check").string(), "figures", "--program", program(),
+                   "--base-program", program(), "--profile", "tiny", "--out", out, kSmall});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
   EXPECT_TRUE(fs::exists(out + "/diff.html"));
   EXPECT_TRUE(fs::exists(out + "/diff.junit.xml"));
@@ -180,8 +184,8 @@ TEST(OurCi, KeepsTheHistoryOfNightlyRuns) {
   const TemporaryFolder folder;
   const Environment built{{"MAPPROOF", program().c_str()}};
   for (int run = 0; run < 2; ++run) {
-    const Outcome outcome = run_program({(kSource / "scripts/nightly").string(), "--profile", "tiny",
-                                         "--store", folder / "history", kSmall});
+    const Outcome outcome = run_program({(kSource / "scripts/nightly").string(), "--profile",
+                                         "tiny", "--store", folder / "history", kSmall});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.error;
   }
   EXPECT_TRUE(fs::exists(folder / "history/index.html"));
