@@ -87,7 +87,7 @@ def check_jobs():
     cells = lab["test"]["parallel"]["matrix"][0]
     require(set(cells["IMAGE"]) == systems, "GitLab: the systems of the tests")
     require(any("arm64" in runner for runner in cells["RUNNER"]), "GitLab: no arm64")
-    # "on" is a truth value in YAML 1.1.
+    # "on" is a Boolean in YAML 1.1.
     require("schedule" in nightly[True], "GitHub: no schedule of the nightly run")
     require({"test", "sanitize", "figures"} <= set(change["jobs"]), "GitHub: jobs of a change")
     require({"test", "sanitize", "figures", "pages"} <= set(lab), "GitLab: jobs")
