@@ -12,7 +12,7 @@
 #include "app/console.hpp"
 #include "app/disclosure.hpp"
 #include "core/model/experiment.hpp"
-#include "core/model/slam_experiment.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 #include "core/studies/study_plan.hpp"
 
 namespace mapproof {

@@ -40,7 +40,7 @@ int diff(DiffArguments arguments, const Invocation& invocation) {
 
 Action diff_command(CLI::App& app) {
   auto arguments = std::make_shared<DiffArguments>();
-  app.description("Compare two studies, folders of images or files, and say why they differ");
+  app.description("Compare two studies, folders of images or files, and explain why they differ");
   app.footer(
       "Examples:\n"
       "  mapproof diff baseline out\n"

@@ -29,7 +29,7 @@
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -25,7 +25,8 @@ std::optional<Score> anchor_free_score(const Points& coordinates, const Points& 
 }
 
 /// Rotates, translates and perhaps reflects the map onto those of the rows that it holds.
-bool lay_rigidly(MapRecord& record, const Points& known_m, const std::vector<Eigen::Index>& rows) {
+bool align_rigidly(MapRecord& record, const Points& known_m,
+                   const std::vector<Eigen::Index>& rows) {
   std::vector<Eigen::Index> both;
   for (const Eigen::Index row : rows)
     if (record.estimate.row(row).allFinite() && known_m.row(row).allFinite()) both.push_back(row);
@@ -51,7 +52,7 @@ CertaintyFrame align_metric(MapResult& result, const Reference& known, const Fra
   if (known.anchors.empty() && !known.has_ground_truth) return {own, {}, true};
   std::vector<Eigen::Index> all(record.names.size());
   std::iota(all.begin(), all.end(), Eigen::Index{0});
-  if (!lay_rigidly(record, known.positions_m, known.anchors.empty() ? all : known.anchors))
+  if (!align_rigidly(record, known.positions_m, known.anchors.empty() ? all : known.anchors))
     return {own, {}, true};
   record.ground_truth_m = known.positions_m;
   if (known.anchors.empty())

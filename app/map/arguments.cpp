@@ -81,7 +81,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
          "--missing", job.missing,
          "Strategy for missing data: pairwise-complete distances, entries filled in by PPCA or "
          "PCA, or distances of covisible landmarks only. auto: by the pattern of the missing data")
-      ->transform(one_of(missing_ways()))
+      ->transform(one_of(missing_strategies()))
       ->capture_default_str();
   app.add_option("--dimensions", job.dimensions,
                  "Dimensions of PPCA and PCA (default: 10, or one fewer than landmarks)")
@@ -148,8 +148,8 @@ TableFormat MapJob::table_format() const {
   return format;
 }
 
-std::vector<std::string> missing_ways() {
-  return {std::string(name(Filling::kCommonSteps)), std::string(name(Filling::kPpca)),
+std::vector<std::string> missing_strategies() {
+  return {std::string(name(Filling::kPairwiseComplete)), std::string(name(Filling::kPpca)),
           std::string(name(Filling::kPca)), "covisible", "auto"};
 }
 

@@ -46,7 +46,7 @@ struct MapJob {
   std::optional<double> stress_fall;  ///< SMACOF's stop rule; empty: the method's own.
   EmbedderOptions embedder;
 
-  std::string missing = "pairwise-complete";  ///< One of missing_ways().
+  std::string missing = "pairwise-complete";  ///< One of missing_strategies().
   std::optional<int> dimensions;              ///< Of PPCA or PCA.
   int submaps = 0;  ///< Most landmarks of a sub-map, 6 or more; 0: one map.
   std::optional<double>
@@ -85,7 +85,7 @@ struct MapJob {
 };
 
 /// "pairwise-complete", "ppca", "pca", "covisible", "auto": strategies for missing data.
-std::vector<std::string> missing_ways();
+std::vector<std::string> missing_strategies();
 
 /// Adds all options of `map` to its command; they fill in the job.
 void add_map_options(CLI::App& app, MapJob& job);

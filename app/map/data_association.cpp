@@ -87,12 +87,12 @@ void require_complete(const ObservationSource& source) {
                         printable(history.names[static_cast<std::size_t>(row)])));
 }
 
-void mark_unsure(const ObservationSource& source, const std::vector<std::string>& unsure,
-                 Mask& doubtful) {
-  if (unsure.size() == 1)
+void mark_uncertain(const ObservationSource& source, const std::vector<std::string>& uncertain,
+                    Mask& doubtful) {
+  if (uncertain.size() == 1)
     throw IoError(source.path,
                   "one uncertain landmark ID cannot be confused with another; name two or more");
-  for (const std::string& id : unsure) {
+  for (const std::string& id : uncertain) {
     const auto row = std::ranges::find(source.history.names, id);
     if (row == source.history.names.end())
       throw IoError(source.path, fmt::format("no landmark is named \"{}\"", printable(id)));
@@ -165,18 +165,18 @@ void report(const ObservationSource& source, const Mask& doubtful, const Corresp
 
 /// Estimates, together with the map, the data association of measurements without a landmark ID and
 /// of uncertain IDs (see estimated_correspondence), and reorders the history accordingly.
-/// @param unsure  Landmark IDs whose measurements may belong to any of the others; empty: none.
+/// @param uncertain  Landmark IDs whose measurements may belong to any of the others; empty: none.
 /// @throws IoError naming the line or the step for what cannot be estimated: an entry that is
 ///         missing though there is no measurement for it, more measurements than free landmarks,
 ///         an ID that is not there; or for a single uncertain ID.
-EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& unsure) {
+EstimatedIds estimate_ids(ObservationSource& source, const std::vector<std::string>& uncertain) {
   EstimatedIds ids;
   Dealt dealt = deal(source);
   require_complete(source);
   if (source.history.landmarks() < 3)
     throw IoError(source.path,
                   "data association needs three landmarks whose IDs some measurements have");
-  mark_unsure(source, unsure, dealt.doubtful);
+  mark_uncertain(source, uncertain, dealt.doubtful);
   const Correspondence found = estimated_correspondence(source.history, dealt.doubtful);
   ids.measurements = assigned(source, dealt, found);
   report(source, dealt.doubtful, found, ids);

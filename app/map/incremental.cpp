@@ -87,7 +87,7 @@ class IncrementalValues : public IncrementalSource {
     // An incremental map keeps no steps that could be compared with one another.
     result.fit = {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kNoiseModel}};
     align_so_far(result, table_);
-    if (record.frame != Frame::kGroundTruth) lay_on_last(record.estimate);
+    if (record.frame != Frame::kGroundTruth) align_to_last(record.estimate);
     return result;
   }
 
@@ -99,7 +99,7 @@ class IncrementalValues : public IncrementalSource {
   }
 
  private:
-  void lay_on_last(Points& estimate) {
+  void align_to_last(Points& estimate) {
     if (last_.rows() > 0) {
       Points before = Points::Constant(estimate.rows(), 2, kNaN);
       before.topRows(last_.rows()) = last_;
@@ -177,7 +177,7 @@ class IncrementalPairs : public IncrementalSource {
     record.estimate = embedding.coordinates;
     record.statuses = embedding.statuses;
     result.fit = fit_so_far(log, record);
-    if (!align_so_far(result, table_)) lay_on_last(record);
+    if (!align_so_far(result, table_)) align_to_last(record);
     return result;
   }
 
@@ -192,7 +192,7 @@ class IncrementalPairs : public IncrementalSource {
   }
 
   /// Rotated and translated, not reflected: the scans determine the reflection.
-  void lay_on_last(MapRecord& record) {
+  void align_to_last(MapRecord& record) {
     std::vector<Eigen::Index> here, there;
     for (std::size_t i = 0; i < record.names.size(); ++i) {
       // By name: the second positions of moved landmarks stand behind all landmarks, and their

@@ -228,14 +228,14 @@ UpdateInterval update_interval(const std::string& text) {
                  : UpdateInterval{.steps = static_cast<long>(*number), .seconds = 0.0};
 }
 
-int write_incremental(const IncrementalRequest& request, const MapPlace& location,
+int write_incremental(const IncrementalRequest& request, const MapOutput& location,
                       const Invocation& invocation) {
   const MapFolder folder(location.out);
   const Console& console = invocation.console;
   const EndSignals signals;
   StreamedInput input{.file = StreamedFile(request.path),
-                     .unpacker = Unpacker(input_name(request.path)),
-                     .source = nullptr};
+                      .unpacker = Unpacker(input_name(request.path)),
+                      .source = nullptr};
   IncrementalTable table = request.table;
   table.source = input.file.name();
   input.source = request.source(table);

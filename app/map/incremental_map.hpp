@@ -34,7 +34,7 @@ struct IncrementalRequest {
 /// @return The command's exit code.
 /// @throws IoError for what cannot be read, or if the folder holds something else, or another
 ///         process writes there.
-int write_incremental(const IncrementalRequest& request, const MapPlace& location,
+int write_incremental(const IncrementalRequest& request, const MapOutput& location,
                       const Invocation& invocation);
 
 }  // namespace mapproof

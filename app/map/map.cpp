@@ -108,7 +108,7 @@ IncrementalRequest incremental_request(const MapJob& job) {
           .every = update_interval(job.every)};
 }
 
-int map_once(MapJob job, const MapPlace& location, const Invocation& invocation) {
+int map_once(MapJob job, const MapOutput& location, const Invocation& invocation) {
   if (!job.force)
     job.begin = [&](const MapRecord& begun) {
       check_may_become(location.out, begun, job.chooses_method() || job.may_choose_method());
@@ -133,11 +133,11 @@ int map_once(MapJob job, const MapPlace& location, const Invocation& invocation)
 }
 
 int run_map(MapJob job, const Invocation& invocation) {
-  const MapPlace location{.out = job.out,
-                          .observations = job.path,
-                          .command = invocation.command,
-                          .page = load_templates(job.templates),
-                          .disclosure = invocation.disclosure};
+  const MapOutput location{.out = job.out,
+                           .observations = job.path,
+                           .command = invocation.command,
+                           .page = load_templates(job.templates),
+                           .disclosure = invocation.disclosure};
   check_map_folder(job.out);
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};
   inputs.insert(inputs.end(), job.with.begin(), job.with.end());
@@ -174,7 +174,7 @@ Action map_command(CLI::App& app) {
       "Bearings are relative to the robot's heading, counter-clockwise (to the left), in radians;\n"
       "see --degrees and --bearing-convention for others.\n"
       "Range and bearing of one scan measure distances: their map is in metres without anchors.\n"
-      "The exit code is 1 if there is no map; the report says why.\n");
+      "The exit code is 1 if there is no map; the report states why.\n");
   add_map_options(app, *job);
   return [job](const Invocation& invocation) { return run_map(*job, invocation); };
 }

@@ -94,7 +94,7 @@ ProximityRule filling_rule(Filling filling, int dimensions,
 
 /// The chosen strategy for missing data.
 struct MissingChoice {
-  std::string way;  ///< One of missing_ways().
+  std::string way;  ///< One of missing_strategies().
   std::optional<int> dimensions;
 };
 
@@ -111,10 +111,10 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
                       static_cast<double>(steps);
   const bool is_auto = choice.way == kAuto;
-  if (is_auto) choice.way = name(MissingStrategy::kCommonSteps);
+  if (is_auto) choice.way = name(MissingStrategy::kPairwiseComplete);
   if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
   const MissingPattern pattern = missing_pattern(with_rows(history, rows), steps);
-  const StrategyAdvice advice = advised_way(pattern, history.sensor);
+  const StrategyAdvice advice = advised_strategy(pattern, history.sensor);
   if (is_auto) {
     choice.way = name(advice.way);
     if (choice.dimensions && advice.way != MissingStrategy::kPpca) choice.dimensions.reset();

@@ -47,7 +47,7 @@ std::vector<Figure> figures_of(const MapResult& map) {
   return figures;
 }
 
-Report report_of(const MapPlace& location, const MapResult& map,
+Report report_of(const MapOutput& location, const MapResult& map,
                  const std::vector<Figure>& figures) {
   std::vector<FigureBlock> of_fit;
   std::vector<FigureBlock> more;
@@ -144,7 +144,8 @@ std::string map_text(const MapResult& map, const fs::path& out) {
 
 }  // namespace
 
-void write_map(const MapFolder& folder, const MapPlace& location, const MapResult& map, bool last) {
+void write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
+               bool last) {
   const OutputFolder out(folder.path());
   const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
@@ -165,7 +166,7 @@ void write_map(const MapFolder& folder, const MapPlace& location, const MapResul
   out.write("report.html", location.disclosure.text(report_html(report, location.page, drawing)));
 }
 
-int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation) {
+int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation) {
   for (const Status& status : map.record.statuses)
     invocation.console.warning(fmt::format("{}: {}", name(status.code), status_text(status)));
   invocation.console.result(map_text(map, location.out), result_json(map, location.out));

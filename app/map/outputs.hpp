@@ -10,7 +10,7 @@
 namespace mapproof {
 
 /// Where a map goes, and the origin that its report names.
-struct MapPlace {
+struct MapOutput {
   std::string out;
   std::string observations;
   std::string command;  ///< The one that makes the map again.
@@ -21,10 +21,10 @@ struct MapPlace {
 /// The step write: map.json, map.csv, figures, and what else the steps contributed.
 /// @param last  With tables and report; else another map of the same observations comes.
 /// @throws IoError.
-void write_map(const MapFolder& folder, const MapPlace& location, const MapResult& map,
+void write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
                bool last = true);
 
 /// Shows a map's warnings and its result. @return The command's exit code: kNo if there is no map.
-int report_map(const MapResult& map, const MapPlace& location, const Invocation& invocation);
+int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation);
 
 }  // namespace mapproof

@@ -37,13 +37,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLastGood = "last-good";
+constexpr const char* kLastPassing = "last-passing";
 
 struct NightlyArguments {
   std::vector<std::string> experiments;
   std::string store;
   std::string out;
-  std::string reference = kLastGood;
+  std::string reference = kLastPassing;
   int jobs = 1;
   std::optional<std::string> templates;
   StudyOptions request;
@@ -54,12 +54,12 @@ std::string now_utc() {
 }
 
 std::optional<int> asked_reference(const std::string& text) {
-  if (text == kLastGood) return std::nullopt;
+  if (text == kLastPassing) return std::nullopt;
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number < 1)
     throw InvalidInput("--reference: \"" + printable(text) +
-                       "\" is not a nightly run's number and not " + kLastGood);
+                       "\" is not a nightly run's number and not " + kLastPassing);
   return number;
 }
 
@@ -142,7 +142,7 @@ bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& f
 
 int exit_code(NightlyVerdict verdict) {
   switch (verdict) {
-    case NightlyVerdict::kGood:
+    case NightlyVerdict::kPassed:
       return kDone;
     case NightlyVerdict::kCost:
       return kCostGrew;
@@ -247,7 +247,7 @@ Action nightly_command(CLI::App& app) {
   add_out_option(app, arguments->out, "Folder for index and trend pages, instead of the store");
   app.add_option("--reference", arguments->reference,
                  "Reference run: its number, refused if it had other settings or another seed, or "
-                 "last-good (the pinned one if there is one)")
+                 "last-passing (the pinned one if there is one)")
       ->capture_default_str();
   app.add_option("--profile", arguments->request.profile,
                  "Profile of those experiments that have it");

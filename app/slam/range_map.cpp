@@ -111,7 +111,7 @@ SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known
   fit.known = scaled;
   fit.noise.range_m /= unit;
   fit.noise.way_m /= std::sqrt(unit);
-  fit.noise.turn_per_metre *= std::sqrt(unit);
+  fit.noise.heading_per_metre *= std::sqrt(unit);
   const bool knows = known && known->rows.size() >= kEnoughKnown;
   const std::vector<SlamMethod> methods = methods_for(log, knows);
   SlamRunResult result = make_slam_run("own", in_unit(log, 1.0 / unit),

@@ -283,7 +283,7 @@ void add_fit_options(CLI::App& app, SlamArguments& arguments) {
                  "Standard deviation of odometry after 1 m, which grows with the root of the way "
                  "[m]; without: estimated")
       ->check(CLI::PositiveNumber);
-  app.add_option("--heading-sigma", arguments.fit.noise.turn_per_metre,
+  app.add_option("--heading-sigma", arguments.fit.noise.heading_per_metre,
                  "Standard deviation of its heading after 1 m [rad]; without: estimated")
       ->check(CLI::PositiveNumber);
   app.add_option("--odometry-scale-sigma", arguments.fit.odometry_scale_sigma,
@@ -316,7 +316,7 @@ Action slam_command(CLI::App& app) {
       "times. The window that brings them to common times is chosen by prediction error. Errors "
       "are\n"
       "reported only with ground truth. Without odometry the map may be reflected.\n"
-      "The exit code is 1 if there is no map; the report says why.\n");
+      "The exit code is 1 if there is no map; the report states why.\n");
   add_input_options(app, *arguments);
   add_fit_options(app, *arguments);
   app.add_flag(

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 
 namespace mapproof {
 

@@ -11,7 +11,7 @@
 #include "app/disclosure.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/files/output_folder.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "render/output/file_format.hpp"
 #include "render/plot/figure.hpp"

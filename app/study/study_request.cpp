@@ -36,7 +36,7 @@ void add_data_options(CLI::App& app, StudyOptions& options) {
       ->check(CLI::ExistingDirectory)
       ->group("Experiment");
   app.add_option("--methods", options.methods,
-                 "methods.json: mapping methods of others, commands that are run beside ours")
+                 "methods.json: mapping methods of others, commands that are compared with ours")
       ->group("Experiment");
 }
 

@@ -16,6 +16,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/studies/validate.hpp"
 #include "render/image/png_check.hpp"
@@ -46,8 +47,7 @@ void check_ends(const std::string& bytes, const std::string& source, std::string
                 std::string_view end) {
   if (!bytes.starts_with(begin))
     throw IoError(source, "line 1", fmt::format("expected \"{}\"", begin));
-  const std::size_t last = bytes.find_last_not_of(" \r\n");
-  if (!std::string_view(bytes).substr(0, last + 1).ends_with(end))
+  if (!trimmed(bytes, kWhiteSpace).ends_with(end))
     throw IoError(source, fmt::format("is truncated: it does not end with \"{}\"", end));
 }
 

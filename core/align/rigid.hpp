@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/model/points.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 
 namespace mapproof {
 

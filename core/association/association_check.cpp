@@ -254,7 +254,7 @@ double loss_at(const IdentifiedScans& scans, const std::vector<int>& ids, const 
 std::vector<char> fitting_neither(const IdentifiedScans& scans, const std::vector<int>& ids,
                                   const RobustMap& map, std::vector<AssociationFinding>& findings) {
   std::vector<char> left_out(ids.size(), 0);
-  const Points turned_m = turned_as_seen(scans, ids, map.positions_m);
+  const Points turned_m = oriented_as_seen(scans, ids, map.positions_m);
   ScanCosts costs(scans, turned_m, map.width_m);
   for (AssociationFinding& finding : findings)
     for (std::size_t row = 0, end = 0; row < ids.size() && finding.scattered; row = end) {

@@ -232,7 +232,7 @@ class Splitter {
  public:
   Splitter(const std::vector<ScanPair>& pairs, const LogBlocks& blocks,
            const std::vector<std::size_t>& positions, const DetectionLog& log)
-      : pairs_(pairs), blocks_(blocks), places_(positions), log_(log) {}
+      : pairs_(pairs), blocks_(blocks), positions_(positions), log_(log) {}
 
   /// @param place  The first that is of the new landmark.
   Tried split(const Tried& tried, int landmark, std::size_t position) const {
@@ -243,7 +243,7 @@ class Splitter {
     result.splits.push_back(fresh);
     for (std::size_t k = 0; k < result.ids.size(); ++k)
       if (result.ids[k] == landmark &&
-          places_[static_cast<std::size_t>(log_.detections[k].step)] >= position)
+          positions_[static_cast<std::size_t>(log_.detections[k].step)] >= position)
         result.ids[k] = fresh;
     return result;
   }
@@ -268,7 +268,7 @@ class Splitter {
       if (a != landmark && b != landmark) continue;
       const Eigen::RowVector2d partner = map.positions_m.row(a == landmark ? b : a);
       if (!partner.allFinite()) continue;
-      result.push_back({places_[static_cast<std::size_t>(pair.step)],
+      result.push_back({positions_[static_cast<std::size_t>(pair.step)],
                         huber_cost(pair.distance_m - (partner - old_m).norm(), map.width_m) -
                             huber_cost(pair.distance_m - (partner - new_m).norm(), map.width_m)});
     }
@@ -279,7 +279,7 @@ class Splitter {
  private:
   const std::vector<ScanPair>& pairs_;
   const LogBlocks& blocks_;
-  const std::vector<std::size_t>& places_;
+  const std::vector<std::size_t>& positions_;
   const DetectionLog& log_;
 };
 

@@ -55,7 +55,7 @@ std::vector<int> ids_scan_by_scan(const ScanIds& of, const AssociationHypothesis
 HypothesisFit converged_fit(const ScanIds& of, HypothesisFit fit, const Points& start,
                             double predicted_m, double width_m) {
   const IdentifiedScans& scans = of.scans;
-  fit.map.positions_m = turned_as_seen(scans, of.ids, start);
+  fit.map.positions_m = oriented_as_seen(scans, of.ids, start);
   fit.ids = of.ids;
   HypothesisFit best;
   best.map.cost = kInfinity;
@@ -76,22 +76,23 @@ HypothesisFit converged_fit(const ScanIds& of, HypothesisFit fit, const Points& 
     RobustMap resampled = freshly_mapped(items, static_cast<int>(start.rows()), width_m);
     if (resampled.cost < fit.map.cost) fit.map = std::move(resampled);
     fit.map = unfolded_map(items, std::move(fit.map), scans.blocks.count);
-    fit.map.positions_m = turned_as_seen(scans, fit.ids, fit.map.positions_m);
+    fit.map.positions_m = oriented_as_seen(scans, fit.ids, fit.map.positions_m);
     if (fit.map.cost < best.map.cost) best = fit;
   }
   return best;
 }
 
-Points turned_as_seen(const IdentifiedScans& scans, const std::vector<int>& ids, Points map) {
+Points oriented_as_seen(const IdentifiedScans& scans, const std::vector<int>& ids, Points map) {
   const std::vector<Detection>& rows = scans.log.detections;
   double agreement = 0.0;
   for (std::size_t k = 2; k < rows.size(); ++k) {
     if (rows[k - 2].step != rows[k].step) continue;
     if (!is_located(rows[k]) || !is_located(rows[k - 1]) || !is_located(rows[k - 2])) continue;
-    const Eigen::RowVector2d seen = place_observed(rows[k - 2]);
+    const Eigen::RowVector2d seen = position_observed(rows[k - 2]);
     const Eigen::RowVector2d mapped = map.row(ids[k - 2]);
-    const double turn = cross(place_observed(rows[k - 1]) - seen, place_observed(rows[k]) - seen) *
-                        cross(map.row(ids[k - 1]) - mapped, map.row(ids[k]) - mapped);
+    const double turn =
+        cross(position_observed(rows[k - 1]) - seen, position_observed(rows[k]) - seen) *
+        cross(map.row(ids[k - 1]) - mapped, map.row(ids[k]) - mapped);
     if (std::isfinite(turn)) agreement += std::copysign(std::sqrt(std::abs(turn)), turn);
   }
   if (agreement < 0.0) map.col(0) *= -1.0;
@@ -118,7 +119,7 @@ void ScanCosts::set_pose() {
   std::vector<Eigen::RowVector2d> seen;
   for (const auto& [row, id] : others_) {
     mapped.push_back(map_.row(id));
-    seen.push_back(place_observed(scans_.log.detections[row]));
+    seen.push_back(position_observed(scans_.log.detections[row]));
   }
   pose_ = ScanPose(mapped, seen);
 }
@@ -126,7 +127,7 @@ void ScanCosts::set_pose() {
 double ScanCosts::operator()(std::size_t row, int landmark) const {
   const Detection& detection = scans_.log.detections[row];
   if (others_.empty() || !is_located(detection) || !map_.row(landmark).allFinite()) return 0.0;
-  const Eigen::RowVector2d seen = place_observed(detection);
+  const Eigen::RowVector2d seen = position_observed(detection);
   if (has_pose() && pose_.extent_m() >= kLeastExtent * (seen - pose_.seen_mean_m()).norm()) {
     const Eigen::RowVector2d expected = pose_.to_robot(map_.row(landmark));
     const Eigen::RowVector2d ahead(std::cos(detection.bearing_rad),
@@ -136,7 +137,7 @@ double ScanCosts::operator()(std::size_t row, int landmark) const {
   }
   double sum = 0.0;
   for (const auto& [other, id] : others_) {
-    const double measured = (seen - place_observed(scans_.log.detections[other])).norm();
+    const double measured = (seen - position_observed(scans_.log.detections[other])).norm();
     sum += huber_cost(measured - (map_.row(landmark) - map_.row(id)).norm(), width_m_);
   }
   return sum / static_cast<double>(others_.size());

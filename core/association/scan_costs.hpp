@@ -42,7 +42,7 @@ HypothesisFit converged_fit(const ScanIds& of, HypothesisFit fit, const Points& 
 
 /// The map, or its reflection, so that its landmarks have the orientation that the scans show.
 /// @param ids  The landmark ID of each detection.
-Points turned_as_seen(const IdentifiedScans& scans, const std::vector<int>& ids, Points map);
+Points oriented_as_seen(const IdentifiedScans& scans, const std::vector<int>& ids, Points map);
 
 /// What the detections of one scan cost in a map under different IDs, given the IDs of the others.
 /// Where two others or more determine the robot's pose, range and bearing count separately: a wrong

@@ -42,13 +42,13 @@ std::optional<Eigen::RowVector2d> standing(std::span<const Detection> scan, cons
     if (other.landmark != own.landmark && is_located(other) &&
         map.row(other.landmark).allFinite()) {
       mapped.push_back(map.row(other.landmark));
-      seen.push_back(place_observed(other));
+      seen.push_back(position_observed(other));
     }
   if (seen.size() < 2 || !is_located(own)) return std::nullopt;
   const ScanPose pose(mapped, seen);
-  if ((place_observed(own) - pose.seen_mean_m()).norm() > kFurthest * pose.extent_m())
+  if ((position_observed(own) - pose.seen_mean_m()).norm() > kFurthest * pose.extent_m())
     return std::nullopt;
-  return pose.to_map(place_observed(own));
+  return pose.to_map(position_observed(own));
 }
 
 std::vector<Standing> standings(const DetectionLog& log, int id, const Points& map) {

@@ -131,7 +131,7 @@ void add_landmarks(const std::optional<LandmarkEvaluation>& landmarks, Rows& row
 }
 
 /// Labels of the setups and factors that rows have.
-void add_labels(ResultsStudy& study) {
+void add_association(ResultsStudy& study) {
   std::set<std::string> setups;
   for (const Result& row : study.results.rows) setups.insert(row.at.setup);
   if (setups.contains(kPoses)) study.setups.push_back({kPoses, "Absolute errors"});
@@ -171,7 +171,7 @@ ResultsStudy evaluation_study(const std::vector<EvaluatedRun>& runs,
       study.results.quantities.declare(quantity);
       study.quantities.push_back(quantity.id);
     }
-  add_labels(study);
+  add_association(study);
   sort_results(study.results);
   return study;
 }

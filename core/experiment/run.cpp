@@ -174,8 +174,8 @@ constexpr Eigen::Index kFirstSteps = 60;
 constexpr int kManifoldNeighbours = 5;
 
 /// Counted from 0.
-Eigen::Index telling_scan(const SensorStudy& study, const World& world, const Path& path,
-                          Eigen::Index steps) {
+Eigen::Index informative_scan(const SensorStudy& study, const World& world, const Path& path,
+                              Eigen::Index steps) {
   Eigen::Index best = 0;
   if (study.sensor.sensor != Sensor::kVisibility) {
     const Eigen::RowVector2d center(world.side_m / 2.0, world.side_m / 2.0);
@@ -227,7 +227,7 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
                              const ObservationHistory& history) {
   const int step = study.checkpoints.back();
   const Eigen::MatrixXd squared = observed_squares(history, step);
-  const Eigen::Index scan = telling_scan(study, world, path, step);
+  const Eigen::Index scan = informative_scan(study, world, path, step);
   SensorDetails details{
       .sensor = study.sensor.sensor,
       .scan_step = static_cast<int>(scan) + 1,

@@ -153,14 +153,14 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
 }
 
 /// Without ground truth all paths are aligned to the first one.
-void lay_on_first(SlamRun& run, const SlamRunOptions& options) {
+void align_to_first(SlamRun& run, const SlamRunOptions& options) {
   const SlamRecord* first = nullptr;
   for (SlamRecord& record : run.records) {
     if (first == nullptr && record.estimate.path.size() > 0) first = &record;
     if (first == nullptr || first == &record ||
         first_alignment(record.method, run.log, options) == Alignment::kNone)
       continue;
-    lay_on(record.estimate, first->estimate.path, run.log.odometry.empty());
+    align_to(record.estimate, first->estimate.path, run.log.odometry.empty());
   }
 }
 
@@ -247,7 +247,7 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
   run.windows = estimates.windows();
   if (std::ranges::find(options.methods, SlamMethod::kSpectral) != options.methods.end())
     run.upgrade = estimates.upgrade();
-  if (!run.log.ground_truth) lay_on_first(run, options);
+  if (!run.log.ground_truth) align_to_first(run, options);
   return result;
 }
 
@@ -264,7 +264,7 @@ void score_against_ground_truth(SlamRecord& record, const RangeLog& log, Alignme
   record.error_m = pose_errors(estimate.path, *log.ground_truth);
 }
 
-void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror) {
+void align_to(SlamEstimate& estimate, const Trajectory& path, bool may_mirror) {
   if (estimate.path.size() == 0) return;
   const auto motion = path_alignment(
       estimate.path, path, may_mirror ? Alignment::kRigidWithReflection : Alignment::kRigid);
@@ -410,8 +410,8 @@ OdometryNoise SlamEstimates::noise_of_motion(const LogNoise& noise) const {
   const double count = static_cast<double>(log_.odometry.size());
   const double forward_m = std::max(noise.way_m * std::sqrt(way_m / count), 1e-9);
   const double heading_change_rad =
-      std::max(std::hypot(noise.turn_per_metre * std::sqrt(way_m / count),
-                          noise.turn_per_radian * std::sqrt(turn / count)),
+      std::max(std::hypot(noise.heading_per_metre * std::sqrt(way_m / count),
+                          noise.heading_per_radian * std::sqrt(turn / count)),
                1e-9);
   return {
       .forward_m = forward_m, .sideways_m = forward_m, .heading_change_rad = heading_change_rad};

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/factors/windowed_ranges.hpp"
 #include "core/range_slam/fit/log_fit.hpp"
@@ -46,7 +46,7 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
 void score_against_ground_truth(SlamRecord& record, const RangeLog& log, Alignment first);
 
 /// Aligns an estimate to a path, rigidly, with reflection if it is free.
-void lay_on(SlamEstimate& estimate, const Trajectory& path, bool may_mirror);
+void align_to(SlamEstimate& estimate, const Trajectory& path, bool may_mirror);
 
 /// The methods on one log; starts that several of them share are computed once.
 class SlamEstimates {

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/model/points.hpp"
-#include "core/model/slam_experiment.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/simulate/range_world.hpp"
 

@@ -401,7 +401,7 @@ void test_exchanges(FitMaker& maker, const ObservationHistory& history) {
 }
 
 /// In how many steps two landmarks were observed, for each two.
-Matrix common_steps(const ObservationHistory& history) {
+Matrix shared_steps(const ObservationHistory& history) {
   const Matrix seen =
       history.sensor == Sensor::kVisibility
           ? Matrix((history.values.array() == 1.0).cast<double>())
@@ -428,7 +428,7 @@ std::vector<std::vector<int>> groups_of(const Matrix& common, Index fewest, cons
 }
 
 void test_connections(FitMaker& maker, const ObservationHistory& history, const Points& map) {
-  const Matrix common = common_steps(history);
+  const Matrix common = shared_steps(history);
   const auto groups = groups_of(common, kFewestCommon, map);
   const auto connected = groups_of(common, 1, map);
   const bool is_apart = connected.size() > 1;

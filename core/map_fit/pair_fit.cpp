@@ -270,8 +270,8 @@ void add_triples(const std::vector<const Detection*>& scan, const Points& map, R
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = i + 1; j < count; ++j)
       for (std::size_t k = j + 1; k < count; ++k) {
-        const double seen =
-            shape_of(place_observed(*scan[i]), place_observed(*scan[j]), place_observed(*scan[k]));
+        const double seen = shape_of(position_observed(*scan[i]), position_observed(*scan[j]),
+                                     position_observed(*scan[k]));
         const double mapped = shape_of(map.row(scan[i]->landmark), map.row(scan[j]->landmark),
                                        map.row(scan[k]->landmark));
         if (!(std::abs(seen) > kClearTriangle && std::abs(mapped) > kClearTriangle)) continue;

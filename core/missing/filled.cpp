@@ -342,7 +342,7 @@ FilledProximities filled_proximities(const ObservationHistory& history, Eigen::I
                                      const FillingOptions& options) {
   FilledProximities result;
   const Features matrix = features(history, steps);
-  if (options.filling == Filling::kCommonSteps || matrix.observed.size() == 0) {
+  if (options.filling == Filling::kPairwiseComplete || matrix.observed.size() == 0) {
     result.proximities = proximities(matrix, history.sensor);
     return result;
   }

@@ -132,10 +132,10 @@ Ppca ppca(const Features& matrix, const PpcaOptions& options = {});
 
 /// What replaces missing entries before distances are computed.
 enum class Filling {
-  kCommonSteps,  ///< Nothing: pairwise-complete sums (see proximities).
-  kPpca,         ///< Their expectation under probabilistic PCA.
-  kPca,          ///< Their position in the plane of PCA with missing data.
-  kMean,         ///< The landmark's mean. Fails: it is here for comparison.
+  kPairwiseComplete,  ///< Nothing: pairwise-complete sums (see proximities).
+  kPpca,              ///< Their expectation under probabilistic PCA.
+  kPca,               ///< Their position in the plane of PCA with missing data.
+  kMean,              ///< The landmark's mean. Fails: it is here for comparison.
 };
 
 /// The name used in files and on the command line: "pairwise-complete", "ppca", "pca", "mean".
@@ -156,7 +156,7 @@ struct FilledProximities {
   Proximities proximities;
   std::vector<Status> statuses;
   LowRankModel
-      model;  ///< The model of the filling; empty for kCommonSteps and without missing data.
+      model;  ///< The model of the filling; empty for kPairwiseComplete and without missing data.
 };
 
 /// Which squared distances a model of missing data gives.
@@ -174,7 +174,7 @@ Proximities filled_from(const Features& matrix, Sensor sensor, const LowRankMode
                         CompletedDistances distances);
 
 /// Proximities of all pairs of landmarks, co-visible or not, from histories whose missing data are
-/// filled. Without missing data, and for kCommonSteps, they are those of proximities().
+/// filled. Without missing data, and for kPairwiseComplete, they are those of proximities().
 ///
 /// @param history  Of landmarks that were all observed (see unseen_landmarks), two or more.
 /// @param steps    How many observations to use, from the first.

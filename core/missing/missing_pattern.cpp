@@ -92,16 +92,16 @@ std::string_view name(MissingStrategy way) {
   return kRecommendationNames[static_cast<std::size_t>(way)];
 }
 
-StrategyAdvice advised_way(const MissingPattern& pattern, Sensor sensor) {
+StrategyAdvice advised_strategy(const MissingPattern& pattern, Sensor sensor) {
   if (pattern.missing_share == 0.0)
-    return {MissingStrategy::kCommonSteps, StrategyReason::kNothingMissing};
+    return {MissingStrategy::kPairwiseComplete, StrategyReason::kNothingMissing};
   if (sensor == Sensor::kVisibility)
-    return {MissingStrategy::kCommonSteps, StrategyReason::kOfVisibility};
+    return {MissingStrategy::kPairwiseComplete, StrategyReason::kOfVisibility};
   const bool patterned = pattern.dispersion > kPatterned;
   if (sensor == Sensor::kRange && patterned && pattern.few_share > kManyApart)
     return {MissingStrategy::kCovisible, StrategyReason::kHardlyEver};
   if (sensor == Sensor::kBearing && patterned && pattern.nearness < kByDistance)
-    return {MissingStrategy::kCommonSteps, StrategyReason::kByDistance};
+    return {MissingStrategy::kPairwiseComplete, StrategyReason::kByDistance};
   return {MissingStrategy::kPpca,
           patterned ? StrategyReason::kByAPattern : StrategyReason::kAtRandom};
 }

@@ -27,7 +27,7 @@ struct MissingPattern {
 MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index steps);
 
 /// The best strategy for such missing data.
-enum class MissingStrategy { kCommonSteps, kPpca, kCovisible };
+enum class MissingStrategy { kPairwiseComplete, kPpca, kCovisible };
 
 /// "pairwise-complete", "ppca", "covisible": as on the command line.
 std::string_view name(MissingStrategy way);
@@ -43,7 +43,7 @@ enum class StrategyReason {
 };
 
 struct StrategyAdvice {
-  MissingStrategy way = MissingStrategy::kCommonSteps;
+  MissingStrategy way = MissingStrategy::kPairwiseComplete;
   StrategyReason why = StrategyReason::kNothingMissing;
 };
 
@@ -51,7 +51,7 @@ struct StrategyAdvice {
 /// distant landmarks missing, pairwise-complete; ranges of which many pairs were hardly ever
 /// observed together, covisible pairs; visibility, or no missing data, pairwise-complete; else
 /// PPCA.
-StrategyAdvice advised_way(const MissingPattern& pattern, Sensor sensor);
+StrategyAdvice advised_strategy(const MissingPattern& pattern, Sensor sensor);
 
 /// The deviation of distances over filled entries from pairwise-complete ones, where those exist:
 /// the median over the pairs of the difference, as a share of the latter; NaN without any.

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "core/model/certificate.hpp"
 #include "core/model/points.hpp"
-#include "core/model/slam.hpp"
 #include "core/model/status.hpp"
 
 namespace mapproof {

@@ -12,6 +12,8 @@
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/status.hpp"
+#include "core/model/walk_options.hpp"
+#include "core/model/world_options.hpp"
 
 namespace mapproof {
 
@@ -89,24 +91,6 @@ struct Published {
   std::vector<std::string> notes = {};  ///< On all of the values, a sentence or two each.
   /// Methods from least to greatest MPE, as the source has them and ours is expected to.
   std::vector<std::vector<Method>> orderings = {};
-};
-
-/// How landmarks are scattered in the room.
-struct WorldOptions {
-  double side_m = 2.5;
-  int landmarks = 50;
-  double landmark_diameter_m = 0.048;
-  double gap_m = 0.01;         ///< Least free space between two landmarks.
-  double wall_margin_m = 0.1;  ///< Least free space between a landmark and a wall.
-};
-
-/// The robot's random walk [yairi2007, section 4.1].
-struct WalkOptions {
-  double step_m = 0.2;
-  double heading_change_rad = 0.78539816339744831;  ///< The new direction is uniform in +- this.
-  double substep_m = 0.01;
-  double clearance_m = 0.02;    ///< Least distance of the robot's centre to a landmark's surface.
-  double wall_margin_m = 0.06;  ///< Least distance of the robot's centre to a wall.
 };
 
 /// One sensor and its errors.

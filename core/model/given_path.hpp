@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 
 namespace mapproof {
 

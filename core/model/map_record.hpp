@@ -8,11 +8,11 @@
 
 #include <Eigen/Core>
 
+#include "core/model/certificate.hpp"
 #include "core/model/method.hpp"
 #include "core/model/points.hpp"
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
-#include "core/model/slam.hpp"
 #include "core/model/status.hpp"
 
 namespace mapproof {

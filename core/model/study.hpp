@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "core/model/certificate.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/map_record.hpp"
 #include "core/model/method.hpp"
@@ -15,7 +16,6 @@
 #include "core/model/points.hpp"
 #include "core/model/score.hpp"
 #include "core/model/sensor.hpp"
-#include "core/model/slam.hpp"
 #include "core/model/world.hpp"
 
 namespace mapproof {

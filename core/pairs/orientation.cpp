@@ -28,8 +28,8 @@ double turn_of(const SeenOrientation& triple, const Points& map) {
 double agreement(std::span<const Detection* const> scan, const Points& map) {
   double sum = 0.0;
   for (std::size_t k = 0; k + 2 < scan.size(); ++k) {
-    const double seen =
-        turn(place_observed(*scan[k]), place_observed(*scan[k + 1]), place_observed(*scan[k + 2]));
+    const double seen = turn(position_observed(*scan[k]), position_observed(*scan[k + 1]),
+                             position_observed(*scan[k + 2]));
     const double mapped = turn(map.row(scan[k]->landmark), map.row(scan[k + 1]->landmark),
                                map.row(scan[k + 2]->landmark));
     sum += std::copysign(std::min(std::abs(seen), std::abs(mapped)), seen * mapped);
@@ -62,7 +62,7 @@ using Triple = std::array<int, 3>;
 
 void add_turn(const Detection& a, const Detection& b, const Detection& c,
               std::map<Triple, Turned>& turned) {
-  const double area = turn(place_observed(a), place_observed(b), place_observed(c));
+  const double area = turn(position_observed(a), position_observed(b), position_observed(c));
   Turned& one = turned[{a.landmark, b.landmark, c.landmark}];
   ++one.scans;
   one.area += area;

@@ -18,7 +18,7 @@ inline bool is_located(const Detection& seen) {
 }
 
 /// Where the robot saw it, in its own frame.
-inline Eigen::RowVector2d place_observed(const Detection& seen) {
+inline Eigen::RowVector2d position_observed(const Detection& seen) {
   return seen.range_m * Eigen::RowVector2d(std::cos(seen.bearing_rad), std::sin(seen.bearing_rad));
 }
 

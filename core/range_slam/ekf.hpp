@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 #include "core/range_slam/refinement/key_poses.hpp"
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/align/rigid.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 
 namespace mapproof {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/base/random.hpp"
-#include "core/model/experiment.hpp"
+#include "core/model/walk_options.hpp"
 #include "core/model/world.hpp"
 
 namespace mapproof {

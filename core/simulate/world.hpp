@@ -3,6 +3,7 @@
 #include "core/base/random.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/world.hpp"
+#include "core/model/world_options.hpp"
 
 namespace mapproof {
 

@@ -17,7 +17,7 @@ double studentized_range_quantile(int groups, double alpha);
 /// Methods differ if their mean ranks do by at least this [nemenyi1963] [demsar2006]:
 /// q / sqrt(2) * sqrt(k (k + 1) / (6 n)), k methods on n units.
 /// @throws InvalidInput as above, or unless units >= 1.
-double nemenyi_critical_difference(int methods, int units, double alpha = 0.05);
+double nemenyi_critical_difference(int methods, int units, double alpha);
 
 /// The largest sets of two or more methods of which no two differ, as the bars of a
 /// critical-difference diagram join them: within a set mean ranks differ by less than the critical

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/model/experiment.hpp"
-#include "core/model/slam_experiment.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 #include "core/model/topic_study.hpp"
 #include "core/studies/study_plan.hpp"
 

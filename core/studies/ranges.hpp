@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/model/slam_experiment.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 #include "core/studies/study_kind.hpp"
 
 namespace mapproof {

@@ -47,7 +47,7 @@ constexpr DoubtFault kDoubtFaults[] = {
 
 TopicDesign doubt_design(const TopicExperiment& experiment) {
   TopicDesign design;
-  design.setups.push_back({"sound", "Fault-free logs", {}});
+  design.setups.push_back({"fault-free", "Fault-free logs", {}});
   for (const DoubtFault& fault : kDoubtFaults)
     design.setups.push_back({fault.id,
                              fault.title,
@@ -123,7 +123,7 @@ TopicOutcome fault_free_outcome(const TopicTask& context, const RangeDriveOption
   const RangeLog log = simulate_drive(options, {}, random);
   const LogFit fit = fit_log(log, {}, fit_options(context, false));
   TopicOutcome outcome{
-      .at = condition("sound"), .method = kDoubtMethod, .values = {}, .statuses = {}};
+      .at = condition("fault-free"), .method = kDoubtMethod, .values = {}, .statuses = {}};
   outcome.values["alarm_percent"] = fit.fit.verdict == FitVerdict::kFits ? 0.0 : 100.0;
   outcome.values["denied_percent"] = fit.fit.verdict == FitVerdict::kDoesNotFit ? 100.0 : 0.0;
   if (fit.fit.verdict == FitVerdict::kFits) add_coverage(fit, *log.true_landmarks, outcome);

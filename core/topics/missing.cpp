@@ -26,7 +26,7 @@ constexpr const char* kOcclusion = "occlusion";
 
 /// The fillings in the order of the tables, with their labels.
 constexpr std::pair<Filling, const char*> kFillings[] = {
-    {Filling::kCommonSteps, "Pairwise-complete"},
+    {Filling::kPairwiseComplete, "Pairwise-complete"},
     {Filling::kPpca, "PPCA"},
     {Filling::kPca, "PCA with missing data"},
     {Filling::kMean, "Means"}};
@@ -120,9 +120,10 @@ class IncompleteHistory {
   /// The outcome of the strategy that the pattern of missing data suggests, once more under its own
   /// name. For bearings that is never covisible pairs.
   void add_advised() {
-    const StrategyAdvice advice = advised_way(missing_pattern(history_, steps()), history_.sensor);
+    const StrategyAdvice advice =
+        advised_strategy(missing_pattern(history_, steps()), history_.sensor);
     const Filling filling =
-        advice.way == MissingStrategy::kPpca ? Filling::kPpca : Filling::kCommonSteps;
+        advice.way == MissingStrategy::kPpca ? Filling::kPpca : Filling::kPairwiseComplete;
     const std::string id = method_id(filling, smacof_of(context_.experiment));
     const auto found = std::ranges::find_if(part_.outcomes, [&](const TopicOutcome& outcome) {
       return outcome.method == id && outcome.at == at();
@@ -168,7 +169,7 @@ class IncompleteHistory {
   /// Maps at the highest level of each setup: with missing data left, and filled by PPCA.
   bool shown(Filling filling) const {
     return context_.with_maps && level_ == levels_of(setup_).back() &&
-           (filling == Filling::kCommonSteps || filling == Filling::kPpca);
+           (filling == Filling::kPairwiseComplete || filling == Filling::kPpca);
   }
 
   void show(const std::string& method, const MethodSetting& setting, const ScoredMap& map) {

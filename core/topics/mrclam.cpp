@@ -195,17 +195,17 @@ using Clock = std::chrono::steady_clock;
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
 constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
-constexpr const char* kLabels = "association";
+constexpr const char* kAssociation = "association";
 
 /// Series of scans with wrong data association, as they are and corrected.
-constexpr std::pair<const char*, const char*> kSpoilt[] = {
+constexpr std::pair<const char*, const char*> kFaults[] = {
     {"swapped", "Two landmark IDs swapped in half of the scans"},
     {"swapped-corrected", "The same, corrected"},
     {"misnamed", "One landmark called by another's name in all scans"},
     {"misnamed-corrected", "The name corrected"}};
 
 /// One strategy from a set's scans to a map.
-struct RealWay {
+struct MrclamMethod {
   const char* id;
   const char* label;
   Sensor sensor;                 ///< Of those that take one alone.
@@ -214,7 +214,7 @@ struct RealWay {
 };
 
 /// CMDS is what LPCA computes.
-const RealWay kWays[] = {
+const MrclamMethod kMrclamMethods[] = {
     {"visibility-cmds", "Visibility, CMDS", Sensor::kVisibility, Method::kLpca, {}},
     {"visibility-isomap", "Visibility, ISOMAP", Sensor::kVisibility, Method::kIsomap, {}},
     {"bearing-cmds", "Bearing, CMDS", Sensor::kBearing, Method::kLpca, {}},
@@ -229,9 +229,10 @@ const RealWay kWays[] = {
 TopicDesign mrclam_design(const TopicExperiment&) {
   TopicDesign design;
   design.setups = {{kSetup, "A map per sensor and method"},
-                   {kLabels, "Range and bearing with wrong data association"}};
-  for (const RealWay& way : kWays) design.methods.push_back({way.id, way.label});
-  for (const auto& [id, label] : kSpoilt) design.methods.push_back({id, label});
+                   {kAssociation, "Range and bearing with wrong data association"}};
+  for (const MrclamMethod& entry : kMrclamMethods)
+    design.methods.push_back({entry.id, entry.label});
+  for (const auto& [id, label] : kFaults) design.methods.push_back({id, label});
   design.quantities = {
       known_quantity("mpe_m"),
       known_quantity("moe_percent"),
@@ -289,20 +290,20 @@ struct Made {
   MethodSetting setting;
 };
 
-Made make_map(const RealWay& way, const RealSet& set, const TopicTask& context) {
-  if (!way.method) {
-    PairMap map = pair_map_of(set.source.log, {}, way.pairs);
+Made make_map(const MrclamMethod& entry, const RealSet& set, const TopicTask& context) {
+  if (!entry.method) {
+    PairMap map = pair_map_of(set.source.log, {}, entry.pairs);
     return {std::move(map.embedding), std::move(map.pairs), {Method::kSmacof, std::nullopt}};
   }
-  MethodSetting setting{*way.method, std::nullopt};
-  if (on_graph(*way.method)) setting.parameter = number_option(context.experiment, "neighbours");
+  MethodSetting setting{*entry.method, std::nullopt};
+  if (on_graph(*entry.method)) setting.parameter = number_option(context.experiment, "neighbours");
   // Landmarks without a detection would only make the others' map fail.
   const std::vector<Eigen::Index> unseen = unseen_in(set.source.log);
   const auto landmarks = std::ssize(set.source.log.names);
   std::vector<Eigen::Index> rows;
   for (Eigen::Index i = 0; i < landmarks; ++i)
     if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
-  Proximities all = detected_proximities(set.source.log, way.sensor);
+  Proximities all = detected_proximities(set.source.log, entry.sensor);
   all.inner_products = Eigen::MatrixXd(all.inner_products(rows, rows));
   all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));
   const Embedding some = Embedder(std::move(all)).embed(setting);
@@ -312,10 +313,10 @@ Made make_map(const RealWay& way, const RealSet& set, const TopicTask& context) 
   return made;
 }
 
-MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
+MapRecord record_of(const MrclamMethod& entry, const RealSet& set, const Made& made) {
   MapSource source{
-      .id = way.id,
-      .origin = way.method ? MapOrigin(FromSensor{way.sensor, made.setting}) : FromPairs{},
+      .id = entry.id,
+      .origin = entry.method ? MapOrigin(FromSensor{entry.sensor, made.setting}) : FromPairs{},
       .step = set.source.log.steps,
       .names = set.source.log.names,
       .ground_truth_m = std::nullopt,
@@ -325,7 +326,7 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
   if (set.anchors.empty())
     return map_record(std::move(source),
                       {.positions_m = made.embedding.coordinates,
-                       .frame = way.method ? Frame::kSimilarity : Frame::kGroundTruth,
+                       .frame = entry.method ? Frame::kSimilarity : Frame::kGroundTruth,
                        .statuses = made.embedding.statuses,
                        .score = std::nullopt});
   source.ground_truth_m = set.source.ground_truth_m;
@@ -334,7 +335,7 @@ MapRecord record_of(const RealWay& way, const RealSet& set, const Made& made) {
 }
 
 /// @param outcome  Its setup and method are given.
-TopicOutcome scored_outcome(TopicOutcome outcome, const RealWay& way, const RealSet& set,
+TopicOutcome scored_outcome(TopicOutcome outcome, const MrclamMethod& entry, const RealSet& set,
                             const Made& made, const MapRecord& map) {
   const Points& own = made.embedding.coordinates;
   outcome.statuses = map.statuses;
@@ -346,29 +347,30 @@ TopicOutcome scored_outcome(TopicOutcome outcome, const RealWay& way, const Real
     outcome.values["moe_percent"] = score.moe_percent;
     outcome.values["mpe_all_fitted_m"] = score.mpe_all_fitted_m;
   }
-  if (way.method) return outcome;
+  if (entry.method) return outcome;
   outcome.values["pair_m"] = median_residual(own, made.pairs);
   if (set.source.ground_truth_m)
     outcome.values["rigid_m"] = rigid_error(own, *set.source.ground_truth_m);
   return outcome;
 }
 
-void add_way(const RealWay& way, const RealSet& set, const TopicTask& context, TopicPart& part) {
+void add_entry(const MrclamMethod& entry, const RealSet& set, const TopicTask& context,
+               TopicPart& part) {
   const Clock::time_point start = Clock::now();
-  const Made made = make_map(way, set, context);
+  const Made made = make_map(entry, set, context);
   part.seconds.push_back(
-      {context.part, way.id, std::chrono::duration<double>(Clock::now() - start).count()});
-  TopicMap shown{.id = fmt::format("{}-{}", way.id, context.part),
+      {context.part, entry.id, std::chrono::duration<double>(Clock::now() - start).count()});
+  TopicMap shown{.id = fmt::format("{}-{}", entry.id, context.part),
                  .at = condition(kSetup),
-                 .method = way.id,
-                 .map = record_of(way, set, made),
+                 .method = entry.id,
+                 .map = record_of(entry, set, made),
                  .pairs = made.pairs,
                  .certainty = {}};
   part.outcomes.push_back(
-      scored_outcome({.at = condition(kSetup), .method = way.id, .values = {}, .statuses = {}}, way,
-                     set, made, shown.map));
+      scored_outcome({.at = condition(kSetup), .method = entry.id, .values = {}, .statuses = {}},
+                     entry, set, made, shown.map));
   // The last strategy is the final one for pairs: its map shows them and its uncertainty.
-  const bool is_last = &way == &kWays[std::size(kWays) - 1];
+  const bool is_last = &entry == &kMrclamMethods[std::size(kMrclamMethods) - 1];
   if (!is_last) shown.pairs.clear();
   const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
   if (is_last && replicates > 0)
@@ -385,18 +387,18 @@ void add_way(const RealWay& way, const RealSet& set, const TopicTask& context, T
 }
 
 /// The map of measured pairs of scans with wrong data association, as given and corrected.
-void add_labels(const RealSet& set, const TopicTask& context, TopicPart& part) {
-  const RealWay& way = kWays[std::size(kWays) - 1];
+void add_association(const RealSet& set, const TopicTask& context, TopicPart& part) {
+  const MrclamMethod& entry = kMrclamMethods[std::size(kMrclamMethods) - 1];
   const auto add = [&](const std::string& method, const DetectionLog& log,
                        Clock::time_point start) {
     RealSet other = set;
     other.source.log = log;
-    const Made made = make_map(way, other, context);
+    const Made made = make_map(entry, other, context);
     part.seconds.push_back(
         {context.part, method, std::chrono::duration<double>(Clock::now() - start).count()});
-    part.outcomes.push_back(
-        scored_outcome({.at = condition(kLabels), .method = method, .values = {}, .statuses = {}},
-                       way, other, made, record_of(way, other, made)));
+    part.outcomes.push_back(scored_outcome(
+        {.at = condition(kAssociation), .method = method, .values = {}, .statuses = {}}, entry,
+        other, made, record_of(entry, other, made)));
   };
   for (const SpoiltIds& spoilt : spoilt_ids(set.source.log, context.seed)) {
     add(spoilt.id, spoilt.log, Clock::now());
@@ -412,8 +414,8 @@ TopicPart make_mrclam(const TopicTask& context) {
   RealSet set;
   set.source = read_mrclam_detections(context.data);
   set.anchors = anchors_of(set.source);
-  for (const RealWay& way : kWays) add_way(way, set, context, part);
-  add_labels(set, context, part);
+  for (const MrclamMethod& entry : kMrclamMethods) add_entry(entry, set, context, part);
+  add_association(set, context, part);
   return part;
 }
 

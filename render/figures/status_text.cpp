@@ -317,8 +317,8 @@ const std::map<StatusReason, std::string (*)(const Reason&)> kSentences = {
      }},
     {StatusReason::kFewStepsWithMotion,
      [](const Reason& of) -> std::string {
-       return fmt::format("{} landmarks and {} steps with motion; {} and {} are needed.", of(0),
-                          of(1), of(2), of(3));
+       return fmt::format("{} and {} with motion; {} and {} are needed.", plural(of(0), "landmark"),
+                          plural(of(1), "step"), of(2), of(3));
      }},
     {StatusReason::kFrameNotTied,
      [](const Reason& of) -> std::string {
@@ -341,8 +341,8 @@ const std::map<StatusReason, std::string (*)(const Reason&)> kSentences = {
      }},
     {StatusReason::kFewLandmarksAtSteps,
      [](const Reason& of) -> std::string {
-       return fmt::format("{} landmarks at {} steps; {} at {} are needed.", of(0), of(1), of(2),
-                          of(3));
+       return fmt::format("{} at {}; {} at {} are needed.", plural(of(0), "landmark"),
+                          plural(of(1), "step"), of(2), of(3));
      }},
     {StatusReason::kLandmarksNearlyOnALine,
      [](const Reason& of) -> std::string {

@@ -240,6 +240,19 @@ ThemeColour series_colour(std::size_t i) {
 
 bool is_figure_id(std::string_view id) { return is_slug(id) && id[0] >= 'a' && id.size() <= 120; }
 
+void prefix_mark_ids(Panel& panel, const std::string& prefix) {
+  const auto put = [&prefix](Mark& mark) {
+    if (!mark.id.empty()) mark.id = prefix + mark.id;
+  };
+  for (Layer& layer : panel.layers)
+    std::visit(
+        [&put](auto& one) {
+          if constexpr (requires { one.marks; }) std::ranges::for_each(one.marks, put);
+          if constexpr (requires { one.mark; }) put(one.mark);
+        },
+        layer);
+}
+
 bool is_empty(const Layer& layer) {
   return std::visit(
       [](const auto& one) {

@@ -253,6 +253,9 @@ struct Figure {
 /// Whether a figure may have that id.
 bool is_figure_id(std::string_view id);
 
+/// Puts `prefix` before the ids of all marks, so that panels of one figure have none in common.
+void prefix_mark_ids(Panel& panel, const std::string& prefix);
+
 /// Whether the layer has nothing to draw.
 bool is_empty(const Layer& layer);
 

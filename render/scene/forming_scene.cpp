@@ -7,7 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"
 
@@ -74,7 +74,7 @@ class Forming {
       lost.far += found_[i].far;
       lost.missing += found_[i].missing;
     }
-    tell(lost, scene);
+    add_notes(lost, scene);
     describe(scene, shown);
     require_valid(scene);
     return scene;
@@ -104,7 +104,7 @@ class Forming {
   }
 
   /// A note under the title would move a frame against the others.
-  void tell(const Displacements& lost, Scene& scene) const {
+  void add_notes(const Displacements& lost, Scene& scene) const {
     if (const std::string wide = words_of_pillars(spec_.world);
         !wide.empty() && scene.views.size() > 1)
       scene.notes.push_back({wide, ThemeColour::kWarning});

@@ -10,7 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/cloud_box.hpp"
 #include "render/scene/room.hpp"
 

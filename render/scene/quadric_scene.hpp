@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/projection.hpp"
 
 namespace mapproof {

@@ -209,7 +209,7 @@ class ViewPanel {
     RuleLayers rules(project_, em_, font_);
     for (const Rule& rule : view_.rules)
       for (Layer& layer : rules.add(rule)) panel_.layers.push_back(std::move(layer));
-    for (const SceneLabels& labels : view_.labels) add_labels(labels);
+    for (const SceneLabels& labels : view_.labels) add_association(labels);
     return std::move(panel_);
   }
 
@@ -246,7 +246,7 @@ class ViewPanel {
     image_.clear_by.push_back(project_.size_at(at, radius));
   }
 
-  void add_labels(const SceneLabels& labels) {
+  void add_association(const SceneLabels& labels) {
     PointLabels layer{.colour = labels.colour};
     for (std::size_t i = 0; i < labels.at.size(); ++i) {
       const Point p = project_(labels.at[i]);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof {

@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"
 #include "render/theme/ticks.hpp"
@@ -117,7 +117,7 @@ class WorldScene {
 
   Scene make() {
     add_parts();
-    add_labels();
+    add_association();
     describe();
     return std::move(scene_);
   }
@@ -165,7 +165,7 @@ class WorldScene {
     return tube;
   }
 
-  void add_labels() {
+  void add_association() {
     SceneLabels anchors{.colour = ThemeColour::kText};
     for (const Eigen::Index row : spec_.map.anchors) add_label(anchors, row);
     for (const std::size_t i : worst()) add_label(anchors, found_.drawn[i]);

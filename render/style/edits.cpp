@@ -65,19 +65,6 @@ bool are_alike(const Axis& a, const Axis& b) {
   return a.label == b.label && a.scale == b.scale && a.names == b.names;
 }
 
-void put_before_ids(Panel& panel, const std::string& prefix) {
-  for (Layer& layer : panel.layers)
-    std::visit(
-        [&prefix](auto& one) {
-          if constexpr (requires { one.marks; })
-            for (Mark& mark : one.marks)
-              if (!mark.id.empty()) mark.id = prefix + mark.id;
-          if constexpr (requires { one.mark; })
-            if (!one.mark.id.empty()) one.mark.id = prefix + one.mark.id;
-        },
-        layer);
-}
-
 /// Adds the panels of one more figure; its first line of notes stands under its title, its warnings
 /// on top of the whole.
 void add_figure(const Figure& figure, const std::string& title, Figure& whole) {
@@ -92,7 +79,7 @@ void add_figure(const Figure& figure, const std::string& title, Figure& whole) {
     Panel panel = figure.panels[p];
     const std::string below = panel.title.empty() ? "" : "\n" + panel.title;
     panel.title = (p == 0 ? head : "") + (p == 0 ? below : panel.title);
-    put_before_ids(panel, fmt::format("p{}-", whole.panels.size() + 1));
+    prefix_mark_ids(panel, fmt::format("p{}-", whole.panels.size() + 1));
     whole.panels.push_back(std::move(panel));
   }
   whole.record_ids.insert(whole.record_ids.end(), figure.record_ids.begin(),

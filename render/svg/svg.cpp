@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/base64.hpp"
+#include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
 #include "render/image/png.hpp"
 
@@ -308,14 +309,8 @@ void append_xml(std::string& out, std::string_view text) {
     const std::optional<char32_t> code = take_code_point(text);
     if (!code || forbidden(*code)) {
       out += "\xEF\xBF\xBD";
-    } else if (first == '&') {
-      out += "&amp;";
-    } else if (first == '<') {
-      out += "&lt;";
-    } else if (first == '>') {
-      out += "&gt;";
-    } else if (first == '"') {
-      out += "&quot;";
+    } else if (const std::string_view reference = markup_reference(first); !reference.empty()) {
+      out += reference;
     } else if (is_hidden(*code)) {
       fmt::format_to(std::back_inserter(out), "&#x{:X};", static_cast<std::uint32_t>(*code));
     } else {

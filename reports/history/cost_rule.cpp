@@ -189,7 +189,8 @@ std::vector<std::size_t> usual_nightly_runs(const StudyTrend& trend, const Regre
   std::vector<std::size_t> usual;
   for (std::size_t i = 0; i + 1 < trend.nightly_runs.size(); ++i)
     // A user who pins a nightly run accepts it as passing.
-    if ((trend.nightly_runs[i].verdict == NightlyVerdict::kGood || trend.nightly_runs[i].pinned) &&
+    if ((trend.nightly_runs[i].verdict == NightlyVerdict::kPassed ||
+         trend.nightly_runs[i].pinned) &&
         same_machine(trend.nightly_runs[i], trend.nightly_runs.back()))
       usual.push_back(i);
   const auto most = static_cast<std::size_t>(rules.most_good_nightly_runs);
@@ -274,11 +275,11 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   RuleOutcome outcome;
   const StudyTrend& trend = evidence.trend;
   const std::vector<std::size_t> usual = usual_nightly_runs(trend, rules);
-  if (std::cmp_less(usual.size(), rules.least_good_nightly_runs)) {
+  if (std::cmp_less(usual.size(), rules.least_passing_nightly_runs)) {
     outcome.remarks.push_back(
         fmt::format("{}: {} of {} passing nightly runs on this machine so far; seconds and memory "
                     "are not judged yet",
-                    trend.name, usual.size(), rules.least_good_nightly_runs));
+                    trend.name, usual.size(), rules.least_passing_nightly_runs));
     return outcome;
   }
   const std::vector<NightlySeries> seconds = seconds_series(trend, usual, rules);
@@ -286,16 +287,16 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   const SharedNoise shared = shared_noise(seconds, HistoryRule::kSeconds, usual);
   for (const NightlySeries& series : seconds) {
     if (series.rule == HistoryRule::kAllSeconds) {
-      judge_sustained(series, trend, usual, {p, rules.least_good_nightly_runs - 1}, outcome);
+      judge_sustained(series, trend, usual, {p, rules.least_passing_nightly_runs - 1}, outcome);
       continue;
     }
     const Limit limit = limit_of(series, usual, p, shared);
-    if (limit.nightly_runs >= rules.least_good_nightly_runs && series.values.back() > limit.most)
+    if (limit.nightly_runs >= rules.least_passing_nightly_runs && series.values.back() > limit.most)
       outcome.findings.push_back(
           finding_of(series, limit, trend, trend.nightly_runs.back().number, "slower"));
   }
   for (const NightlySeries& series : memory_series(trend, rules))
-    judge_sustained(series, trend, usual, {rules.alpha, rules.least_good_nightly_runs - 1},
+    judge_sustained(series, trend, usual, {rules.alpha, rules.least_passing_nightly_runs - 1},
                     outcome);
   for (const NightlySeries& series : unpaired_series(evidence, rules))
     judge_sustained(series, trend, usual, {rules.alpha, 1}, outcome);

@@ -40,7 +40,7 @@ std::vector<NightlySeries> memory_series(const StudyTrend& trend, const Regressi
 /// Levels (see level_of) at the last step of each method.
 std::vector<NightlySeries> accuracy_series(const StudyTrend& trend, const RegressionRules& rules);
 
-/// The nightly runs before this one that were good and on the same machine, the last ones.
+/// The nightly runs before this one that passed and were on the same machine, the last ones.
 std::vector<std::size_t> usual_nightly_runs(const StudyTrend& trend, const RegressionRules& rules);
 
 }  // namespace mapproof

@@ -19,7 +19,7 @@ namespace mapproof {
 // written alone.
 
 /// What a nightly run is called: verdict_word().
-enum class NightlyWord { kGood, kCost, kAccuracy, kNotCompared };
+enum class NightlyWord { kPassed, kCost, kAccuracy, kNotCompared };
 
 inline std::string_view name(NightlyWord word) {
   return word == NightlyWord::kNotCompared ? verdict_word({})
@@ -72,7 +72,7 @@ void nightly_fields(Visitor& v, NightlyFile& nightly_run) {
   v.field("reference", facts.reference,
           {.description = "The nightly run it was compared with.", .minimum = 0});
   v.field("pinned", facts.pinned);
-  NightlyWord word = facts.verdict == NightlyVerdict::kGood && !facts.reference
+  NightlyWord word = facts.verdict == NightlyVerdict::kPassed && !facts.reference
                          ? NightlyWord::kNotCompared
                          : static_cast<NightlyWord>(facts.verdict);
   v.field("verdict", word);

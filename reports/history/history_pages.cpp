@@ -31,7 +31,7 @@ Cell number(double value, int decimals) {
 
 std::string words_of(const NightlyFacts& nightly_run) {
   switch (nightly_run.verdict) {
-    case NightlyVerdict::kGood:
+    case NightlyVerdict::kPassed:
       return std::string(verdict_word(nightly_run));
     case NightlyVerdict::kCost:
       return "slower or larger";
@@ -220,7 +220,7 @@ Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
                              : links.folder(nightly_run.number);
     // What got worse is marked by weight as well, not by its text alone.
     const Emphasis weight =
-        nightly_run.verdict == NightlyVerdict::kGood ? Emphasis::kPlain : Emphasis::kStrong;
+        nightly_run.verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
     const Cell against =
         nightly_run.reference ? Cell{number(*nightly_run.reference, 0)} : Cell{MissingCell{}};
     table.rows.push_back(

@@ -220,7 +220,7 @@ std::optional<int> reference_nightly_run(HistoryStore& store, const NightlyRun& 
   for (const NightlyFacts& nightly_run : nightly_runs)
     if (nightly_run.pinned) return nightly_run.number;
   for (auto nightly_run = nightly_runs.rbegin(); nightly_run != nightly_runs.rend(); ++nightly_run)
-    if (nightly_run->verdict == NightlyVerdict::kGood &&
+    if (nightly_run->verdict == NightlyVerdict::kPassed &&
         can_be_compared(store, nightly_run->number, this_run))
       return nightly_run->number;
   return std::nullopt;

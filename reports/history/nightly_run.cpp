@@ -15,7 +15,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array kVerdictNames = {std::pair(NightlyVerdict::kGood, "good"),
+constexpr std::array kVerdictNames = {std::pair(NightlyVerdict::kPassed, "passed"),
                                       std::pair(NightlyVerdict::kCost, "cost"),
                                       std::pair(NightlyVerdict::kAccuracy, "accuracy")};
 
@@ -82,14 +82,14 @@ NightlyVerdict verdict_of(HistoryRule rule) {
 }
 
 NightlyVerdict verdict_of(const std::vector<NightlyFinding>& findings) {
-  NightlyVerdict verdict = NightlyVerdict::kGood;
+  NightlyVerdict verdict = NightlyVerdict::kPassed;
   for (const NightlyFinding& finding : findings)
     verdict = std::max(verdict, verdict_of(finding.rule));
   return verdict;
 }
 
 std::string_view verdict_word(const NightlyFacts& nightly_run) {
-  const bool unjudged = nightly_run.verdict == NightlyVerdict::kGood && !nightly_run.reference;
+  const bool unjudged = nightly_run.verdict == NightlyVerdict::kPassed && !nightly_run.reference;
   return unjudged ? "not compared" : name(nightly_run.verdict);
 }
 

@@ -66,12 +66,12 @@ struct NightlyStudy {
 
 /// What is wrong with a nightly run, in order of weight.
 enum class NightlyVerdict {
-  kGood,
+  kPassed,
   kCost,      ///< Only seconds or memory grew.
   kAccuracy,  ///< Accuracy got worse.
 };
 
-/// "good", "cost", "accuracy".
+/// "passed", "cost", "accuracy".
 std::string_view name(NightlyVerdict verdict);
 std::optional<NightlyVerdict> nightly_verdict_named(std::string_view name);
 
@@ -117,7 +117,7 @@ struct NightlyFacts {
   int jobs = 0;
   std::optional<int> reference = {};  ///< The nightly run it was compared with.
   bool pinned = false;
-  NightlyVerdict verdict = NightlyVerdict::kGood;
+  NightlyVerdict verdict = NightlyVerdict::kPassed;
 };
 
 /// The verdict in a word: its name, but "not compared" where nothing got worse because there was
@@ -134,8 +134,8 @@ struct NightlyRun {
   std::vector<NightlyFinding> findings = {};
 };
 
-/// One study over the nightly runs that had the same order, oldest first, this nightly run last:
-/// what trends and change points are taken from.
+/// One study over the nightly runs with the same experiment, profile and seed, oldest first, this
+/// nightly run last: what trends and change points are taken from.
 struct StudyTrend {
   std::string name = {};
   Quantities quantities = {};

@@ -11,7 +11,7 @@ namespace mapproof {
 namespace {
 
 /// @param before  Put before each sentence.
-void tell(std::span<const NightlyFinding> findings, const std::string& study,
+void add_findings(std::span<const NightlyFinding> findings, const std::string& study,
           const std::string& before, Standing& standing) {
   std::size_t count = 0;
   for (const NightlyFinding& finding : findings)
@@ -37,7 +37,7 @@ std::vector<std::string> studies_of(std::span<const NightlyFinding> findings) {
 std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings) {
   const std::string count = counted(static_cast<long long>(findings), "finding");
   switch (nightly_run.verdict) {
-    case NightlyVerdict::kGood:
+    case NightlyVerdict::kPassed:
       return nightly_run.reference
                  ? fmt::format("Nothing got worse than in nightly run {}.", *nightly_run.reference)
                  : "Not compared: no nightly run to compare with has the same settings.";
@@ -51,7 +51,7 @@ std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findin
 Standing study_standing(const NightlyFacts& nightly_run, std::span<const NightlyFinding> findings,
                         const std::string& study, bool is_compared) {
   Standing result;
-  tell(findings, study, "", result);
+  add_findings(findings, study, "", result);
   const auto count = std::ranges::count(findings, study, &NightlyFinding::study);
   result.worse = count > 0;
   const std::string this_run = fmt::format("Nightly run {}: ", nightly_run.number);
@@ -68,7 +68,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Nightly
 Standing nightly_standing(const NightlyFacts& nightly_run,
                           std::span<const NightlyFinding> findings) {
   Standing result;
-  for (const std::string& study : studies_of(findings)) tell(findings, study, study + ": ", result);
+  for (const std::string& study : studies_of(findings)) add_findings(findings, study, study + ": ", result);
   result.worse = !findings.empty();
   std::string verdict = lower_case(verdict_sentence(nightly_run, findings.size()));
   verdict.pop_back();  // A title has no full stop.

@@ -22,8 +22,9 @@ struct RegressionRules {
   int least_units = 3;    ///< With fewer pairs a series is judged over nightly runs.
   int least_layouts = 6;  ///< With as many or more, their means are the units.
   int least_lost = 3;     ///< Lost results of a series; fewer count if all are lost.
-  double least_lost_share = 0.25;   ///< Of its results.
-  int least_good_nightly_runs = 4;  ///< Seconds and memory: nightly runs that define what is usual.
+  double least_lost_share = 0.25;  ///< Of its results.
+  int least_passing_nightly_runs =
+      4;                            ///< Seconds and memory: nightly runs that define what is usual.
   int most_good_nightly_runs = 20;  ///< At most, the last ones.
   int least_drift_nightly_runs = 12;  ///< Change points are searched from so many nightly runs on.
 };

@@ -158,10 +158,11 @@ DROP INDEX findings_by_night;
 CREATE INDEX findings_by_nightly_run ON findings(nightly_run);
 )";
 
-/// Studies of a topic and the digests of experiments had other names.
+/// Studies of a topic, the digests of experiments and runs that passed had other names.
 constexpr const char* kVersion6 = R"(
 ALTER TABLE studies RENAME COLUMN order_digest TO experiment_digest;
 UPDATE studies SET kind = 'mapproof.topic_study' WHERE kind = 'mapproof.trial_study';
+UPDATE nightly_runs SET verdict = 'passed' WHERE verdict = 'good';
 )";
 
 constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5, kVersion6};

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/model/method.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 
 namespace mapproof {
 namespace {

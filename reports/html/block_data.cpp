@@ -54,7 +54,7 @@ data heading_data(const Table& table, std::size_t index, bool two_rows) {
   data out;
   out.set("title", column.title);
   out.set("unit", text_or_false(column.unit));
-  out.set("hint", text_or_false(column.hint));
+  out.set("tooltip", text_or_false(column.tooltip));
   out.set("index", fmt::format("{}", index));
   out.set("text", holds_text(table, index));
   out.set("group", false);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
 
 namespace mapproof {
@@ -86,25 +87,12 @@ std::string displayable(const std::string& text) {
 std::string html_escaped(const std::string& text) {
   std::string out;
   for (const char c : displayable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      case '\'':
-        out += "&#39;";
-        break;
-      default:
-        out += c;
-    }
+    if (const std::string_view reference = markup_reference(c); !reference.empty())
+      out += reference;
+    else if (c == '\'')
+      out += "&#39;";
+    else
+      out += c;
   }
   return out;
 }

@@ -81,9 +81,9 @@ using Cell = std::variant<TextCell, NumberCell, IntervalCell, MissingCell>;
 
 struct Column {
   std::string title;
-  std::string unit;   ///< "m"; empty if none.
-  std::string group;  ///< Neighbouring columns of one group share a heading; empty if none.
-  std::string hint;   ///< One sentence on what the column holds; may be empty.
+  std::string unit;     ///< "m"; empty if none.
+  std::string group;    ///< Neighbouring columns of one group share a heading; empty if none.
+  std::string tooltip;  ///< One sentence on what the column holds; may be empty.
 };
 
 struct Row {

@@ -48,13 +48,13 @@ std::string when_words(const AssociationFinding& finding, const DetectionLog& lo
 std::string described(const AssociationFinding& finding, const DetectionLog& log) {
   const std::string what =
       finding.fault == AssociationFault::kSwapped
-          ? fmt::format("{} and {} look swapped{}", shown_name(log, finding.first),
+          ? fmt::format("IDs of {} and {} swapped{}", shown_name(log, finding.first),
                         shown_name(log, finding.second),
                         finding.scattered || finding.in_part ? " in single scans" : "")
       : finding.fault == AssociationFault::kWrong
-          ? fmt::format("{} looks like {}{}", shown_name(log, finding.first),
+          ? fmt::format("{} has the ID of {}{}", shown_name(log, finding.first),
                         shown_name(log, finding.second), finding.in_part ? " in single scans" : "")
-          : fmt::format("some of {} look like {}", shown_name(log, finding.first),
+          : fmt::format("some of {} have the ID of {}", shown_name(log, finding.first),
                         shown_name(log, finding.second));
   return fmt::format("{} {} ({}): loss {:.3f} -> {:.3f} m", what, when_words(finding, log),
                      counted(finding.detections, "detection"), finding.loss_before_m,
@@ -72,7 +72,7 @@ std::string described(const MovedLandmark& moved, const DetectionLog& log) {
 
 std::string described(const AnchorExchange& exchange, const DetectionLog& log) {
   return fmt::format(
-      "{} and {} look swapped in all detections: known positions missed by {:.3f} m, then by "
+      "IDs of {} and {} swapped in all detections: known positions missed by {:.3f} m, then by "
       "{:.3f} m",
       shown_name(log, exchange.first), shown_name(log, exchange.second), exchange.misfit_before_m,
       exchange.misfit_after_m);

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/model/slam.hpp"
+#include "core/model/certificate.hpp"
 #include "core/model/study.hpp"
 #include "reports/model/report.hpp"
 

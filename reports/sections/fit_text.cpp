@@ -8,7 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -211,7 +211,7 @@ Section input_section(const MapReportInput& input) {
 }
 
 Section statuses(const MapRecord& record) {
-  Section section{"statuses", "Warnings and failures", {}};
+  Section section{"warnings", "Warnings and failures", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("None."));
     return section;

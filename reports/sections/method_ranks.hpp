@@ -11,6 +11,9 @@
 
 namespace mapproof {
 
+/// The level of significance of comparisons of methods: of their ranks and paired differences.
+inline constexpr double kSignificanceOfMethods = 0.05;
+
 /// The methods of one sensor ranked by MPE, each at its best parameter; layouts are the units,
 /// since runs in one layout are not independent. What a critical-difference diagram shows.
 struct MethodRanks {
@@ -21,12 +24,13 @@ struct MethodRanks {
       mpe_m;  ///< One row per layout, one column per method; mean over poses that all have.
 
   std::optional<FriedmanTest> test;  ///< Empty with fewer than two layouts or methods.
-  double alpha = 0.05;
+  double alpha = kSignificanceOfMethods;
   double critical_difference = 0.0;     ///< Nemenyi's, of mean ranks; 0 without a test.
   std::vector<std::vector<int>> alike;  ///< Groups of `methods`, as alike_groups() gives them.
 };
 
-MethodRanks method_ranks(const Study& study, const SensorStudy& sensor, double alpha = 0.05);
+MethodRanks method_ranks(const Study& study, const SensorStudy& sensor,
+                         double alpha = kSignificanceOfMethods);
 
 /// "One method has a lower MPE than another", compared with the runs.
 struct OrderingClaim {

@@ -240,7 +240,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
 Section statuses_section(const Study& study) {
   const StudyCounts counts = count(study);
   Section section;
-  section.id = "statuses";
+  section.id = "warnings";
   section.title = "Warnings and failures";
   StatusList list = status_list(study);
   if (list.items.empty() && counts.unscored == 0) {

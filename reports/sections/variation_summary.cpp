@@ -35,7 +35,7 @@ Shown shown(const Variation& variation) {
     case Factor::kSmacofKnnFall:
       return {"relative fall of the stress at which SMACOF stops"};
     case Factor::kOnlySeenTogether:
-      return {"neighbours (0: any pair, 1: pairs seen together alone)"};
+      return {"neighbours (0: any pair, 1: only covisible pairs)"};
     case Factor::kSide:
     case Factor::kLandmarks:
     case Factor::kDiameter:

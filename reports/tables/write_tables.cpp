@@ -12,6 +12,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/csv.hpp"
+#include "core/base/text/markup.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "reports/model/format.hpp"
 
@@ -177,16 +178,11 @@ std::string group_line(const Table& table) {
 std::string escaped_markdown(const std::string& text) {
   std::string out;
   for (const char c : displayable(text)) {
+    if (const std::string_view reference = markup_reference(c); c != '"' && !reference.empty()) {
+      out += reference;
+      continue;
+    }
     switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
       case '\n':
         out += "<br>";
         break;

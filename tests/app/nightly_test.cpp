@@ -144,7 +144,7 @@ TEST(Nightly, RefusesANightlyRunToCompareWithThatMadeSomethingElseBeforeAnyWork)
   EXPECT_EQ(lines_with(outcome.error, "--reference: nightly run 1"), 1U) << outcome.error;
   EXPECT_FALSE(fs::exists(store / "nightly_runs/0002"));
   EXPECT_EQ(nightly_run(store, {"--reference", "1"}).exit_code, 0)
-      << "the same order can be compared";
+      << "the same experiment can be compared";
 }
 
 TEST(Nightly, ThatHasNoNightlyRunToCompareWithIsNotCalledGood) {

@@ -104,6 +104,23 @@ TEST(RetiredNames, OfFormatsAreRefusedWithTheNewName) {
   }
 }
 
+TEST(RetiredNames, OfColumnsAreRefusedWithTheNewName) {
+  const test::TemporaryFolder folder;
+  ASSERT_FALSE(retired(NameKind::kColumn).empty());
+  for (const RetiredName& column : retired(NameKind::kColumn)) {
+    const std::string file = folder.file(
+        "map.csv", "name,x_m,y_m,true_x_m,true_y_m,error_m," + std::string(column.name) +
+                       "\r\na,0,0,0,0,0,0\r\nb,1,0,1,0,0,0\r\nc,0,1,0,1,0,0\r\n");
+    const test::Outcome outcome = test::mapproof({"validate", file});
+    EXPECT_EQ(outcome.exit_code, 1);
+    const std::string said = outcome.out + outcome.error;
+    EXPECT_NE(said.find("the column \"" + std::string(column.name) + "\" is now called \"" +
+                        std::string(column.now) + "\""),
+              std::string::npos)
+        << said;
+  }
+}
+
 TEST(RetiredNames, GroundTruthHasItsShortName) {
   for (const char* command : {"map", "slam"})
     EXPECT_NE(test::mapproof({command, "--help"}).out.find("--ground-truth, --truth FILE"),

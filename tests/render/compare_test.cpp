@@ -8,7 +8,7 @@
 #include "render/image/png_read.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/images/baselines.hpp"
-#include "tests/support/images/image_comparison.hpp"
+#include "tests/support/images/image_difference.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -33,11 +33,11 @@ Image shifted(const Image& image, int by) {
   return moved;
 }
 
-bool alike(const Image& a, const Image& b) { return is_alike(compare_images(a, b)); }
+bool alike(const Image& a, const Image& b) { return is_alike(image_difference(a, b)); }
 
 TEST(ImageComparison, ADrawingIsLikeItself) {
   const ImageDifference difference =
-      compare_images(drawn(map_to_compare()), drawn(map_to_compare()));
+      image_difference(drawn(map_to_compare()), drawn(map_to_compare()));
   EXPECT_TRUE(difference.same_size);
   EXPECT_EQ(difference.changed_share, 0.0);
   EXPECT_EQ(difference.structure, 1.0);

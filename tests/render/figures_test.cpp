@@ -7,8 +7,8 @@
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
 #include "render/figures/maps/pair_distances.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
-#include "render/figures/words.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {

@@ -19,12 +19,12 @@ TEST(AssociationSentences, SayWhenAndHowOften) {
                              .loss_before_m = 0.41,
                              .loss_after_m = 0.13};
   EXPECT_EQ(described(finding, log),
-            "A and C look swapped from step 5 on (6 detections): loss 0.410 -> 0.130 m");
+            "IDs of A and C swapped from step 5 on (6 detections): loss 0.410 -> 0.130 m");
 }
 
 TEST(AssociationSentences, SayByHowMuchKnownPositionsWereMissed) {
   EXPECT_EQ(described(AnchorExchange{0, 2, 1.93, 0.12}, ten_scans()),
-            "A and C look swapped in all detections: known positions missed by 1.930 m, then by "
+            "IDs of A and C swapped in all detections: known positions missed by 1.930 m, then by "
             "0.120 m");
 }
 

@@ -68,10 +68,10 @@ TEST(ProvenanceSection, SaysWhichMethodTakesMostOfTheTime) {
   for (Timing& timing : timings)
     timing.seconds = timing.setting.method == Method::kSmacof ? 3.0 : 1e-6;
   const Section section = provenance_section(study, {}, timings, "");
-  EXPECT_TRUE(says(section, "SMACOF, equal weights takes the largest share of the time: 100 %"))
+  EXPECT_TRUE(contains_text(section, "SMACOF, equal weights takes the largest share of the time: 100 %"))
       << test::words(section);
   for (Timing& timing : timings) timing.seconds = 1e-6;
-  EXPECT_FALSE(says(provenance_section(study, {}, timings, ""), "largest share"));
+  EXPECT_FALSE(contains_text(provenance_section(study, {}, timings, ""), "largest share"));
 }
 
 TEST(CertificatesSection, IsLeftOutWithoutASemidefiniteProgram) {
@@ -99,11 +99,11 @@ TEST(CertificatesSection, CountsWhatIsCertifiedAndNamesTheWorstRecord) {
   records[3].certificate->constraint_residual = 0.78;
   const auto section = certificates_section(study);
   ASSERT_TRUE(section);
-  EXPECT_TRUE(says(*section,
+  EXPECT_TRUE(contains_text(*section,
                    "4 programs solved, 3 by interior point (ours) and 1 by low rank "
                    "(ours)"))
       << test::words(*section);
-  EXPECT_TRUE(says(*section, "within 1e-06: 1 of them")) << test::words(*section);
+  EXPECT_TRUE(contains_text(*section, "within 1e-06: 1 of them")) << test::words(*section);
   const Table& table = table_named(*section, "certificates");
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "3.0e-04");
@@ -113,10 +113,10 @@ TEST(CertificatesSection, CountsWhatIsCertifiedAndNamesTheWorstRecord) {
 
 TEST(CertificateSection, SaysWhetherTheMapIsCertifiedAndWhenNoPointsHaveTheDistances) {
   const Certificate certified{SdpSolver::kInteriorPoint, 10.0, 10.0, 0.0, 0.0};
-  EXPECT_TRUE(says(certificate_section(certified), "No other map"));
+  EXPECT_TRUE(contains_text(certificate_section(certified), "No other map"));
   Certificate bad = certified;
   bad.constraint_residual = 0.1;
-  EXPECT_TRUE(says(certificate_section(bad), "not certified"));
+  EXPECT_TRUE(contains_text(certificate_section(bad), "not certified"));
   bad.dual = -5e16;
   bool said = false;
   for (const Block& block : certificate_section(bad).blocks)

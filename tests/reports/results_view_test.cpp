@@ -9,7 +9,6 @@
 #include "core/statistics/paired_change.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
-#include "reports/sections/results/results_heat_maps.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/tables/write_tables.hpp"
 

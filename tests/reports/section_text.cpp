@@ -29,7 +29,7 @@ std::string words(const Section& section) {
   return text;
 }
 
-bool says(const Section& section, const std::string& what) {
+bool contains_text(const Section& section, const std::string& what) {
   return words(section).find(what) != std::string::npos;
 }
 

@@ -13,6 +13,6 @@ const Table& table_named(const Section& section, std::string_view id);
 /// Every word of a section, for what is said rather than where.
 std::string words(const Section& section);
 
-bool says(const Section& section, const std::string& what);
+bool contains_text(const Section& section, const std::string& what);
 
 }  // namespace mapproof::test

@@ -1,5 +1,4 @@
 #include "reports/sections/slam/slam_report.hpp"
-#include "reports/sections/slam/slam_sections.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 
 #include <algorithm>
@@ -83,7 +82,7 @@ TEST(SlamReport, TellsTheErrorsOfAFlightInSpaceAndItsStatuses) {
   ASSERT_EQ(table.rows.size(), 2U);
   EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 0.05);
   EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[1].cells[1]));
-  const auto statuses = std::ranges::find(sections, "slam-statuses", &Section::id);
+  const auto statuses = std::ranges::find(sections, "slam-warnings", &Section::id);
   const auto& list = std::get<StatusList>(statuses->blocks.back());
   EXPECT_TRUE(std::ranges::any_of(list.items, [](const StatusList::Item& item) {
     return item.where == "in space, no landmark known" && item.code == "undetermined";
@@ -122,7 +121,7 @@ TEST(SlamSections, StandInOrderAndBesideThoseOfTheOtherPaper) {
       ids_of(report.sections),
       (std::vector<std::string>{"slam-summary", "slam-accuracy", "slam-run-plaza-1",
                                 "slam-run-plaza-2", "slam-simulation", "slam-histories",
-                                "slam-space", "slam-cost", "slam-statuses", "slam-provenance"}));
+                                "slam-space", "slam-cost", "slam-warnings", "slam-provenance"}));
   EXPECT_NO_THROW(check(report));
   const Study other = test::synthetic_study(2, 1);
   const StudyFigures other_figures = test::synthetic_figures(other);
@@ -139,24 +138,24 @@ TEST(SlamSummary, BeginsWithWhatIsMissingAndHowToGetIt) {
   const auto* callout = std::get_if<Callout>(&section.blocks.front());
   ASSERT_NE(callout, nullptr);
   EXPECT_EQ(callout->tone, Callout::Tone::kWarning);
-  EXPECT_TRUE(says(section, "give their folder with --plaza"));
+  EXPECT_TRUE(contains_text(section, "give their folder with --plaza"));
   EXPECT_EQ(std::get_if<Callout>(&slam_summary_section(sample_slam_study()).blocks.front()),
             nullptr);
 }
 
 TEST(SlamSummary, FindsErrorsWithTheirAlignmentScaleAndStarts) {
   const Section section = slam_summary_section(sample_slam_study());
-  EXPECT_TRUE(says(section,
+  EXPECT_TRUE(contains_text(section,
                    "Plaza 1: mean position error 0.12 m for refined, scale free (rigid), "
                    "0.41 m for spectral, 4-D (rigid)"))
       << words(section);
-  EXPECT_TRUE(says(section, "dead reckoning (unaligned)"));
-  EXPECT_TRUE(says(section, "Its ranges are 6.6 % too long"));
-  EXPECT_TRUE(says(section,
+  EXPECT_TRUE(contains_text(section, "dead reckoning (unaligned)"));
+  EXPECT_TRUE(contains_text(section, "Its ranges are 6.6 % too long"));
+  EXPECT_TRUE(contains_text(section,
                    "1 of 1 from the spectral answer, 1 of 1 from dead reckoning and 11 of "
                    "12 from random landmarks"));
-  EXPECT_TRUE(says(section, "to the power \u22120.50"));
-  EXPECT_TRUE(says(section, "Fig. 2A is a photograph"));
+  EXPECT_TRUE(contains_text(section, "to the power \u22120.50"));
+  EXPECT_TRUE(contains_text(section, "Fig. 2A is a photograph"));
 }
 
 std::string words(const Opening& opening) {
@@ -262,7 +261,7 @@ TEST(SlamSimulationSection, TellsTheMisprintOfEquationFive) {
   const SlamStudy study = sample_slam_study();
   const StudyFigures figures = slam_figures(study, {});
   const Section section = slam_simulation_section(study, &figures.groups[0]).value();
-  EXPECT_TRUE(says(section, "\u00D5(1/\u03B6\u00B2)")) << words(section);
+  EXPECT_TRUE(contains_text(section, "\u00D5(1/\u03B6\u00B2)")) << words(section);
   const Table& table = table_named(section, "slam-convergence");
   EXPECT_EQ(table.rows.size(), 14u);
   EXPECT_EQ(std::get<NumberCell>(table.rows[0].cells[1]).value, 300.0);
@@ -289,7 +288,7 @@ TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
 TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {
   const SlamStudy study = sample_slam_study();
   const auto sections = sections_of(study, test::sample_slam_timings());
-  EXPECT_TRUE(says(sections[2], "Heading increments of the table DR are the ground truth\u2019s"));
+  EXPECT_TRUE(contains_text(sections[2], "Heading increments of the table DR are the ground truth\u2019s"));
   const Table& seconds = table_named(sections[7], "slam-seconds");
   EXPECT_EQ(seconds.rows.size(), 3u);
   EXPECT_TRUE(seconds.caption.ends_with("(varies)"));
@@ -302,7 +301,7 @@ TEST(SlamReport, OfNothingIsAReport) {
   const Report report = slam_report({study, {}, timings, figures, ""});
   EXPECT_NO_THROW(check(report));
   EXPECT_EQ(ids_of(report.sections),
-            (std::vector<std::string>{"slam-summary", "slam-statuses", "slam-provenance"}));
+            (std::vector<std::string>{"slam-summary", "slam-warnings", "slam-provenance"}));
 }
 
 }  // namespace

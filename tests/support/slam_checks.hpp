@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/model/status.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 

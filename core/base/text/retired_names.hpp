@@ -10,6 +10,7 @@ enum class NameKind {
   kOption,      ///< Of the command line: "--kind", of one command alone: "diff --out".
   kValue,       ///< Of an option: a strategy.
   kKey,         ///< Of a JSON file: "landmarks".
+  kColumn,      ///< Of a table that mapproof writes: "ellipse_rotation_deg" of a map.
   kFormat,      ///< Of a JSON file, the name of its schema: "mapproof.map".
   kExperiment,  ///< That `reproduce` knows: "labels".
 };

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/graph/neighbours.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/certificate.hpp"
 
 namespace mapproof::unfolding {
 

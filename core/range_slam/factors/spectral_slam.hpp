@@ -8,7 +8,7 @@
 
 #include "core/model/points.hpp"
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/range_slam/factors/factorization.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
 #include "core/range_slam/factors/spectral_map.hpp"

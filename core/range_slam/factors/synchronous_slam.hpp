@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/range_slam/factors/metric_upgrade.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/range_slam/known_landmarks.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/model/points.hpp"
 #include "core/model/range_log.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/model/status.hpp"
 
 namespace mapproof {

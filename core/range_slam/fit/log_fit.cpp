@@ -124,7 +124,7 @@ class LogTester {
   SlamEstimate estimate_of(const LogProblem& problem, const LogProblem::Fit& fit) const;
   std::array<bool, 4> given() const {
     const GivenNoise& noise = options_.noise;
-    return {noise.way_m > 0.0, noise.turn_per_metre > 0.0, noise.turn_per_radian > 0.0,
+    return {noise.way_m > 0.0, noise.heading_per_metre > 0.0, noise.heading_per_radian > 0.0,
             noise.range_m > 0.0};
   }
   std::string named(Index landmark) const {
@@ -193,8 +193,8 @@ LogNoise LogTester::first_noise(const LogProblem& problem, const LogState& start
   const GivenNoise& given = options_.noise;
   if (given.range_m > 0.0) noise.range_m = given.range_m;
   if (given.way_m > 0.0) noise.way_m = given.way_m;
-  if (given.turn_per_metre > 0.0) noise.turn_per_metre = given.turn_per_metre;
-  if (given.turn_per_radian > 0.0) noise.turn_per_radian = given.turn_per_radian;
+  if (given.heading_per_metre > 0.0) noise.heading_per_metre = given.heading_per_metre;
+  if (given.heading_per_radian > 0.0) noise.heading_per_radian = given.heading_per_radian;
   return noise;
 }
 
@@ -827,7 +827,7 @@ LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
                         {"fit_outliers_percent", 100.0 * plain_.noise.outlier_share},
                         {"fit_range_sigma_m", plain_.noise.range_m},
                         {"fit_forward_sigma_m", plain_.noise.way_m},
-                        {"fit_heading_change_sigma_rad", plain_.noise.turn_per_metre}};
+                        {"fit_heading_change_sigma_rad", plain_.noise.heading_per_metre}};
   if (!options_.only_tests) finish(result);
   return result;
 }

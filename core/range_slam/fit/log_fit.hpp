@@ -5,7 +5,7 @@
 
 #include "core/model/fit.hpp"
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/range_slam/fit/log_problem.hpp"
 #include "core/range_slam/known_landmarks.hpp"
 
@@ -14,9 +14,9 @@ namespace mapproof {
 /// Noise that is given rather than estimated; 0: estimated.
 struct GivenNoise {
   double range_m = 0.0;
-  double way_m = 0.0;            ///< Of odometry after 1 m.
-  double turn_per_metre = 0.0;   ///< Of the heading after 1 m, rad.
-  double turn_per_radian = 0.0;  ///< After turning by 1 rad, rad.
+  double way_m = 0.0;               ///< Of odometry after 1 m.
+  double heading_per_metre = 0.0;   ///< Of the heading after 1 m, rad.
+  double heading_per_radian = 0.0;  ///< After turning by 1 rad, rad.
 };
 
 struct LogFitOptions {

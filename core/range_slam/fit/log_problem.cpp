@@ -88,8 +88,8 @@ MotionError error_of(const Eigen::Vector3d& step, const Eigen::Vector3d& first,
 
 /// Of the way, and of the heading per metre and per radian.
 Eigen::Array3d variances_of(const LogNoise& noise) {
-  return {noise.way_m * noise.way_m, noise.turn_per_metre * noise.turn_per_metre,
-          noise.turn_per_radian * noise.turn_per_radian};
+  return {noise.way_m * noise.way_m, noise.heading_per_metre * noise.heading_per_metre,
+          noise.heading_per_radian * noise.heading_per_radian};
 }
 
 }  // namespace
@@ -202,8 +202,9 @@ LogProblem::Motion LogProblem::motion_between(Index first, Index last,
 
 Eigen::Matrix3d LogProblem::motion_covariance(const Motion& motion, const LogNoise& noise) const {
   return noise.way_m * noise.way_m * motion.way +
-         noise.turn_per_metre * noise.turn_per_metre * motion.per_metre +
-         noise.turn_per_radian * noise.turn_per_radian * motion.per_radian + motion.given + floor_;
+         noise.heading_per_metre * noise.heading_per_metre * motion.per_metre +
+         noise.heading_per_radian * noise.heading_per_radian * motion.per_radian + motion.given +
+         floor_;
 }
 
 std::vector<Eigen::Vector3d> LogProblem::poses_of(const Trajectory& path) const {
@@ -486,7 +487,7 @@ bool LogProblem::update_noise(const LogHypothesis& hypothesis, const Columns& co
     return sigma * std::sqrt(std::clamp(factor, 1.0 / kMostGrowth, kMostGrowth));
   };
   const Eigen::Array3d weight = variances_of(noise);
-  double* sigmas[] = {&noise.way_m, &noise.turn_per_metre, &noise.turn_per_radian};
+  double* sigmas[] = {&noise.way_m, &noise.heading_per_metre, &noise.heading_per_radian};
   for (int k = 0; k < 3; ++k)
     if (sums.due(k) > 0.0 && weight(k) > 0.0 && !given_[static_cast<std::size_t>(k)])
       *sigmas[k] = grown(*sigmas[k], sums.seen(k) / sums.due(k));
@@ -592,8 +593,8 @@ LogNoise LogProblem::first_noise(const LogState& start) const {
   }
   way_m = std::max(way_m, 1e-300);
   noise.way_m = kFirstWayError * std::sqrt(way_m);
-  noise.turn_per_metre = kFirstTurnError / std::sqrt(way_m);
-  noise.turn_per_radian = kFirstTurnError / std::sqrt(std::max(turn, 1.0));
+  noise.heading_per_metre = kFirstTurnError / std::sqrt(way_m);
+  noise.heading_per_radian = kFirstTurnError / std::sqrt(std::max(turn, 1.0));
   std::vector<double> sizes;
   for (const Range& range : ranges_)
     if (!range.in_gap) sizes.push_back(std::abs(term_of(range, LogHypothesis{}, start).residual_m));

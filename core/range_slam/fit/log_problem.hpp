@@ -17,12 +17,12 @@ namespace mapproof {
 /// Standard deviations of the errors in a log of odometry and ranges. Those of odometry grow with
 /// the square root of the way, or of the angle turned.
 struct LogNoise {
-  double way_m = 0.0;            ///< Forward and sideways, after 1 m.
-  double turn_per_metre = 0.0;   ///< Of the heading after 1 m, rad.
-  double turn_per_radian = 0.0;  ///< Of the heading after turning by 1 rad, rad.
-  double range_m = 0.0;          ///< Of a range that is not an outlier.
-  double outlier_share = 0.01;   ///< Of the ranges; outliers may have any length up to the longest.
-  double offset_m = 0.0;         ///< Of a constant in a landmark's ranges; 0: none.
+  double way_m = 0.0;               ///< Forward and sideways, after 1 m.
+  double heading_per_metre = 0.0;   ///< Of the heading after 1 m, rad.
+  double heading_per_radian = 0.0;  ///< Of the heading after turning by 1 rad, rad.
+  double range_m = 0.0;             ///< Of a range that is not an outlier.
+  double outlier_share = 0.01;  ///< Of the ranges; outliers may have any length up to the longest.
+  double offset_m = 0.0;        ///< Of a constant in a landmark's ranges; 0: none.
   double range_information = 1.0;  ///< Share of the ranges' information that counts, in (0, 1]:
                                    ///< less than 1 where errors hang together in time.
 };

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/slam_experiment.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_experiment.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/records/experiments/experiment_json.hpp"
 #include "core/records/studies/slam_fields.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/retired_names.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/tables/table_reader.hpp"
 
@@ -44,6 +45,8 @@ class MapReader {
 
   void read_header() {
     for (const std::string_view cell : row_.cells) {
+      if (const std::string_view now = replacement_of(NameKind::kColumn, cell); !now.empty())
+        fail(fmt::format("the column {} is now called {}", in_quotes(cell), in_quotes(now)));
       if (std::ranges::find(kMapColumns, cell) == kMapColumns.end())
         fail("unknown column " + in_quotes(cell));
       if (std::ranges::find(columns_, cell) != columns_.end())

@@ -4,7 +4,7 @@
 
 #include "core/base/files/byte_source.hpp"
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/ranges/range_log_options.hpp"
 #include "core/records/tables/table_reader.hpp"

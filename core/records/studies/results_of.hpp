@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/model/map_record.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/model/topic_study.hpp"
 #include "core/results/results_study.hpp"

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <vector>
 
-#include "core/model/slam.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/records/fit_fields.hpp"
 #include "core/records/text_forms.hpp"
 #include "core/records/value_fields.hpp"

@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "core/base/files/output_folder.hpp"
-#include "core/model/slam.hpp"
-#include "core/model/slam_experiment.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam.hpp"
+#include "core/model/slam/slam_experiment.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/records/studies/study_writer.hpp"
 
 namespace mapproof {

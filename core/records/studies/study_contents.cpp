@@ -7,7 +7,7 @@ namespace mapproof {
 
 namespace fs = std::filesystem;
 
-PlacedPoints placed(const MapRecord& map) {
+AlignedPoints placed(const MapRecord& map) {
   const bool has_frame = !map.anchors.empty() || map.ground_truth_m;
   const bool is_metric = std::holds_alternative<FromPairs>(map.origin) ||
                          std::holds_alternative<FromRanges>(map.origin);
@@ -19,7 +19,7 @@ PlacedPoints placed(const MapRecord& map) {
           .ground_truth = map.ground_truth_m};
 }
 
-PlacedPoints placed_path(const Points& positions_m) {
+AlignedPoints placed_path(const Points& positions_m) {
   return {.quantity = "path_m",
           .frame = Frame::kGroundTruth,
           .names = {},

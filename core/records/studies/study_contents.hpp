@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/model/map_record.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/results/results.hpp"
 #include "core/results/study_labels.hpp"
@@ -16,7 +16,7 @@
 namespace mapproof {
 
 /// Points with names: the landmarks of a map, the positions of a path.
-struct PlacedPoints {
+struct AlignedPoints {
   std::string quantity = "landmark_m";  ///< Quantity::id.
   Frame frame = Frame::kGroundTruth;
   bool is_free =
@@ -42,12 +42,12 @@ struct StudyContents {
   Results results;
   /// Its author chose its groups: they are the units of every test, however few.
   bool draws_groups = false;
-  std::vector<Result> seconds;                 ///< Of its parts: they vary from run to run.
-  std::map<std::string, std::string> runs;     ///< Id of each, and its group; of one that cannot be
-                                               ///< read nothing is known.
-  std::map<std::string, PlacedPoints> worlds;  ///< By run: the true positions.
-  std::map<std::string, std::string> anchors;  ///< By run: their rows, as text.
-  std::map<std::string, PlacedPoints> points;  ///< Maps and paths, by record_name().
+  std::vector<Result> seconds;              ///< Of its parts: they vary from run to run.
+  std::map<std::string, std::string> runs;  ///< Id of each, and its group; of one that cannot be
+                                            ///< read nothing is known.
+  std::map<std::string, AlignedPoints> worlds;  ///< By run: the true positions.
+  std::map<std::string, std::string> anchors;   ///< By run: their rows, as text.
+  std::map<std::string, AlignedPoints> points;  ///< Maps and paths, by record_name().
   std::vector<RecordProblem> problems;
 };
 
@@ -61,8 +61,8 @@ struct ContentsAsked {
 };
 
 /// A map's landmarks; positions on a path.
-PlacedPoints placed(const MapRecord& map);
-PlacedPoints placed_path(const Points& positions_m);
+AlignedPoints placed(const MapRecord& map);
+AlignedPoints placed_path(const Points& positions_m);
 
 /// Adds a log: its path and what each method made of it.
 void add_log(StudyContents& contents, const SlamRun& run);

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/model/topic_study.hpp"
 #include "core/records/studies/slam_fields.hpp"

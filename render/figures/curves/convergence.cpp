@@ -11,8 +11,8 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/log_log.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/layer_shapes.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

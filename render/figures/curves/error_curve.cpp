@@ -10,7 +10,7 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

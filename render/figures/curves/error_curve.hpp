@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/not_finite.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/plot/figure.hpp"
 

@@ -8,8 +8,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "render/base/span.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/layer_shapes.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

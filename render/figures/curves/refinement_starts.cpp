@@ -8,9 +8,9 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

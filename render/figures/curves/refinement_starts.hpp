@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {

@@ -11,10 +11,10 @@
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/diagrams/measurement_geometry.hpp"
+#include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/figures/parts.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
-#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {

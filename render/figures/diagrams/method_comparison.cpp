@@ -10,8 +10,8 @@
 #include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "render/figures/curves/error_lines.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/layer_shapes.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

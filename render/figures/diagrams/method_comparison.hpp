@@ -44,7 +44,7 @@ struct CriticalDifferenceSpec {
   std::string title;
   std::vector<RankedMethod> methods;  ///< In any order.
   double critical_difference = 0.0;   ///< Of mean ranks, Nemenyi's [nemenyi1963].
-  double alpha = 0.05;
+  double alpha = 0.0;
   int units = 0;  ///< That the methods were ranked on.
   std::string unit = "layout";
   double friedman_p = 1.0;  ///< Of no difference at all.

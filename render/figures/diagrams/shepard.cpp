@@ -9,8 +9,8 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/layer_shapes.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/plot/axis_map.hpp"
 
 namespace mapproof {

@@ -8,10 +8,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "render/base/geometry.hpp"
-#include "render/figures/parts.hpp"
+#include "render/figures/layer_shapes.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
-#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -364,13 +364,7 @@ Figure map_figure(const MapRecord& record, const std::string& id, const std::str
 
 Panel map_panel(const MapRecord& record, const std::string& prefix) {
   Panel panel = MapFigure(record, "panel", "").panel();
-  for (Layer& layer : panel.layers)
-    std::visit(
-        [&prefix](auto& one) {
-          if constexpr (requires { one.marks; })
-            for (Mark& mark : one.marks) mark.id = prefix + mark.id;
-        },
-        layer);
+  prefix_mark_ids(panel, prefix);
   return panel;
 }
 

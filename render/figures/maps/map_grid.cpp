@@ -7,8 +7,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/map.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
-#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {

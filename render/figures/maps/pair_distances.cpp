@@ -10,10 +10,10 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
+#include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
-#include "render/figures/parts.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -14,7 +14,7 @@
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -12,11 +12,11 @@
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
+#include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/parts.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/status_text.hpp"
-#include "render/figures/words.hpp"
 
 namespace mapproof {
 namespace {

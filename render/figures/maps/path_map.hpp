@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/plot/axis_map.hpp"
 #include "render/plot/figure.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/plot/figure.hpp"
 
 namespace mapproof {

@@ -49,12 +49,6 @@ struct Rows {
   bool has_heading = false;
 };
 
-std::string trimmed_cell(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
-}
-
 Row cells_of(std::string_view line, char separator) {
   Row cells;
   for (std::size_t at = 0; at <= line.size();) {
@@ -62,7 +56,7 @@ Row cells_of(std::string_view line, char separator) {
     while (end != std::string_view::npos && end > 0 && line[end - 1] == '\\')
       end = line.find(separator, end + 1);
     end = std::min(end, line.size());
-    cells.push_back(trimmed_cell(line.substr(at, end - at)));
+    cells.emplace_back(trimmed(line.substr(at, end - at)));
     at = end + 1;
   }
   return cells;
@@ -122,7 +116,7 @@ class TableComparer {
 
   TableDiff compare() {
     if (a_.rows.size() != b_.rows.size()) {
-      tell("the table", counted(std::ssize(a_.rows), "row"), counted(std::ssize(b_.rows), "row"));
+      report("the table", counted(std::ssize(a_.rows), "row"), counted(std::ssize(b_.rows), "row"));
       return std::move(found_);
     }
     for (std::size_t row = 0; row < a_.rows.size(); ++row) compare_row(row);
@@ -131,7 +125,7 @@ class TableComparer {
   }
 
  private:
-  void tell(const std::string& location, const std::string& before, const std::string& after) {
+  void report(const std::string& location, const std::string& before, const std::string& after) {
     found_.cells.shape = true;
     body_differs_ = true;
     note(location, before, after);
@@ -146,8 +140,8 @@ class TableComparer {
   void compare_row(std::size_t row) {
     const Row &first = a_.rows[row], &second = b_.rows[row];
     if (first.size() != second.size())
-      return tell(fmt::format("row {}", row + 1), counted(std::ssize(first), "cell"),
-                  counted(std::ssize(second), "cell"));
+      return report(fmt::format("row {}", row + 1), counted(std::ssize(first), "cell"),
+                    counted(std::ssize(second), "cell"));
     for (std::size_t i = 0; i < first.size(); ++i) {
       found_.cells.numbers += static_cast<long>(numbers_in(first[i]).size());
       const TextChange change = text_change(first[i], second[i], tolerance_);
@@ -280,9 +274,8 @@ std::string page_words(std::string_view html) {
     }
     const std::size_t next = std::min(html.find('<', at), html.size());
     const std::string_view piece = html.substr(at, next - at);
-    const std::size_t first = piece.find_first_not_of(" \t\r\n");
-    if (first != std::string_view::npos) {
-      words += piece.substr(first, piece.find_last_not_of(" \t\r\n") - first + 1);
+    if (const std::string_view text = trimmed(piece, kWhiteSpace); !text.empty()) {
+      words += text;
       words += '\n';
     }
     at = next;

@@ -44,7 +44,7 @@ double spread_of(const Points& points) {
 }
 
 /// `current` aligned to `baseline`, both in units of the baseline's spread.
-void lay_on(const Points& baseline, Points& current, const std::vector<Eigen::Index>& rows) {
+void align_to(const Points& baseline, Points& current, const std::vector<Eigen::Index>& rows) {
   if (rows.empty()) return;
   const Points to = rows_of(baseline, rows);
   double least = kInfinity;
@@ -68,12 +68,12 @@ struct Errors {
   int count = 0;
 };
 
-std::string name_of(const PlacedPoints& placed, Eigen::Index row) {
+std::string name_of(const AlignedPoints& placed, Eigen::Index row) {
   const auto i = static_cast<std::size_t>(row);
   return i < placed.names.size() ? placed.names[i] : std::to_string(row + 1);
 }
 
-PointMove move_of(const PlacedPoints& a, const Points& before, const Points& after,
+PointMove move_of(const AlignedPoints& a, const Points& before, const Points& after,
                   Eigen::Index row) {
   PointMove move{.name = name_of(a, row),
                  .baseline = {before(row, 0), before(row, 1)},
@@ -115,8 +115,8 @@ void note(PointsDiff& diff, Errors& errors, PointMove move, const Tolerance& tol
   diff.moves.push_back(std::move(move));
 }
 
-PlacedPoints locations(const Points& points) {
-  PlacedPoints placed;
+AlignedPoints locations(const Points& points) {
+  AlignedPoints placed;
   placed.points = points;
   return placed;
 }
@@ -275,14 +275,14 @@ class NumberComparer {
 
 }  // namespace
 
-bool same_positions(const PlacedPoints& a, const PlacedPoints& b, const Tolerances& tolerances) {
+bool same_positions(const AlignedPoints& a, const AlignedPoints& b, const Tolerances& tolerances) {
   if (a.points.rows() != b.points.rows()) return false;
   const std::optional<PointsDiff> diff = points_diff("", a, b, tolerances);
   return !diff || diff->beyond + diff->lost + diff->gained == 0;
 }
 
-std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoints& a,
-                                      const PlacedPoints& b, const Tolerances& tolerances) {
+std::optional<PointsDiff> points_diff(const std::string& record, const AlignedPoints& a,
+                                      const AlignedPoints& b, const Tolerances& tolerances) {
   if (a.names == b.names && a.quantity == b.quantity && equal(a.points, b.points) &&
       a.ground_truth.has_value() == b.ground_truth.has_value() &&
       (!a.ground_truth || equal(*a.ground_truth, *b.ground_truth)))
@@ -308,7 +308,7 @@ std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoi
     after = fit_similarity(rows_of(after, both), rows_of(before, both),
                            Alignment::kRigidWithReflection)(after);
   if (is_shape && !equal(before, after)) {
-    lay_on(before, after, both);
+    align_to(before, after, both);
     const double spread = spread_of(rows_of(before, both));
     if (spread > 0.0) {
       before /= spread;

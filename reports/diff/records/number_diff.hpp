@@ -11,11 +11,11 @@ namespace mapproof {
 /// How far points moved between two sides. Shapes without a frame are first aligned to each other
 /// by translation, rotation, scale and reflection.
 /// @return Empty if every point is equal.
-std::optional<PointsDiff> points_diff(const std::string& record, const PlacedPoints& baseline,
-                                      const PlacedPoints& current, const Tolerances& tolerances);
+std::optional<PointsDiff> points_diff(const std::string& record, const AlignedPoints& baseline,
+                                      const AlignedPoints& current, const Tolerances& tolerances);
 
 /// Whether two sets of true positions are equal within tolerance.
-bool same_positions(const PlacedPoints& baseline, const PlacedPoints& current,
+bool same_positions(const AlignedPoints& baseline, const AlignedPoints& current,
                     const Tolerances& tolerances);
 
 /// Compares every value of two files of records of any kind: JSON by its pointers, other text line

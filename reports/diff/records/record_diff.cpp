@@ -97,7 +97,7 @@ void compare_points(const RecordSet& a, const RecordSet& b, const Tolerances& to
                     RecordDiff& diff) {
   std::vector<std::string> missing, added;
   match(a.points, b.points, missing, added,
-        [&](const std::string& record, const PlacedPoints& before, const PlacedPoints& after) {
+        [&](const std::string& record, const AlignedPoints& before, const AlignedPoints& after) {
           if (auto moved = points_diff(record, before, after, tolerances))
             diff.points.push_back(*std::move(moved));
         });

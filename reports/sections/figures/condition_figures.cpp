@@ -50,7 +50,7 @@ bool has_grids(const Variation& variation) {
 std::string level_title(const Variation& variation, double level) {
   if (variation.factor != Factor::kOnlySeenTogether)
     return fmt::format("{}: {:g}", level_words(variation), shown_level(variation, level));
-  return level > 0.0 ? "pairs seen together alone" : "all pairs";
+  return level > 0.0 ? "only covisible pairs" : "all pairs";
 }
 
 /// "K" where all methods are tuned by it; "parameter" where they differ.

@@ -14,11 +14,11 @@
 #include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
+#include "reports/sections/method_ranks.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr double kAlpha = 0.05;
 /// More methods than these have no legend that a reader could follow.
 constexpr std::size_t kMostRanked = 30;
 
@@ -249,7 +249,7 @@ std::string tally_of(const ResultsView& view, const Quantity& quantity,
 }  // namespace
 
 bool is_significant(const ComparedMethod& method) {
-  return method.change && method.corrected_p < kAlpha;
+  return method.change && method.corrected_p < kSignificanceOfMethods;
 }
 
 std::vector<MethodComparison> compare_methods(const ResultsView& view) {
@@ -303,7 +303,8 @@ bool has_rank_diagram(const MethodComparison& comparison) {
 
 double critical_difference(const MethodComparison& comparison) {
   if (!comparison.ranks) throw InvalidInput("a comparison without ranks");
-  return nemenyi_critical_difference(comparison.ranks->methods, comparison.ranks->units, kAlpha);
+  return nemenyi_critical_difference(comparison.ranks->methods, comparison.ranks->units,
+                                     kSignificanceOfMethods);
 }
 
 std::string disagreement_of(const MethodComparison& comparison, const ResultsView& view) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {

@@ -9,15 +9,15 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/log_log.hpp"
+#include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/maps/path_styles.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/status_text.hpp"
-#include "render/figures/words.hpp"
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
-#include "reports/sections/slam/slam_sections.hpp"
 #include "reports/sections/slam/slam_tables.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/study_report.hpp"
@@ -25,6 +25,163 @@
 
 namespace mapproof {
 namespace {
+
+std::string metres_of(double value) { return significant(value, 2) + " m"; }
+
+/// ".58 m for spectral, 4-D (rigid)"; empty if the method has no error.
+std::string error_words_of(const SlamRun& run, SlamMethod method) {
+  const TrajectoryError* error = error_of(run, method);
+  if (error == nullptr || !std::isfinite(error->mean_m)) return "";
+  return fmt::format("{} for {} ({})", metres_of(error->mean_m), info(method).label,
+                     alignment_words(error->alignment));
+}
+
+/// The mean errors that a reader wants first.
+std::string error_sentence_of(const SlamRun& run) {
+  std::vector<std::string> parts;
+  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral,
+                                  SlamMethod::kSpectralKnown, SlamMethod::kDeadReckoning})
+    if (std::string text = error_words_of(run, method); !text.empty())
+      parts.push_back(std::move(text));
+  return parts.empty() ? "" : listed(parts, 6);
+}
+
+/// The scale error of the ranges, where the refinement determined it.
+std::string scale_words(const SlamRun& run) {
+  const SlamRecord* refined = record_of(run, SlamMethod::kRefined);
+  if (refined == nullptr || refined->estimate.range_scale == 1.0) return "";
+  const double percent = 100.0 * (refined->estimate.range_scale - 1.0);
+  return fmt::format(
+      " Its ranges are {} % too {}, as the refinement estimates from odometry and ranges alone.",
+      significant(std::abs(percent), 2), percent > 0.0 ? "long" : "short");
+}
+
+std::string start_words(const SlamRun& run) {
+  std::vector<std::string> parts;
+  for (const auto& [method, where] :
+       {std::pair{SlamMethod::kRefined, "the spectral answer"},
+        std::pair{SlamMethod::kRefinedFromOdometry, "dead reckoning"},
+        std::pair{SlamMethod::kRefinedFromRandom, "random landmarks"}})
+    if (const StartCount count = starts_at_optimum(run.starts, method); count.of > 0)
+      parts.push_back(fmt::format("{} of {} from {}", count.reached, count.of, where));
+  if (parts.empty()) return "";
+  return " Starts of the refinement that end within 1 % of the least cost: " + listed(parts, 3) +
+         ".";
+}
+
+void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
+  const std::string errors = error_sentence_of(run);
+  std::string text = errors.empty()
+                         ? fmt::format(": {} mapped, no error claimed, there being no true path.",
+                                       counted(std::ssize(run.log.landmarks), "landmark"))
+                         : ": mean position error " + errors + ".";
+  findings.items.push_back(
+      {{strong(title_of(run)), phrase(text + scale_words(run) + start_words(run))}});
+  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral}) {
+    const TrajectoryError* error = error_of(run, method);
+    if (error == nullptr || run.simulated) continue;
+    highlights.items.push_back(
+        {fmt::format("{}, {}", title_of(run), info(method).label), metres_of(error->mean_m),
+         fmt::format("mean position error, {}", alignment_words(error->alignment))});
+  }
+}
+
+/// The errors of landmarks and positions with the most measurements.
+std::string end_words(const ConvergenceCurve& curve) {
+  const ConvergencePoint& last = curve.points.back();
+  if (last.landmarks_m.values == 0) return "";
+  std::string text = fmt::format(" After {} steps the mean error of landmarks is {}", last.steps,
+                                 metres_of(last.landmarks_m.mean));
+  if (last.positions_m.values > 0)
+    text += fmt::format(
+        ", single positions of the robot, which have no more measurements than at the start, {}",
+        metres_of(last.positions_m.mean));
+  return text + ".";
+}
+
+void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& highlights) {
+  if (study.convergence.empty()) return;
+  const ConvergenceCurve& curve = study.convergence.front();
+  const double slope = convergence_slope(curve);
+  if (!std::isfinite(slope)) return;
+  const std::string text = slope_words(slope);
+  highlights.items.push_back(
+      {"Convergence of \u0108, slope", text, "theory: \u22121/2 in the logarithms"});
+  findings.items.push_back(
+      {{strong("Convergence"),
+        phrase(fmt::format(": the error of the observation model changes as the number of "
+                           "measurements to the power {} ({}); theory predicts \u22121/2.{}{}",
+                           text, curve.title, variant_words(study), end_words(curve)))}});
+}
+
+void add_remarks_on_paper(BulletList& findings) {
+  findings.items.push_back(
+      {{strong("The paper\u2019s numbers"),
+        phrase(
+            ": its text prints no errors; it refers to its technical report for them. So there is "
+            "nothing to compare ours with. Fig. 2A is a photograph of the robot: left out.")}});
+}
+
+using RunList = std::vector<const SlamRun*>;
+
+RunList runs_of(const SlamStudy& study, bool simulated) {
+  RunList runs;
+  for (const SlamRun& run : study.runs)
+    if (run.simulated == simulated) runs.push_back(&run);
+  return runs;
+}
+
+/// What the reader of the log did or noticed.
+void add_remarks(const SlamRun& run, Section& section) {
+  if (run.log.remarks.empty()) return;
+  section.blocks.emplace_back(plain("When the log was read:"));
+  BulletList remarks;
+  for (const std::string& remark : run.log.remarks)
+    remarks.items.push_back({{{remark, Emphasis::kData}}});
+  section.blocks.emplace_back(std::move(remarks));
+}
+
+/// The first figure in full width, the others side by side.
+Section section_of(const FigureGroup* figures, std::string id, std::string title) {
+  if (figures == nullptr) return {std::move(id), std::move(title), {}};
+  Section section{figures->id, figures->title, {plain(figures->words)}};
+  section.blocks.emplace_back(figure_block(figures->figures.front()));
+  Gallery others = gallery_of(*figures, 1);
+  if (!others.figures.empty()) section.blocks.emplace_back(std::move(others));
+  return section;
+}
+
+/// Eq. 5 and what the paper's text reads off it.
+Paragraph bound_words(const ConvergenceCurve& curve) {
+  std::vector<double> steps, sines;
+  for (const ConvergencePoint& point : curve.points) {
+    steps.push_back(point.steps);
+    sines.push_back(point.sine.values > 0 ? point.sine.mean : kNaN);
+  }
+  return plain(fmt::format(
+      "Eq. 5 bounds the sine of the largest canonical angle between the learned subspace and the "
+      "true one by N c \u221A(2 log T / T) / \u03B3. The text of the paper concludes a sample "
+      "complexity of \u00D5(\u03B6\u00B2) for an error \u03B6, which would ask for fewer "
+      "measurements the smaller the error: a misprint. Solved for T, the bound gives "
+      "\u00D5(1/\u03B6\u00B2). "
+      "The measured sine changes as the number of measurements to the power {}.",
+      slope_words(log_log_slope(steps, sines))));
+}
+
+/// One log of a real robot.
+Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
+  Section section = section_of(figures, slam_run_group(run), "Range-only SLAM: " + title_of(run));
+  if (run.windows)
+    section.blocks.emplace_back(plain(fmt::format(
+        "Ranges come one at a time: windows of {:.3g} s bring them to common times. Of the lengths "
+        "that "
+        "give ranges at the most times it is the one that best predicts ranges held out, without "
+        "the ground truth.",
+        run.windows->chosen_s)));
+  if (auto landmarks = slam_landmark_table(run)) section.blocks.emplace_back(*std::move(landmarks));
+  add_remarks(run, section);
+  return section;
+}
 
 const FigureGroup* group_of(const StudyFigures& figures, const std::string& id) {
   const auto found = std::ranges::find(figures.groups, id, &FigureGroup::id);
@@ -140,6 +297,64 @@ std::vector<Phrase> errors_of(const SlamRun& run) {
 
 }  // namespace
 
+Section slam_summary_section(const SlamStudy& study) {
+  Section section{"slam-summary", "Range-only SLAM: summary", {}};
+  for (const std::string& missing : study.missing)
+    section.blocks.emplace_back(
+        Callout{Callout::Tone::kWarning, "Data missing", Paragraph{{{missing, Emphasis::kData}}}});
+  BulletList findings;
+  Highlights highlights;
+  for (const SlamRun& run : study.runs)
+    if (!run.simulated) add_run(run, findings, highlights);
+  add_convergence(study, findings, highlights);
+  for (const SlamRun& run : study.runs)
+    if (run.simulated) add_run(run, findings, highlights);
+  if (is_of_paper(study)) add_remarks_on_paper(findings);
+  section.blocks.emplace_back(plain(
+      "Path of a robot and positions of landmarks from ranges, and odometry where there is any. "
+      "Squared ranges factor into landmarks and positions; least squares refines both."));
+  if (!highlights.items.empty()) section.blocks.emplace_back(std::move(highlights));
+  section.blocks.emplace_back(std::move(findings));
+  return section;
+}
+
+std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
+  const RunList runs = runs_of(study, false);
+  if (runs.empty()) return std::nullopt;
+  Section section{"slam-accuracy", "Range-only SLAM: methods", {}};
+  section.blocks.emplace_back(slam_drive_table(runs));
+  Table errors = is_of_paper(study)
+                     ? slam_error_table("table-plaza", "Methods on the Plaza data sets", runs)
+                     : slam_error_table("slam-errors", "Methods", runs);
+  if (is_of_paper(study))
+    errors.notes.emplace_back(
+        "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
+        "any.");
+  section.blocks.emplace_back(std::move(errors));
+  if (auto alignments = slam_alignment_table(runs))
+    section.blocks.emplace_back(*std::move(alignments));
+  return section;
+}
+
+std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures) {
+  const RunList runs = runs_of(study, true);
+  if (runs.empty() && study.convergence.empty()) return std::nullopt;
+  Section section = section_of(figures, kSlamSimulation, "Range-only SLAM: simulation");
+  if (!study.convergence.empty() && is_of_paper(study)) {
+    section.blocks.emplace_back(plain(
+        "The paper gives neither the noise nor the size of the area of its Fig. 1: those used "
+        "here are choices of the experiment, listed under provenance."));
+    section.blocks.emplace_back(bound_words(study.convergence.front()));
+  }
+  if (!runs.empty())
+    section.blocks.emplace_back(
+        slam_error_table("slam-errors-simulation", "Methods on the simulated example", runs));
+  if (!study.convergence.empty())
+    section.blocks.emplace_back(slam_convergence_table(study.convergence));
+  for (const SlamRun* run : runs) add_remarks(*run, section);
+  return section;
+}
+
 std::vector<Section> slam_sections(const SlamReportInput& input) {
   const SlamStudy& study = input.study;
   std::vector<Section> sections;
@@ -197,7 +412,7 @@ Report slam_report(const SlamReportInput& input) {
 }
 
 Section slam_statuses_section(const SlamStudy& study) {
-  Section section{"slam-statuses", "Range-only SLAM: warnings and failures", {}};
+  Section section{"slam-warnings", "Range-only SLAM: warnings and failures", {}};
   StatusList list;
   for (const SlamRun& run : study.runs)
     for (const SlamRecord& record : run.records)

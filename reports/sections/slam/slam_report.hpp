@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
 
@@ -20,6 +21,15 @@ struct SlamReportInput {
 
 /// The whole report of a range-only study.
 Report slam_report(const SlamReportInput& input);
+
+/// What the study found on each log, in short.
+Section slam_summary_section(const SlamStudy& study);
+
+/// Empty if nothing was simulated.
+std::optional<Section> slam_simulation_section(const SlamStudy& study, const FigureGroup* figures);
+
+/// Errors of all methods on all logs of real robots; empty without such a log.
+std::optional<Section> slam_accuracy_section(const SlamStudy& study);
 
 /// Its sections alone, for a report with others: ids of sections and tables begin with
 /// "slam-", but for the paper's "table-plaza".

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {

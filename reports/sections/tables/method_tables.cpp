@@ -238,7 +238,7 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
     std::string holds = "not tried";
     if (claim.difference_m)
       holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
-                          claim.is_significant() ? "" : ", unsure");
+                          claim.is_significant() ? "" : ", not significant");
     table.rows.push_back({{method_cell(claim.less), method_cell(claim.more), TextCell{holds},
                            mean_cell(claim.difference_m, decimals, true),
                            difference_interval_cell(claim.difference_m, decimals),
@@ -250,7 +250,7 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
   }
   table.notes.push_back(
       "By mean MPE, each method at its best parameter, over the runs that both have a score in. "
-      "Unsure: the interval of the difference holds 0, or there is none.");
+      "Not significant: the interval of the difference holds 0, or there is none.");
   table.notes.push_back(interval_note(any_interval));
   return table;
 }

@@ -19,9 +19,8 @@ std::string mrclam_question(const TopicExperiment&) {
          "can be made of these scans alone, without poses or odometry: from which landmarks are "
          "seen together, from bearings, from ranges, from range and bearing together? The scans of "
          "all robots are pooled. Errors are of the landmarks that are not anchors, after the "
-         "affine "
-         "map to the anchors: the four landmarks furthest out along the diagonals. And if labels "
-         "are wrong: can they be found from the scans themselves, and corrected?";
+         "affine map to the anchors: the four landmarks furthest out along the diagonals. And if "
+         "landmark IDs are wrong: can they be found from the scans themselves, and corrected?";
 }
 
 double method_value(const TopicPart& part, std::string_view method, std::string_view quantity) {

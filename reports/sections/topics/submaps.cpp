@@ -48,9 +48,9 @@ std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
       "{}, {}: at {} ({}) the mean MPE of the parts joined is {} m, of the whole {} m", setup.title,
       label(setting), all_listed(levels), label_with_unit(setup.factors.front()),
       all_listed(of_parts), wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
-  if (!worse.empty()) words += "; worse beyond chance at " + all_listed(worse);
-  if (!better.empty()) words += "; better beyond chance at " + all_listed(better);
-  return words + (worse.empty() && better.empty() ? "; no difference is beyond chance." : ".");
+  if (!worse.empty()) words += "; significantly worse at " + all_listed(worse);
+  if (!better.empty()) words += "; significantly better at " + all_listed(better);
+  return words + (worse.empty() && better.empty() ? "; no difference is significant." : ".");
 }
 
 std::vector<std::string> submaps_conclusions(const TopicStudy& study) {

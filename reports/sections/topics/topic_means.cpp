@@ -97,7 +97,7 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Cond
 std::string verdict_words(const MeanEstimate& difference) {
   const char* side = difference.mean < 0.0 ? "better" : "worse";
   if (!difference.half_width) return fmt::format("{}, in one layout", side);
-  if (std::abs(difference.mean) <= *difference.half_width) return "no different beyond chance";
+  if (std::abs(difference.mean) <= *difference.half_width) return "not significantly different";
   return side;
 }
 

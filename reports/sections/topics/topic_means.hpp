@@ -45,7 +45,7 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Cond
                                              std::string_view method, std::string_view other,
                                              std::string_view quantity);
 
-/// "better", "worse" or "no different beyond chance", of a quantity that is better if lower;
+/// "better", "worse" or "not significantly different", of a quantity that is better if lower;
 /// without an interval there is no statement on significance: "better, in one layout".
 std::string verdict_words(const MeanEstimate& difference);
 

@@ -65,7 +65,7 @@ TEST(MapWithIds, NamesAndRepairsASwapInTheSecondHalf) {
   EXPECT_LT(swap.at("after_m").get<double>(), 0.75 * swap.at("before_m").get<double>());
   EXPECT_FALSE(swap.at("repaired").get<bool>());
   const std::string page = read_file(folder / "named/report.html");
-  EXPECT_NE(page.find("look swapped from step"), std::string::npos);
+  EXPECT_NE(page.find("swapped from step"), std::string::npos);
 
   const json repaired = mapped({file, "--repair-ids", "--out", folder / "repaired"});
   EXPECT_TRUE(repaired.at("data_association").at(0).at("repaired").get<bool>());

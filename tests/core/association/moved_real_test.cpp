@@ -68,7 +68,7 @@ DetectionLog with_move(const RealLog& real, int landmark, const Eigen::RowVector
          end < log.detections.size() && log.detections[end].step == log.detections[begin].step;
          ++end) {
       mapped.push_back(real.landmarks_m.row(log.detections[end].landmark));
-      seen.push_back(place_observed(log.detections[end]));
+      seen.push_back(position_observed(log.detections[end]));
       if (log.detections[end].landmark == landmark) own = end;
     }
     if (own == log.detections.size() || mapped.size() < 2 ||
@@ -78,7 +78,7 @@ DetectionLog with_move(const RealLog& real, int landmark, const Eigen::RowVector
     const Eigen::RowVector2d at = real.landmarks_m.row(landmark);
     Detection& moved = log.detections[own];
     const Eigen::RowVector2d now =
-        place_observed(moved) + pose.to_robot(at + by_m) - pose.to_robot(at);
+        position_observed(moved) + pose.to_robot(at + by_m) - pose.to_robot(at);
     moved.range_m = now.norm();
     moved.bearing_rad = std::atan2(now.y(), now.x());
   }

@@ -45,8 +45,8 @@ TEST(TurnedAsSeen, ReflectsAMapOfTheOppositeOrientation) {
   const IdentifiedScans scans = identified_scans(one.log, 10);
   Points mirrored = one.map_m;
   mirrored.col(0) *= -1.0;
-  EXPECT_EQ(turned_as_seen(scans, {0, 1, 2, 3}, mirrored), one.map_m);
-  EXPECT_EQ(turned_as_seen(scans, {0, 1, 2, 3}, one.map_m), one.map_m);
+  EXPECT_EQ(oriented_as_seen(scans, {0, 1, 2, 3}, mirrored), one.map_m);
+  EXPECT_EQ(oriented_as_seen(scans, {0, 1, 2, 3}, one.map_m), one.map_m);
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(Filled, HalfOfTheBearingsGiveAsGoodAMapAsAllOfThemButNotByTheirMeans) {
     const auto filled = [&](Filling filling) {
       return mpe_of(filled_proximities(history, 2000, filled_by(filling)).proximities, room) / 3.0;
     };
-    common += filled(Filling::kCommonSteps);
+    common += filled(Filling::kPairwiseComplete);
     by_ppca += filled(Filling::kPpca);
     by_pca += filled(Filling::kPca);
     by_means += filled(Filling::kMean);
@@ -109,7 +109,7 @@ TEST(Filled, IsCompleteWhereLandmarksWereHardlySeen) {
 
 TEST(Filled, NamesComeBack) {
   for (const Filling filling :
-       {Filling::kCommonSteps, Filling::kPpca, Filling::kPca, Filling::kMean})
+       {Filling::kPairwiseComplete, Filling::kPpca, Filling::kPca, Filling::kMean})
     EXPECT_EQ(filling_named(name(filling)), filling);
   EXPECT_FALSE(filling_named("zero"));
 }

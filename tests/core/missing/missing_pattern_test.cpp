@@ -34,7 +34,7 @@ struct Incomplete {
 };
 
 MissingStrategy way_of(const ObservationHistory& history) {
-  return advised_way(missing_pattern(history, history.steps()), history.sensor).way;
+  return advised_strategy(missing_pattern(history, history.steps()), history.sensor).way;
 }
 
 TEST(MissingPattern, IsRandomWhereEntriesAreMissingAtRandom) {
@@ -62,12 +62,12 @@ TEST(MissingPattern, IsEmptyWithoutMissingData) {
 
 TEST(StrategyAdvice, IsTheBestStrategyForEachPatternOfMissingData) {
   const Incomplete bearing(Sensor::kBearing);
-  EXPECT_EQ(way_of(bearing.whole), MissingStrategy::kCommonSteps);
+  EXPECT_EQ(way_of(bearing.whole), MissingStrategy::kPairwiseComplete);
   for (const double share : {0.1, 0.3, 0.5, 0.7}) {
     EXPECT_EQ(way_of(bearing.at_random(share)), MissingStrategy::kPpca) << share;
     // A tenth out of range is not distinguished from hidden ones, and matters little.
     if (share > 0.1) {
-      EXPECT_EQ(way_of(bearing.out_of_range(share)), MissingStrategy::kCommonSteps) << share;
+      EXPECT_EQ(way_of(bearing.out_of_range(share)), MissingStrategy::kPairwiseComplete) << share;
     }
     EXPECT_EQ(way_of(bearing.hidden(share)), MissingStrategy::kPpca) << share;
   }

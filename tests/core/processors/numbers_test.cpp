@@ -9,7 +9,7 @@
 
 #include "core/base/files/files.hpp"
 #include "core/model/method.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "tests/core/processors/numbers.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/model/range_log.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 
 namespace mapproof::test {
 

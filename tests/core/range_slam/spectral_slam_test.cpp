@@ -172,10 +172,10 @@ TEST(SpectralSlam, OfPiecesThatTellNoMirrorSaysSo) {
     return spectral_slam(d.log, d.odometry, {.window = WindowOptions{.length_s = length_s}})
         .estimate;
   };
-  const SlamEstimate unsure = found(10.0);
-  ASSERT_EQ(unsure.path.size(), d.odometry.size());
-  EXPECT_LT(test::procrustes_gap(*d.log.true_landmarks, unsure.landmarks_m), 0.5);
-  EXPECT_TRUE(has(unsure.statuses, StatusCode::kUndetermined));
+  const SlamEstimate uncertain = found(10.0);
+  ASSERT_EQ(uncertain.path.size(), d.odometry.size());
+  EXPECT_LT(test::procrustes_gap(*d.log.true_landmarks, uncertain.landmarks_m), 0.5);
+  EXPECT_TRUE(has(uncertain.statuses, StatusCode::kUndetermined));
   EXPECT_FALSE(has(found(400.0).statuses, StatusCode::kUndetermined));
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/model/slam_experiment.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_experiment.hpp"
+#include "core/model/slam/slam_study.hpp"
 
 namespace mapproof::test {
 

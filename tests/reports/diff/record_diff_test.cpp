@@ -199,8 +199,8 @@ TEST(RecordDiff, RefusesRecordsOfTwoKinds) {
   EXPECT_THROW(record_diff(before, after), InvalidInput);
 }
 
-PlacedPoints shape_of(const Points& points) {
-  PlacedPoints placed;
+AlignedPoints shape_of(const Points& points) {
+  AlignedPoints placed;
   placed.quantity = "landmark_shape";
   placed.frame = Frame::kSimilarity;
   placed.points = points;
@@ -228,7 +228,7 @@ TEST(PointsDiff, AlignsMetricMapsWithoutAFrameWithoutScale) {
   points << 0, 0, 1, 0, 2, 1, 0.5, 3;
   for (Eigen::Index i = 0; i < 4; ++i) turned.row(i) << points(i, 1) + 4.0, points(i, 0) - 7.0;
   const auto beyond = [&](const Points& other, bool is_free) {
-    PlacedPoints a, b;
+    AlignedPoints a, b;
     a.points = points, b.points = other;
     a.is_free = b.is_free = is_free;
     return points_diff("m", a, b, {}).value().beyond;
@@ -239,7 +239,7 @@ TEST(PointsDiff, AlignsMetricMapsWithoutAFrameWithoutScale) {
 }
 
 TEST(PointsDiff, ReportsALostAndAGainedPosition) {
-  PlacedPoints before, after;
+  AlignedPoints before, after;
   before.points.resize(4, 2);
   before.points << 0, 1, 2, 3, 4, 5, 6, 7;
   after.points = before.points;

@@ -71,7 +71,7 @@ NightlyRun second_nightly_run(const ForeignNightlyRun& first, const ForeignNight
   // The one after it is compared with the last passing one.
   NightlyRun third = nightly_of(3, second);
   EXPECT_EQ(reference_nightly_run(store, third, std::nullopt),
-            next.facts.verdict == NightlyVerdict::kGood ? 2 : 1);
+            next.facts.verdict == NightlyVerdict::kPassed ? 2 : 1);
   return next;
 }
 

@@ -130,7 +130,7 @@ TEST(HistoryPages, SayOfANightlyRunThatWasNotComparedThatItWasNot) {
   EXPECT_TRUE(stands->title.starts_with("Nightly run 4: not compared")) << stands->title;
   const NightlyFacts nightly_run{.number = 4};
   EXPECT_EQ(verdict_word(nightly_run), "not compared");
-  EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "good");
+  EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "passed");
   EXPECT_TRUE(nightly_standing(nightly_run, {}).title.starts_with("Nightly run 4: not compared"));
 }
 

@@ -135,7 +135,7 @@ TEST(HistoryStore, OfVersion3CallsMethodsThatAStudyDeclaresByTheirIds) {
         "'2026-01-01T01:00:00Z', 'c', '{}', 'h', 'p', 2, 2, NULL, 'good');"
         "INSERT INTO studies VALUES (1, 1, 'theirs', 'mapproof.results_study', 'd', 1, NULL, NULL),"
         " (2, 1, 'ours', 'mapproof.study', 'd', 1, NULL, NULL),"
-        " (3, 1, 'topic', 'mapproof.topic_study', 'd', 1, NULL, NULL);"
+        " (3, 1, 'topic', 'mapproof.trial_study', 'd', 1, NULL, NULL);"
         "INSERT INTO series VALUES (1, 'hall', 'isomap-K6', 0, 'ate_m'),"
         " (2, 'hall', 'scan matching noise=0.1 pace=2', 0, 'ate_m'),"
         " (3, 'hall', 'K=6', 0, 'ate_m'), (4, 'bearing', 'isomap-K6', 0, 'mpe_m'),"

@@ -29,7 +29,7 @@ TEST(HistoryWeek, PlantedRegressionsAreNamedOnNightlyRunFiveAndNothingElseIs) {
     }
     const NightlyRun nightly_run = judged(store, sample_nightly_run(number, 11, plant));
     if (number < 5) {
-      EXPECT_EQ(nightly_run.facts.verdict, NightlyVerdict::kGood) << number;
+      EXPECT_EQ(nightly_run.facts.verdict, NightlyVerdict::kPassed) << number;
       EXPECT_TRUE(nightly_run.findings.empty()) << number;
       continue;
     }

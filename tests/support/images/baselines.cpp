@@ -8,7 +8,7 @@
 #include "core/base/files/files.hpp"
 #include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
-#include "tests/support/images/image_comparison.hpp"
+#include "tests/support/images/image_difference.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -64,7 +64,7 @@ std::string difference_from_baseline(const std::string& name, const Image& image
   const Image stored = read_png(png).image;
   std::string difference;
   for (const fs::path& baseline : baselines_of(name)) {
-    const ImageDifference found = compare_images(read_png(read_file(baseline)).image, stored);
+    const ImageDifference found = image_difference(read_png(read_file(baseline)).image, stored);
     if (is_alike(found)) {
       fs::remove(candidate);
       return {};

@@ -190,6 +190,7 @@ std::vector<std::string> method_labels(std::size_t count) {
 CriticalDifferenceSpec sample_ranks(std::size_t methods) {
   CriticalDifferenceSpec spec;
   spec.id = "ranks";
+  spec.alpha = 0.05;
   spec.title = "Mean ranks of the methods over layouts, visibility";
   const std::vector<double> ranks = {8.2, 6.9, 3.1, 9.0, 9.4, 2.9, 3.8, 6.6, 3.5, 1.6};
   double sum = 0.0;

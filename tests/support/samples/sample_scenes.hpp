@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/model/slam.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "render/scene/film.hpp"
 #include "render/scene/scene.hpp"
 

@@ -1,19 +1,6 @@
-#include "core/model/slam.hpp"
-
-#include <array>
-#include <utility>
+#include "core/model/certificate.hpp"
 
 namespace mapproof {
-namespace {
-
-constexpr std::array<std::pair<Alignment, std::string_view>, 4> kAlignmentNames{{
-    {Alignment::kNone, "none"},
-    {Alignment::kRigid, "rigid"},
-    {Alignment::kRigidWithReflection, "rigid-with-reflection"},
-    {Alignment::kSimilarity, "similarity"},
-}};
-
-}  // namespace
 
 std::string_view name(SdpSolver solver) {
   switch (solver) {
@@ -36,12 +23,6 @@ std::optional<SdpSolver> sdp_solver_named(std::string_view name_in_files) {
 bool is_certified(const Certificate& certificate) {
   return certificate.relative_gap <= kCertifiedGap &&
          certificate.constraint_residual <= kCertifiedResidual;
-}
-
-std::string_view name(Alignment alignment) {
-  for (const auto& [value, text] : kAlignmentNames)
-    if (value == alignment) return text;
-  return {};
 }
 
 }  // namespace mapproof

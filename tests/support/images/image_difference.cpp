@@ -1,4 +1,4 @@
-#include "tests/support/images/image_comparison.hpp"
+#include "tests/support/images/image_difference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ WindowStatistics statistics(const Image& a, const Image& b, int x0, int y0, int 
 
 }  // namespace
 
-ImageDifference compare_images(const Image& a, const Image& b) {
+ImageDifference image_difference(const Image& a, const Image& b) {
   ImageDifference difference;
   difference.same_size = a.width == b.width && a.height == b.height;
   if (!difference.same_size || a.width == 0 || a.height == 0) return difference;

@@ -1,4 +1,4 @@
-#include "core/model/slam_experiment.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 
 #include <fmt/format.h>
 

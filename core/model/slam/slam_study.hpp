@@ -12,7 +12,7 @@
 
 #include "core/model/fit.hpp"
 #include "core/model/points.hpp"
-#include "core/model/slam.hpp"
+#include "core/model/slam/slam.hpp"
 #include "core/model/study.hpp"
 #include "core/statistics/intervals.hpp"
 

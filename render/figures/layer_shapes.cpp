@@ -1,4 +1,4 @@
-#include "render/figures/parts.hpp"
+#include "render/figures/layer_shapes.hpp"
 
 #include <cmath>
 

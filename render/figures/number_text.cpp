@@ -1,4 +1,4 @@
-#include "render/figures/words.hpp"
+#include "render/figures/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>

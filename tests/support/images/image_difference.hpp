@@ -16,9 +16,10 @@ struct ImageDifference {
   double shift = 255.0;
 };
 
-/// Compares an image with its baseline. It is stricter than reports/diff/images: it explains no
-/// difference by rendering noise or anti-aliasing.
-ImageDifference compare_images(const Image& a, const Image& b);
+/// How an image differs from its baseline: found apart from the program, whose `diff` is itself
+/// tested on these images, and stricter than it, as it explains no difference by rendering noise or
+/// anti-aliasing.
+ImageDifference image_difference(const Image& a, const Image& b);
 
 /// The bounds within which two images count as the same, perhaps drawn by two versions of a
 /// library.

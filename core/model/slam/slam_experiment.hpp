@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/model/method.hpp"
-#include "core/model/slam_study.hpp"
+#include "core/model/slam/slam_study.hpp"
 
 namespace mapproof {
 
