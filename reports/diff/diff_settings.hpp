@@ -12,6 +12,7 @@
 #include "reports/diff/diff_fields.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/images/image_changes.hpp"
+#include "reports/diff/items.hpp"
 #include "reports/diff/records/record_diff.hpp"
 
 namespace mapproof {
@@ -70,6 +71,24 @@ struct DiffSettings {
   /// "": whether the item is, of which no file is known.
   bool compares(const std::string& id, const std::string& format) const;
 };
+
+/// The two sides of a comparison and the names in them.
+struct ComparedItems {
+  ItemList baseline, current;
+  std::vector<std::string> record_ids;  ///< Of either side.
+  std::string file_name;                ///< The id of the item "" of two single files.
+};
+
+/// What the settings do to the items of a comparison.
+struct Selection {
+  std::vector<std::string> left_out;  ///< Ids, sorted: of these nothing is compared.
+  /// Patterns that match neither an item nor a file of one, as `--exclude "map-*"`: they may be
+  /// misspelt.
+  std::vector<std::string> unmatched;
+};
+
+/// Removes from both sides the files that the settings leave out, and items without any file.
+Selection select_items(ComparedItems& items, const DiffSettings& settings);
 
 /// Reads mapproof-diff.json (docs/diff.md, docs/schemas/diff_settings.schema.json).
 /// @throws IoError with file and JSON pointer, for unknown keys too.

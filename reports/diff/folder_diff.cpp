@@ -19,7 +19,6 @@
 #include "reports/diff/item_diff.hpp"
 #include "reports/diff/items.hpp"
 #include "reports/diff/records/record_set.hpp"
-#include "reports/diff/selection.hpp"
 
 namespace mapproof {
 namespace {
