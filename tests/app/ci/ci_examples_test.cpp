@@ -180,6 +180,38 @@ TEST(OurCi, ComparesTheFiguresOfAChange) {
             2);
 }
 
+/// Programs that stand for those of a build: each notes how it was called; cmake "builds" mapproof.
+TEST(OurCi, BuildsTheBaseAndTheChangeAndComparesTheirFigures) {
+  if (run_program({"git", "-C", kSource.string(), "rev-parse", "--verify", "HEAD"}).exit_code != 0)
+    GTEST_SKIP() << "the source is not a git repository here";
+  const TemporaryFolder folder;
+  const std::string bin = folder / "bin", log = folder / "log", out = folder / "out";
+  const std::string note = "#!/bin/sh\necho \"$(basename \"$0\") $*\" >>'" + log + "'\n";
+  write_file(bin + "/ninja", note);
+  write_file(bin + "/mapproof", note);
+  write_file(bin + "/cmake", note + "[ \"$1\" != --build ] || { mkdir -p \"$2/app\"; ln -sf '" +
+                                 bin + "/mapproof' \"$2/app/mapproof\"; }\n");
+  for (const char* name : {"ninja", "mapproof", "cmake"})
+    fs::permissions(bin + "/" + name, fs::perms::owner_all);
+  const std::string path = bin + ":/usr/local/bin:/usr/bin:/bin";
+  const std::string build = folder / "build";
+  const Environment stubs{
+      {"PATH", path.c_str()}, {"BUILD", build.c_str()}, {"GITHUB_STEP_SUMMARY", nullptr}};
+  const Outcome outcome = run_program(
+      {(kSource / "scripts/check").string(), "figures", "--base", "HEAD", "--out", out});
+  if (outcome.error.find("installing") != std::string::npos || outcome.exit_code == 2)
+    GTEST_SKIP() << "packages are missing here: " << outcome.error;
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_TRUE(fs::exists(build + "/base/source/CMakeLists.txt"));
+  const std::string calls = read_file(log);
+  for (const std::string& call :
+       {"cmake -S " + build + "/base/source -B " + build + "/base/build",
+        "mapproof reproduce all --profile quick --quiet --out " + out + "/base",
+        "mapproof reproduce all --profile quick --quiet --out " + out + "/change",
+        "mapproof diff " + out + "/base " + out + "/change"})
+    EXPECT_NE(calls.find(call), std::string::npos) << call << "\n" << calls;
+}
+
 TEST(OurCi, KeepsTheHistoryOfNightlyRuns) {
   const TemporaryFolder folder;
   const Environment built{{"MAPPROOF", program().c_str()}};
