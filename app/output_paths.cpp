@@ -58,12 +58,19 @@ void check_output_paths(const DiffOptions& options, std::span<const fs::path> in
       Output{"--junit", options.junit, "<testsuites"},
       Output{"--markdown", options.markdown, "### mapproof diff"},
   };
+  for (const fs::path& input : inputs)
+    if (!options.images.empty() && !input.empty() && overlap(options.images, input))
+      throw InvalidInput(fmt::format("--images {} and {}: one is the other or lies in it",
+                                     printable(options.images), printable(input.string())));
   const auto is_file = [](const Output& o) { return !o.path.empty() && o.path != "-"; };
   for (const Output& output : outputs) {
     if (!is_file(output)) continue;
     for (const fs::path& input : inputs)
       if (!input.empty()) check_path(output, input);
     require_replaceable(output.path);
+    if (!options.images.empty() && lies_in(real_path(output.path), real_path(options.images)))
+      throw InvalidInput(fmt::format("{} {} lies in the folder of --images", output.option,
+                                     printable(output.path.string())));
     for (const Output& other : outputs)
       if (&other != &output && is_file(other) && real_path(other.path) == real_path(output.path))
         throw InvalidInput(fmt::format("{} and {} are one file: {}", output.option, other.option,

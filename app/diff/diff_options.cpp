@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <iostream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -10,9 +11,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/paths.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/json/json_text.hpp"
 #include "reports/diff/diff_outputs.hpp"
+#include "reports/diff/item_images.hpp"
 #include "reports/html/diff/diff_html.hpp"
 
 namespace mapproof {
@@ -56,8 +59,46 @@ fs::path settings_beside(const std::string& baseline) {
 /// How many of the outputs replace the text.
 std::ptrdiff_t to_standard_output(const DiffOptions& options, const Console& console) {
   const std::array locations = {&options.page, &options.junit, &options.markdown};
-  return (console.is_json() ? 1 : 0) + std::ranges::count_if(
-      locations, [](const std::string* location) { return *location == kStandardOutput; });
+  return (console.is_json() ? 1 : 0) +
+         std::ranges::count_if(
+             locations, [](const std::string* location) { return *location == kStandardOutput; });
+}
+
+/// Whether the environment variable is that text, or with "" any.
+bool is_set(const char* variable, std::string_view text = "") {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value != '\0' && (text.empty() || value == text);
+}
+
+bool wants_github_lines(const DiffOptions& options) {
+  return options.annotations == "github" ||
+         (options.annotations == "auto" && is_set("GITHUB_ACTIONS", "true"));
+}
+
+/// The path of the images as a CI takes it: GitLab from its project's folder, others absolute.
+std::string attachment_prefix(const std::string& images) {
+  const fs::path path = real_path(images);
+  if (!is_set("GITLAB_CI") || !is_set("CI_PROJECT_DIR")) return path.string();
+  const fs::path project = real_path(std::getenv("CI_PROJECT_DIR"));
+  return lies_in(path, project) ? path.lexically_relative(project).string() : path.string();
+}
+
+/// The URL of the images, or their path from the page with the summary.
+std::string markdown_prefix(const DiffOptions& options) {
+  if (!options.image_url.empty()) return options.image_url;
+  const fs::path images = real_path(options.images);
+  const fs::path page = options.markdown == kStandardOutput
+                            ? fs::current_path()
+                            : real_path(options.markdown).parent_path();
+  return images.lexically_relative(page).generic_string();
+}
+
+/// A path in the repository, as GitHub names it.
+std::string path_in_repository(const std::string& folder) {
+  const fs::path root =
+      real_path(is_set("GITHUB_WORKSPACE") ? std::getenv("GITHUB_WORKSPACE") : ".");
+  const fs::path path = real_path(folder);
+  return lies_in(path, root) ? path.lexically_relative(root).generic_string() : folder;
 }
 
 bool is_run_by_ctest() {
@@ -79,15 +120,34 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.add_option("--allow", options.allow, "Verdicts that pass as well: better,style,new");
   app.add_option("--settings", options.settings,
                  "Tolerances and ignored regions, by default mapproof-diff.json of the baseline");
-  group_options(app, {{"Comparison", {"--allow", "--settings"}},
-                      {"Output", {"--page", "--templates", "--junit", "--markdown"}}});
+  app.add_option("--include", options.include,
+                 "Compare only what matches: the id of an item, or ID.FORMAT; * is any text")
+      ->allow_extra_args(false);
+  app.add_option("--exclude", options.exclude, "Do not compare what matches, such as \"*.pdf\"")
+      ->allow_extra_args(false);
+  app.add_option("--images", options.images,
+                 "Write the images of each item that differs, both sides and their difference")
+      ->check(names_folder());
+  app.add_option("--image-url", options.image_url,
+                 "Where the folder of --images is served, for the images in --markdown");
+  app.add_option("--annotations", options.annotations,
+                 "Errors at the files of a change: auto is github if GitHub Actions runs it")
+      ->transform(one_of({"auto", "github", "none"}))
+      ->capture_default_str();
+  group_options(app, {{"Comparison", {"--allow", "--settings", "--include", "--exclude"}},
+                      {"Output",
+                       {"--page", "--templates", "--junit", "--markdown", "--images", "--image-url",
+                        "--annotations"}}});
+  app.get_option("--image-url")->needs("--images")->type_name("URL");
+  for (const char* pattern : {"--include", "--exclude"})
+    app.get_option(pattern)->type_name("PATTERN");
   for (const char* file : {"--page", "--junit", "--markdown", "--settings"})
     app.get_option(file)->type_name("FILE");
 }
 
 bool asks_for_outputs(const DiffOptions& options, const Console& console) {
   return console.is_json() || !options.page.empty() || !options.junit.empty() ||
-         !options.markdown.empty();
+         !options.markdown.empty() || !options.images.empty();
 }
 
 DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline,
@@ -102,6 +162,8 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
     settings = parse_diff_settings(read_file(file, kLargestSettings), file.string());
   if (!options.allow.empty())
     for (const Verdict verdict : verdicts_in(options.allow)) settings.allowed.push_back(verdict);
+  settings.include = options.include;
+  settings.exclude = options.exclude;
   return settings;
 }
 
@@ -117,12 +179,24 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
     else
       write_file(location, disclosed);
   };
+  ImageLinks links;
+  if (!options.images.empty()) links.images = write_item_images(result, settings, options.images);
   hand(options.page,
        [&] { return diff_html(result, settings, load_templates(options.templates)); });
-  hand(options.junit, [&] { return diff_junit(result); });
-  hand(options.markdown, [&] { return diff_markdown(result); });
+  hand(options.junit, [&] {
+    if (!options.images.empty()) links.prefix = attachment_prefix(options.images);
+    return diff_junit(result, links);
+  });
+  hand(options.markdown, [&] {
+    if (!options.images.empty()) links.prefix = markdown_prefix(options);
+    return diff_markdown(result, links);
+  });
   if (console.is_json()) text = invocation.disclosure.text(json_text(diff_json(result)));
-  if (to_standard_output(options, console) == 0) {
+  if (wants_github_lines(options))
+    std::cerr << invocation.disclosure.text(github_lines(
+        result, path_in_repository(options.folder.empty() ? result.baseline : options.folder)));
+  // Without a baseline one line has been written already.
+  if (to_standard_output(options, console) == 0 && result.has_baseline) {
     text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
     if (is_run_by_ctest()) text += ctest_lines(result);
   }

@@ -13,12 +13,18 @@ namespace mapproof {
 /// What the commands that compare have in common.
 struct DiffOptions {
   std::string page, junit, markdown;     ///< Files to write; empty: none.
-  std::optional<std::string> templates;     ///< Folder whose templates replace the embedded ones.
-  std::string allow;                        ///< "better,style".
+  std::optional<std::string> templates;  ///< Folder whose templates replace the embedded ones.
+  std::string allow;                     ///< "better,style".
   std::string settings;  ///< File; empty: mapproof-diff.json next to the baseline, if it is there.
+  std::vector<std::string> include, exclude;  ///< Patterns of items and files.
+  std::string images;                         ///< Folder for the images of what differs.
+  std::string image_url;                      ///< Where that folder is served; empty: nowhere.
+  std::string annotations = "auto";           ///< Of these: auto, github, none.
+  std::string folder;  ///< The baseline in the working tree, where it is not the baseline itself.
 };
 
-/// Adds --page, --templates, --junit, --markdown, --allow and --settings.
+/// Adds --page, --templates, --junit, --markdown, --allow, --settings, --include, --exclude,
+/// --images, --image-url and --annotations.
 void add_diff_options(CLI::App& app, DiffOptions& options);
 
 /// Whether a result is asked for beyond the text on standard output.
@@ -30,7 +36,8 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
                            const Console& console);
 
 /// Writes the files asked for, disclosed, and the verdicts to standard output, with --json as the
-/// object of diff_json(), with the lines that CTest takes where it runs the program.
+/// object of diff_json(), with the lines that CTest takes where it runs the program. Lines for
+/// GitHub Actions go to standard error, where it reads them as well.
 /// @return kDone or kNo. @throws IoError.
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
              const Invocation& invocation);

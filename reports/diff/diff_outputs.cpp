@@ -1,6 +1,9 @@
 #include "reports/diff/diff_outputs.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,6 +37,99 @@ std::string cell(const std::string& text) {
       out += c;
   }
   return out;
+}
+
+/// Lines that name the images of an item that does not pass.
+std::string attachments(const ImageLinks& links, const DiffItem& item) {
+  std::string lines;
+  if (item.passes) return lines;
+  for (const ItemImages* images : links.of(item.id))
+    for (const std::string& path : images->paths())
+      lines += fmt::format("\n[[ATTACHMENT|{}]]", xml(links.joined(path)));
+  return lines.empty() ? lines : lines + "\n";
+}
+
+/// A URL between the brackets of Markdown: what would end it, or begin something else, as %XX.
+std::string markdown_url(std::string_view url) {
+  constexpr std::string_view kKept = "-._~:/?#@!$&'*+,;=%";
+  std::string out;
+  for (const char c : url)
+    out += (std::isalnum(static_cast<unsigned char>(c)) != 0 && static_cast<signed char>(c) > 0) ||
+                   kKept.find(c) != std::string_view::npos
+               ? std::string(1, c)
+               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
+/// The file's name is encoded already (see write_item_images()); in a URL its '%' is "%25".
+std::string url_of(const ImageLinks& links, const std::string& path) {
+  std::string encoded;
+  for (const char c : path) encoded += c == '%' ? std::string("%25") : std::string(1, c);
+  return markdown_url(links.joined(encoded));
+}
+
+/// Whether pages show images of the format.
+bool is_shown(std::string_view path) {
+  constexpr std::array<std::string_view, 6> kShown = {".png", ".svg",  ".jpg",
+                                                      ".gif", ".webp", ".jpeg"};
+  return std::ranges::any_of(kShown, [&](std::string_view end) { return path.ends_with(end); });
+}
+
+/// A table with the images of one file.
+std::string image_table(const ItemImages& images, const ImageLinks& links) {
+  std::string head, rule, row;
+  for (const auto& [name, path] :
+       {std::pair("baseline", &images.baseline), std::pair("current", &images.current),
+        std::pair("difference", &images.difference)}) {
+    if (path->empty()) continue;
+    const std::string url = url_of(links, *path);
+    head += fmt::format("| {} ", name);
+    rule += "|---";
+    row += is_shown(*path) ? fmt::format("| [![{}]({})]({}) ", name, url, url)
+                           : fmt::format("| [{}]({}) ", name, url);
+  }
+  return fmt::format("{}|\n{}|\n{}|\n", head, rule, row);
+}
+
+/// The images of the first items that do not pass.
+std::string image_sections(const DiffResult& result, const ImageLinks& links) {
+  constexpr int kMostItems = 10;
+  std::string out;
+  int shown = 0;
+  for (const DiffItem& item : result.items) {
+    if (item.passes) continue;
+    const std::vector<const ItemImages*> all = links.of(item.id);
+    if (all.empty() || ++shown > kMostItems) continue;
+    for (const ItemImages* images : all)
+      out += fmt::format("\n#### {}, {}\n\n{}", cell(item.id), cell(images->format),
+                         image_table(*images, links));
+  }
+  return out;
+}
+
+/// A text as GitHub reads it: in a property, or behind "::".
+std::string github_text(std::string_view text, bool is_property) {
+  const std::string_view escaped = is_property ? "%\r\n:," : "%\r\n";
+  std::string out;
+  for (const char c : text)
+    out += escaped.find(c) == std::string_view::npos
+               ? std::string(1, c)
+               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
+/// The file of an item below the baseline, as the current has it; empty for records.
+std::string file_below(const DiffResult& result, const DiffItem& item) {
+  const auto below = [](const std::filesystem::path& file, const std::string& folder) {
+    const std::filesystem::path path = file.lexically_relative(folder);
+    return path.empty() || *path.begin() == ".." ? std::string() : path.generic_string();
+  };
+  for (const ImageFile& image : item.images) {
+    const std::string found = image.current.empty() ? below(image.baseline, result.baseline)
+                                                    : below(image.current, result.current);
+    return found.empty() || found == "." ? "" : found;
+  }
+  return "";
 }
 
 std::string counts_text(const DiffResult& result) {
@@ -71,7 +167,7 @@ std::string diff_text(const DiffResult& result, DiffWords words) {
          fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass", counts_text(result));
 }
 
-std::string diff_junit(const DiffResult& result) {
+std::string diff_junit(const DiffResult& result, const ImageLinks& links) {
   const int failures = failures_of(result, false), errors = failures_of(result, true);
   const std::string totals = fmt::format("tests=\"{}\" failures=\"{}\" errors=\"{}\"",
                                          result.items.size(), failures, errors);
@@ -94,8 +190,8 @@ std::string diff_junit(const DiffResult& result) {
           fmt::format("      <{} type=\"{}\" message=\"{}: {}\">{}</{}>\n", element,
                       name(reported.verdict), label(reported.verdict), message, message, element);
     }
-    out += fmt::format("      <system-out>{}: {}</system-out>\n    </testcase>\n",
-                       label(reported.verdict), message);
+    out += fmt::format("      <system-out>{}: {}{}</system-out>\n    </testcase>\n",
+                       label(reported.verdict), message, attachments(links, item));
   }
   if (!result.remarks.empty()) {
     out += "    <system-out>";
@@ -105,7 +201,7 @@ std::string diff_junit(const DiffResult& result) {
   return out + "  </testsuite>\n</testsuites>\n";
 }
 
-std::string diff_markdown(const DiffResult& result) {
+std::string diff_markdown(const DiffResult& result, const ImageLinks& links) {
   std::string out = fmt::format("### mapproof diff: {}\n\n{}\n",
                                 result.passes ? "passes" : "does not pass", counts_text(result));
   for (const std::string& remark : result.remarks) out += "\n" + cell(remark) + "\n";
@@ -121,6 +217,32 @@ std::string diff_markdown(const DiffResult& result) {
                        cell(item.id), label(item.judgement.verdict), cell(item.judgement.cause));
   }
   if (left > 0) out += fmt::format("\nand {} more.\n", left);
+  return out + image_sections(result, links);
+}
+
+std::string github_lines(const DiffResult& result, const std::string& folder) {
+  constexpr std::size_t kMostLines = 10;
+  std::vector<const DiffItem*> failed;
+  for (const DiffItem& item : result.items)
+    if (!item.passes && (result.has_baseline || item.judgement.verdict == Verdict::kMissing))
+      failed.push_back(&item);
+  const std::size_t shown = failed.size() > kMostLines ? kMostLines - 1 : failed.size();
+  std::string out;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const DiffItem& item = *failed[i];
+    const std::string below = file_below(result, item);
+    const std::string file =
+        below.empty() ? folder : (std::filesystem::path(folder) / below).generic_string();
+    out +=
+        fmt::format("::error file={},title={}::{}\n", github_text(printable(file, kLongest), true),
+                    github_text(printable("mapproof: " + item.id, kLongest), true),
+                    github_text(fmt::format("{}: {}", label(item.judgement.verdict),
+                                            printable(item.judgement.cause, kLongest)),
+                                false));
+  }
+  if (failed.size() > shown)
+    out += fmt::format("::error title=mapproof::and {} more items do not pass\n",
+                       failed.size() - shown);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/diff/diff_result.hpp"
+#include "reports/diff/item_images.hpp"
 
 namespace mapproof {
 
@@ -24,10 +25,19 @@ nlohmann::ordered_json diff_json(const DiffResult& result);
 
 /// JUnit XML with one test case per item. An item that does not pass is a failure, or an error if
 /// it is unreadable.
-std::string diff_junit(const DiffResult& result);
+/// @param links  Images, named as attachments: [[ATTACHMENT|path]] on a line of its own, as Jenkins
+///               and GitLab read it. The first of an item is the one that GitLab shows.
+std::string diff_junit(const DiffResult& result, const ImageLinks& links = {});
 
 /// A summary for a comment on a change: counts and a table of the differing items, at most 50 rows.
-std::string diff_markdown(const DiffResult& result);
+/// @param links  Images, shown for the first ten items that do not pass; the prefix is a URL, or a
+///               path that is relative to the page.
+std::string diff_markdown(const DiffResult& result, const ImageLinks& links = {});
+
+/// Lines that GitHub Actions turns into annotations of a change: an error for each item that does
+/// not pass, ten lines at most, as GitHub shows no more of one step.
+/// @param folder  The baseline in the repository: errors stand at its files.
+std::string github_lines(const DiffResult& result, const std::string& folder);
 
 /// Lines that CTest and CDash read from a test's output: the number of items of each verdict, and
 /// the images of the first ten items that do not pass.

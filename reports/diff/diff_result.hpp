@@ -49,6 +49,7 @@ struct DiffItem {
 /// The comparison of two studies, two folders or two files.
 struct DiffResult {
   std::string baseline, current;  ///< As the user named them.
+  bool has_baseline = true;       ///< Else there is nothing yet to compare with.
   Judgement judgement;            ///< On the whole: the heaviest verdict and the counts.
   bool passes = false;
   std::vector<Verdict> allowed;

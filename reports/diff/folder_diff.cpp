@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <span>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -69,7 +68,7 @@ const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
 
 /// Extends the causes of items whose current file is, byte by byte, the baseline file of another
 /// item: swapped or renamed. A swapped item is at least changed, whatever renderer drew it.
-void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed) {
+void name_swapped(std::vector<DiffItem>& items, const DiffSettings& settings) {
   BySize files;
   for (const DiffItem& item : items) {
     if (!is_suspect(item)) continue;
@@ -96,7 +95,7 @@ void name_swapped(std::vector<DiffItem>& items, std::span<const Verdict> allowed
     if (reported.verdict != Verdict::kNew)
       reported.verdict = heavier(reported.verdict, Verdict::kChanged);
     reported.visible = true;
-    item->passes = passes(reported, allowed);
+    item->passes = passes(reported, settings.allowed_of(item->id));
   }
   for (DiffItem& item : items)
     if (const auto to = renamed.find(item.id);
@@ -129,7 +128,7 @@ DiffItem compare_records(const std::string& id, const fs::path& baseline, const 
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};
   }
-  item.passes = passes(item.judgement, settings.allowed);
+  item.passes = passes(item.judgement, settings.allowed_of(item.id));
   return item;
 }
 
@@ -139,6 +138,14 @@ DiffItem lone_records(const std::string& id, Judgement judgement) {
   item.kind = ItemKind::kRecords;
   item.judgement = std::move(judgement);
   return item;
+}
+
+/// The ids of the records of either side.
+std::vector<std::string> record_ids(const fs::path& baseline, const fs::path& current) {
+  std::set<std::string> ids;
+  for (const fs::path* side : {&baseline, &current})
+    for (const auto& [id, path] : record_locations(*side)) ids.insert(id);
+  return {ids.begin(), ids.end()};
 }
 
 /// Throws if the settings have a tolerance of a quantity that none of the records has, and all
@@ -161,7 +168,10 @@ void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& se
 
 std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& current,
                                    const DiffSettings& settings) {
-  const auto before = record_locations(baseline), after = record_locations(current);
+  const auto is_left_out = [&](const auto& entry) { return !settings.compares(entry.first, ""); };
+  auto before = record_locations(baseline), after = record_locations(current);
+  std::erase_if(before, is_left_out);
+  std::erase_if(after, is_left_out);
   std::vector<DiffItem> items;
   for (const auto& [id, path] : before) {
     const auto other = after.find(id);
@@ -174,7 +184,7 @@ std::vector<DiffItem> record_items(const fs::path& baseline, const fs::path& cur
   for (const auto& [id, path] : after)
     if (!before.contains(id))
       items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
-  for (DiffItem& item : items) item.passes = passes(item.judgement, settings.allowed);
+  for (DiffItem& item : items) item.passes = passes(item.judgement, settings.allowed_of(item.id));
   check_tolerances(items, settings);
   return items;
 }
@@ -212,21 +222,20 @@ void check_kinds(const ItemList& baseline, const ItemList& current, const fs::pa
 /// "fig-7.png": what a single file is called.
 std::string file_id(const fs::path& path) { return item_name(path, path.parent_path()).id; }
 
-std::vector<DiffItem> image_items(ItemList baseline, const ItemList& current,
+std::vector<DiffItem> image_items(const ItemList& baseline, const ItemList& current,
                                   const std::string& name, const RecordContext& context,
                                   const DiffSettings& settings) {
-  join_keyed(baseline, current);
   std::set<std::string> ids;
-  for (const ItemList* side : {static_cast<const ItemList*>(&baseline), &current})
+  for (const ItemList* side : {&baseline, &current})
     for (const auto& [id, files] : *side)
       if (files.documents.empty()) ids.insert(id);
   const std::vector<std::string> order(ids.begin(), ids.end());
   std::vector<DiffItem> items(order.size());
   parallel_for(order.size(), [&](std::size_t i) {
-    const auto before = std::as_const(baseline).find(order[i]);
+    const auto before = baseline.find(order[i]);
     const auto after = current.find(order[i]);
     items[i] = item_diff(order[i].empty() ? name : order[i],
-                         before == std::as_const(baseline).end() ? nullptr : &before->second,
+                         before == baseline.end() ? nullptr : &before->second,
                          after == current.end() ? nullptr : &after->second, context, settings);
   });
   return items;
@@ -252,7 +261,7 @@ DiffItem missing_report(std::size_t items, const std::string& current,
       fmt::format("the current has no report: {} of the baseline, figures, tables "
                   "and pages, are missing; mapproof report {} makes them",
                   counted(static_cast<long long>(items), "item"), printable(current))};
-  item.passes = passes(item.judgement, settings.allowed);
+  item.passes = passes(item.judgement, settings.allowed_of(item.id));
   return item;
 }
 
@@ -283,16 +292,18 @@ void remark_not_compared(const std::vector<DiffItem>& items, DiffResult& result)
     result.remarks.push_back("Compared only by their bytes:  " + listed(names, 12) + ".");
 }
 
-/// Names the ignored regions that match no item: a name may be misspelt.
-void remark_ignored(const std::vector<DiffItem>& items, const DiffSettings& settings,
-                    DiffResult& result) {
-  std::set<std::string> unmatched;
-  for (const IgnoredRegion& region : settings.ignored)
-    if (region.id != "*" && std::ranges::find(items, region.id, &DiffItem::id) == items.end())
-      unmatched.insert("\"" + printable(region.id) + "\"");
-  if (unmatched.empty()) return;
-  result.remarks.push_back("Ignored regions that match no image:  " +
-                           listed({unmatched.begin(), unmatched.end()}, 12) + ".");
+/// Names what the settings leave out, and those of them that match nothing.
+void remark_selection(const Selection& selection, DiffResult& result) {
+  constexpr std::size_t kMostNames = 12;
+  std::vector<std::string> left_out;
+  for (const std::string& id : selection.left_out) left_out.push_back(printable(id));
+  if (!left_out.empty())
+    result.remarks.push_back(fmt::format("Left out, {} by the settings:  {}.",
+                                         counted(static_cast<long long>(left_out.size()), "item"),
+                                         listed(left_out, kMostNames)));
+  if (!selection.unmatched.empty())
+    result.remarks.push_back(
+        "Settings that match nothing:  " + listed(selection.unmatched, kMostNames) + ".");
 }
 
 /// Sorts the items and judges the whole.
@@ -315,8 +326,14 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   result.baseline = baseline.string();
   result.current = current.string();
   result.allowed = settings.allowed;
-  ItemList before = list_items(baseline), after = list_items(current);
+  ComparedItems sides{.baseline = list_items(baseline),
+                      .current = list_items(current),
+                      .record_ids = record_ids(baseline, current),
+                      .file_name = file_id(current)};
+  ItemList &before = sides.baseline, &after = sides.current;
   check_kinds(before, after, baseline, current);
+  join_keyed(before, after);
+  const Selection selection = select_items(sides, settings);
   result.items = record_items(baseline, current, settings);
   RecordContext context;
   for (const DiffItem& item : result.items)
@@ -332,13 +349,15 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   }
   const std::size_t lacking = lacks_report ? before.size() : 0;
   if (lacks_report) before.clear();
-  std::vector<DiffItem> images = image_items(before, after, file_id(current), context, settings);
-  name_swapped(images, settings.allowed);
+  std::vector<DiffItem> images = image_items(before, after, sides.file_name, context, settings);
+  name_swapped(images, settings);
   remark_not_compared(images, result);
-  remark_ignored(images, settings, result);
+  remark_selection(selection, result);
   std::ranges::move(images, std::back_inserter(result.items));
   if (lacks_report) result.items.push_back(missing_report(lacking, result.current, settings));
-  add_documents(result.items, before, after, file_id(current), settings);
+  add_documents(result.items, before, after, sides.file_name, settings);
+  if (result.items.empty() && !selection.left_out.empty())
+    throw InvalidInput("the settings leave out everything: there is nothing to compare");
   if (result.items.empty())
     throw InvalidInput(baseline.string() + " and " + current.string() +
                        "  hold no records, figures or images to compare");
@@ -346,9 +365,14 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   return result;
 }
 
+bool holds_items(const fs::path& folder) {
+  return !record_locations(folder).empty() || !list_items(folder).empty();
+}
+
 DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
                        const DiffSettings& settings) {
   DiffResult result;
+  result.has_baseline = false;
   result.baseline = baseline.string();
   result.current = current.string();
   result.allowed = settings.allowed;
@@ -356,15 +380,21 @@ DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
       "baseline", {Verdict::kMissing, true,
                    fmt::format("there is no baseline {}; the candidate is kept in {}",
                                printable(result.baseline), printable(result.current))}));
-  for (const auto& [id, path] : record_locations(current))
-    result.items.push_back(lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
-  const ItemList after = list_items(current);
-  std::ranges::move(image_items({}, after, file_id(current), {}, settings),
+  ComparedItems sides{.baseline = {},
+                      .current = list_items(current),
+                      .record_ids = record_ids(baseline, current),
+                      .file_name = file_id(current)};
+  for (const std::string& id : sides.record_ids)
+    if (settings.compares(id, ""))
+      result.items.push_back(
+          lone_records(id, {Verdict::kNew, true, "the baseline has no records"}));
+  remark_selection(select_items(sides, settings), result);
+  std::ranges::move(image_items({}, sides.current, sides.file_name, {}, settings),
                     std::back_inserter(result.items));
-  add_documents(result.items, {}, after, file_id(current), settings);
+  add_documents(result.items, {}, sides.current, sides.file_name, settings);
   for (DiffItem& item : result.items)
-    item.passes =
-        item.judgement.verdict == Verdict::kNew && passes(item.judgement, settings.allowed);
+    item.passes = item.judgement.verdict == Verdict::kNew &&
+                  passes(item.judgement, settings.allowed_of(item.id));
   conclude(result);
   return result;
 }

@@ -15,6 +15,10 @@ namespace mapproof {
 DiffResult folder_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
                        const DiffSettings& settings = {});
 
+/// Whether a folder holds records, figures, images, tables or reports.
+/// @throws IoError if it cannot be listed.
+bool holds_items(const std::filesystem::path& folder);
+
 /// The result for a current folder without a baseline: all items are new, the baseline is missing.
 /// It never passes, whatever is allowed.
 /// @throws IoError as folder_diff.

@@ -310,7 +310,7 @@ void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSett
     item.figure = scene_diff(
         {read_input(item.baseline_figure, kLargestFigure), item.baseline_figure.string()},
         {read_input(item.current_figure, kLargestFigure), item.current_figure.string()},
-        settings.figures, words);
+        settings.figures_of(item.id), words);
   } catch (const IoError& error) {
     item.judgement = {Verdict::kUnreadable, true, error.what()};
     return;
@@ -332,7 +332,7 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
     item.judgement = {Verdict::kUnreadable, true, error.what()};
     return;
   }
-  item.figure = figure_diff(a, b, settings.figures);
+  item.figure = figure_diff(a, b, settings.figures_of(item.id));
   item.judgement = judge(*item.figure);
   if (item.figure->has(ChangeKind::kData))
     item.judgement =
@@ -389,7 +389,7 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
                         current->figure.empty() ? "its figure.json is missing"
                                                 : "its figure.json is not in the baseline"};
   }
-  item.passes = passes(item.judgement, settings.allowed);
+  item.passes = passes(item.judgement, settings.allowed_of(id));
   return item;
 }
 

@@ -465,7 +465,7 @@ DiffItem document_item(const std::string& id, const ItemFiles* baseline, const I
       item.judgement = {Verdict::kUnreadable, true, error.what()};
     }
   }
-  item.passes = passes(item.judgement, settings.allowed);
+  item.passes = passes(item.judgement, settings.allowed_of(item.id));
   return item;
 }
 

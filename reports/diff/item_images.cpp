@@ -1,0 +1,134 @@
+#include "reports/diff/item_images.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
+#include "render/image/png.hpp"
+#include "reports/diff/images/image_diff.hpp"
+
+namespace mapproof {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Lists what an earlier call wrote, one path per line.
+constexpr const char* kList = "mapproof-images.txt";
+constexpr std::size_t kLargestList = std::size_t{1} << 26;   // Bytes.
+constexpr std::size_t kLargestImage = std::size_t{1} << 28;  // Bytes, as image_diff() reads.
+
+std::string file_name(std::string_view text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/@+";
+  std::string name;
+  for (const char c : text)
+    name += kPlain.find(c) != std::string_view::npos
+                ? std::string(1, c)
+                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return name;
+}
+
+void remove_earlier(const OutputFolder& folder) {
+  std::error_code error;
+  const fs::path path = folder.path();
+  if (!fs::exists(path, error) || fs::is_empty(path, error)) return;
+  if (!fs::is_regular_file(path / kList, error))
+    throw InvalidInput(
+        fmt::format("--images {}: holds files that are not images of an earlier "
+                    "comparison; name another folder",
+                    printable(path.string())));
+  const std::string list = read_file(path / kList, kLargestList);
+  for (std::size_t at = 0; at < list.size();) {
+    const std::size_t end = std::min(list.find('\n', at), list.size());
+    if (end > at) {
+      const fs::path file = list.substr(at, end - at);
+      folder.remove(file);
+      // The folders that held it alone.
+      for (fs::path above = file.parent_path();
+           !above.empty() && fs::remove(path / above, error) && !error; above = above.parent_path())
+        continue;
+    }
+    at = end + 1;
+  }
+  folder.remove(kList);
+}
+
+/// Copies one side. @return Its path; empty if it cannot be read.
+std::string copy(const fs::path& from, const std::string& to, const OutputFolder& folder) {
+  if (from.empty()) return "";
+  std::string bytes;
+  try {
+    bytes = read_file(from, kLargestImage);
+  } catch (const IoError&) {
+    return "";  // The verdict reports it.
+  }
+  folder.write(to, bytes);
+  return to;
+}
+
+/// The heat map. @return Its path; empty if there is none.
+std::string write_difference(const ImageFile& file, const ImageOptions& options,
+                             const std::string& to, const OutputFolder& folder) {
+  if (file.baseline.empty() || file.current.empty() || file.diff.state == ImageState::kUnreadable ||
+      file.diff.state == ImageState::kIdentical)
+    return "";
+  Image heat;
+  try {
+    heat = heat_map(file.baseline, file.current, options);
+  } catch (const IoError&) {
+    return "";
+  }
+  if (heat.width == 0) return "";
+  folder.write(to, encode_png(heat));
+  return to;
+}
+
+}  // namespace
+
+std::vector<std::string> ItemImages::paths() const {
+  std::vector<std::string> all;
+  for (const std::string* path : {&difference, &current, &baseline})
+    if (!path->empty()) all.push_back(*path);
+  return all;
+}
+
+std::vector<const ItemImages*> ImageLinks::of(const std::string& id) const {
+  std::vector<const ItemImages*> all;
+  for (const ItemImages& item : images)
+    if (item.id == id) all.push_back(&item);
+  return all;
+}
+
+std::string ImageLinks::joined(const std::string& path) const {
+  return prefix.empty() || prefix.ends_with('/') ? prefix + path : prefix + "/" + path;
+}
+
+std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,
+                                          const OutputFolder& folder) {
+  remove_earlier(folder);
+  make_folder(folder.path());
+  std::vector<ItemImages> all;
+  std::string list;
+  for (const DiffItem& item : result.items) {
+    if (item.judgement.verdict <= Verdict::kWithinTolerance) continue;
+    for (const ImageFile& file : item.images) {
+      const std::string start = file_name(item.id + "." + file.format) + "/";
+      ItemImages images{.id = item.id, .format = file.format};
+      images.baseline = copy(file.baseline, start + "baseline." + file.format, folder);
+      images.current = copy(file.current, start + "current." + file.format, folder);
+      images.difference =
+          write_difference(file, settings.images_of(item.id), start + "difference.png", folder);
+      for (const std::string& path : images.paths()) list += path + "\n";
+      if (!images.paths().empty()) all.push_back(std::move(images));
+    }
+  }
+  folder.write(kList, list);
+  return all;
+}
+
+}  // namespace mapproof

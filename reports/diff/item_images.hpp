@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/files/output_folder.hpp"
+#include "reports/diff/diff_result.hpp"
+#include "reports/diff/diff_settings.hpp"
+
+namespace mapproof {
+
+/// The images of one file that is not identical, as paths below a folder; empty: none.
+struct ItemImages {
+  std::string id, format;
+  std::string difference = {};  ///< A PNG: the heat map (heat_map() in image_diff.hpp).
+  std::string current = {}, baseline = {};
+
+  std::vector<std::string> paths() const;  ///< Those that exist, in this order.
+};
+
+/// Where outputs find such images.
+struct ImageLinks {
+  std::vector<ItemImages> images;  ///< In the order of the items.
+  std::string prefix;              ///< Put before "/" and a path; empty: the paths are relative.
+
+  /// The images of an item.
+  std::vector<const ItemImages*> of(const std::string& id) const;
+  std::string joined(const std::string& path) const;
+};
+
+/// Writes the images of each item that is neither identical nor within tolerance:
+/// ID.FORMAT/baseline.FORMAT, /current.FORMAT as they are, and /difference.png if both can be
+/// compared pixel by pixel. In names, bytes other than letters, digits and "-._/@+" are "%XX". What
+/// an earlier call wrote to the folder is removed first.
+/// @throws IoError; InvalidInput if the folder holds files, but none of an earlier call.
+/// @note Compares the images of one file after the other again.
+std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,
+                                          const OutputFolder& folder);
+
+}  // namespace mapproof
