@@ -8,7 +8,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/export/figure_csv.hpp"
-#include "render/export/scene_script.hpp"
+#include "render/export/figure_script.hpp"
 #include "render/image/image.hpp"
 #include "render/output/write_drawn.hpp"
 #include "render/plot/layout.hpp"

@@ -9,7 +9,6 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/export/figure_csv.hpp"
 #include "render/export/figure_script.hpp"
-#include "render/export/scene_script.hpp"
 #include "render/plot/layout.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/samples/sample_scenes.hpp"

@@ -14,7 +14,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
-#include "core/records/tables/respelling.hpp"
 
 namespace mapproof {
 namespace {

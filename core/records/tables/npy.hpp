@@ -34,4 +34,7 @@ class NpyArray {
   bool is_fortran_ = false;
 };
 
+/// The array in a file as CSV. @throws IoError as NpyArray, or if it has other dimensions.
+std::string npy_csv(std::string_view bytes, const std::string& source);
+
 }  // namespace mapproof

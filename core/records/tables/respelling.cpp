@@ -12,6 +12,7 @@
 #include "core/base/text/csv.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/observations/input_kind.hpp"
+#include "core/records/tables/npy.hpp"
 #include "core/records/tables/number_rows.hpp"
 #include "core/records/tables/table_stream.hpp"
 

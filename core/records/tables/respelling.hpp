@@ -33,7 +33,6 @@ bool is_npz(std::string_view start);
 
 // The forms; all throw IoError.
 
-std::string npy_csv(std::string_view bytes, const std::string& source);
 std::string npz_csv(std::string_view bytes, const std::string& source);
 /// Objects, or lists of cells, without a schema of mapproof.
 bool holds_json_rows(ByteSource& source);
