@@ -64,8 +64,6 @@ void open_observations(MapJob& job) {
     return;
   }
   job.source = std::make_shared<ByteSource>(job.path);
-  require_columns(*job.source, job.columns);
-  mark_columns(*job.source, job.with_columns);
   const TableFormat format = job.table_format();
   if (!job.sensor.empty() || format.layout != Layout::kAuto || !is_detections(*job.source, format))
     return;
@@ -77,9 +75,9 @@ void open_observations(MapJob& job) {
 }
 
 /// Reads anchors and ground truth, and finds out which named columns they and the files of other
-/// sensors have. A stream of those is not looked at: it can be read once.
+/// sensors have; the observations must have the rest. A stream of other sensors is not looked at:
+/// it can be read once.
 void read_known_positions(MapJob& job) {
-  job.columns = column_names(job.table.columns);
   job.known_anchors = read_points(job.anchors, job.columns);
   job.known_ground_truth = read_points(job.ground_truth, job.columns);
   job.with_columns = job.columns;
@@ -88,6 +86,9 @@ void read_known_positions(MapJob& job) {
     ByteSource source(with);
     mark_columns(source, job.columns);
   }
+  if (!job.source) return;
+  require_columns(*job.source, job.columns);
+  mark_columns(*job.source, job.with_columns);
 }
 
 /// Completes a parsed job: unless the map is incremental, opens the file and detects its sensor if
@@ -97,13 +98,14 @@ void read_known_positions(MapJob& job) {
 ///         if a file cannot be read.
 void complete(MapJob& job) {
   if (job.sensor.empty() && job.method == kPairs) job.sensor = kRangeBearing;
-  read_known_positions(job);
+  job.columns = column_names(job.table.columns);
   // A stream cannot be opened before it is read.
   if (!job.incremental) open_observations(job);
   require_known_method(job);
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
   set_stop_rules(job);
+  read_known_positions(job);
 }
 
 /// Refuses, before anything is computed, a folder that holds another map. Whether a map of pairs
