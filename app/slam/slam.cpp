@@ -221,10 +221,11 @@ int incremental_slam(const SlamArguments& arguments, const Templates& page,
   MapJob job;
   job.path = arguments.data;
   job.sensor = name(Sensor::kRange);
-  job.table.columns = column_names(arguments.columns);
+  job.table.columns = arguments.columns;
+  job.columns = column_names(arguments.columns);
   job.anchors = arguments.known;
-  job.known_anchors = read_points(arguments.known, job.table.columns);
-  job.known_ground_truth = read_points(arguments.true_landmarks, job.table.columns);
+  job.known_anchors = read_points(arguments.known, job.columns);
+  job.known_ground_truth = read_points(arguments.true_landmarks, job.columns);
   job.fit = "rigid";
   job.incremental = true;
   job.every = arguments.every;
