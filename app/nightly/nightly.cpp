@@ -22,6 +22,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/text/retired_names.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"
@@ -55,6 +56,8 @@ std::string now_utc() {
 
 std::optional<int> asked_reference(const std::string& text) {
   if (text == kLastPassing) return std::nullopt;
+  if (const std::string_view now = replacement_of(NameKind::kValue, text); !now.empty())
+    throw InvalidInput(fmt::format("--reference: {} is now called {}", text, now));
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size() || number < 1)

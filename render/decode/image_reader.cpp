@@ -104,6 +104,31 @@ bool is_opaque(std::string_view rgba) {
   return true;
 }
 
+/// Whether the blocks of a GIF are whole up to its trailer: newer decoders take a file that
+/// is cut off for a shorter one. Bytes after the trailer are left alone.
+bool has_gif_trailer(std::string_view bytes) {
+  constexpr std::size_t kHead = 13, kDescriptor = 10;
+  const auto table_bytes = [](unsigned flags) -> std::size_t {
+    return (flags & 0x80U) != 0 ? std::size_t{3} << ((flags & 7U) + 1) : 0;
+  };
+  if (bytes.size() < kHead) return false;
+  std::size_t at = kHead + table_bytes(byte_at(bytes, 10));
+  while (at < bytes.size()) {
+    const unsigned block = byte_at(bytes, at);
+    if (block == 0x3B) return true;
+    if (block == 0x21) {
+      at += 2;
+    } else if (block == 0x2C && at + kDescriptor <= bytes.size()) {
+      at += kDescriptor + table_bytes(byte_at(bytes, at + kDescriptor - 1)) + 1;
+    } else {
+      return false;
+    }
+    while (at < bytes.size() && byte_at(bytes, at) != 0) at += 1 + byte_at(bytes, at);
+    ++at;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string_view label(DecodedFormat format) {
@@ -127,6 +152,8 @@ std::optional<DecodedFormat> decoded_format(std::string_view bytes) {
 
 ImageReader::ImageReader(std::string_view bytes, DecodedFormat format) : format_(format) {
   const ProgramCall call = program_of(format);
+  if (format == DecodedFormat::kGif && !has_gif_trailer(bytes))
+    throw InvalidInput("GIF cannot be read: it is cut off or damaged, it has no trailer");
   try {
     input_ = memory_file("mapproof-image");
     messages_ = memory_file("mapproof-image");
