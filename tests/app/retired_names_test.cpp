@@ -53,10 +53,10 @@ TEST(RetiredNames, OfValuesAndExperimentsAreRefusedWithTheNewName) {
   for (const RetiredName& value : retired(NameKind::kValue)) {
     const test::TemporaryFolder folder;
     const std::string name(value.name);
-    const test::Outcome outcome =
-        name == "last-good"
-            ? test::mapproof({"nightly", "--store", folder / "store", "--reference", name})
-            : test::mapproof({"map", "seen.csv", "--missing", name});
+    const test::Outcome outcome = name == "last-good"
+                                      ? test::mapproof({"nightly", "boots2013", "--store",
+                                                        folder / "store", "--reference", name})
+                                      : test::mapproof({"map", "seen.csv", "--missing", name});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.error.find("is now called " + std::string(value.now)), std::string::npos)
         << outcome.error;
