@@ -53,7 +53,7 @@ TEST(RetiredNames, OfValuesAndExperimentsAreRefusedWithTheNewName) {
   for (const RetiredName& value : retired(NameKind::kValue)) {
     const test::TemporaryFolder folder;
     const std::string name(value.name);
-    const test::Outcome outcome = name == "last-good"
+    const test::Outcome outcome = value.now == "last-passing"
                                       ? test::mapproof({"nightly", "boots2013", "--store",
                                                         folder / "store", "--reference", name})
                                       : test::mapproof({"map", "seen.csv", "--missing", name});

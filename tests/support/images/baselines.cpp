@@ -21,6 +21,7 @@ Theme baseline_theme() {
   theme.height_pt = 180.0;
   theme.dpi = 144.0;
   theme.draws_title = true;
+  theme.draws_notes = true;
   return theme;
 }
 
