@@ -198,7 +198,7 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   // Without a baseline one line has been written already.
   if (to_standard_output(options, console) == 0 && result.has_baseline) {
     text = diff_text(result, console.is_quiet() ? DiffWords::kFailures : DiffWords::kAll);
-    if (is_run_by_ctest()) text += ctest_lines(result);
+    if (is_run_by_ctest()) text += ctest_lines(result, options.folder.empty());
   }
   console.print(text);
   return result.passes ? kDone : kNo;

@@ -246,7 +246,7 @@ std::string github_lines(const DiffResult& result, const std::string& folder) {
   return out;
 }
 
-std::string ctest_lines(const DiffResult& result) {
+std::string ctest_lines(const DiffResult& result, bool keeps_baseline) {
   constexpr int kMostImages = 10;
   std::string out;
   const std::vector<int> counts = counts_of(result);
@@ -260,7 +260,8 @@ std::string ctest_lines(const DiffResult& result) {
     for (const ImageFile& image : item.images) {
       if (image.format != "png" || shown >= 2 * kMostImages) continue;
       for (const auto& [side, path] :
-           {std::pair("baseline", image.baseline), std::pair("current", image.current)})
+           {std::pair("baseline", keeps_baseline ? image.baseline : std::filesystem::path()),
+            std::pair("current", image.current)})
         if (!path.empty() && ++shown)
           out += fmt::format(
               "<CTestMeasurementFile type=\"image/png\" name=\"{} {}\">{}</CTestMeasurementFile>\n",

@@ -41,6 +41,7 @@ std::string github_lines(const DiffResult& result, const std::string& folder);
 
 /// Lines that CTest and CDash read from a test's output: the number of items of each verdict, and
 /// the images of the first ten items that do not pass.
-std::string ctest_lines(const DiffResult& result);
+/// @param keeps_baseline  The baseline's files stay after the program's end.
+std::string ctest_lines(const DiffResult& result, bool keeps_baseline);
 
 }  // namespace mapproof

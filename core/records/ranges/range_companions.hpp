@@ -4,8 +4,8 @@
 #include <string>
 
 #include "core/base/files/byte_source.hpp"
+#include "core/records/ranges/gathered_range_log.hpp"
 #include "core/records/ranges/range_log_options.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
 #include "core/records/tables/column_names.hpp"
 
 namespace mapproof {

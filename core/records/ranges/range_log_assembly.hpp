@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/model/range_log.hpp"
+#include "core/records/ranges/gathered_range_log.hpp"
 #include "core/records/ranges/range_log_options.hpp"
-#include "core/records/ranges/range_log_parts.hpp"
 
 namespace mapproof {
 

@@ -13,7 +13,6 @@
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
-#include "core/records/ranges/range_log_assembly.hpp"
 
 namespace mapproof {
 namespace {
@@ -231,7 +230,7 @@ bool names_graph_record(const TableRow& row) {
          kind.starts_with("PARAMS_");
 }
 
-RangeLog read_range_log_g2o(ByteSource& source, const RangeLogOptions& options) {
+RangeLogParts gather_g2o(ByteSource& source, const RangeLogOptions& options) {
   RangeLogParts parts{.source = source.name(), .name = options.name};
   const std::string bytes = source.rest();
   const G2oLines lines = lines_of(bytes, parts.source);
@@ -243,7 +242,7 @@ RangeLog read_range_log_g2o(ByteSource& source, const RangeLogOptions& options) 
                  .x_m = path.positions_m(0, 0),
                  .y_m = path.positions_m(0, 1),
                  .heading_rad = path.heading_rad(0)};
-  return assemble(std::move(parts), options);
+  return parts;
 }
 
 Trajectory read_g2o_path(ByteSource& source) {

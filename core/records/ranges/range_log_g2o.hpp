@@ -6,6 +6,7 @@
 #include "core/model/range_log.hpp"
 #include "core/model/slam/slam.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/ranges/gathered_range_log.hpp"
 #include "core/records/ranges/range_log_options.hpp"
 #include "core/records/tables/table_reader.hpp"
 
@@ -22,7 +23,7 @@ bool names_graph_record(const TableRow& row);
 /// Poses are in the order of their vertices, one second apart, and each is joined to the next by an
 /// edge. Positions of vertices are guesses, not used but for the start.
 /// @throws IoError with the line.
-RangeLog read_range_log_g2o(ByteSource& source, const RangeLogOptions& options);
+RangeLogParts gather_g2o(ByteSource& source, const RangeLogOptions& options);
 
 /// The path of the vertices VERTEX_SE2, as ground truth: one second apart. @throws IoError.
 Trajectory read_g2o_path(ByteSource& source);

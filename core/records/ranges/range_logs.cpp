@@ -15,6 +15,7 @@
 #include "core/json/text_input.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/ranges/range_columns.hpp"
+#include "core/records/ranges/range_log_assembly.hpp"
 #include "core/records/ranges/range_log_forms.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
 #include "core/records/tables/respelling.hpp"
@@ -138,7 +139,7 @@ RangeLog read_range_log(ByteSource& source, const RangeLogOptions& options) {
     case Form::kPyfg:
       return read_range_log_pyfg(source, named);
     case Form::kG2o:
-      return read_range_log_g2o(source, named);
+      return assemble(gather_g2o(source, named), named);
     case Form::kText:
       return read_range_log_text(source, named);
     case Form::kNone:

@@ -95,7 +95,10 @@ bool is_yaml(std::string_view text) {
   std::string_view line = trimmed(text.substr(0, text.find('\n')));
   if (line.starts_with("- ")) line.remove_prefix(2);
   const std::size_t colon = line.find(':');
-  const bool is_pair = colon != std::string_view::npos && colon > 0 &&
+  // A row of a table may have a colon, too: "Unnamed: 0" of pandas, before the next cell.
+  const bool is_flow = line.find_first_of("[{\"'") != std::string_view::npos;
+  const bool is_row = line.find_first_of(is_flow ? "\t;" : "\t;,") != std::string_view::npos;
+  const bool is_pair = !is_row && colon != std::string_view::npos && colon > 0 &&
                        (colon + 1 == line.size() || line[colon + 1] == ' ');
   constexpr std::string_view kOfKeys =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.\"'";

@@ -97,6 +97,7 @@ TEST(ForeignTables, WithTimesAsRowsAreRecognisedByHeaderOrFirstColumn) {
   expect_ranges("Zeit;door;desk;plant\n0;1,5;0,25;7\n1;2;1;8\n2;;2;9\n3;4;3;10\n");
   // pandas' index without a name.
   expect_ranges(",door,desk,plant\n0,1.5,0.25,7.0\n1,2.0,1.0,8.0\n2,,2.0,9.0\n3,4.0,3.0,10.0\n");
+  expect_ranges("Unnamed: 0,door,desk,plant\n0,1.5,.25,7\n1,2,1,8\n2,NA,2,9\n3,4,3,10\n");
   expect_ranges(
       "Unnamed: 0\tdoor\tdesk\tplant\n0\t1.5\t.25\t7\n1\t2\t1\t8\n2\tNA\t2\t9\n3\t4\t3\t10\n");
   // Dates.
@@ -385,7 +386,6 @@ TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
   records.replace(records.find("'<f8'"), 5, "[('t','<f8')]");
   records[8] = static_cast<char>(records[8] + 8);
   EXPECT_NE(table_error(records).find("pandas.DataFrame(array).to_csv"), std::string::npos);
-
 }
 
 TEST(OtherFiles, AreNamedWithWhatConvertsThem) {
@@ -402,7 +402,7 @@ TEST(OtherFiles, AreNamedWithWhatConvertsThem) {
   expect(std::string("\x89HDF\r\n\x1a\n\0", 9), "HDF5", "Python");
   expect(std::string("PAR1\x15\x04\0", 7), "Parquet", "read_parquet");
   expect(std::string("\x80\x04\x95\0", 4), "pickle", "numpy.save");
-  expect(std::string("%PDF-1.7\n"), "PDF", "data");
+  expect(std::string("%PDF-1.7\n"), "PDF", "pdftotext");
   expect(std::string("\x89PNG\r\n\x1a\n\0\0", 10), "PNG", "data");
   expect(std::string("SQLite format 3\0\x10", 17), "SQLite", "sqlite3 -csv");
   expect(std::string("#ROSBAG V2.0\n\x45\0\0", 16), "ROS 1", "rostopic");

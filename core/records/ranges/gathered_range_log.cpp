@@ -1,4 +1,4 @@
-#include "core/records/ranges/range_log_parts.hpp"
+#include "core/records/ranges/gathered_range_log.hpp"
 
 namespace mapproof {
 
