@@ -47,10 +47,7 @@ bool leads_out(std::string_view path) {
   return false;
 }
 
-struct GitAnswer {
-  ProcessEnd end;
-  std::string output, messages;
-
+struct GitAnswer : ProgramAnswer {
   /// Without the line's end.
   std::string line() const { return output.substr(0, output.find('\n')); }
 };
@@ -60,13 +57,9 @@ GitAnswer git(const std::vector<std::string>& words, std::string_view input = {}
   ProgramCall call{.program = "/usr/bin/env",
                    .arguments = {"LC_ALL=C", "GIT_TERMINAL_PROMPT=0", "git", "--no-pager"}};
   call.arguments.insert(call.arguments.end(), words.begin(), words.end());
-  const Descriptor in = memory_file("mapproof-git"), out = memory_file("mapproof-git"),
-                   messages = memory_file("mapproof-git");
-  if (!write_all(in, input) || ::lseek(in.get(), 0, SEEK_SET) != 0)
-    throw ProcessError(fmt::format("git: {}", std::strerror(errno)));
-  ChildProcess process(call, {in.get(), out.get(), messages.get()});
-  const ProcessEnd end = process.wait();
-  return {end, content_of(out), content_of(messages)};
+  const Descriptor in = memory_file("mapproof-git");
+  if (!write_all(in, input)) throw ProcessError(fmt::format("git: {}", std::strerror(errno)));
+  return {answer_of(call, in)};
 }
 
 /// The answer of a call that has to succeed.

@@ -53,9 +53,9 @@ void add_remarks(MapDraft& draft, const std::vector<std::string>& remarks) {
   draft.result.remarks.insert(draft.result.remarks.end(), remarks.begin(), remarks.end());
 }
 
-/// Values of one sensor.
 constexpr std::ptrdiff_t kMostIncremental = 2000;  ///< Landmarks, for the memory of their pairs.
 
+/// Values of one sensor.
 class IncrementalValues : public IncrementalSource {
  public:
   explicit IncrementalValues(const MapJob& job)
@@ -184,9 +184,9 @@ class IncrementalPairs : public IncrementalSource {
   MovedWatch watch_{MovedOptions{.is_contrasted = true}};
 };
 
-/// Ranges that are taken together.
 constexpr std::size_t kEnoughAnchors = 4;  ///< Landmarks, for a map by known ones.
 
+/// Ranges that are taken together.
 class IncrementalRanges : public IncrementalSource {
  public:
   explicit IncrementalRanges(const MapJob& job)

@@ -75,17 +75,12 @@ void open_observations(MapJob& job) {
 }
 
 /// Reads anchors and ground truth, and finds out which named columns they and the files of other
-/// sensors have; the observations must have the rest. A stream of other sensors is not looked at:
-/// it can be read once.
+/// sensors have; the observations must have the rest.
 void read_known_positions(MapJob& job) {
   job.known_anchors = read_points(job.anchors, job.columns);
   job.known_ground_truth = read_points(job.ground_truth, job.columns);
   job.with_columns = job.columns;
-  for (const std::string& with : job.with) {
-    if (job.columns.empty() || is_folder(with) || handed_in(with)) continue;
-    ByteSource source(with);
-    mark_columns(source, job.columns);
-  }
+  for (const std::string& with : job.with) mark_columns_of_file(with, job.columns);
   if (!job.source) return;
   require_columns(*job.source, job.columns);
   mark_columns(*job.source, job.with_columns);

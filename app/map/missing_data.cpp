@@ -43,9 +43,9 @@ DistanceRule covisible_rule() {
 /// Whether another strategy than the advised one makes much worse maps: data missing at random
 /// spoil covisible pairs, patterns spoil the others; pairwise-complete is only a little worse at
 /// random.
-bool worth_a_warning(const MissingPattern& pattern, const std::string& way) {
+bool worth_a_warning(const MissingPattern& pattern, const std::string& strategy) {
   constexpr double kPatterned = 2.0;
-  return way == kCovisible || pattern.dispersion > kPatterned;
+  return strategy == kCovisible || pattern.dispersion > kPatterned;
 }
 
 /// "entries are missing by distance (40 % missing, ...)": why a strategy is advised.
@@ -100,7 +100,7 @@ DistanceRule filling_rule(Filling filling, int dimensions) {
 
 /// The chosen strategy for missing data.
 struct MissingChoice {
-  std::string way;  ///< One of missing_strategies().
+  std::string strategy;  ///< One of missing_strategies().
   std::optional<int> dimensions;
 };
 
@@ -116,23 +116,24 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
     if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
   const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
                       static_cast<double>(steps);
-  const bool is_auto = choice.way == kAuto;
-  if (is_auto) choice.way = name(MissingStrategy::kPairwiseComplete);
+  const bool is_auto = choice.strategy == kAuto;
+  if (is_auto) choice.strategy = name(MissingStrategy::kPairwiseComplete);
   if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
   const MissingPattern pattern = missing_pattern(with_rows(history, rows), steps);
   const StrategyAdvice advice = advised_strategy(pattern, history.sensor);
   if (is_auto) {
-    choice.way = name(advice.way);
-    if (choice.dimensions && advice.way != MissingStrategy::kPpca) choice.dimensions.reset();
+    choice.strategy = name(advice.strategy);
+    if (choice.dimensions && advice.strategy != MissingStrategy::kPpca) choice.dimensions.reset();
     result.remarks.push_back(fmt::format("Missing data: the strategy is {}, because {}.",
-                                         choice.way, advice_words(advice.why, pattern)));
-  } else if (const bool both_fill = advice.way == MissingStrategy::kPpca && choice.way == "pca";
-             choice.way != name(advice.way) && !both_fill && pattern.dispersion > 0.0 &&
-             history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.way)) {
+                                         choice.strategy, advice_words(advice.why, pattern)));
+  } else if (const bool both_fill =
+                 advice.strategy == MissingStrategy::kPpca && choice.strategy == "pca";
+             choice.strategy != name(advice.strategy) && !both_fill && pattern.dispersion > 0.0 &&
+             history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.strategy)) {
     result.warnings.push_back(fmt::format(
         "--missing {} does not suit these missing data best: {}. --missing {} is likely "
         "to give a better map.",
-        choice.way, advice_words(advice.why, pattern), name(advice.way)));
+        choice.strategy, advice_words(advice.why, pattern), name(advice.strategy)));
   }
   if (pattern.few_share > kFewPairs)
     result.warnings.push_back(fmt::format(
@@ -145,10 +146,10 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
 /// From observations to proximities as it was chosen; empty: as always.
 /// @param choice  Not "auto" (see judged_choice).
 DistanceRule distance_rule(const MissingChoice& choice) {
-  const std::optional<Filling> filling = filling_named(choice.way);
+  const std::optional<Filling> filling = filling_named(choice.strategy);
   if (filling == Filling::kPpca || filling == Filling::kPca)
     return filling_rule(*filling, choice.dimensions.value_or(10));
-  if (choice.way == kCovisible) return covisible_rule();
+  if (choice.strategy == kCovisible) return covisible_rule();
   return {};
 }
 

@@ -261,15 +261,13 @@ std::vector<StatedInput> stated_inputs(const ValidateArguments& arguments) {
   return inputs;
 }
 
-/// Marks the named columns that one of several files has: the others need not. A stream is read
-/// once, and a file that cannot be read is reported later.
+/// Marks the named columns that one of several files has: the others need not. A file that cannot
+/// be read is reported later.
 void mark_found(const std::vector<StatedInput>& inputs, ColumnNames& columns) {
   if (inputs.size() < 2) return;
   for (const StatedInput& input : inputs) {
-    if (columns.empty() || is_folder(input.path) || handed_in(input.path)) continue;
     try {
-      ByteSource source(input.path);
-      mark_columns(source, columns);
+      mark_columns_of_file(input.path, columns);
     } catch (const IoError&) {
     }
   }

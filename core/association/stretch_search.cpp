@@ -53,16 +53,16 @@ const std::pair<Eigen::VectorXf, Eigen::VectorXf>& StretchSearch::costs(Associat
 
 AssociationHypothesis StretchSearch::best(AssociationFault fault, std::size_t a, std::size_t b) {
   const auto count = static_cast<int>(sums_[a].cols()) - 1;
-  std::vector<char> is_member(static_cast<std::size_t>(count));
+  std::vector<char> is_concerned(static_cast<std::size_t>(count));
   for (int block = 0; block < count; ++block)
-    is_member[static_cast<std::size_t>(block)] = concerned(fault, a, b, block) ? 1 : 0;
+    is_concerned[static_cast<std::size_t>(block)] = concerned(fault, a, b, block) ? 1 : 0;
   const float as_given = least(sums_[a].col(count)) + least(sums_[b].col(count));
   AssociationHypothesis found{
       .fault = fault, .first = given_.ids[a], .second = given_.ids[b], .order = number_};
   for (int begin = 0; begin < count; ++begin) {
-    if (is_member[static_cast<std::size_t>(begin)] == 0) continue;
+    if (is_concerned[static_cast<std::size_t>(begin)] == 0) continue;
     for (int end = begin + 1; end <= count; ++end) {
-      if (end - begin == count || is_member[static_cast<std::size_t>(end) - 1] == 0) continue;
+      if (end - begin == count || is_concerned[static_cast<std::size_t>(end) - 1] == 0) continue;
       const auto& [first, second] = costs(fault, a, b, begin, end);
       const auto gain = static_cast<double>(as_given - least(first) - least(second));
       if (gain <= found.gain) continue;

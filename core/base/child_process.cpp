@@ -181,6 +181,16 @@ std::string content_of(const Descriptor& memory_file, std::size_t most) {
   return bytes;
 }
 
+ProgramAnswer answer_of(const ProgramCall& call, const Descriptor& input) {
+  const Descriptor output = memory_file("mapproof-output"),
+                   messages = memory_file("mapproof-messages");
+  if (::lseek(input.get(), 0, SEEK_SET) != 0) throw ProcessError(std::strerror(errno));
+  ChildProcess process(call,
+                       {.input = input.get(), .output = output.get(), .messages = messages.get()});
+  const ProcessEnd end = process.wait();
+  return {end, content_of(output), content_of(messages)};
+}
+
 std::string last_line(std::string_view text) {
   while (text.ends_with('\n')) text.remove_suffix(1);
   return std::string(text.substr(text.rfind('\n') + 1));

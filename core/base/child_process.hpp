@@ -90,6 +90,16 @@ Descriptor memory_file(const char* name);
 /// The bytes of such a file from its start, or the last `most` of them. @throws ProcessError.
 std::string content_of(const Descriptor& memory_file, std::size_t most = std::string::npos);
 
+/// What a program gave until its end.
+struct ProgramAnswer {
+  ProcessEnd end;
+  std::string output, messages;
+};
+
+/// Runs a program to its end. @param input  A file in memory, read from its start.
+/// @throws ProcessError, std::bad_alloc.
+ProgramAnswer answer_of(const ProgramCall& call, const Descriptor& input);
+
 /// The last line that is not empty.
 std::string last_line(std::string_view text);
 

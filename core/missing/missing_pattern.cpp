@@ -88,8 +88,8 @@ MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index s
   return pattern;
 }
 
-std::string_view name(MissingStrategy way) {
-  return kRecommendationNames[static_cast<std::size_t>(way)];
+std::string_view name(MissingStrategy strategy) {
+  return kRecommendationNames[static_cast<std::size_t>(strategy)];
 }
 
 StrategyAdvice advised_strategy(const MissingPattern& pattern, Sensor sensor) {

@@ -30,7 +30,7 @@ MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index s
 enum class MissingStrategy { kPairwiseComplete, kPpca, kCovisible };
 
 /// "pairwise-complete", "ppca", "covisible": as on the command line.
-std::string_view name(MissingStrategy way);
+std::string_view name(MissingStrategy strategy);
 
 /// Why a strategy is best for the missing data.
 enum class StrategyReason {
@@ -43,7 +43,7 @@ enum class StrategyReason {
 };
 
 struct StrategyAdvice {
-  MissingStrategy way = MissingStrategy::kPairwiseComplete;
+  MissingStrategy strategy = MissingStrategy::kPairwiseComplete;
   StrategyReason why = StrategyReason::kNothingMissing;
 };
 

@@ -122,7 +122,7 @@ std::vector<std::string> other_quantities(std::string_view text, const std::stri
     const std::optional<ColumnRole> role = column_heading(cell, i, named).role;
     if (role && std::ranges::find(kOfScans, *role) != kOfScans.end()) continue;
     if (role || std::ranges::find(kMeasured, word) != std::ranges::end(kMeasured))
-      others.push_back(in_quotes(header.cells[i]));
+      others.emplace_back(header.cells[i]);
     else
       ++unknown;
   }
@@ -134,18 +134,17 @@ std::vector<std::string> other_quantities(std::string_view text, const std::stri
 /// other quantities. @throws CheckedProblem with the ways out.
 void refuse_other_quantities(std::string_view text, const std::string& name,
                              const ValidateOptions& options) {
-  const std::vector<std::string> others = other_quantities(text, name, options.format.columns);
+  std::vector<std::string> others = other_quantities(text, name, options.format.columns);
   if (others.empty()) return;
-  const bool is_geographic = std::ranges::any_of(others, [](const std::string& word) {
-    return word.starts_with("\"lat") || word.starts_with("\"lon");
-  });
+  const bool has_degrees = std::ranges::any_of(others, is_geographic);
+  for (std::string& cell : others) cell = in_quotes(cell);
   throw CheckedProblem(fmt::format(
       "{}: is neither odometry (time, distance, heading change), a path (time, x, y), positions "
       "(name, x, y) nor detections (time, landmark, range, bearing): its header has {}. {}",
       name, fmt::join(others, ", "),
-      is_geographic ? "Latitudes and longitudes have to be projected to metres (UTM) first"
-                    : "--columns ROLE=HEADER names its columns; --odometry, --anchors, "
-                      "--ground-truth or --sensor state what it is"));
+      has_degrees ? "Latitudes and longitudes have to be projected to metres (UTM) first"
+                  : "--columns ROLE=HEADER names its columns; --odometry, --anchors, "
+                    "--ground-truth or --sensor state what it is"));
 }
 
 /// Reads a table of one sensor's values. Without a sensor that fits, the error about bearings is

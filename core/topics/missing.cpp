@@ -123,7 +123,7 @@ class IncompleteHistory {
     const StrategyAdvice advice =
         advised_strategy(missing_pattern(history_, steps()), history_.sensor);
     const Filling filling =
-        advice.way == MissingStrategy::kPpca ? Filling::kPpca : Filling::kPairwiseComplete;
+        advice.strategy == MissingStrategy::kPpca ? Filling::kPpca : Filling::kPairwiseComplete;
     const std::string id = method_id(filling, smacof_of(context_.experiment));
     const auto found = std::ranges::find_if(part_.outcomes, [&](const TopicOutcome& outcome) {
       return outcome.method == id && outcome.at == at();

@@ -45,16 +45,12 @@ std::string run(const std::filesystem::path& program, const Descriptor& input) {
   if (!MAPPROOF_HAS_ANIMATION && !is_program(program))
     throw AnimationError(
         "animations are left out: this program was built without them (MAPPROOF_ANIMATION=OFF)");
-  const Descriptor output = memory_file(kMemoryName), messages = memory_file(kMemoryName);
-  ::lseek(input.get(), 0, SEEK_SET);
-  ChildProcess process({program},
-                       {.input = input.get(), .output = output.get(), .messages = messages.get()});
-  const ProcessEnd end = process.wait();
-  if (end.is_success()) return content_of(output);
+  ProgramAnswer answer = answer_of({program}, input);
+  if (answer.end.is_success()) return std::move(answer.output);
   // The last line of messages is the program's own; those of FFmpeg come before it.
-  const std::string said = last_line(content_of(messages));
+  const std::string said = last_line(answer.messages);
   if (said == kOutOfMemory) throw std::bad_alloc();
-  fail(program, said.empty() ? end.text() : said);
+  fail(program, said.empty() ? answer.end.text() : said);
 }
 
 /// What the program makes of the frames. @throws ProcessError.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/percent.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/record_writer.hpp"
 #include "reports/diff/diff_fields.hpp"
@@ -51,21 +51,12 @@ std::string attachments(const ImageLinks& links, const DiffItem& item) {
 
 /// A URL between the brackets of Markdown: what would end it, or begin something else, as %XX.
 std::string markdown_url(std::string_view url) {
-  constexpr std::string_view kKept = "-._~:/?#@!$&'*+,;=%";
-  std::string out;
-  for (const char c : url)
-    out += (std::isalnum(static_cast<unsigned char>(c)) != 0 && static_cast<signed char>(c) > 0) ||
-                   kKept.find(c) != std::string_view::npos
-               ? std::string(1, c)
-               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return out;
+  return percent_encoded(url, [](char c) { return is_plain(c, "-._~:/?#@!$&'*+,;=%"); });
 }
 
 /// The file's name is encoded already (see write_item_images()); in a URL its '%' is "%25".
 std::string url_of(const ImageLinks& links, const std::string& path) {
-  std::string encoded;
-  for (const char c : path) encoded += c == '%' ? std::string("%25") : std::string(1, c);
-  return markdown_url(links.joined(encoded));
+  return markdown_url(links.joined(percent_encoded(path, [](char c) { return c != '%'; })));
 }
 
 /// Whether pages show images of the format.
@@ -110,12 +101,7 @@ std::string image_sections(const DiffResult& result, const ImageLinks& links) {
 /// A text as GitHub reads it: in a property, or behind "::".
 std::string github_text(std::string_view text, bool is_property) {
   const std::string_view escaped = is_property ? "%\r\n:," : "%\r\n";
-  std::string out;
-  for (const char c : text)
-    out += escaped.find(c) == std::string_view::npos
-               ? std::string(1, c)
-               : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return out;
+  return percent_encoded(text, [&](char c) { return escaped.find(c) == std::string_view::npos; });
 }
 
 /// The file of an item below the baseline, as the current has it; empty for records.

@@ -9,6 +9,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/text/percent.hpp"
 #include "render/image/png.hpp"
 #include "reports/diff/images/image_diff.hpp"
 
@@ -23,14 +24,7 @@ constexpr std::size_t kLargestList = std::size_t{1} << 26;   // Bytes.
 constexpr std::size_t kLargestImage = std::size_t{1} << 28;  // Bytes, as image_diff() reads.
 
 std::string file_name(std::string_view text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/@+";
-  std::string name;
-  for (const char c : text)
-    name += kPlain.find(c) != std::string_view::npos
-                ? std::string(1, c)
-                : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return name;
+  return percent_encoded(text, [](char c) { return is_plain(c, "-._/@+"); });
 }
 
 void remove_earlier(const OutputFolder& folder) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/percent.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
@@ -376,14 +377,7 @@ data block_data(const Block& block, const FigureContext& drawn, const HtmlOption
 }
 
 std::string percent_encoded(std::string_view text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._/";
-  std::string encoded;
-  for (const char c : text)
-    encoded += kPlain.find(c) != std::string_view::npos
-                   ? std::string(1, c)
-                   : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  return encoded;
+  return percent_encoded(text, [](char c) { return is_plain(c, "-._/"); });
 }
 
 std::string file_link(const std::string& path) {

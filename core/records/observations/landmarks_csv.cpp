@@ -11,7 +11,6 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/observations/name_list.hpp"
@@ -67,11 +66,8 @@ bool is_landmarks_header(const TableRow& row) {
 
 /// "; latitudes and longitudes ..." for a header that names them.
 std::string remedy_for(const TableRow& header) {
-  for (const std::string_view cell : header.cells) {
-    const std::string word = lower_case(trimmed(cell));
-    if (word.starts_with("lat") || word.starts_with("lon"))
-      return "; latitudes and longitudes have to be projected to metres (UTM) first";
-  }
+  if (std::ranges::any_of(header.cells, is_geographic))
+    return "; latitudes and longitudes have to be projected to metres (UTM) first";
   return "; --columns landmark=HEADER,x=HEADER,y=HEADER names others";
 }
 

@@ -313,4 +313,9 @@ bool names_steps(std::string_view cell, const ColumnNames& columns) {
   return role == ColumnRole::kStep || role == ColumnRole::kTime;
 }
 
+bool is_geographic(std::string_view heading) {
+  const std::string word = lower_case(trimmed(heading));
+  return word.starts_with("lat") || word.starts_with("lon");
+}
+
 }  // namespace mapproof

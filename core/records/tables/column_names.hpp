@@ -115,4 +115,7 @@ double named_column_factor(std::string_view cell, ColumnRole role);
 /// Whether a header's cell names steps, scans or times.
 bool names_steps(std::string_view cell, const ColumnNames& columns = {});
 
+/// Whether a heading names latitudes or longitudes, in any case: no reader projects them.
+bool is_geographic(std::string_view heading);
+
 }  // namespace mapproof

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/input_file.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/observations/input_kind.hpp"
@@ -123,6 +124,12 @@ void mark_columns(ByteSource& table, ColumnNames& columns) {
       columns_in(std::vector<std::string_view>(cells.begin(), cells.end()), columns);
   for (NamedColumn& column : columns)
     if (std::ranges::find(found, column) != found.end()) column.is_elsewhere = true;
+}
+
+void mark_columns_of_file(const std::string& path, ColumnNames& columns) {
+  if (columns.empty() || is_folder(path) || handed_in(path)) return;
+  ByteSource source(path);
+  mark_columns(source, columns);
 }
 
 void require_columns(ByteSource& table, const ColumnNames& columns) {

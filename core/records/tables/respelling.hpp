@@ -19,6 +19,10 @@ void respell(ByteSource& source);
 /// @throws IoError as respell().
 void mark_columns(ByteSource& table, ColumnNames& columns);
 
+/// Marks the named columns that a file has. A stream, which is read once, and a folder are left
+/// alone. @throws IoError as respell().
+void mark_columns_of_file(const std::string& path, ColumnNames& columns);
+
 /// Refuses named columns that a table, which stays unread, does not have; JSON of a schema is left
 /// to its reader. @throws IoError as respell(), or as require_columns().
 void require_columns(ByteSource& table, const ColumnNames& columns);

@@ -34,7 +34,7 @@ struct Incomplete {
 };
 
 MissingStrategy way_of(const ObservationHistory& history) {
-  return advised_strategy(missing_pattern(history, history.steps()), history.sensor).way;
+  return advised_strategy(missing_pattern(history, history.steps()), history.sensor).strategy;
 }
 
 TEST(MissingPattern, IsRandomWhereEntriesAreMissingAtRandom) {

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace mapproof {
+
+/// The text with every byte that does not stay as %XX.
+/// @param stays  Whether a byte stays as it is.
+template <typename Stays>
+std::string percent_encoded(std::string_view text, const Stays& stays) {
+  std::string encoded;
+  for (const char c : text)
+    encoded += stays(c) ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return encoded;
+}
+
+/// Whether a byte is a letter or a digit of ASCII, or one of `more`.
+constexpr bool is_plain(char c, std::string_view more) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
+         more.find(c) != std::string_view::npos;
+}
+
+}  // namespace mapproof
