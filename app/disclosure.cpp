@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/sha256.hpp"
-#include "reports/html/diff/diff_html.hpp"
+#include "reports/html/block_data.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -45,7 +45,7 @@ std::string machine_id() {
 std::set<std::string> spellings(const std::string& folder) {
   const std::string json =
       nlohmann::json(folder).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return {folder, json.substr(1, json.size() - 2), html_escaped(folder), url_text(folder)};
+  return {folder, json.substr(1, json.size() - 2), html_escaped(folder), percent_encoded(folder)};
 }
 
 /// Every path of the home folder, in every spelling, the longest first.

@@ -111,6 +111,10 @@ bool is_run_by_ctest() {
 void add_diff_options(CLI::App& app, DiffOptions& options) {
   app.add_option("--page", options.page,
                  "Write a page that shows what differs, e.g. diff.html; - to standard output");
+  app.add_option("--page-size", options.page_size_mb,
+                 "Size of that page in MB; it states which images and tables it leaves out")
+      ->check(CLI::Range(0.5, 2000.0))
+      ->capture_default_str();
   app.add_option("--templates", options.templates,
                  "Folder whose templates replace those of the page")
       ->check(names_folder());
@@ -136,9 +140,10 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
       ->capture_default_str();
   group_options(app, {{"Comparison", {"--allow", "--settings", "--include", "--exclude"}},
                       {"Output",
-                       {"--page", "--templates", "--junit", "--markdown", "--images", "--image-url",
-                        "--annotations"}}});
+                       {"--page", "--page-size", "--templates", "--junit", "--markdown", "--images",
+                        "--image-url", "--annotations"}}});
   app.get_option("--image-url")->needs("--images")->type_name("URL");
+  app.get_option("--page-size")->needs("--page")->type_name("MB");
   for (const char* pattern : {"--include", "--exclude"})
     app.get_option(pattern)->type_name("PATTERN");
   for (const char* file : {"--page", "--junit", "--markdown", "--settings"})
@@ -181,8 +186,10 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   };
   ImageLinks links;
   if (!options.images.empty()) links.images = write_item_images(result, settings, options.images);
-  hand(options.page,
-       [&] { return diff_html(result, settings, load_templates(options.templates)); });
+  hand(options.page, [&] {
+    return diff_html(result, settings, load_templates(options.templates),
+                     {.page_bytes = static_cast<std::size_t>(1e6 * options.page_size_mb)});
+  });
   hand(options.junit, [&] {
     if (!options.images.empty()) links.prefix = attachment_prefix(options.images);
     return diff_junit(result, links);

@@ -13,6 +13,7 @@ namespace mapproof {
 /// What the commands that compare have in common.
 struct DiffOptions {
   std::string page, junit, markdown;     ///< Files to write; empty: none.
+  double page_size_mb = 5.0;             ///< The page leaves out what would exceed it.
   std::optional<std::string> templates;  ///< Folder whose templates replace the embedded ones.
   std::string allow;                     ///< "better,style".
   std::string settings;  ///< File; empty: mapproof-diff.json next to the baseline, if it is there.
@@ -23,7 +24,8 @@ struct DiffOptions {
   std::string folder;  ///< The baseline in the working tree, where it is not the baseline itself.
 };
 
-/// Adds --page, --templates, --junit, --markdown, --allow, --settings, --include, --exclude,
+/// Adds --page, --page-size, --templates, --junit, --markdown, --allow, --settings, --include,
+/// --exclude,
 /// --images, --image-url and --annotations.
 void add_diff_options(CLI::App& app, DiffOptions& options);
 

@@ -69,7 +69,7 @@ TopicDesign submaps_design(const TopicExperiment& experiment) {
 }
 
 /// The setting at one level: whole or in parts of some size and overlap.
-struct Way {
+struct SubmapSetting {
   SubmapOptions parts;
   bool whole = false;
 };
@@ -85,15 +85,17 @@ class SubmapOutcomes {
   SubmapOutcomes(const TopicTask& context, TopicPart& part) : context_(context), part_(part) {}
 
   void add(const Condition& at, const ObservationHistory& history, const MethodSetting& setting,
-           const Way& way) {
+           const SubmapSetting& submaps) {
     const Clock::time_point start = Clock::now();
     SubmapEmbedding made;
-    if (way.whole)
-      made.embedding = HistoryEmbedder(history, history.steps(), {}, way.parts.rule).embed(setting);
+    if (submaps.whole)
+      made.embedding =
+          HistoryEmbedder(history, history.steps(), {}, submaps.parts.rule).embed(setting);
     else
-      made = embed_submaps(history, history.steps(), setting, way.parts);
+      made = embed_submaps(history, history.steps(), setting, submaps.parts);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    const std::string method = method_id(way.whole, setting) + (way.parts.rule ? kFilled : "");
+    const std::string method =
+        method_id(submaps.whole, setting) + (submaps.parts.rule ? kFilled : "");
     part_.seconds.push_back({part_.id, method, seconds});
     const ScoredMap map = scored_map(made.embedding, context_.world->landmarks_m, context_.anchors,
                                      AffineFit::kLeastSquares);
@@ -106,7 +108,7 @@ class SubmapOutcomes {
                                      map.score ? map.score->moe_unmirrored_percent : unknown},
                                     {"mapped_percent", mapped}},
                          .statuses = map.statuses};
-    if (!way.whole && !std::isnan(made.median_residual))
+    if (!submaps.whole && !std::isnan(made.median_residual))
       outcome.values["residual_percent"] = 100.0 * made.median_residual;
     part_.outcomes.push_back(std::move(outcome));
   }
@@ -119,14 +121,14 @@ class SubmapOutcomes {
 /// All methods at one level of size or overlap.
 void add_level(const TopicTask& context, const TopicSetup& setup, double level,
                const ObservationHistory& history, SubmapOutcomes& outcomes) {
-  Way way;
-  way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
-  if (setup.id == kSize) way.parts.groups.size = static_cast<int>(level);
-  if (setup.id == kOverlap) way.parts.groups.overlap_share = level / 100.0;
+  SubmapSetting submaps;
+  submaps.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
+  if (setup.id == kSize) submaps.parts.groups.size = static_cast<int>(level);
+  if (setup.id == kOverlap) submaps.parts.groups.overlap_share = level / 100.0;
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(context.experiment)) {
-      way.whole = whole;
-      outcomes.add(condition_at(setup, level), history, setting, way);
+      submaps.whole = whole;
+      outcomes.add(condition_at(setup, level), history, setting, submaps);
     }
 }
 
@@ -145,13 +147,14 @@ TopicPart make_submaps(const TopicTask& context) {
       }
       const ObservationHistory incomplete = with_missing(history, losses, level / 100.0);
       add_level(context, setup, level, incomplete, outcomes);
-      Way way{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()}, .whole = true};
-      way.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
+      SubmapSetting submaps{.parts = {.groups = {}, .embedder = {}, .rule = filled_by_ppca()},
+                            .whole = true};
+      submaps.parts.groups.size = static_cast<int>(number_option(context.experiment, "usual_size"));
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                   way);
-      way.whole = false;
+                   submaps);
+      submaps.whole = false;
       outcomes.add(condition_at(setup, level), incomplete, settings_of(context.experiment).front(),
-                   way);
+                   submaps);
     }
   return part;
 }

@@ -51,7 +51,10 @@ void set_eps_words(const Drawing& drawing, cairo_surface_t* surface) {
   cairo_ps_surface_dsc_comment(surface, ("%%Title: " + drawing.id).c_str());
 }
 
+/// The header of a PDF. Cairo 1.18 packs the words of a PDF 1.5 or later, so that nobody finds them
+/// in the file without unpacking it; 1.4 has all that the figures need.
 void set_pdf_words(const Drawing& drawing, cairo_surface_t* surface) {
+  cairo_pdf_surface_restrict_to_version(surface, CAIRO_PDF_VERSION_1_4);
   const auto set = [surface](cairo_pdf_metadata_t what, const std::string& text) {
     cairo_pdf_surface_set_metadata(surface, what, text.c_str());
   };

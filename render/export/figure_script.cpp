@@ -10,12 +10,122 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "render/export/matplotlib_script.hpp"
-#include "render/export/python_text.hpp"
+#include "core/base/text/csv.hpp"
+#include "core/base/text/utf8.hpp"
 #include "render/plot/layout.hpp"
 
 namespace mapproof {
 namespace {
+
+std::string in_lines(const std::vector<std::string>& items) {
+  constexpr std::size_t kLongest = 96;
+  std::string out = "[";
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) out += ",";
+    if (i > 0 && out.size() - begin + items[i].size() + 2 > kLongest) {
+      begin = out.size() + 1;
+      out += "\n    ";
+    } else if (i > 0) {
+      out += " ";
+    }
+    out += items[i];
+  }
+  return out + "]";
+}
+
+/// A text as a literal of Python on one line; matplotlib takes no "$" in it for mathematics.
+std::string python_text(std::string_view text) {
+  std::string out = "\"";
+  while (!text.empty()) {
+    const auto byte = static_cast<unsigned char>(text[0]);
+    const std::optional<char32_t> code = take_code_point(text);
+    if (!code)
+      out += fmt::format("\\x{:02x}", byte);
+    else if (*code == '"' || *code == '\\')
+      out += fmt::format("\\{}", static_cast<char>(*code));
+    else if (*code == '$')
+      out += "\\\\$";
+    else if (*code == '\n')
+      out += "\\n";
+    else if (*code < 0x20 || (*code >= 0x7F && *code < 0xA0) ||
+             (*code >= 0x2028 && *code <= 0x202E) || (*code >= 0x2066 && *code <= 0x2069))
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(*code));
+    else
+      append_utf8(out, *code);
+  }
+  return out + "\"";
+}
+
+/// Numbers as they read back; NaN and infinities by their names in the script: nan, inf.
+std::string python_number(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  return csv_number(value);
+}
+
+/// "[1, 2, ...]" in lines of at most 96 characters, those after the first indented by four.
+std::string python_list(const std::vector<double>& values) {
+  std::vector<std::string> items;
+  for (const double value : values) items.push_back(python_number(value));
+  return in_lines(items);
+}
+
+std::string python_list(const std::vector<std::string>& texts) {
+  std::vector<std::string> items;
+  for (const std::string& text : texts) items.push_back(python_text(text));
+  return in_lines(items);
+}
+
+/// "\"#0072b2\"".
+std::string script_colour(Colour of) { return "\"" + hex(of) + "\""; }
+
+/// Interpreter, description, imports and sizes.
+std::string script_head(const std::string& id, const std::string& title, const Theme& theme) {
+  return fmt::format(
+      "#!/usr/bin/env python3\n"
+      "# Draws {0} of mapproof by matplotlib: python3 {0}.py [FILE]; without FILE, {0}.pdf.\n"
+      "import sys\n\n"
+      "import matplotlib\n\n"
+      "matplotlib.use(\"Agg\")\n"
+      "import matplotlib.pyplot as plt\n"
+      "import numpy as np\n"
+      "from numpy import inf, nan\n\n"
+      "TITLE = {1}\n"
+      "plt.rcParams.update({{\n"
+      "    \"font.family\": \"DejaVu Sans\", \"font.size\": {2}, \"axes.labelsize\": {2},\n"
+      "    \"xtick.labelsize\": {3}, \"ytick.labelsize\": {3}, \"axes.titlesize\": {2},\n"
+      "    \"legend.fontsize\": {2}, \"figure.titlesize\": {4}, \"axes.linewidth\": {5},\n"
+      "    \"savefig.dpi\": {6}, \"figure.facecolor\": {7}, \"axes.facecolor\": {7},\n"
+      "    \"text.color\": {8}, \"axes.labelcolor\": {8}, \"xtick.color\": {8}, \"ytick.color\": "
+      "{8},\n"
+      "    \"axes.edgecolor\": {8}, \"axes.axisbelow\": True,\n"
+      "}})\n\n",
+      id, python_text(title), python_number(theme.font_pt), python_number(theme.tick_font_pt),
+      python_number(theme.title_font_pt), python_number(theme.hairline_pt),
+      python_number(theme.dpi), script_colour(theme.background), script_colour(theme.text));
+}
+
+/// The function legend(ax): a legend where something has a label.
+std::string script_legend() {
+  return "def legend(ax):\n"
+         "    \"\"\"Each label once.\"\"\"\n"
+         "    handles, labels = ax.get_legend_handles_labels()\n"
+         "    once = dict(zip(labels, handles))\n"
+         "    if once:\n"
+         "        ax.legend(once.values(), once.keys(), loc=\"best\")\n\n\n";
+}
+
+/// Title, notes, and the file that is written.
+std::string script_tail(const std::string& id, const std::string& title,
+                        const std::vector<Note>& notes) {
+  std::string head;
+  if (!title.empty()) head = title;
+  for (const Note& note : notes) head += (head.empty() ? "" : "\n") + note.text;
+  std::string out;
+  if (!head.empty()) out += fmt::format("fig.suptitle({}, wrap=True)\n", python_text(head));
+  return out + fmt::format("fig.savefig(sys.argv[1] if len(sys.argv) > 1 else \"{}.pdf\")\n", id);
+}
 
 std::string axis_list(const std::vector<Point3>& points, int axis) {
   std::vector<double> values;

@@ -94,6 +94,9 @@ void fields(Visitor& v, PointsDiff& points) {
   v.field("lost", points.lost, kMany);
   v.field("gained", points.gained, kMany);
   v.field("ground_truth_differs", points.ground_truth_differs);
+  v.field("transform", points.transform);
+  v.field("renamed", points.renamed);
+  v.field("moved_ground_truth", points.moved_ground_truth);
   v.field("baseline_error", points.baseline_error, kFinite);
   v.field("current_error", points.current_error, kFinite);
   v.field("moves", points.moves);
@@ -190,6 +193,7 @@ void fields(Visitor& v, FigureDiff& diff) {
   v.field("baseline_error", diff.baseline_error, kFinite);
   v.field("current_error", diff.current_error, kFinite);
   v.field("changes", diff.changes);
+  v.field("transforms", diff.transforms);
   v.field("moves", diff.moves);
 }
 
@@ -274,10 +278,19 @@ void fields(Visitor& v, DiffItem& item) {
   v.field("passes", item.passes);
   v.field("visible", item.judgement.visible);
   v.field("cause", item.judgement.cause);
+  v.field("shared_cause", item.judgement.shared_cause);
+  v.field("stale", item.is_stale);
   v.field("records", item.records);
   v.field("figure", item.figure);
   v.field("images", item.images);
   v.field("documents", item.documents);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, SharedCause& shared) {
+  v.field("cause", shared.cause);
+  v.field("verdict", shared.verdict);
+  v.field("ids", shared.ids);
 }
 
 template <typename Visitor>
@@ -291,6 +304,7 @@ void fields(Visitor& v, DiffResult& result) {
   v.field("cause", result.judgement.cause);
   v.field("allowed", result.allowed);
   v.field("remarks", result.remarks);
+  v.field("shared_causes", result.shared);
   v.group("counts", [&](auto& counts) {
     std::vector<int> of_verdict = counts_of(result);
     for (std::size_t i = 0; i < kVerdicts.size(); ++i)

@@ -11,6 +11,8 @@
 #include "core/base/text/words.hpp"
 #include "core/json/record_writer.hpp"
 #include "reports/diff/diff_fields.hpp"
+#include "reports/diff/records/difference_summary.hpp"
+#include "reports/diff/shared_causes.hpp"
 #include "reports/model/format.hpp"
 
 namespace mapproof {
@@ -134,6 +136,41 @@ int failures_of(const DiffResult& result, bool unreadable) {
   return count;
 }
 
+/// The line of a cause that several items share.
+std::string shared_text(const SharedCause& shared) {
+  constexpr std::size_t kMostIds = 4;
+  return fmt::format("{:<22}  {}: {}: {}\n", label(shared.verdict),
+                     counted(static_cast<long long>(shared.ids.size()), "item"),
+                     printable(shared.cause, kLongest),
+                     printable(listed(shared.ids, kMostIds), kLongest));
+}
+
+/// Where many scores differ for one cause: how they differ, a line for each quantity.
+std::string summary_text(const DiffResult& result) {
+  std::string text;
+  for (const DiffItem& item : result.items)
+    if (item.records && !result.shared.empty())
+      for (const QuantityDifferences& differences : difference_summary(*item.records))
+        text += printable(differences_text(differences), kLongest) + "\n";
+  return text;
+}
+
+/// The versions that differ, which are not judged; empty if none does.
+std::string versions_text(const DiffResult& result) {
+  constexpr std::size_t kMostVersions = 6;
+  std::vector<std::string> versions;
+  for (const DiffItem& item : result.items)
+    if (item.records)
+      for (const SettingChange& change : item.records->provenance)
+        versions.push_back(fmt::format("{} {} \u2192 {}", change.pointer,
+                                       change.baseline.empty() ? "none" : change.baseline,
+                                       change.current.empty() ? "none" : change.current));
+  return versions.empty()
+             ? ""
+             : "Versions that differ:  " + printable(listed(versions, kMostVersions), kLongest) +
+                   "\n";
+}
+
 }  // namespace
 
 std::string diff_text(const DiffResult& result, DiffWords words) {
@@ -143,12 +180,18 @@ std::string diff_text(const DiffResult& result, DiffWords words) {
     const Judgement& reported = item.judgement;
     if (reported.verdict == Verdict::kIdentical || (words == DiffWords::kFailures && item.passes))
       continue;
+    if (const SharedCause* shared = shared_cause_of(result, item)) {
+      if (shared->ids.front() == item.id) text += shared_text(*shared);
+      continue;
+    }
     // A cause that refers to records begins with the id itself.
     const std::string head = reported.cause.starts_with(item.id + " ") ? "" : item.id + ": ";
     text += fmt::format("{:<22}  {}\n", label(reported.verdict),
                         printable(head + reported.cause, kLongest));
   }
+  text += summary_text(result);
   for (const std::string& remark : result.remarks) text += printable(remark, kLongest) + "\n";
+  if (!text.empty()) text += versions_text(result);
   return text +
          fmt::format("{}: {}\n", result.passes ? "passes" : "does not pass", counts_text(result));
 }

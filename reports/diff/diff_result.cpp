@@ -33,26 +33,46 @@ std::string renderers_text(const ImageDiff& diff, const RecordContext& context) 
                                        : "both drawn by " + diff.current_renderer;
 }
 
-/// Whether one renderer drew both, as far as files and studies record it.
+/// Whether files and studies record that one renderer drew both. Where they record nothing, they do
+/// not.
 bool same_renderer(const std::vector<ImageFile>& files, const RecordContext& context) {
   for (const RecordDiff* records : context.records)
     for (const SettingChange& change : records->provenance)
       for (const char* library : {"mapproof", "Cairo", "FreeType", "HarfBuzz"})
         if (change.pointer == library) return false;
-  return std::ranges::all_of(files, [](const ImageFile& file) {
-    return file.diff.baseline_renderer == file.diff.current_renderer;
-  });
+  const auto names_one = [](const ImageFile& file) { return !file.diff.current_renderer.empty(); };
+  return std::ranges::any_of(files, names_one) &&
+         std::ranges::all_of(files, [](const ImageFile& file) {
+           return file.diff.baseline_renderer == file.diff.current_renderer;
+         });
 }
+
+bool is_visible(const ImageFile& file) { return file.diff.state == ImageState::kDifferent; }
 
 /// Whether an SVG shows changed styles: colours, texts or elements; or changed positions, where the
 /// renderer is the same.
 bool changes_style(const ImageFile& file, bool same_renderer) {
-  if (!file.diff.svg || file.diff.state != ImageState::kDifferent) return false;
+  if (!file.diff.svg || !is_visible(file)) return false;
   const SvgDiff& svg = *file.diff.svg;
   return same_renderer || svg.style + svg.text + svg.structure > 0;
 }
 
-bool is_visible(const ImageFile& file) { return file.diff.state == ImageState::kDifferent; }
+/// The first change of an SVG that moves a mark, an element with an id, where the panels did not
+/// move: their clip paths. A style may move the panels with all that they hold. Null: none.
+const SvgChange* moved_mark(const ImageFile& file) {
+  if (!file.diff.svg || !is_visible(file)) return nullptr;
+  const auto& changes = file.diff.svg->changes;
+  const auto is_panel = [](const SvgChange& change) {
+    return change.element.find("clipPath") != std::string::npos;
+  };
+  if (std::ranges::any_of(changes, is_panel)) return nullptr;
+  const auto found = std::ranges::find_if(changes, [](const SvgChange& change) {
+    return change.kind == SvgChangeKind::kGeometry && !change.tolerated &&
+           change.element.find('#', change.element.rfind('/')) != std::string::npos &&
+           change.element.find("/defs[") == std::string::npos;
+  });
+  return found == changes.end() ? nullptr : &*found;
+}
 
 const ImageFile* first_with(const std::vector<ImageFile>& files, auto holds) {
   const auto found = std::ranges::find_if(files, holds);
@@ -104,6 +124,13 @@ Judgement judge_alone(const std::vector<ImageFile>& files) {
 Judgement judge_drawing(const Judgement& value, const std::vector<ImageFile>& files,
                         const RecordContext& context) {
   const char* equal = value.verdict == Verdict::kIdentical ? "equal" : "equal within tolerance";
+  for (const ImageFile& file : files)
+    if (const SvgChange* moved = moved_mark(file))
+      return {
+          Verdict::kChanged, true,
+          fmt::format("the figure's value is {}, its {} does not show it: {}; {}: {} {} \u2192 {}",
+                      equal, file.format, file.diff.reason, moved->element, moved->what,
+                      moved->baseline, moved->current)};
   const bool same = same_renderer(files, context);
   if (const ImageFile* style =
           first_with(files, [&](const ImageFile& file) { return changes_style(file, same); })) {
@@ -122,9 +149,17 @@ Judgement judge_drawing(const Judgement& value, const std::vector<ImageFile>& fi
     file = first_with(
         files, [](const ImageFile& f) { return f.diff.state == ImageState::kWithinTolerance; });
   if (file == nullptr) return {};
-  return {Verdict::kRenderer, visible,
-          fmt::format("the figure's value is {}, its {} is rendered differently: {}; {}", equal,
-                      file->format, file->diff.reason, renderers_text(file->diff, context))};
+  if (visible && same)
+    return {Verdict::kChanged, true,
+            fmt::format("the figure's value is {}, its {} shows something else: {}; {}", equal,
+                        file->format, file->diff.reason, renderers_text(file->diff, context))};
+  Judgement judgement{
+      Verdict::kRenderer, visible,
+      fmt::format("the figure's value is {}, its {} is rendered differently: {}; {}", equal,
+                  file->format, file->diff.reason, renderers_text(file->diff, context))};
+  if (file->diff.baseline_renderer != file->diff.current_renderer)
+    judgement.shared_cause = renderers_text(file->diff, context);
+  return judgement;
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct DiffItem {
   std::string id;  ///< "fig-7", "records"; below folders with '/'.
   ItemKind kind = ItemKind::kImage;
   Judgement judgement;
-  bool passes = false;  ///< The exit code depends on it.
+  bool passes = false;    ///< The exit code depends on it.
+  bool is_stale = false;  ///< A figure that is equal although the records it shows differ.
   std::optional<RecordDiff> records;
   std::optional<FigureDiff> figure;
   /// The files of the values that were compared, if there are any. A page draws nothing again, but
@@ -44,6 +45,13 @@ struct DiffItem {
   std::filesystem::path baseline_figure, current_figure;
   std::vector<ImageFile> images;
   std::vector<OtherDiff> documents;  ///< For a document: its files whose bytes differ.
+};
+
+/// One cause of several items.
+struct SharedCause {
+  std::string cause;
+  Verdict verdict = Verdict::kIdentical;
+  std::vector<std::string> ids;
 };
 
 /// The comparison of two studies, two folders or two files.
@@ -54,6 +62,7 @@ struct DiffResult {
   bool passes = false;
   std::vector<Verdict> allowed;
   std::vector<std::string> remarks;  ///< One sentence on each thing that was not compared.
+  std::vector<SharedCause> shared;   ///< Causes that three or more items have in common.
   std::vector<DiffItem> items;       ///< By weight of verdict, then records first, then by id.
 };
 

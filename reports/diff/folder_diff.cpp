@@ -19,6 +19,7 @@
 #include "reports/diff/item_diff.hpp"
 #include "reports/diff/items.hpp"
 #include "reports/diff/records/record_set.hpp"
+#include "reports/diff/shared_causes.hpp"
 
 namespace mapproof {
 namespace {
@@ -57,21 +58,33 @@ const DiffItem* owner_of(const fs::path& own, const fs::path& current, const Dif
   return nullptr;
 }
 
-/// The first file of the item that belongs to another item.
-const DiffItem* owner_of(const DiffItem& item, const BySize& files) {
-  if (const DiffItem* owner = owner_of(item.baseline_figure, item.current_figure, item, files))
-    return owner;
-  for (const ImageFile& image : item.images)
-    if (const DiffItem* owner = owner_of(image.baseline, image.current, item, files)) return owner;
-  return nullptr;
+/// Another item to which files of an item belong.
+struct Owner {
+  const DiffItem* item = nullptr;
+  std::vector<std::string> formats;  ///< "value" for its figure.json.
+};
+
+/// The first other item to which a file of the item belongs, and all files that do.
+Owner owner_of(const DiffItem& item, const BySize& files) {
+  Owner owner;
+  const auto note = [&](const fs::path& own, const fs::path& current, const std::string& format) {
+    const DiffItem* found = owner_of(own, current, item, files);
+    if (found == nullptr || (owner.item != nullptr && owner.item != found)) return;
+    owner.item = found;
+    owner.formats.push_back(format);
+  };
+  note(item.baseline_figure, item.current_figure, "value");
+  for (const ImageFile& image : item.images) note(image.baseline, image.current, image.format);
+  return owner;
 }
 
-/// Extends the causes of items whose current file is, byte by byte, the baseline file of another
-/// item: swapped or renamed. A swapped item is at least changed, whatever renderer drew it.
+/// Replaces the causes of items whose current file is, byte by byte, the baseline file of another
+/// item: swapped or renamed. All else that differs follows from it. A swapped item is at least
+/// changed, whatever renderer drew it.
 void name_swapped(std::vector<DiffItem>& items, const DiffSettings& settings) {
+  if (std::ranges::none_of(items, is_suspect)) return;
   BySize files;
   for (const DiffItem& item : items) {
-    if (!is_suspect(item)) continue;
     add(files, item, item.baseline_figure);
     for (const ImageFile& image : item.images) add(files, item, image.baseline);
   }
@@ -79,19 +92,21 @@ void name_swapped(std::vector<DiffItem>& items, const DiffSettings& settings) {
   std::map<std::string, std::string> renamed;
   for (DiffItem& item : items) {
     if (!is_suspect(item)) continue;
-    const DiffItem* owner = owner_of(item, files);
-    if (owner == nullptr) continue;
-    const bool is_rename =
-        item.judgement.verdict == Verdict::kNew && owner->judgement.verdict == Verdict::kMissing;
+    const Owner owner = owner_of(item, files);
+    if (owner.item == nullptr) continue;
+    const bool is_rename = item.judgement.verdict == Verdict::kNew &&
+                           owner.item->judgement.verdict == Verdict::kMissing;
     words.emplace_back(
-        &item, is_rename ? fmt::format("the baseline has it as {}: renamed", owner->id)
-                         : fmt::format("its file is the baseline's {}: swapped", owner->id));
-    if (is_rename) renamed[owner->id] = item.id;
+        &item, is_rename ? fmt::format("the baseline has it as {}: renamed", owner.item->id)
+                         : fmt::format("its {} {} {} in the baseline: swapped",
+                                       listed(owner.formats, owner.formats.size() + 1),
+                                       owner.formats.size() == 1 ? "is that of" : "are those of",
+                                       owner.item->id));
+    if (is_rename) renamed[owner.item->id] = item.id;
   }
   for (auto& [item, text] : words) {
     Judgement& reported = item->judgement;
-    // Neither a renderer nor a style caused it: it is a different image.
-    reported.cause = reported.verdict == Verdict::kRenderer ? text : reported.cause + "; " + text;
+    reported.cause = reported.verdict == Verdict::kNew ? reported.cause + "; " + text : text;
     if (reported.verdict != Verdict::kNew)
       reported.verdict = heavier(reported.verdict, Verdict::kChanged);
     reported.visible = true;
@@ -306,10 +321,24 @@ void remark_selection(const Selection& selection, DiffResult& result) {
         "Settings that match nothing:  " + listed(selection.unmatched, kMostNames) + ".");
 }
 
+/// Names the figures that do not show their records any more.
+void remark_stale(const std::vector<DiffItem>& items, DiffResult& result) {
+  constexpr std::size_t kMostNames = 6;
+  std::vector<std::string> names;
+  for (const DiffItem& item : items)
+    if (item.is_stale) names.push_back(printable(item.id));
+  if (!names.empty())
+    result.remarks.push_back(fmt::format(
+        "Stale:  {} did not change although the records that {} did: {} to be drawn again.",
+        listed(names, kMostNames), names.size() == 1 ? "it shows" : "they show",
+        names.size() == 1 ? "it has" : "they have"));
+}
+
 /// Sorts the items and judges the whole.
 void conclude(DiffResult& result) {
   std::ranges::stable_sort(result.items, std::ranges::greater(),
                            [](const DiffItem& item) { return item.judgement.verdict; });
+  result.shared = shared_causes(result.items);
   result.judgement = judge_whole(result);
   result.passes =
       std::ranges::all_of(result.items, [](const DiffItem& item) { return item.passes; });
@@ -352,6 +381,7 @@ DiffResult folder_diff(const fs::path& baseline, const fs::path& current,
   std::vector<DiffItem> images = image_items(before, after, sides.file_name, context, settings);
   name_swapped(images, settings);
   remark_not_compared(images, result);
+  remark_stale(images, result);
   remark_selection(selection, result);
   std::ranges::move(images, std::back_inserter(result.items));
   if (lacks_report) result.items.push_back(missing_report(lacking, result.current, settings));

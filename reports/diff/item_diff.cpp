@@ -319,6 +319,8 @@ void compare_scenes(DiffItem& item, const RecordContext& context, const DiffSett
   if (item.figure->has(ChangeKind::kData))
     item.judgement =
         tied_judgement(item.id, *item.figure, item.judgement, words.record_ids, context);
+  else
+    item.is_stale = item.figure->equal && is_stale(item.id, words.record_ids, context);
 }
 
 void compare_values(DiffItem& item, const RecordContext& context, const DiffSettings& settings) {
@@ -337,6 +339,8 @@ void compare_values(DiffItem& item, const RecordContext& context, const DiffSett
   if (item.figure->has(ChangeKind::kData))
     item.judgement =
         tied_judgement(item.id, *item.figure, item.judgement, records_of(a, b), context);
+  else
+    item.is_stale = item.figure->equal && is_stale(item.id, records_of(a, b), context);
 }
 
 /// The bytes of a PDF change with its figure's value, however small that change is.

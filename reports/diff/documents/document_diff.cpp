@@ -311,9 +311,11 @@ Judgement by_records(const std::string& what, const std::vector<DiffItem>& repor
   const bool has_direction = verdict == Verdict::kBetter || verdict == Verdict::kWorse;
   // The item of the records has the details.
   const std::string& cause = records->judgement.cause;
-  return {has_direction ? verdict : Verdict::kChanged, true,
-          fmt::format("{}; it follows from {}: {}", what, records->id,
-                      cause.substr(0, cause.find("; ")))};
+  const std::string why =
+      fmt::format("it follows from {}: {}", records->id, cause.substr(0, cause.find("; ")));
+  const std::string settings = records->records ? settings_text(*records->records) : "";
+  return {has_direction ? verdict : Verdict::kChanged, true, what + "; " + why,
+          settings.empty() ? why : settings};
 }
 
 /// The whole text as a number.

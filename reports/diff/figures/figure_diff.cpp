@@ -20,6 +20,12 @@ namespace {
 
 constexpr std::size_t kMostRecordIds = 3;
 
+/// Whether a point is given, not estimated.
+bool is_given(const MarkMove& move) {
+  return move.location.find("\"true ") != std::string::npos ||
+         move.location.find("\"ground_truth\"") != std::string::npos;
+}
+
 std::string text_of(const std::optional<Range>& limits) {
   return limits ? fmt::format("{} to {}", limits->low, limits->high)
                 : std::string("what the data need");
@@ -173,10 +179,7 @@ std::string first_of(const FigureDiff& diff, ChangeKind kind) {
 
 /// Whether positions that are given, not estimated, moved: the experiments then differ.
 bool ground_truth_moved(const FigureDiff& diff) {
-  return std::ranges::any_of(diff.moves, [](const MarkMove& move) {
-    return move.location.find("\"true ") != std::string::npos ||
-           move.location.find("\"ground_truth\"") != std::string::npos;
-  });
+  return std::ranges::any_of(diff.moves, is_given);
 }
 
 Verdict direction(const FigureDiff& diff) {
@@ -191,7 +194,9 @@ Verdict direction(const FigureDiff& diff) {
 
 std::string data_cause(const FigureDiff& diff) {
   std::string text;
-  if (!diff.moves.empty()) {
+  if (!diff.transforms.empty()) {
+    text = diff.transforms.front();
+  } else if (!diff.moves.empty()) {
     text = move_text(diff.moves[0]);
     if (diff.moved > 1) text += fmt::format(", {} moved in all", diff.moved);
   }
@@ -232,8 +237,10 @@ FigureDiff figure_diff(const Figure& a, const Figure& b, const FigureOptions& op
 
 std::string move_text(const MarkMove& move) {
   const std::string of = move.curve.empty() ? move.location : printable(move.curve);
-  const std::string who = move.landmark.empty() ? fmt::format("point {} of {}", move.point + 1, of)
-                                                : "landmark " + printable(move.landmark);
+  const std::string who = move.landmark.empty()
+                              ? fmt::format("point {} of {}", move.point + 1, of)
+                              : (is_given(move) ? "the true position of landmark " : "landmark ") +
+                                    printable(move.landmark);
   std::string text =
       std::isnan(move.distance)
           ? fmt::format("{} {}", who,

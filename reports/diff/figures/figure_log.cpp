@@ -9,7 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/diff/records/map_transform.hpp"
 #include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
@@ -51,6 +53,9 @@ std::optional<double> number_of(const std::string& text) {
 }
 
 constexpr std::size_t kMostEntries = 200;
+
+/// FigureChange::what of a point of another name.
+constexpr std::string_view kRenamedWord = "renamed";
 
 void keep_farthest(std::vector<MarkMove>& moves) {
   const auto far = [](const MarkMove& move) {
@@ -109,6 +114,10 @@ void FigureLog::errors(double baseline, double current, double count) {
   errors_ += count;
 }
 
+void FigureLog::transform(std::string text) {
+  if (!varies_) diff_.transforms.push_back(std::move(text));
+}
+
 FigureDiff FigureLog::take() {
   diff_.equal = diff_.total_changes + diff_.moved + diff_.within + diff_.masked == 0;
   if (errors_ > 0.0) {
@@ -165,28 +174,71 @@ void LayerDiff::compare(const LayerView& a, const LayerView& b) {
       log_.change(ChangeKind::kData, location_, a.extents[i].what,
                   fmt::format("{}", a.extents[i].value), fmt::format("{}", b.extents[i].value));
   if (a.is_whole) compare_data(a.marks[0], b.marks[0]);
-  long removed = 0, added = 0;
-  std::string first_removed, first_added;
+  std::vector<std::size_t> removed, added;
   const std::vector<Match> matches = match_points(a, b);
+  const long moved_before = log_.moved();
   for (const Match& match : matches) {
     if (match.baseline && match.current) {
       compare_point(a, *match.baseline, b, *match.current);
     } else if (match.baseline ? may_vary(a, *match.baseline) : may_vary(b, *match.current)) {
       log_.mask();
     } else if (match.baseline) {
-      if (removed++ == 0) first_removed = point_text(a, *match.baseline);
-    } else if (added++ == 0) {
-      first_added = point_text(b, *match.current);
+      removed.push_back(*match.baseline);
+    } else {
+      added.push_back(*match.current);
     }
   }
-  lone_points("removed", removed, first_removed);
-  lone_points("added", added, first_added);
+  take_renamed(a, removed, b, added);
+  lone_points("removed", a, removed);
+  lone_points("added", b, added);
+  if (log_.moved() - moved_before > 2) note_transform(a, b, matches);
   compare_values(a, b, matches);
   add_errors(a, b);
 }
 
-void LayerDiff::lone_points(const char* what, long count, const std::string& first) {
-  if (count == 0) return;
+/// Points of other names at equal positions are renamed.
+void LayerDiff::take_renamed(const LayerView& a, std::vector<std::size_t>& removed,
+                             const LayerView& b, std::vector<std::size_t>& added) {
+  std::erase_if(removed, [&](std::size_t i) {
+    const auto same = std::ranges::find_if(
+        added, [&](std::size_t j) { return have_equal_coordinates(a, i, b, j); });
+    if (same == added.end()) return false;
+    log_.change(ChangeKind::kData, location_, kRenamedWord, point_text(a, i), point_text(b, *same));
+    if (a.has_mark_a_point() && b.has_mark_a_point())
+      log_.change(ChangeKind::kMetadata, location_, "id of a mark", a.marks[i].id,
+                  b.marks[*same].id);
+    added.erase(same);
+    return true;
+  });
+}
+
+/// Notes what moved all points of a layer together, where both axes have one scale.
+void LayerDiff::note_transform(const LayerView& a, const LayerView& b,
+                               const std::vector<Match>& matches) {
+  const Panel& panel = panel_.figure.panels[panel_.panel];
+  if (a.locations.size() != 1 || !panel.equal_aspect) return;
+  const auto n = static_cast<Eigen::Index>(matches.size());
+  Points before = Points::Constant(n, 2, kNaN), after = before;
+  for (Eigen::Index row = 0; row < n; ++row) {
+    const Match& match = matches[static_cast<std::size_t>(row)];
+    if (!match.baseline || !match.current) continue;
+    const Locations& at = a.locations.front();
+    before.row(row) << a.coordinates[at.x].values[*match.baseline],
+        a.coordinates[at.y].values[*match.baseline];
+    after.row(row) << b.coordinates[at.x].values[*match.current],
+        b.coordinates[at.y].values[*match.current];
+  }
+  const bool is_map =
+      std::ranges::any_of(a.marks, [](const Mark& m) { return !data_of(m, "landmark").empty(); });
+  if (const auto transform = map_transform(before, after))
+    log_.transform(transform_text(*transform, is_map ? "landmark" : "point", unit_of(panel.x)));
+}
+
+void LayerDiff::lone_points(const char* what, const LayerView& layer,
+                            const std::vector<std::size_t>& points) {
+  if (points.empty()) return;
+  const auto count = static_cast<long>(points.size());
+  const std::string first = point_text(layer, points.front());
   const std::string text = count == 1 ? first : fmt::format("{} and {} more", first, count - 1);
   const bool removed = what[0] == 'r';
   log_.change(ChangeKind::kData, location_, fmt::format("{} {}", counted(count, "point"), what),
@@ -275,9 +327,13 @@ void LayerDiff::compare_data(const Mark& a, const Mark& b) {
     const std::string other(data_of(b, key));
     const auto first = number_of(value), second = number_of(other);
     if (first && second && Tolerance{1e-9, kWritten}.holds(*first, *second)) continue;
-    const bool is_data = (first && second) || key == "landmark";
-    log_.change(is_data ? ChangeKind::kData : ChangeKind::kStyle, location_, "data-" + key, value,
-                other);
+    if (key == "landmark") {
+      log_.change(ChangeKind::kData, location_, kRenamedWord, "landmark " + value,
+                  "landmark " + other);
+      continue;
+    }
+    log_.change(first && second ? ChangeKind::kData : ChangeKind::kStyle, location_, "data-" + key,
+                value, other);
   }
   for (const auto& [key, value] : b.data)
     if (std::ranges::none_of(a.data, [&](const auto& item) { return item.first == key; }))

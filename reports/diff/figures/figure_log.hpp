@@ -53,9 +53,10 @@ struct FigureDiff {
   std::vector<FigureChange> changes;  ///< At most 200, data first.
   long total_changes = 0;
   std::vector<MarkMove> moves;  ///< Beyond tolerance; at most 200, the farthest on the page first.
-  long moved = 0;               ///< Of all points, those beyond tolerance.
-  long within = 0;              ///< Of all points, those that moved within tolerance.
-  long masked = 0;              ///< Points that moved in a figure marked `varies`: not judged.
+  std::vector<std::string> transforms;  ///< What moved all points of a layer together.
+  long moved = 0;                       ///< Of all points, those beyond tolerance.
+  long within = 0;                      ///< Of all points, those that moved within tolerance.
+  long masked = 0;  ///< Points that moved in a figure marked `varies`: not judged.
   /// Mean of data-error over the marks of both sides; none if there are no such marks.
   std::optional<double> baseline_error, current_error;
 
@@ -85,7 +86,10 @@ class FigureLog {
   void change(ChangeKind kind, const std::string& location, std::string_view what,
               const std::string& baseline, const std::string& current);
   void move(MarkMove move);
+  /// What moved all points of a layer together.
+  void transform(std::string text);
   /// Counts a difference that is not judged, as the figure varies.
+  long moved() const { return diff_.moved; }
   void mask() { ++diff_.masked; }
   /// Counts a point that moved within tolerance.
   void within() { ++diff_.within; }
@@ -132,7 +136,11 @@ class LayerDiff {
   void compare_values(const LayerView& a, const LayerView& b, const std::vector<Match>& matches);
   void compare_data(const Mark& a, const Mark& b);
   bool may_vary(const LayerView& layer, std::size_t point) const;
-  void lone_points(const char* what, long count, const std::string& first);
+  void lone_points(const char* what, const LayerView& layer,
+                   const std::vector<std::size_t>& points);
+  void take_renamed(const LayerView& a, std::vector<std::size_t>& removed, const LayerView& b,
+                    std::vector<std::size_t>& added);
+  void note_transform(const LayerView& a, const LayerView& b, const std::vector<Match>& matches);
   MarkMove mark_move(const LayerView& layer, std::size_t point, Point before, Point after) const;
 
   ComparedPanel panel_;

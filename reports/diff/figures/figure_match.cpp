@@ -20,22 +20,14 @@ std::optional<std::map<std::string_view, std::size_t>> names_of(const LayerView&
   return names;
 }
 
-bool equal_points(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j) {
-  for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
-    const double first = a.coordinates[c].values[i], second = b.coordinates[c].values[j];
-    if (first != second && !(std::isnan(first) && std::isnan(second))) return false;
-  }
-  return true;
-}
-
 std::vector<Match> match_in_order(const LayerView& a, const LayerView& b) {
   const std::size_t n = a.points(), m = b.points(), least = std::min(n, m);
   std::size_t head = 0, tail = 0;
   if (n == m) {
     head = n;
   } else {
-    while (head < least && equal_points(a, head, b, head)) ++head;
-    while (tail < least - head && equal_points(a, n - 1 - tail, b, m - 1 - tail)) ++tail;
+    while (head < least && have_equal_coordinates(a, head, b, head)) ++head;
+    while (tail < least - head && have_equal_coordinates(a, n - 1 - tail, b, m - 1 - tail)) ++tail;
     head = least - tail;
   }
   std::vector<Match> matches;
@@ -47,6 +39,14 @@ std::vector<Match> match_in_order(const LayerView& a, const LayerView& b) {
 }
 
 }  // namespace
+
+bool have_equal_coordinates(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j) {
+  for (std::size_t c = 0; c < a.coordinates.size(); ++c) {
+    const double first = a.coordinates[c].values[i], second = b.coordinates[c].values[j];
+    if (first != second && !(std::isnan(first) && std::isnan(second))) return false;
+  }
+  return true;
+}
 
 std::vector<Match> match_layers(const std::vector<Layer>& a, const std::vector<Layer>& b) {
   std::vector<LayerView> first, second;

@@ -24,4 +24,7 @@ std::vector<Match> match_layers(const std::vector<Layer>& baseline,
 /// equal points at both ends first, so that one lost point is one difference.
 std::vector<Match> match_points(const LayerView& baseline, const LayerView& current);
 
+/// Whether a point of each layer has the same coordinates, NaN included.
+bool have_equal_coordinates(const LayerView& a, std::size_t i, const LayerView& b, std::size_t j);
+
 }  // namespace mapproof

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/json/json_document.hpp"
 #include "reports/diff/documents/excerpts.hpp"
+#include "reports/diff/records/map_transform.hpp"
 #include "reports/diff/records/numbers_in_text.hpp"
 
 namespace mapproof {
@@ -281,8 +284,56 @@ bool same_positions(const AlignedPoints& a, const AlignedPoints& b, const Tolera
   return !diff || diff->beyond + diff->lost + diff->gained == 0;
 }
 
+namespace {
+
+/// The points in the order of the other side's names, if both have the same ones.
+AlignedPoints in_order_of(const std::vector<std::string>& names, AlignedPoints points) {
+  if (names.size() != points.names.size() || names == points.names) return points;
+  std::map<std::string_view, Eigen::Index> rows;
+  for (std::size_t i = 0; i < points.names.size(); ++i)
+    rows.emplace(points.names[i], static_cast<Eigen::Index>(i));
+  std::vector<Eigen::Index> order;
+  for (const std::string& name : names)
+    if (const auto row = rows.find(name); row != rows.end()) order.push_back(row->second);
+  if (order.size() != points.names.size() || rows.size() != order.size()) return points;
+  points.points = rows_of(points.points, order);
+  if (points.ground_truth) points.ground_truth = rows_of(*points.ground_truth, order);
+  points.names = names;
+  return points;
+}
+
+/// The true position that differs most.
+std::optional<PointMove> moved_ground_truth(const AlignedPoints& a, const AlignedPoints& b,
+                                            const Tolerances& tolerances) {
+  if (!a.ground_truth || !b.ground_truth || a.names != b.names ||
+      a.ground_truth->rows() != b.ground_truth->rows())
+    return std::nullopt;
+  AlignedPoints before = locations(*a.ground_truth);
+  before.names = a.names;
+  AlignedPoints after = locations(*b.ground_truth);
+  after.names = a.names;
+  const auto diff = points_diff("", before, after, tolerances);
+  return diff && !diff->moves.empty() ? std::optional(diff->moves.front()) : std::nullopt;
+}
+
+/// Notes names that differ at equal positions.
+/// @return Whether all that differ are such.
+bool note_renamed(const AlignedPoints& a, const AlignedPoints& b, PointsDiff& diff) {
+  if (a.names.size() != b.names.size() || a.points.rows() != b.points.rows()) return false;
+  for (std::size_t i = 0; i < a.names.size(); ++i) {
+    if (a.names[i] == b.names[i]) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    if (!equal(a.points.row(row), b.points.row(row))) return false;
+    diff.renamed.push_back(fmt::format("{} \u2192 {}", a.names[i], b.names[i]));
+  }
+  return true;
+}
+
+}  // namespace
+
 std::optional<PointsDiff> points_diff(const std::string& record, const AlignedPoints& a,
-                                      const AlignedPoints& b, const Tolerances& tolerances) {
+                                      const AlignedPoints& other, const Tolerances& tolerances) {
+  const AlignedPoints b = in_order_of(a.names, other);
   if (a.names == b.names && a.quantity == b.quantity && equal(a.points, b.points) &&
       a.ground_truth.has_value() == b.ground_truth.has_value() &&
       (!a.ground_truth || equal(*a.ground_truth, *b.ground_truth)))
@@ -294,9 +345,10 @@ std::optional<PointsDiff> points_diff(const std::string& record, const AlignedPo
       a.ground_truth.has_value() == b.ground_truth.has_value() &&
       (!a.ground_truth ||
        same_positions(locations(*a.ground_truth), locations(*b.ground_truth), tolerances));
-  if (a.names != b.names || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
+  if (!note_renamed(a, b, diff) || a.quantity != b.quantity || a.points.rows() != b.points.rows() ||
       !same_ground_truth) {
     diff.ground_truth_differs = true;
+    diff.moved_ground_truth = moved_ground_truth(a, b, tolerances);
     return diff;
   }
   Points before = a.points, after = b.points;
@@ -325,6 +377,9 @@ std::optional<PointsDiff> points_diff(const std::string& record, const AlignedPo
     diff.current_error = errors.current / errors.count;
   }
   keep_farthest(diff.moves);
+  if (diff.beyond > 2 && a.quantity != "path_m")
+    if (const auto transform = map_transform(before, after))
+      diff.transform = transform_text(*transform, "landmark", is_shape ? "" : "m");
   return diff;
 }
 

@@ -1,8 +1,10 @@
 #include "reports/diff/records/record_comparison.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -49,6 +51,34 @@ std::string names_text(const std::vector<std::string>& names) {
   return listed(shown, kMostRecordNames);
 }
 
+/// "seed 2007 → 2008, poses 5 → 10": the first changes.
+std::string changes_text(const std::vector<SettingChange>& changes) {
+  std::vector<std::string> parts;
+  for (const SettingChange& change : changes) {
+    const auto shown = [](const std::string& value) {
+      return value.empty() ? std::string("none") : printable(value, 40);
+    };
+    parts.push_back(fmt::format("{} {} \u2192 {}", printable(change.pointer.substr(1)),
+                                shown(change.baseline), shown(change.current)));
+  }
+  return parts.empty() ? "" : listed(parts, kMostRecordNames);
+}
+
+/// Whether a value of the experiment only describes it: no record depends on it.
+bool describes_only(const SettingChange& change) {
+  constexpr std::array<std::string_view, 10> kDescriptions = {
+      "title", "label",  "note",    "notes",     "source",
+      "table", "figure", "figures", "published", "orderings"};
+  std::string_view rest = change.pointer;
+  while (!rest.empty()) {
+    rest.remove_prefix(1);  // "/"
+    const std::string_view key = rest.substr(0, rest.find('/'));
+    if (std::ranges::find(kDescriptions, key) != kDescriptions.end()) return true;
+    rest.remove_prefix(key.size());
+  }
+  return false;
+}
+
 /// Adds the records that only one side has.
 void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   const auto add = [&](const std::vector<std::string>& names, Verdict verdict, const char* noun) {
@@ -61,6 +91,22 @@ void judge_presence(const RecordDiff& diff, Judgement& whole, std::vector<std::s
   add(diff.missing_subjects, Verdict::kMissing, "record");
   add(diff.new_runs, Verdict::kNew, "run");
   add(diff.new_subjects, Verdict::kNew, "record");
+}
+
+/// ", probably better, too few runs to be sure", where no test decides but this quantity alone
+/// points one way: by its own p, or without a test in all of three or more runs.
+std::string tendency_words(const Comparison& c) {
+  constexpr int kFewest = 3;
+  if (c.quantity.better == Better::kNeither || c.quantity.of_solver) return "";
+  if (c.test && c.test->powerless_of == 0 && c.outcome != Outcome::kChanged) return "";
+  bool worse = c.worse > 0;
+  if (c.test) {
+    if (c.test->test.p >= kSignificant) return "";
+    worse = (c.test->test.effect > 0.0) == (c.quantity.better == Better::kLower);
+  } else if ((c.worse > 0) == (c.better > 0) || c.worse + c.better < kFewest) {
+    return "";
+  }
+  return fmt::format(", probably {}, too few runs to be sure", worse ? "worse" : "better");
 }
 
 /// The result of a test besides p: empty where the test decided.
@@ -89,7 +135,8 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
   causes.push_back(fmt::format(
-      "{} of {}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
+      "{} of {}{}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
+      tendency_words(*first),
       beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : "",
       directions_text(all, *first)));
 }
@@ -124,10 +171,14 @@ std::set<std::string> judged_subjects(const RecordDiff& diff) {
 void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
   const std::set<std::string> judged = judged_subjects(diff);
   const PointsDiff* first = nullptr;
+  const PointsDiff* renamed = nullptr;
+  const PointMove* given = nullptr;
   long records = 0, others = 0;
   for (const PointsDiff& points : diff.points) {
-    const bool beyond =
-        points.beyond + points.lost + points.gained > 0 || points.ground_truth_differs;
+    const bool beyond = points.beyond + points.lost + points.gained > 0 ||
+                        points.ground_truth_differs || !points.renamed.empty();
+    if (renamed == nullptr && !points.renamed.empty()) renamed = &points;
+    if (given == nullptr && points.moved_ground_truth) given = &*points.moved_ground_truth;
     if (!beyond)
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (!judged.contains(subject_of(points.record).subject))
@@ -139,10 +190,15 @@ void judge_points(const RecordDiff& diff, Judgement& whole, std::vector<std::str
   }
   if (first != nullptr)
     causes.push_back(fmt::format(
-        "{} in record {}{}", move_text(first->moves[0], first->quantity), first->record,
+        "{} in record {}{}", moves_text(*first), first->record,
         records > 1 ? fmt::format(", points moved in {} in all", counted(records, "record")) : ""));
+  if (renamed != nullptr)
+    causes.push_back(
+        fmt::format("renamed in record {}: {}", renamed->record, names_text(renamed->renamed)));
   if (others > 0 && diff.same_seeds)
-    causes.push_back(fmt::format("{} of different landmarks", counted(others, "map")));
+    causes.push_back(given == nullptr
+                         ? fmt::format("{} of different landmarks", counted(others, "map"))
+                         : fmt::format("the true position of {}", move_text(*given, "landmark_m")));
 }
 
 void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
@@ -150,7 +206,14 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
   for (const StatusChange& change : diff.statuses)
     if (!judged.contains(subject_of(change.record).subject))
       whole.verdict = heavier(whole.verdict, Verdict::kChanged);
-  if (!diff.statuses.empty()) {
+  const auto follows = [&diff](const StatusChange& change) {
+    return std::ranges::any_of(diff.others, [&](const OtherDiff& other) {
+      return other.presence != Presence::kBoth &&
+             other.file.ends_with("/" + subject_of(change.record).run + ".json");
+    });
+  };
+  // What is not in a file that one side lacks follows from that.
+  if (!diff.statuses.empty() && !follows(diff.statuses[0])) {
     const StatusChange& first = diff.statuses[0];
     causes.push_back(fmt::format("warnings of {}: {} \u2192 {}", first.record,
                                  first.baseline.empty() ? "none" : first.baseline,
@@ -163,6 +226,7 @@ void judge_rest(const RecordDiff& diff, Judgement& whole, std::vector<std::strin
 }
 
 void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::string>& causes) {
+  std::size_t lone_files = 0;
   for (const OtherDiff& other : diff.others) {
     const bool lone = other.presence != Presence::kBoth;
     const bool beyond = lone || other.beyond > 0 || other.shape;
@@ -173,7 +237,9 @@ void judge_others(const RecordDiff& diff, Judgement& whole, std::vector<std::str
       whole.verdict = heavier(whole.verdict, Verdict::kWithinTolerance);
     else if (whole.verdict <= Verdict::kWithinTolerance)  // Otherwise scores judge it.
       whole.verdict = Verdict::kChanged;
-    if (beyond && (causes.empty() || (lone && causes.size() < kMostRecordNames)))
+    if (lone && lone_files++ < kMostRecordNames)
+      causes.insert(causes.begin(), other_text(other));
+    else if (beyond && causes.empty())
       causes.push_back(other_text(other));
   }
 }
@@ -250,37 +316,44 @@ std::string other_text(const OtherDiff& other) {
 }
 
 std::string settings_text(const RecordDiff& diff) {
-  std::vector<std::string> parts;
-  for (const SettingChange& change : diff.settings) {
-    const auto shown = [](const std::string& value) {
-      return value.empty() ? std::string("none") : printable(value, 40);
-    };
-    parts.push_back(fmt::format("{} {} \u2192 {}", printable(change.pointer.substr(1)),
-                                shown(change.baseline), shown(change.current)));
-  }
-  std::string text = parts.empty() ? "" : listed(parts, kMostRecordNames);
-  if (!diff.same_seeds)
-    text +=
-        text.empty() ? "different seeds or true positions" : ": different seeds or true positions";
-  return text;
+  const std::string text = changes_text(diff.settings);
+  if (diff.same_seeds) return text;
+  const std::string why = diff.moved_ground_truth.empty() ? "different seeds or true positions"
+                                                          : diff.moved_ground_truth;
+  return text + (text.empty() ? "" : ": ") + why;
 }
 
 std::string comparison_text(const Comparison& comparison, const std::string& run) {
   const Quantity& quantity = comparison.quantity;
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();
+  const bool is_alone = !has_own && run.empty() && comparison.pairs > 1 && comparison.beyond == 1 &&
+                        comparison.largest.size() == 1 && comparison.lost + comparison.gained == 0;
+  std::string p;
+  if (comparison.test && comparison.test->powerless_of == 0)
+    p = fmt::format(", p = {:.2g}", comparison.test->p);
+  if (is_alone) {
+    const PairedValue& only = comparison.largest.front();
+    return fmt::format("{} {} in {} alone of {}{}", quantity.label,
+                       change_text(only.baseline, only.current, quantity.unit), only.run,
+                       counted(comparison.pairs, "run"), p);
+  }
   std::string text = fmt::format(
       "{} {}", quantity.label,
       has_own ? change_text(own->baseline, own->current, quantity.unit)
               : change_text(comparison.baseline_mean, comparison.current_mean, quantity.unit));
   if (!has_own && comparison.pairs > 1)
     text += fmt::format(" over {}", counted(comparison.pairs, "run"));
-  if (comparison.test && comparison.test->powerless_of == 0)
-    text += fmt::format(", p = {:.2g}", comparison.test->p);
+  text += p;
   if (comparison.lost > 0) text += fmt::format(", lost in {}", counted(comparison.lost, "run"));
   if (comparison.gained > 0)
     text += fmt::format(", gained in {}", counted(comparison.gained, "run"));
   return text;
+}
+
+std::string moves_text(const PointsDiff& points) {
+  return points.transform.empty() ? move_text(points.moves.front(), points.quantity)
+                                  : points.transform;
 }
 
 std::string move_text(const PointMove& move, const std::string& quantity) {
@@ -311,8 +384,15 @@ Judgement judge(const RecordDiff& diff) {
               (more > 0 ? fmt::format(", and {}", counted(more, "file")) + " more" : "")};
   }
   if (!settings.empty()) {
-    if (whole.verdict <= Verdict::kWithinTolerance) whole.verdict = Verdict::kStyle;
-    causes.insert(causes.begin() + std::ssize(diff.redeclared), settings);
+    std::string text = settings;
+    if (whole.verdict <= Verdict::kWithinTolerance) {
+      const bool describes = std::ranges::all_of(diff.settings, describes_only);
+      whole.verdict = describes ? Verdict::kStyle : Verdict::kChanged;
+      if (!describes)
+        text = changes_text(diff.settings) +
+               ", but the records did not change: they are not of this experiment";
+    }
+    causes.insert(causes.begin() + std::ssize(diff.redeclared), text);
   }
   if (whole.verdict == Verdict::kWithinTolerance) causes.push_back(within_text(diff));
   whole.cause = sentence(causes);

@@ -92,6 +92,11 @@ struct PointsDiff {
   int gained = 0;
   bool ground_truth_differs = false;  ///< The landmarks differ: nothing was compared.
   std::vector<PointMove> moves;       ///< The farthest first; at most 20.
+  std::string
+      transform;  ///< What moved all of them together, see transform_text(); empty: nothing.
+  std::vector<std::string> renamed;  ///< "L7 → X7": other names at the same positions.
+  std::optional<PointMove>
+      moved_ground_truth;  ///< Of the true positions that differ, the farthest.
   std::optional<double> baseline_error, current_error;  ///< Means, where the ground truth is known.
 };
 
@@ -127,6 +132,8 @@ struct OtherDiff {
 /// The differences of two sets of records.
 struct RecordDiff {
   bool same_seeds = false;  ///< Runs can be compared pair by pair.
+  std::string
+      moved_ground_truth;  ///< Which true position differs where the seeds are equal; else empty.
   std::vector<SettingChange> settings;
   std::vector<SettingChange> provenance;  ///< Versions: reported, never judged.
   std::vector<std::string> missing_runs, new_runs;
@@ -168,6 +175,9 @@ std::string settings_text(const RecordDiff& diff);
 
 /// "MPE 0.138 → 0.152 m, p = 0.003": of one run where `run` names one that differs, else the means.
 std::string comparison_text(const Comparison& comparison, const std::string& run = "");
+
+/// What moved the points of a record: all of them together, or the one that moved farthest.
+std::string moves_text(const PointsDiff& points);
 
 /// "landmark L17 moved 41 mm".
 std::string move_text(const PointMove& move, const std::string& quantity);

@@ -172,6 +172,8 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
         "the baseline is a {}, the current a {}: they cannot be compared", a.kind, b.kind));
   RecordDiff diff;
   diff.same_seeds = have_same_seeds(a, b, options.tolerances);
+  if (!diff.same_seeds && a.seed == b.seed)
+    diff.moved_ground_truth = moved_ground_truth(a, b, options.tolerances);
   compare_settings(a, b, diff);
   compare_provenance(a.provenance, b.provenance, diff);
   match(a.runs, b.runs, diff.missing_runs, diff.new_runs,

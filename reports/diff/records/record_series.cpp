@@ -238,6 +238,19 @@ bool have_same_seeds(const RecordSet& a, const RecordSet& b, const Tolerances& t
   });
 }
 
+std::string moved_ground_truth(const RecordSet& a, const RecordSet& b,
+                               const Tolerances& tolerances) {
+  for (const auto& [run, world] : a.worlds) {
+    const auto other = b.worlds.find(run);
+    if (other == b.worlds.end() || world.points.rows() != other->second.points.rows()) continue;
+    const auto diff = points_diff("", world, other->second, tolerances);
+    if (diff && !diff->moves.empty())
+      return fmt::format("the true position of {} in {}",
+                         move_text(diff->moves.front(), diff->quantity), run);
+  }
+  return "";
+}
+
 std::map<std::string, std::string> matched_subjects(const RecordSet& a, const RecordSet& b) {
   std::map<std::string, std::string> matched;
   for (const std::string& subject : subjects_of(a)) matched[subject] = subject;

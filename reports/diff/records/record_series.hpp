@@ -11,6 +11,11 @@ namespace mapproof {
 bool have_same_seeds(const RecordSet& baseline, const RecordSet& current,
                      const Tolerances& tolerances);
 
+/// "the true position of landmark L7 moved 41 mm in layout-1-pose-1": the first that differs; empty
+/// if none does.
+std::string moved_ground_truth(const RecordSet& baseline, const RecordSet& current,
+                               const Tolerances& tolerances);
+
 /// Compares every quantity; returns those that are not equal in all runs, with their outcomes.
 /// @param values  Set to the number of compared values.
 std::vector<Comparison> compare_series(const RecordSet& baseline, const RecordSet& current,

@@ -101,9 +101,11 @@ std::vector<std::string> reasons(const FigureDiff& diff, const Ties& ties, const
     why.push_back(
         fmt::format("it shows other records, {} \u2192 {}", others->baseline, others->current));
   if (ties.farthest != nullptr) {
-    const PointMove& move = ties.farthest->moves[0];
-    why.push_back(fmt::format("{}{} in record {}", move_text(move, ties.farthest->quantity),
-                              pixels_of(diff, move.name), ties.farthest->record));
+    const PointsDiff& farthest = *ties.farthest;
+    why.push_back(
+        fmt::format("{}{} in record {}", moves_text(farthest),
+                    farthest.transform.empty() ? pixels_of(diff, farthest.moves[0].name) : "",
+                    farthest.record));
     return why;
   }
   if (others == nullptr || !own.cause.starts_with(kMadeOfOthers)) why.push_back(own.cause);
@@ -114,11 +116,23 @@ std::vector<std::string> reasons(const FigureDiff& diff, const Ties& ties, const
 
 }  // namespace
 
+bool is_stale(const std::string& id, const std::vector<std::string>& record_ids,
+              const RecordContext& context) {
+  if (context.records.empty() || record_ids.empty()) return false;
+  const Ties ties = ties_of(record_ids, context);
+  if (ties.farthest != nullptr) return true;
+  return std::ranges::any_of(ties.comparisons, [&](const Comparison* comparison) {
+    return id.ends_with("-" + in_figure_id(comparison->quantity.id));
+  });
+}
+
 Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Judgement& own,
                          const std::vector<std::string>& record_ids, const RecordContext& context) {
   if (context.records.empty()) return own;
   const Ties ties = ties_of(record_ids, context);
   Judgement judgement{Verdict::kChanged, true, ""};
+  for (const RecordDiff* records : context.records)
+    if (judgement.shared_cause.empty()) judgement.shared_cause = settings_text(*records);
   std::string why;
   for (const std::string& reason : reasons(diff, ties, own, !record_ids.empty(), context))
     why += (why.empty() ? "" : "; ") + reason;

@@ -20,4 +20,9 @@ struct RecordContext {
 Judgement tied_judgement(const std::string& id, const FigureDiff& diff, const Judgement& own,
                          const std::vector<std::string>& record_ids, const RecordContext& context);
 
+/// Whether records that a figure shows differ beyond tolerance in what it shows: positions, or the
+/// quantity of its id. If the figure is equal then, it was not drawn again.
+bool is_stale(const std::string& id, const std::vector<std::string>& record_ids,
+              const RecordContext& context);
+
 }  // namespace mapproof

@@ -15,6 +15,7 @@
 #include "core/base/text/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
+#include "reports/diff/records/difference_summary.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/tables/image_tables.hpp"
@@ -194,9 +195,34 @@ void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& 
 /// Adds the differences of the records: scores with their tests, positions, settings, warnings,
 /// runs on only one side, versions, files that cannot be read.
 /// @param suffix  The end of the tables' ids.
+/// How the scores of many records differ: a row for each quantity.
+void add_summary_table(std::vector<Block>& blocks, const RecordDiff& diff,
+                       const std::string& suffix) {
+  if (diff.comparisons.size() <= kMostTableRows) return;
+  Table table{"summary-" + suffix, "How the scores differ, over all records", {}, {}, {}};
+  const std::string ratio = "Quantile over the records of current / baseline, of their means";
+  table.columns = {{"Score", "", "", ""},          {"Records that differ", "", "", ""},
+                   {"Worse", "", "", ""},          {"Better", "", "", ""},
+                   {"Ratio, 10 %", "", "", ratio}, {"50 %", "", "", ratio},
+                   {"90 %", "", "", ratio}};
+  const auto count = [](long n) { return NumberCell{static_cast<double>(n), 0, false}; };
+  const auto quantile = [](double value) {
+    return std::isfinite(value) ? Cell(NumberCell{value, 2, false}) : Cell(MissingCell{});
+  };
+  for (const QuantityDifferences& one : difference_summary(diff))
+    table.rows.push_back(
+        {{TextCell{label_with_unit(one.quantity)}, count(one.records), count(one.worse),
+          count(one.better), quantile(one.low), quantile(one.median), quantile(one.high)},
+         "",
+         false});
+  const long rows = std::ssize(table.rows);
+  add_table(blocks, std::move(table), rows);
+}
+
 void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
                        const std::string& suffix) {
   add_presence(blocks, diff);
+  add_summary_table(blocks, diff, suffix);
   add_table(blocks,
             changes_table("settings-" + suffix, "Settings of the experiment", "Setting",
                           diff.settings, [](const auto& change) { return change.pointer; }),

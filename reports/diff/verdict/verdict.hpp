@@ -47,6 +47,8 @@ struct Judgement {
   /// Whether the difference is visible in the image; for kRenderer it decides whether it passes.
   bool visible = true;
   std::string cause;  ///< One sentence; empty if identical.
+  /// What may be the cause of other items too: another seed, another renderer; empty: nothing.
+  std::string shared_cause = {};
 };
 
 /// Whether a check passes: identical, within tolerance, an invisible difference of the renderer,

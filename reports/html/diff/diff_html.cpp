@@ -9,6 +9,7 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -25,6 +26,7 @@
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/image_diff.hpp"
+#include "reports/diff/shared_causes.hpp"
 #include "reports/diff/tables/image_tables.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
 #include "reports/html/block_data.hpp"
@@ -134,9 +136,29 @@ std::uintmax_t bytes_of(const ImageFile& file) {
   return bytes;
 }
 
+/// Of a cause that several items share, the first items are shown in full.
+constexpr std::ptrdiff_t kExamples = 3;
+
+/// Whether the item has a cause that others before it, shown in full, have as well.
+bool is_repeated(const DiffResult& result, const DiffItem& item) {
+  const SharedCause* shared = shared_cause_of(result, item);
+  return shared != nullptr &&
+         std::ranges::find(shared->ids, item.id) - shared->ids.begin() >= kExamples;
+}
+
+/// The part of a page that images may fill; tables fill the rest.
+constexpr double kImageShare = 0.6;
+
+std::string full_text(const ImageBudget& budget) {
+  return fmt::format("Not shown: this page already has its {:.3g} MB (--page-size).",
+                     static_cast<double>(budget.page_bytes) / 1e6);
+}
+
 std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
+  constexpr double kBase64 = 4.0 / 3.0;
+  const double most = kImageShare * static_cast<double>(budget.page_bytes) / kBase64;
   std::vector<Plan> all;
-  std::uintmax_t used = 0;
+  double used = 0.0;
   std::size_t heat_maps = 0;
   for (const DiffItem& item : result.items) {
     Plan plan;
@@ -144,13 +166,16 @@ std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
       plan.file = most_telling(item);
       if (plan.file == nullptr) plan.absent = unreadable_reason(item);
     }
-    if (plan.file != nullptr && used + bytes_of(*plan.file) > budget.all_bytes) {
-      plan.absent = fmt::format("Not shown: the images of this page already fill {} MiB.",
-                                budget.all_bytes >> 20);
+    if (plan.file != nullptr && is_repeated(result, item)) {
+      plan.absent = "Not shown: others above have the same cause.";
+      plan.file = nullptr;
+    }
+    if (plan.file != nullptr && used + static_cast<double>(bytes_of(*plan.file)) > most) {
+      plan.absent = full_text(budget);
       plan.file = nullptr;
     }
     if (plan.file != nullptr) {
-      used += bytes_of(*plan.file);
+      used += static_cast<double>(bytes_of(*plan.file));
       plan.heat =
           plan.file->format != "svg" && has_both(*plan.file) && heat_maps < budget.heat_maps;
       heat_maps += plan.heat ? 1 : 0;
@@ -197,6 +222,23 @@ ShownImages read_all(const Plan& plan, const ImageOptions& options, std::size_t 
   return shown;
 }
 
+/// Leaves out the heat maps for which the page has no room.
+void drop_heat_maps(std::vector<ShownImages>& shown, const ImageBudget& budget) {
+  std::size_t room = static_cast<std::size_t>(kImageShare * static_cast<double>(budget.page_bytes));
+  for (const ShownImages& images : shown)
+    for (const auto* image : {&images.baseline, &images.current})
+      if (*image) room -= std::min(room, (*image)->uri.size());
+  for (ShownImages& images : shown) {
+    if (!images.heat) continue;
+    if (images.heat->uri.size() <= room) {
+      room -= images.heat->uri.size();
+      continue;
+    }
+    images.heat.reset();
+    images.no_heat = "No heat map: the page has no room for it (--page-size).";
+  }
+}
+
 /// Reads the images of each item, in order, and makes the heat maps of PNGs that differ, also
 /// within tolerance. Identical and unreadable images are not shown. Images are embedded as the
 /// bytes of their files.
@@ -209,6 +251,7 @@ std::vector<ShownImages> shown_images(const DiffResult& result, const DiffSettin
   parallel_for(all.size(), [&](std::size_t i) {
     shown[i] = read_all(all[i], settings.images_of(result.items[i].id), budget.largest_bytes);
   });
+  drop_heat_maps(shown, budget);
   return shown;
 }
 
@@ -259,7 +302,7 @@ data cluster_data(const ShownImages& shown) {
 
 /// The id of an item's element, by which links reach it: "figure-fig-7", "records-records".
 std::string anchor_of(const DiffItem& item) {
-  return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + url_text(item.id);
+  return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + percent_encoded(item.id);
 }
 
 /// The data of an item in lists: its name, verdict and link target.
@@ -275,12 +318,12 @@ data entry_data(const DiffItem& item) {
 /// The data for diff_item.mustache.
 /// @param refusal  Why the item cannot be approved by itself; null: it can.
 /// @param number   Distinguishes ids on the page.
-data item_data(const DiffItem& item, const DiffResult& all, const ShownImages& shown,
-               const ApprovalRefusal* refusal, std::size_t number) {
+data item_data(const DiffItem& item, const ShownImages& shown, const ApprovalRefusal* refusal,
+               std::size_t number) {
   data out = entry_data(item);
   const std::string id = printable(item.id, kMostName);
   out.set("number", fmt::format("{}", number));
-  out.set("code", url_text(item.id));
+  out.set("code", percent_encoded(item.id));
   out.set("passes", item.passes);
   out.set("cause", text_or_false(printable(item.judgement.cause, kMostCause)));
   out.set("approvable", item.judgement.verdict != Verdict::kUnreadable);
@@ -291,12 +334,37 @@ data item_data(const DiffItem& item, const DiffResult& all, const ShownImages& s
   out.set("no_heat", text_or_false(shown.no_heat));
   out.set("cluster", cluster_data(shown));
   out.set("absent", text_or_false(shown.absent));
-  list blocks;
-  for (const Block& block : item_blocks(item, all, number))
-    blocks.push_back(
-        block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false}));
-  out.set("blocks", blocks);
   return out;
+}
+
+/// The characters of a table's cells as markup: what a page of tables consists of.
+std::size_t size_of(const Block& block) {
+  constexpr std::size_t kCell = 60;  // The markup around a cell, at most.
+  const Table* table = std::get_if<Table>(&block);
+  if (table == nullptr) return 10 * kCell;
+  std::size_t size = 0;
+  for (const Row& row : table->rows)
+    for (const Cell& cell : row.cells) {
+      const TextCell* text = std::get_if<TextCell>(&cell);
+      size += kCell + (text == nullptr ? 0 : text->text.size());
+    }
+  return size;
+}
+
+/// Sets the tables of an item, if the page has room for them.
+/// @param room  Bytes of the page that are left for tables.
+void set_blocks(data& out, const DiffItem& item, const DiffResult& all, std::size_t number,
+                std::size_t& room) {
+  list blocks;
+  if (!is_repeated(all, item))
+    for (const Block& block : item_blocks(item, all, number)) {
+      const std::size_t size = size_of(block);
+      if (size > room) continue;
+      room -= size;
+      blocks.push_back(
+          block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false}));
+    }
+  out.set("blocks", blocks);
 }
 
 /// The verdicts that occur, the heaviest first, each with its number of items.
@@ -328,6 +396,12 @@ constexpr std::size_t kLongestNote = 2000;
 /// Remarks on items that were not compared or are not shown.
 list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown) {
   list out;
+  for (const SharedCause& shared : result.shared)
+    out.push_back(data(
+        "note", printable(fmt::format("{} have one cause, {}: {}. The first {} are shown in full.",
+                                      counted(std::ssize(shared.ids), "item"),
+                                      label(shared.verdict), shared.cause, kExamples),
+                          kLongestNote)));
   for (const std::string& remark : result.remarks)
     out.push_back(data("note", printable(remark, kLongestNote)));
   if (const std::string text = left_out(shown); !text.empty()) out.push_back(data("note", text));
@@ -342,7 +416,10 @@ std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
   return approval_refusals(result.baseline, result.current, ids);
 }
 
-void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown) {
+void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown,
+               const ImageBudget& budget) {
+  auto room =
+      static_cast<std::size_t>((1.0 - kImageShare) * 0.8 * static_cast<double>(budget.page_bytes));
   const auto refusals = refusals_of(result);
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
@@ -353,8 +430,9 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
     }
     changed.push_back(entry_data(item));
     const auto refused = refusals.find(item.id);
-    items.push_back(item_data(item, result, shown[i],
-                              refused == refusals.end() ? nullptr : &refused->second, i + 1));
+    items.push_back(
+        item_data(item, shown[i], refused == refusals.end() ? nullptr : &refused->second, i + 1));
+    set_blocks(items.back(), item, result, i + 1, room);
   }
   page.set("identical_count", fmt::format("{}", identical.size()));
   page.set("any_identical", !identical.empty());
@@ -366,8 +444,6 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
 
 }  // namespace
 
-std::string url_text(std::string_view text) { return percent_encoded(text); }
-
 std::string diff_html(const DiffResult& result, const DiffSettings& settings,
                       const Templates& templates, const ImageBudget& budget) {
   const std::vector<ShownImages> shown = shown_images(result, settings, budget);
@@ -378,15 +454,15 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("label", std::string(label(result.judgement.verdict)));
   page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
-  page.set("baseline", url_text(result.baseline));
-  page.set("current", url_text(result.current));
+  page.set("baseline", percent_encoded(result.baseline));
+  page.set("current", percent_encoded(result.current));
   std::error_code error;
   page.set("files", std::filesystem::is_regular_file(result.current, error));
   page.set("facts", block_data(whole_facts(result), {}, {}));
   page.set("counts", counts_data(result));
   page.set("notes", notes_data(result, shown));
   page.set("version", std::string(version()));
-  set_items(page, result, shown);
+  set_items(page, result, shown, budget);
   return rendered("diff", templates, page);
 }
 

@@ -30,12 +30,10 @@ struct ShownImages {
 
 struct ImageBudget {
   std::size_t largest_bytes = std::size_t{16} << 20;  ///< Of one file.
-  std::size_t all_bytes = std::size_t{64} << 20;      ///< Of all files; the rest is not shown.
-  std::size_t heat_maps = 100;                        ///< The others have none.
+  /// Of the page: the first images and tables fill it, the others are not shown.
+  std::size_t page_bytes = 5'000'000;
+  std::size_t heat_maps = 100;  ///< The others have none.
 };
-
-/// A text for a fragment, an id or an attribute of the page: percent_encoded().
-std::string url_text(std::string_view text);
 
 /// One self-contained page on a comparison (docs/diff.md): verdicts and causes, images of the
 /// differing items, tables of movements, checkboxes for approval. It fetches nothing, which its

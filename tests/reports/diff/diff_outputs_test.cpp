@@ -1,6 +1,7 @@
 #include "reports/diff/diff_outputs.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include "core/base/files/files.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/folder_diff.hpp"
+#include "tests/reports/diff/small_study.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 #include "tests/support/schemas/comparison_schemas.hpp"
 #include "tests/support/schemas/schema_problem.hpp"
@@ -19,6 +21,7 @@ namespace mapproof::test {
 namespace {
 
 using nlohmann::json;
+namespace fs = std::filesystem;
 
 /// One item of each verdict, with names that have broken something somewhere.
 DiffResult hostile_result() {
@@ -51,6 +54,37 @@ TEST(DiffOutputs, MarkdownHoldsNoMarkupOfNamesAndCauses) {
   EXPECT_EQ(markdown.find("@all"), std::string::npos);
   EXPECT_NE(markdown.find("| **fails** |"), std::string::npos);
   EXPECT_EQ(markdown.find('\x1b'), std::string::npos);
+}
+
+TEST(DiffOutputs, TextHasOneLineForACauseOfManyItemsAndOnePerQuantity) {
+  const TemporaryFolder folder;
+  write_base_study(folder / "a");
+  write_base_study(folder / "b");
+  write_changed(SmallStudy(8), folder / "b");
+  const DiffResult result = folder_diff(folder / "a", folder / "b", {});
+  const std::string text = diff_text(result);
+  EXPECT_EQ(result.shared.size(), 1U);
+  EXPECT_NE(text.find("3 items: seed 7 \u2192 8"), std::string::npos) << text;
+  EXPECT_EQ(text.find("map-isomap changed because"), std::string::npos) << text;
+  EXPECT_NE(text.find("MPE: 4 records differ"), std::string::npos) << text;
+  EXPECT_NE(text.find("; current / baseline "), std::string::npos) << text;
+}
+
+TEST(DiffOutputs, TextNamesStaleFiguresAndVersionsThatDiffer) {
+  const TemporaryFolder folder;
+  write_base_study(folder / "a");
+  write_base_study(folder / "b");
+  SmallStudy study;
+  study.study.provenance.version = "9.9.9";
+  study.map("layout-2-pose-1/visibility/lpca/200").estimate.array() += 0.5;
+  study.rescore();
+  write_changed(study, folder / "b");
+  fs::copy(folder / "a/figures", folder / "b/figures",
+           fs::copy_options::overwrite_existing | fs::copy_options::recursive);
+  const std::string text = diff_text(folder_diff(folder / "a", folder / "b", {}));
+  EXPECT_NE(text.find("Stale:  map-lpca"), std::string::npos) << text;
+  EXPECT_NE(text.find("Versions that differ:  mapproof"), std::string::npos) << text;
+  EXPECT_NE(text.find("9.9.9"), std::string::npos) << text;
 }
 
 TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndCountsTheOthers) {

@@ -134,6 +134,10 @@ void add_svg(const Drawing& drawing) {
                    "<!-- made elsewhere --><svg ");
   drawing.add_text("a colour of the SVG", Verdict::kStyle, {"its styles differ"}, "stroke=\"#",
                    "stroke=\"#7f00ff\" data-was=\"#");
+  const std::string mark = drawing.id.starts_with("map") ? " data-kind=\"" : " data-curve=\"";
+  drawing.add_text("a mark of the SVG moved", Verdict::kChanged,
+                   {"the figure's value is equal, its svg does not show it"}, mark,
+                   " transform=\"translate(3 0)\"" + mark);
   drawing.add_text("a text of the SVG", Verdict::kStyle, {"its styles differ"}, "aria-label=\"0",
                    "aria-label=\"7");
 }

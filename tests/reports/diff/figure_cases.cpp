@@ -196,10 +196,11 @@ void add_data(std::vector<ValueCase>& cases) {
        [=](Figure& f) { turn(f.alt); });
   data(map, "a number in the caption", {"caption"}, [=](Figure& f) { turn(f.caption); });
   data(curve, "a number in the title", {"title"}, [](Figure& f) { f.title += ", 2"; });
-  data(map, "another name of a landmark", {"data-landmark L5 \u2192 L55"}, [](Figure& f) {
-    for (auto& [key, value] : layer<Scatter>(f, 2).marks[4].data)
-      if (key == "landmark") value = "L55";
-  });
+  data(map, "another name of a landmark", {"renamed landmark L5 \u2192 landmark L55"},
+       [](Figure& f) {
+         for (auto& [key, value] : layer<Scatter>(f, 2).marks[4].data)
+           if (key == "landmark") value = "L55";
+       });
   data(curve, "a point of a curve", {"point 2 of ISOMAP, K = 6 moved"},
        [](Figure& f) { layer<Polyline>(f, 1).y[1] += 0.004; });
   data(curve, "a point of a curve lost", {"1 point removed"}, [](Figure& f) {

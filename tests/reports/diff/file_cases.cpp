@@ -84,17 +84,24 @@ void add_whole(Files& files, const std::string& id, const std::string& other) {
                          {"the current has it as renamed: renamed"}, rename);
   files.add_among_others(id + " renamed, as the other", "renamed", Verdict::kNew,
                          {"the baseline has it as " + id + ": renamed"}, rename);
-  files.add_among_others(id + ".png swapped", id, Verdict::kChanged,
-                         {"the baseline's " + other, "swapped"}, [=](const fs::path& folder) {
-                           swap(folder / "figures" / (id + ".png"),
-                                folder / "figures" / (other + ".png"));
-                         });
+  files.add_among_others(
+      id + ".png swapped", id, Verdict::kChanged,
+      {"its png is that of " + other + " in the baseline: swapped"}, [=](const fs::path& folder) {
+        swap(folder / "figures" / (id + ".png"), folder / "figures" / (other + ".png"));
+      });
   files.add_among_others(id + " swapped", id, Verdict::kChanged,
-                         {"the baseline's " + other, "swapped"}, [=](const fs::path& folder) {
+                         {"its value, png and svg are those of " + other, "swapped"},
+                         [=](const fs::path& folder) {
                            each(folder, [&](const fs::path& in, const std::string& extension) {
                              swap(in / (id + extension), in / (other + extension));
                            });
                          });
+  files.add(
+      id + ".png replaced by that of " + other, id, Verdict::kChanged,
+      {"its png is that of " + other + " in the baseline: swapped"}, [=](const fs::path& folder) {
+        fs::copy_file(folder / "figures" / (other + ".png"), folder / "figures" / (id + ".png"),
+                      fs::copy_options::overwrite_existing);
+      });
 }
 
 void add_records(Files& files) {

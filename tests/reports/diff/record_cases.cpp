@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "render/plot/figure_json.hpp"
 #include "tests/reports/diff/small_study.hpp"
@@ -94,6 +96,29 @@ void add_moves(std::vector<ValueCase>& cases) {
               changed_study(fmt::format("{} of {} by {} m, {}", row + 1, method, moved_m, id), id,
                             Verdict::kChanged, cause, change));
       }
+}
+
+/// A whole map is mirrored, rotated, scaled or shifted.
+void add_transforms(std::vector<ValueCase>& cases) {
+  const auto add = [&](const std::string& words, const Eigen::Matrix2d& by,
+                       const Eigen::RowVector2d& shift) {
+    const auto change = [by, shift](SmallStudy& study) {
+      Points& estimate = study.map("layout-2-pose-1/visibility/lpca/200").estimate;
+      estimate = (estimate * by.transpose()).rowwise() + shift;
+      study.rescore();
+    };
+    for (const char* id : {"records", "map-lpca"})
+      cases.push_back(changed_study(words + ", " + id, id, Verdict::kChanged,
+                                    {"the map of 12 landmarks is " + words}, change));
+  };
+  const Eigen::RowVector2d none(0.0, 0.0);
+  const Eigen::Matrix2d same = Eigen::Matrix2d::Identity();
+  add("mirrored", Eigen::Vector2d(-1.0, 1.0).asDiagonal(), none);
+  add("mirrored and scaled by 1.1", Eigen::Vector2d(1.1, -1.1).asDiagonal(), none);
+  add("rotated by 90\u00B0", Eigen::Rotation2Dd(std::numbers::pi / 2).toRotationMatrix(), none);
+  add("rotated by -30\u00B0", Eigen::Rotation2Dd(-std::numbers::pi / 6).toRotationMatrix(), none);
+  add("scaled by 1.1", 1.1 * same, none);
+  add("shifted by 0.5 m", same, {0.3, -0.4});
 }
 
 void add_tolerated(std::vector<ValueCase>& cases) {
@@ -198,6 +223,7 @@ std::vector<ValueCase> record_cases() {
   std::vector<ValueCase> cases;
   add_seeds(cases);
   add_moves(cases);
+  add_transforms(cases);
   add_tolerated(cases);
   add_trends(cases);
   add_mixed(cases);

@@ -5,6 +5,7 @@
 
 #include "core/base/files/files.hpp"
 #include "core/base/text/base64.hpp"
+#include "reports/html/block_data.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/sha256.hpp"
 #include "tests/reports/diff_page/page_samples.hpp"
@@ -35,9 +36,9 @@ int count_of(const std::string& text, const std::string& part) {
 
 std::string uri_of(const std::filesystem::path& path) { return base64(read_file(path)); }
 
-TEST(UrlText, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
-  EXPECT_EQ(url_text("sub/fig-7.b_c"), "sub/fig-7.b_c");
-  EXPECT_EQ(url_text("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");
+TEST(PercentEncoding, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
+  EXPECT_EQ(percent_encoded("sub/fig-7.b_c"), "sub/fig-7.b_c");
+  EXPECT_EQ(percent_encoded("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");
 }
 
 TEST(DiffPage, HoldsEachImageOnceAsItIsOnDisk) {
@@ -94,7 +95,7 @@ TEST(DiffPage, LeavesOutImagesBeyondItsBudgetAndCountsThem) {
   const test::TemporaryFolder folder;
   const DiffResult result = test::compared_folders(folder.path());
   const std::string page =
-      page_of(result, {.largest_bytes = 1 << 20, .all_bytes = 1, .heat_maps = 0});
+      page_of(result, {.largest_bytes = 1 << 20, .page_bytes = 1, .heat_maps = 0});
   EXPECT_EQ(count_of(page, "<img "), 0);
   EXPECT_NE(page.find("Images of 6 items are not shown"), std::string::npos);
   EXPECT_NE(page.find("id=\"figure-moved\""), std::string::npos);
