@@ -152,8 +152,10 @@ void ChildProcess::kill() {
 fs::path program_beside(const char* variable, const char* name) {
   if (const char* named = std::getenv(variable); named != nullptr && *named != '\0') return named;
   std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  return self.parent_path() / name;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path beside = folder / name;
+  const fs::path installed = folder.parent_path() / "libexec/mapproof" / name;
+  return !is_program(beside) && is_program(installed) ? installed : beside;
 }
 
 bool is_program(const fs::path& path) { return ::access(path.c_str(), X_OK) == 0; }

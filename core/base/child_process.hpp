@@ -78,7 +78,7 @@ class ChildProcess {
   ProcessEnd end_;
 };
 
-/// The program that the environment variable names, else `name` beside the running program.
+/// What the environment variable names, else `name` beside this program or in ../libexec/mapproof.
 std::filesystem::path program_beside(const char* variable, const char* name);
 
 bool is_program(const std::filesystem::path& path);

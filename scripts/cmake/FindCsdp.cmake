@@ -1,5 +1,8 @@
 # CSDP::sdp: CSDP with the reference BLAS and LAPACK, as static libraries, so that no alternative
 # BLAS of the machine, whose results depend on the processor, replaces them.
+if(TARGET CSDP::sdp)
+  return()
+endif()
 find_path(CSDP_INCLUDE_DIR csdp/declarations.h REQUIRED)
 find_library(CSDP_LIBRARY libsdp.a REQUIRED)
 find_library(CSDP_LAPACK_LIBRARY liblapack.a PATH_SUFFIXES lapack REQUIRED)
@@ -12,8 +15,7 @@ file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
 execute_process(COMMAND_ERROR_IS_FATAL ANY COMMAND ${CMAKE_OBJCOPY}
   --redefine-sym exit=mapproof_csdp_exit --redefine-sym puts=mapproof_csdp_puts
   ${CSDP_LIBRARY} ${csdp_copy})
-add_library(csdp_sdp INTERFACE)
-add_library(CSDP::sdp ALIAS csdp_sdp)
-target_include_directories(csdp_sdp SYSTEM INTERFACE ${CSDP_INCLUDE_DIR})
-target_link_libraries(csdp_sdp INTERFACE
+add_library(CSDP::sdp INTERFACE IMPORTED)
+target_include_directories(CSDP::sdp SYSTEM INTERFACE ${CSDP_INCLUDE_DIR})
+target_link_libraries(CSDP::sdp INTERFACE
   ${csdp_copy} ${CSDP_LAPACK_LIBRARY} ${CSDP_BLAS_LIBRARY} ${CSDP_FORTRAN_LIBRARY})

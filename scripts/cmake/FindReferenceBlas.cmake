@@ -3,13 +3,15 @@
 # linked with the BLAS that the machine's alternatives select. Some of these start threads before
 # main(), which spin for ever where memory is limited. --disable-new-dtags writes DT_RPATH, which the
 # loader searches before LD_LIBRARY_PATH.
+if(TARGET Blas::reference)
+  return()
+endif()
 find_library(REFERENCE_BLAS_LIBRARY libblas.so.3 PATH_SUFFIXES blas REQUIRED)
 find_library(REFERENCE_LAPACK_LIBRARY liblapack.so.3 PATH_SUFFIXES lapack REQUIRED)
-add_library(reference_blas INTERFACE)
-add_library(Blas::reference ALIAS reference_blas)
-target_link_libraries(reference_blas INTERFACE -Wl,--push-state,--no-as-needed
+add_library(Blas::reference INTERFACE IMPORTED)
+target_link_libraries(Blas::reference INTERFACE -Wl,--push-state,--no-as-needed
   ${REFERENCE_BLAS_LIBRARY} ${REFERENCE_LAPACK_LIBRARY} -Wl,--pop-state)
-target_link_options(reference_blas INTERFACE -Wl,--disable-new-dtags)
+target_link_options(Blas::reference INTERFACE -Wl,--disable-new-dtags)
 
 # Ceres links the alternatives too: of LAPACK it gets the static library that CSDP::sdp has.
 foreach(target IN ITEMS Ceres::ceres BLAS::BLAS LAPACK::LAPACK)

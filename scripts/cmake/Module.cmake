@@ -10,7 +10,9 @@ function(mapproof_library name)
   add_library(mapproof_${name} STATIC)
   add_library(mapproof::${name} ALIAS mapproof_${name})
   target_compile_features(mapproof_${name} PUBLIC cxx_std_20)
-  target_include_directories(mapproof_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_include_directories(mapproof_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/mapproof>)
   target_link_libraries(mapproof_${name}
     PUBLIC ${library_HEADER_PACKAGES}
     PRIVATE ${library_PACKAGES} $<BUILD_INTERFACE:mapproof::build_flags>)

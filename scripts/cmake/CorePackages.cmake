@@ -1,0 +1,16 @@
+# The packages that the library core is linked with. The installed mapproofConfig.cmake reads this
+# file, too.
+find_package(PkgConfig REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
+find_package(TBB REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(LibLZMA REQUIRED)
+find_package(Ceres 2.1 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(Boost 1.74 REQUIRED)
+find_package(fmt REQUIRED)
+pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)
+pkg_check_modules(MD REQUIRED IMPORTED_TARGET libmd)
+pkg_check_modules(ZIP REQUIRED IMPORTED_TARGET libzip)
+include(${CMAKE_CURRENT_LIST_DIR}/FindCsdp.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/FindReferenceBlas.cmake)
