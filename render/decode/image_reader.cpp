@@ -43,11 +43,20 @@ bool is_animated_png(std::string_view bytes) {
   return false;
 }
 
+/// A program that sets no limits of its own, and its arguments: with 4 GiB and a minute at most.
+ProgramCall limited(std::vector<std::string> words) {
+  words.insert(words.begin(), {"--as=4294967296", "--cpu=60", "--core=0"});
+  return {"/usr/bin/prlimit", std::move(words)};
+}
+
+/// Whether prlimit did not find the program, or could not run it.
+bool is_missing(const ProcessEnd& end) {
+  constexpr int kNotFound = 127, kNotRun = 126;
+  return end.exit_code == kNotFound || end.exit_code == kNotRun;
+}
+
 ProgramCall program_of(DecodedFormat format) {
-  // pdftoppm sets no limits of its own.
-  if (format == DecodedFormat::kPdf)
-    return {"/usr/bin/prlimit",
-            {"--as=4294967296", "--cpu=60", "--core=0", "pdftoppm", "-r", "96", "-"}};
+  if (format == DecodedFormat::kPdf) return limited({"pdftoppm", "-r", "96", "-"});
   const std::filesystem::path program = animation_program();
   if (!is_program(program))
     throw InvalidInput(fmt::format("{} is read by {}, which is not there", label(format),
@@ -251,17 +260,38 @@ void ImageReader::require_end() {
 }
 
 void ImageReader::fail(std::string_view otherwise) {
-  constexpr int kNotFound = 127, kNotRun = 126;
   output_ = Descriptor(-1);  // The program ends if it still writes.
   const ProcessEnd end = process_->wait();
   process_.reset();
   const std::string said = last_line(content_of(messages_));
   if (said == kOutOfMemory) throw std::bad_alloc();
-  if (format_ == DecodedFormat::kPdf && (end.exit_code == kNotFound || end.exit_code == kNotRun))
+  if (format_ == DecodedFormat::kPdf && is_missing(end))
     throw InvalidInput("PDF is drawn by pdftoppm of poppler-utils, which is not installed");
   throw InvalidInput(printable(
       fmt::format("cannot be read as {}: {}", label(format_), said.empty() ? otherwise : said),
       500));
+}
+
+std::string drawn_svg(std::string_view bytes) {
+  // rsvg-convert sets no limits of its own. Twice the size shows changes of half a pixel.
+  const ProgramCall call =
+      limited({"rsvg-convert", "--zoom=2", "--format=png", "--background-color=white"});
+  try {
+    const Descriptor input = memory_file("mapproof-image");
+    if (!write_all(input, bytes) || ::lseek(input.get(), 0, SEEK_SET) != 0)
+      throw ProcessError(std::strerror(errno));
+    ProgramAnswer answer = answer_of(call, input);
+    if (is_missing(answer.end))
+      throw InvalidInput("SVG is drawn by rsvg-convert of librsvg2-bin, which is not installed");
+    if (!answer.end.is_success())
+      throw InvalidInput(printable(
+          fmt::format("SVG cannot be drawn: {}",
+                      answer.messages.empty() ? answer.end.text() : last_line(answer.messages)),
+          500));
+    return std::move(answer.output);
+  } catch (const ProcessError& error) {
+    throw InvalidInput(fmt::format("SVG cannot be drawn: {}", error.what()));
+  }
 }
 
 }  // namespace mapproof

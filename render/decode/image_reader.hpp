@@ -60,4 +60,9 @@ class ImageReader {
   std::optional<ChildProcess> process_;
 };
 
+/// An SVG as a PNG of twice its size, as librsvg's program rsvg-convert draws it, with at most a
+/// minute of processor time and 4 GiB.
+/// @throws InvalidInput with the reason if the program is missing or cannot draw it.
+std::string drawn_svg(std::string_view bytes);
+
 }  // namespace mapproof

@@ -52,7 +52,8 @@ struct ImageOptions {
                                                     ///< channel of an SVG colour.
 };
 
-/// The comparison of two images, pixel by pixel. If the sizes differ, only the sizes are set.
+/// The comparison of two images, pixel by pixel. If the sizes differ by more than a few pixels,
+/// only the sizes are set; else the rest is of the part that both have.
 struct PixelDiff {
   ImageSize baseline, current;
   std::int64_t differing = 0;    ///< Pixels with any difference, without the ignored ones.

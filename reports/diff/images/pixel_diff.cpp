@@ -258,13 +258,36 @@ void judge_pixels(const Image& baseline, const Image& current, const ImageOption
 
 }  // namespace
 
+bool have_common_part(const ImageSize& a, const ImageSize& b) {
+  constexpr int kFew = kTile;  // Pixels: what a window of the comparison can hold.
+  return std::abs(a.width - b.width) <= kFew && std::abs(a.height - b.height) <= kFew;
+}
+
+Image upper_left(const Image& image, const ImageSize& size) {
+  if (image.width == size.width && image.height == size.height) return image;
+  Image part{size.width, size.height, {}};
+  part.pixels.reserve(static_cast<std::size_t>(size.width) * size.height);
+  for (int y = 0; y < size.height; ++y)
+    part.pixels.insert(part.pixels.end(), image.row(y), image.row(y) + size.width);
+  return part;
+}
+
 PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOptions& options) {
   if (const std::string problem = problem_of(options); !problem.empty())
     throw InvalidInput(problem);
   PixelComparison diff;
   diff.pixels.baseline = {baseline.width, baseline.height};
   diff.pixels.current = {current.width, current.height};
-  if (diff.pixels.baseline != diff.pixels.current) return diff;
+  if (diff.pixels.baseline != diff.pixels.current) {
+    if (!have_common_part(diff.pixels.baseline, diff.pixels.current)) return diff;
+    const ImageSize common{std::min(baseline.width, current.width),
+                           std::min(baseline.height, current.height)};
+    PixelComparison of_part =
+        pixel_diff(upper_left(baseline, common), upper_left(current, common), options);
+    of_part.pixels.baseline = diff.pixels.baseline;
+    of_part.pixels.current = diff.pixels.current;
+    return of_part;
+  }
   diff.pixels.ignored = ignore(baseline, current, options.ignored);
   // The judgement weighs shares of what differs, which a larger tolerance changes in either
   // direction. The judgement that finds least at any tolerance up to the allowed one cannot find

@@ -86,7 +86,25 @@ TEST_F(ImageDiffTest, ReportsSizesThatDiffer) {
   const ImageDiff found = diff(encode_png(white(10, 8)), encode_png(white(8, 10)));
   EXPECT_EQ(found.state, ImageState::kDifferent);
   EXPECT_EQ(found.pixels->current, (ImageSize{8, 10}));
-  EXPECT_EQ(found.reason, "10 x 8 pixels became 8 x 10");
+  EXPECT_EQ(found.reason,
+            "10 x 8 pixels became 8 x 10; in the part that both have the pixels are equal");
+  const ImageDiff far = diff(encode_png(white(100, 90)), encode_png(white(100, 107)));
+  EXPECT_EQ(far.reason, "100 x 90 pixels became 100 x 107");
+}
+
+TEST_F(ImageDiffTest, ComparesTheCommonPartOfSizesThatDifferByAFewPixels) {
+  Image wider = white(103, 92);
+  for (int y = 30; y < 50; ++y) std::fill_n(wider.row(y) + 40, 20, 0x203040U);
+  const auto a = folder_.file("a.png", encode_png(with_square()));
+  const auto b = folder_.file("b.png", encode_png(wider));
+  const ImageDiff found = image_diff(a, b);
+  EXPECT_EQ(found.state, ImageState::kDifferent);
+  EXPECT_EQ(found.pixels->current, (ImageSize{103, 92}));
+  EXPECT_EQ(found.pixels->changed, 400);
+  EXPECT_NE(found.reason.find("in the part that both have 400 pixels changed"), std::string::npos)
+      << found.reason;
+  const Image heat = heat_map(a, b);
+  EXPECT_EQ((ImageSize{heat.width, heat.height}), (ImageSize{100, 90}));
 }
 
 TEST_F(ImageDiffTest, LocatesTheLargestClusterOfAChange) {
