@@ -1,6 +1,5 @@
 #include "app/study/study_run.hpp"
 
-#include <chrono>
 #include <ctime>
 #include <optional>
 
@@ -10,10 +9,12 @@
 
 #include "app/build_facts.hpp"
 #include "app/console.hpp"
+#include "app/processor.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/results_study_json.hpp"
+#include "core/studies/shard.hpp"
 #include "core/studies/study_kind.hpp"
 
 namespace mapproof {
@@ -27,15 +28,6 @@ std::optional<double> peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB.
 }
 
-/// When a session began.
-struct Stopwatch {
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start = Clock::now();
-  std::string started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
-
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
-};
-
 void copy_study(const fs::path& from, const fs::path& to) {
   refuse_links_out(from);
   make_folder(to);
@@ -45,6 +37,22 @@ void copy_study(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+SessionClock::SessionClock()
+    : started_utc_(fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))) {}
+
+double SessionClock::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+Session SessionClock::session(const SessionNames& names, int jobs) const {
+  return {.command = names.command,
+          .started_utc = started_utc_,
+          .host = names.host,
+          .jobs = jobs,
+          .seconds = seconds(),
+          .peak_memory_mib = peak_memory_mib()};
+}
+
 void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                 const SessionNames& names, const Console& console) {
   if (!request.given.empty()) {
@@ -52,25 +60,30 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
     return;
   }
   say_when_stopped(kContinuesWord);
-  const Stopwatch watch;
+  const SessionClock watch;
   std::optional<ProgressLine> line(std::in_place, console, "starting");
   for (const std::string& remark : request.plan.remarks) console.detail(remark);
-  StudyWriter writer(folder, request.plan.start(build_provenance()));
+  // The same shard may have been started twice; the second finds all done.
+  const std::function<void()> busy = [&] {
+    console.info(folder.string() + ": another mapproof works in it; waiting for it");
+  };
+  StudyWriter writer(folder, request.plan.start(build_provenance()),
+                     request.shard ? busy : nullptr);
   if (!writer.redone().empty())
     console.warning(fmt::format("{}: its records were made by {}; they are made again",
                                 folder.string(), writer.redone()));
+  if (request.shard) {
+    ShardSession session = *request.shard;
+    session.command = names.command;
+    session.processor = processor_kind();
+    begin_shard(writer, session);
+  }
   Progress last;
   run_study(request.plan, writer, jobs, [&](const Progress& progress) {
     last = progress;
     (*line)(progress);
   });
-  if (last.reused < last.total)
-    writer.write_session({.command = names.command,
-                          .started_utc = watch.started_utc,
-                          .host = names.host,
-                          .jobs = jobs,
-                          .seconds = watch.seconds(),
-                          .peak_memory_mib = peak_memory_mib()});
+  if (last.reused < last.total) writer.write_session(watch.session(names, jobs));
   write_results_table(folder);
   line.reset();
   console.detail(fmt::format("{}: solver {}, commit {}, {} jobs, {:.2f} s", folder.string(),

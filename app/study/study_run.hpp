@@ -1,10 +1,12 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 
 #include "app/console.hpp"
 #include "app/study/study_request.hpp"
+#include "core/model/study.hpp"
 
 namespace mapproof {
 
@@ -12,6 +14,18 @@ namespace mapproof {
 struct SessionNames {
   std::string command;  ///< What makes the study again.
   std::string host;
+};
+
+/// Measures a session from its construction on.
+class SessionClock {
+ public:
+  SessionClock();
+  double seconds() const;
+  Session session(const SessionNames& names, int jobs) const;
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::string started_utc_;
 };
 
 /// Runs what a folder does not hold yet, with a progress line, and notes the session.

@@ -28,8 +28,8 @@ nlohmann::ordered_json timing_schema() {
   nlohmann::ordered_json whole = {
       {"title", "A line of timings.jsonl"},
       {"description",
-       "The schema (first line), seconds of a piece of a study, or one start of the "
-       "program."}};
+       "The schema (first line), seconds of a piece of a study, one start of the program, or "
+       "what a task of a shard has written."}};
   whole.update(lines);
   return record_json::file_schema(std::move(whole), definitions);
 }
