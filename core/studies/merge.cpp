@@ -97,7 +97,7 @@ class Reader {
       processors.insert(shard.processors.begin(), shard.processors.end());
     result_.processors.assign(processors.begin(), processors.end());
     if (result_.shards.empty() && result_.refusals.empty())
-      result_.refusals.emplace_back("none of the folders holds a shard");
+      result_.refusals = std::move(result_.damaged);
     if (result_.refusals.empty()) find_missing();
   }
 
