@@ -9,7 +9,6 @@
 #include "app/study/study_outputs.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
-#include "core/studies/merge.hpp"
 #include "core/studies/shard.hpp"
 
 namespace mapproof {

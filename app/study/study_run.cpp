@@ -1,15 +1,17 @@
 #include "app/study/study_run.hpp"
 
+#include <algorithm>
 #include <ctime>
 #include <optional>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <sys/utsname.h>
 
 #include "app/build_facts.hpp"
 #include "app/console.hpp"
-#include "app/processor.hpp"
+#include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"
@@ -26,6 +28,23 @@ std::optional<double> peak_memory_mib() {
   rusage usage{};
   if (::getrusage(RUSAGE_SELF, &usage) != 0) return std::nullopt;
   return static_cast<double>(usage.ru_maxrss) / 1024.0;  // Linux counts in KiB.
+}
+
+/// The value of the first line that begins with the key; empty if there is none.
+std::string_view value_of(std::string_view text, std::string_view key) {
+  constexpr std::string_view kBlank = " \t";
+  while (!text.empty()) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
+    const std::size_t colon = line.find(':');
+    if (!line.starts_with(key) || colon == std::string_view::npos ||
+        line.substr(key.size(), colon - key.size()).find_first_not_of(kBlank) !=
+            std::string_view::npos)
+      continue;
+    const std::size_t start = line.find_first_not_of(kBlank, colon + 1);
+    return start == std::string_view::npos ? "" : line.substr(start);
+  }
+  return "";
 }
 
 void copy_study(const fs::path& from, const fs::path& to) {
@@ -91,6 +110,26 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                              watch.seconds()));
   console.info(fmt::format("{}: {} {}, {} of them reused", folder.string(), last.total, last.noun,
                            last.reused));
+}
+
+std::string processor_kind() {
+  utsname system{};
+  const bool is_known = ::uname(&system) == 0;
+  std::string cpuinfo;
+  try {
+    cpuinfo = read_file("/proc/cpuinfo");
+  } catch (const IoError&) {  // Not every container shows it.
+    cpuinfo.clear();
+  }
+  return processor_kind(cpuinfo, is_known ? system.machine : "unknown");
+}
+
+std::string processor_kind(std::string_view cpuinfo, std::string_view architecture) {
+  std::string name(value_of(cpuinfo, "model name"));
+  const std::string_view maker = value_of(cpuinfo, "CPU implementer");
+  if (name.empty() && !maker.empty())
+    name = fmt::format("implementer {}, part {}", maker, value_of(cpuinfo, "CPU part"));
+  return printable(fmt::format("{} ({})", name.empty() ? "unknown" : name, architecture), 200);
 }
 
 }  // namespace mapproof

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/processor.hpp"
+#include "app/study/study_run.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/sha256.hpp"
 #include "core/studies/shard.hpp"
@@ -350,7 +350,7 @@ TEST(Shards, AFileThatIsNoRecordIsNotTakenFromAFolderThatWasHandedOver) {
              R"("file": "runs/../../../secret.txt", "sha256": ")" + sha256_hex("secret") + "\"");
   const Outcome outcome = merge(folders, folder / "study");
   EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_NE(outcome.error.find("names a file that is no record"), std::string::npos)
+  EXPECT_NE(outcome.error.find("names a file that is not a record"), std::string::npos)
       << outcome.error;
 }
 

@@ -85,7 +85,7 @@ END
 chmod +x mapproof
 export MAPPROOF=$work/mapproof
 experiment=("$root/tests/data/experiments/small.json")
-more=(--layouts 1000)
+more=(--layouts 600)
 
 # Waits until a node works on a shard that has some records, but not all.
 wait_for_shard() {
@@ -94,7 +94,7 @@ wait_for_shard() {
     if [ -f "pids/$1" ]; then
       task=$(cut -d ' ' -f 3 "pids/$1")
       records=$(find "out/shards/$task-of-4/runs" -name '*.json' 2>/dev/null | wc -l)
-      if [ -n "$task" ] && [ "$records" -ge 5 ] && [ "$records" -lt 300 ]; then
+      if [ -n "$task" ] && [ "$records" -ge 5 ] && [ "$records" -lt 200 ]; then
         echo "$task"
         return
       fi
@@ -112,7 +112,7 @@ expect_same() {
 
 start_cluster
 "$root/scripts/slurm" "${experiment[@]}" --tasks 4 --out out -- "${more[@]}" >slurm.log 2>&1 &
-follower=$!
+script=$!
 
 lost=$(wait_for_shard n2) || fail "n2 got no shard"
 read -r process step _ <pids/n2
@@ -125,7 +125,7 @@ array=$(cut -d , -f 1 out/logs/jobs)
 scontrol requeue "${array}_$requeued"
 echo "requeued shard $requeued"
 
-wait "$follower" || fail "scripts/slurm: $(<slurm.log)"
+wait "$script" || fail "scripts/slurm: $(<slurm.log)"
 cat slurm.log
 for shard in "$lost" "$requeued"; do
   grep -qx "$shard" restarted || fail "shard $shard was not started again"
