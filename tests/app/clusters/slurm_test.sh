@@ -24,6 +24,10 @@ fail() {
 
 stop_cluster() {
   local file
+  # Else a job that still runs would outlive the cluster.
+  if [ -f "$work/slurm.conf" ] && SLURM_CONF=$work/slurm.conf scancel --user=root 2>/dev/null; then
+    sleep 2
+  fi
   for file in "$work"/slurmd.n?.pid "$work"/slurmctld.pid "$work"/munged.pid; do
     [ ! -f "$file" ] || kill "$(<"$file")" 2>/dev/null || true
   done
