@@ -50,5 +50,6 @@ addThumbnails();
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 putInWhenNear(held);
+addDecisions();
 followReading();
 foldOnScreen();

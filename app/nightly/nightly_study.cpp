@@ -1,11 +1,14 @@
 #include "app/nightly/nightly_study.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "app/failures.hpp"
+#include "app/nightly/metrics_request.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
@@ -34,12 +37,18 @@ namespace {
 
 }  // namespace
 
-std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
-                                                StudyOptions options) {
+NightlyRequests read_nightly_requests(const NightlyInput& input) {
+  StudyOptions options = input.options;
   options.profile_if_there = options.one_of_several = true;
-  std::vector<StudyRequest> requests;
+  NightlyRequests all;
+  std::vector<StudyRequest>& requests = all.studies;
   std::map<std::string, std::string> files;  // By the study's name.
-  for (const std::string& experiment : experiments) {
+  const auto add = [&](StudyRequest request, const std::string& file) {
+    const auto [other, is_new] = files.try_emplace(request.name, file);
+    if (!is_new) refuse_same_name(request, other->second, file);
+    requests.push_back(std::move(request));
+  };
+  for (const std::string& experiment : input.experiments) {
     refuse_links_out(experiment);  // Of the folder of a study of results.
     StudyRequest request;
     std::string file = (fs::path(experiment) / kStudyFile).string();
@@ -50,19 +59,38 @@ std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& 
       file = text.source;
       request = read_study_request(text, options);
     }
-    const auto [other, is_new] = files.try_emplace(request.name, file);
-    if (!is_new) refuse_same_name(request, other->second, file);
-    requests.push_back(std::move(request));
+    add(std::move(request), file);
   }
   check_data_used(requests, options);
-  return requests;
+  for (const std::string& file : input.metrics) {
+    MetricsRequest metrics = read_metrics_request(file, input.better);
+    if (!metrics.commit.id.empty()) all.commit = metrics.commit;
+    std::ranges::move(metrics.remarks, std::back_inserter(all.remarks));
+    add(std::move(metrics.study), file);
+  }
+  if (requests.empty())
+    throw InvalidInput("there is nothing to run: name an EXPERIMENT, or a file with --metrics");
+  return all;
 }
 
 std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests) {
   std::vector<NightlyStudy> studies;
   for (const StudyRequest& request : requests)
     studies.push_back({.name = request.name,
-                       .experiment_digest = experiment_digest(study_json(request), request.name)});
+                       .experiment_digest =
+                           request.compared_by.empty()
+                               ? experiment_digest(study_json(request), request.name)
+                               : request.compared_by});
+  return studies;
+}
+
+std::vector<NightlyStudy> read_nightly_studies(const std::vector<StudyRequest>& requests,
+                                               const fs::path& folder) {
+  std::vector<NightlyStudy> studies;
+  for (const StudyRequest& request : requests) {
+    studies.push_back(read_nightly_study(folder / request.name, request.name));
+    if (!request.compared_by.empty()) studies.back().experiment_digest = request.compared_by;
+  }
   return studies;
 }
 

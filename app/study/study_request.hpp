@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,6 +33,10 @@ struct StudyRequest {
   std::string digest = {};           ///< SHA-256 of its text and profile.
   StudyPlan plan = {};               ///< Of an experiment.
   std::filesystem::path given = {};  ///< A study that another program made, which is copied.
+  std::map<std::string, std::string> texts = {};  ///< The files of a study that is at hand, by name.
+  /// What nightly runs of it are compared by, where it is not what its study.json says; may be
+  /// empty.
+  std::string compared_by = {};
 };
 
 /// Reads an experiment of any type and looks up its data; nothing is made. Folders of data that it

@@ -47,6 +47,11 @@ void copy_study(const fs::path& from, const fs::path& to) {
 
 void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                 const SessionNames& names, const Console& console) {
+  if (!request.texts.empty()) {
+    make_folder(folder);
+    for (const auto& [file, text] : request.texts) OutputFolder(folder).write(file, text);
+    return;
+  }
   if (!request.given.empty()) {
     copy_study(request.given, folder);
     return;

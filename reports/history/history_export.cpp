@@ -90,6 +90,7 @@ ordered_json history_json(HistoryStore& history, bool with_scores) {
     for (NightlyStudy& study : history.studies(nightly_run.number))
       one.studies.push_back(exported(history, nightly_run.number, std::move(study), with_scores));
   }
+  whole.notes = history.notes();
   ordered_json value = to_json_value(whole);
   for (std::size_t i = 0; i < whole.nightly_runs.size(); ++i)
     put_provenance(value["nightly_runs"][i], whole.nightly_runs[i].nightly_run.facts.provenance);

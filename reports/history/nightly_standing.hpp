@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "reports/history/nightly_run.hpp"
+#include "reports/history/nightly_summary.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -13,17 +13,14 @@ namespace mapproof {
 /// lists all.
 inline constexpr std::size_t kMostReported = 3;
 
-/// "Nothing got worse than in nightly run 3.", "Accuracy got worse: 2 findings.", "Not compared: …"
-std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings);
-
-/// The verdict on a study of a judged nightly run: its first findings, and how many more there are.
-/// @param findings     Of that nightly run; those of other studies are left out.
+/// The verdict on a study of a judged nightly run: its first groups of findings, and how many more
+/// there are.
+/// @param groups       Of that nightly run; those of other studies are left out.
 /// @param is_compared  Whether the reference run has the study, ordered in the same way.
-Standing study_standing(const NightlyFacts& nightly_run, std::span<const NightlyFinding> findings,
+Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,
                         const std::string& study, bool is_compared);
 
-/// The verdict on all studies of a nightly run: the first findings of each, after its name.
-Standing nightly_standing(const NightlyFacts& nightly_run,
-                          std::span<const NightlyFinding> findings);
+/// The verdict on all studies of a nightly run: the first groups of each, after its name.
+Standing nightly_standing(const NightlySummary& summary);
 
 }  // namespace mapproof

@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/percent.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/html/curve_svg.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -39,6 +40,12 @@ std::vector<const FigureBlock*> by_weight(const Report& report) {
   };
   std::ranges::stable_sort(all, {}, weight);
   return all;
+}
+
+/// The target of a link; empty if the text is none.
+std::string link_of(Emphasis emphasis, const std::string& text) {
+  if (emphasis == Emphasis::kFile) return file_link(text);
+  return emphasis == Emphasis::kUrl ? web_link(text) : "";
 }
 
 constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
@@ -109,18 +116,28 @@ struct SortKey {
   }
 };
 
+/// Whether the row's curve stands in this cell, its first number.
+bool has_curve(const Row& row, std::size_t index) {
+  const auto is_number = [](const Cell& cell) { return std::holds_alternative<NumberCell>(cell); };
+  return !row.curve.empty() && is_number(row.cells[index]) &&
+         std::none_of(row.cells.begin(), row.cells.begin() + static_cast<long>(index), is_number);
+}
+
 data cell_data(const Table& table, const Row& row, std::size_t index, const HtmlOptions& options) {
   const Cell& cell = row.cells[index];
   const auto* text = std::get_if<TextCell>(&cell);
   const auto emphasis = text != nullptr ? text->emphasis : Emphasis::kPlain;
   data out;
-  const bool is_file = emphasis == Emphasis::kFile;
+  const std::string link = text == nullptr ? "" : link_of(emphasis, text->text);
+  const bool is_file = !link.empty();
   out.set("value", is_file ? link_words(text->text, options) : format_cell(cell));
+  out.set("curve", has_curve(row, index) ? data(curve_svg(row.curve)) : data(false));
   out.set("heads", index == 0);
+  out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));
   out.set("is_text", text != nullptr || holds_text(table, index));
   out.set("code", emphasis == Emphasis::kCode);
   out.set("file", is_file);
-  out.set("link", is_file ? file_link(text->text) : "");
+  out.set("link", link);
   const bool is_strong = emphasis == Emphasis::kStrong;
   out.set("strong", is_strong);
   out.set("data", emphasis != Emphasis::kCode && !is_file && !is_strong);
@@ -140,6 +157,7 @@ data row_data(const Table& table, const Row& row, const HtmlOptions& options) {
     cells.push_back(cell_data(table, row, i, options));
   out.set("cells", cells);
   out.set("marked", row.marked);
+  out.set("regressed", text_or_false(row.regressed));
   out.set("source", text_or_false(row.source));
   return out;
 }
@@ -183,13 +201,15 @@ constexpr std::size_t kLong = 200;
 
 data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
-  const bool is_file = phrase.emphasis == Emphasis::kFile;
+  const std::string link = link_of(phrase.emphasis, phrase.text);
+  const bool is_file = !link.empty();
   out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
-  out.set("plain", phrase.emphasis == Emphasis::kPlain);
+  out.set("plain", phrase.emphasis == Emphasis::kPlain ||
+                       (phrase.emphasis == Emphasis::kUrl && !is_file));
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
   out.set("code", phrase.emphasis == Emphasis::kCode);
   out.set("file", is_file);
-  out.set("link", is_file ? file_link(phrase.text) : "");
+  out.set("link", link);
   out.set("data", phrase.emphasis == Emphasis::kData);
   out.set("long", phrase.text.size() > kLong);
   return out;
@@ -225,6 +245,7 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   const std::string drawing = drawn.svg && !linked ? drawn.svg(figure.id) : "";
   check_drawing(figure.id, drawing);
   out.set("svg", text_or_false(drawing));
+  out.set("regressed", text_or_false(figure.regressed));
   out.set("linked", data(linked));
   out.set("folder", text_or_false(options.figure_folder));
   std::string records;
@@ -270,7 +291,7 @@ class BlockVisitor {
   BlockVisitor(const FigureContext& drawn, const HtmlOptions& options)
       : drawn_(drawn), options_(options) {
     for (const char* kind : {"paragraph", "bullet_list", "highlights", "callout", "table", "figure",
-                             "gallery", "key_values", "status_list"})
+                             "gallery", "key_values", "finding", "status_list"})
       block_.set(kind, false);
   }
 
@@ -332,6 +353,20 @@ class BlockVisitor {
     block_.set("key_values", data("items", items));
   }
 
+  void operator()(const FindingBlock& finding) {
+    data out;
+    out.set("title", finding.title);
+    out.set("phrases", phrases_data(finding.text, options_));
+    list details;
+    for (const std::string& detail : finding.details) details.push_back(data("detail", detail));
+    out.set("details", details);
+    out.set("any_details", data(!finding.details.empty() || !finding.command.empty()));
+    out.set("command", text_or_false(finding.command));
+    out.set("keys", text_or_false(finding.keys));
+    out.set("known", data(finding.known));
+    block_.set("finding", out);
+  }
+
   void operator()(const StatusList& statuses) {
     list items;
     for (const StatusList::Item& item : statuses.items) items.push_back(status_data(item));
@@ -378,6 +413,11 @@ data block_data(const Block& block, const FigureContext& drawn, const HtmlOption
 
 std::string percent_encoded(std::string_view text) {
   return percent_encoded(text, [](char c) { return is_plain(c, "-._/"); });
+}
+
+std::string web_link(const std::string& url) {
+  if (!url.starts_with("https://") && !url.starts_with("http://")) return "";
+  return percent_encoded(url, [](char c) { return is_plain(c, "-._~:/?#=&+%@,"); });
 }
 
 std::string file_link(const std::string& path) {

@@ -46,6 +46,9 @@ kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptio
 /// Letters, digits and "-._/" stay, every other byte becomes %XX. Different texts stay different.
 std::string percent_encoded(std::string_view text);
 
+/// An http or https address as the target of a link; empty for any other text.
+std::string web_link(const std::string& url);
+
 /// A path relative to the page as the target of a link: never with another scheme or host.
 std::string file_link(const std::string& path);
 

@@ -32,4 +32,11 @@ std::string displayable(const std::string& text);
 /// characters become references, and what displayable() changes becomes visible.
 std::string html_escaped(const std::string& text);
 
+/// The same on one line.
+std::string xml_line(const std::string& text);
+
+/// A text of at most `longest` characters that is text alone in Markdown, also in a cell of a table
+/// and on a page that accepts HTML.
+std::string markdown_text(const std::string& text, std::size_t longest);
+
 }  // namespace mapproof

@@ -16,6 +16,7 @@ enum class Emphasis {
   kCode,  ///< Commands, file names, ids.
   kFile,  ///< A file or folder by its path from the page: a link.
   kData,  ///< Text from a user's file: kept apart from the direction of the text around it.
+  kUrl,   ///< An http or https address: a link; any other text is shown as it stands.
 };
 
 /// A piece of text. Never markup: whatever it holds is shown as it is.
@@ -90,6 +91,10 @@ struct Row {
   std::vector<Cell> cells;  ///< One a column.
   std::string source;       ///< Which records the numbers come from.
   bool marked = false;      ///< The best of its table.
+  std::string regressed = {};  ///< What got worse of it: "MPE +17.6 %"; pages alone show it.
+  /// By how much something got worse over time, oldest first, in percent, as a small curve beside
+  /// the first number; NaN: not known. Pages alone show it.
+  std::vector<double> curve = {};
 };
 
 struct Table {
@@ -109,6 +114,7 @@ struct FigureBlock {
   std::vector<std::string> record_ids;
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
   std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
+  std::string regressed = {};  ///< What got worse of what it shows; pages alone show it.
 };
 
 /// Figures of one kind, side by side.
@@ -122,6 +128,16 @@ struct KeyValues {
     Phrase value;
   };
   std::vector<Item> items;
+};
+
+/// One thing that got worse, with what a reader wants to know next behind a click.
+struct FindingBlock {
+  std::string title;                 ///< "ISOMAP: MPE +17.6 % (K = 6 and 8)".
+  Paragraph text;                    ///< Where, since when, and where to look.
+  std::vector<std::string> details;  ///< Its statistics, a sentence each.
+  std::string command;               ///< That searches the commit; may be empty.
+  std::string keys;  ///< What a decision on it names: "7.1 7.2"; empty: none can be made here.
+  bool known = false;
 };
 
 /// Warnings and failures, one item a kind.
@@ -143,7 +159,7 @@ struct StatusList {
 };
 
 using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, FigureBlock, Gallery,
-                           KeyValues, StatusList>;
+                           KeyValues, FindingBlock, StatusList>;
 
 struct Section {
   std::string id;  ///< [a-z0-9-]+, unique among sections.

@@ -3,6 +3,7 @@
 #include "core/json/json_text.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/history/history_export.hpp"
+#include "reports/history/nightly_decisions.hpp"
 #include "tests/support/schemas/record_schema.hpp"
 
 namespace mapproof::test {
@@ -11,6 +12,7 @@ std::map<std::string, std::string> comparison_schemas() {
   return {{"approvals.schema.json", json_text(json_schema<ApprovalsFile>())},
           {"diff.schema.json", json_text(json_schema<DiffResult>())},
           {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())},
+          {"decisions.schema.json", json_text(json_schema<NightlyDecisions>())},
           {"history.schema.json", json_text(json_schema<ExportedHistory>())},
           {"nightly_run.schema.json", json_text(json_schema<NightlyFile>())}};
 }

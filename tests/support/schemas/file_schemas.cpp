@@ -4,6 +4,7 @@
 #include "core/records/experiments/external_methods.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
+#include "core/records/metrics/metrics_json.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/run_json.hpp"
@@ -57,6 +58,7 @@ std::map<std::string, std::string> file_schemas() {
           {"methods.schema.json", json_text(json_schema<ExternalMethodsFile>())},
           {"observations.schema.json", json_text(json_schema<ObservationsFile>())},
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
+          {"metrics.schema.json", json_text(json_schema<Metrics>())},
           {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
           {"run.schema.json", json_text(json_schema<Run>())},
           {"detections.schema.json", json_text(json_schema<DetectionsFile>())},

@@ -1,0 +1,86 @@
+#include "reports/history/regression_marks.hpp"
+
+#include <algorithm>
+#include <variant>
+
+namespace mapproof {
+namespace {
+
+/// Adds a text to others that are kept apart by "; ", once.
+void add(std::string& all, const std::string& text) {
+  if (all.find(text) != std::string::npos) return;
+  all += (all.empty() ? "" : "; ") + text;
+}
+
+/// Whether a cell names the method: "ISOMAP, K = 6", or "ISOMAP" where the setting is best or in
+/// another cell.
+bool names_method(const Row& row, const FindingGroup& group) {
+  if (row.cells.empty()) return false;
+  const auto* first = std::get_if<TextCell>(&row.cells.front());
+  if (first == nullptr) return false;
+  return std::ranges::find(group.lines, first->text) != group.lines.end();
+}
+
+/// Whether one of the table's columns shows the quantity.
+bool shows_quantity(const Table& table, const std::string& quantity) {
+  const auto has = [&](const std::string& text) { return text.find(quantity) != std::string::npos; };
+  return has(table.caption) || std::ranges::any_of(table.columns, [&](const Column& column) {
+           return has(column.title) || has(column.group) || has(column.tooltip);
+         });
+}
+
+void mark_table(Table& table, const FindingGroup& group) {
+  if (!shows_quantity(table, group.quantity)) return;
+  for (Row& row : table.rows)
+    if (names_method(row, group)) add(row.regressed, group.change_text());
+}
+
+std::string label_of(const Layer& layer) {
+  return std::visit(
+      [](const auto& one) -> std::string {
+        if constexpr (requires { std::string(one.label); })
+          return one.label;
+        else
+          return "";
+      },
+      layer);
+}
+
+bool draws(const Figure& figure, const FindingGroup& group) {
+  bool quantity = figure.title.find(group.quantity) != std::string::npos;
+  bool method = false;
+  for (const Panel& panel : figure.panels) {
+    quantity = quantity || panel.y.label.find(group.quantity) != std::string::npos;
+    for (const Layer& layer : panel.layers) {
+      const std::string label = label_of(layer);
+      method = method || (!label.empty() && (label == group.method ||
+                                             std::ranges::find(group.lines, label) !=
+                                                 group.lines.end()));
+    }
+  }
+  return quantity && method;
+}
+
+void mark_figure(FigureBlock& block, std::span<const Figure> figures, const FindingGroup& group) {
+  const auto figure = std::ranges::find(figures, block.id, &Figure::id);
+  if (figure != figures.end() && draws(*figure, group)) add(block.regressed, group.headline());
+}
+
+void mark_block(Block& block, std::span<const Figure> figures, const FindingGroup& group) {
+  if (auto* table = std::get_if<Table>(&block)) mark_table(*table, group);
+  if (auto* figure = std::get_if<FigureBlock>(&block)) mark_figure(*figure, figures, group);
+  if (auto* gallery = std::get_if<Gallery>(&block))
+    for (FigureBlock& one : gallery->figures) mark_figure(one, figures, group);
+}
+
+}  // namespace
+
+void mark_regressed(Report& report, std::span<const Figure> figures,
+                    std::span<const FindingGroup> groups, const std::string& study) {
+  for (const FindingGroup& group : groups)
+    if (group.study == study)
+      for (Section& section : report.sections)
+        for (Block& block : section.blocks) mark_block(block, figures, group);
+}
+
+}  // namespace mapproof
