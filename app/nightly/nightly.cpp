@@ -361,7 +361,7 @@ void add_commit_options(CLI::App& app, NightlyArguments& arguments) {
       ->type_name("COMMAND");
   app.add_option("--bisect", arguments.bisect,
                  "For git bisect: record nothing; end with 0 if what got worse in nightly run N is "
-                 "as before it, with 1 if not, with 125 if it cannot be told")
+                 "as before it, with 1 if not, with 125 if it cannot be tested")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
 }
@@ -386,7 +386,7 @@ Action nightly_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n"
-      "  mapproof nightly --metrics bench.json --better lower --store history --markdown night.md\n"
+      "  mapproof nightly --metrics bench.json --better lower --store history --markdown nightly.md\n"
       "  mapproof nightly --metrics bench.json --store history --on-worse 'mail -s worse me'\n\n"
       "Exit codes:\n"
       "  0  nothing got worse, or there was no run to compare with\n"

@@ -19,7 +19,7 @@ struct CommitOptions {
 
 /// The commit that is asked for, else HEAD of the git repository that the current folder lies in,
 /// else `otherwise`; the address that is asked for, else that of the remote "origin".
-/// @throws InvalidInput for a commit that is no hexadecimal id, and for an address that is not a
+/// @throws InvalidInput for a commit that is not a hexadecimal id, and for an address that is not a
 ///         plain http or https one.
 TestedCommit tested_commit(const CommitOptions& options, const TestedCommit& otherwise);
 

@@ -15,7 +15,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kShownDigits = 9;
-constexpr double kMostPercent = 1e6;  ///< More is not told apart.
+constexpr double kMostPercent = 1e6;  ///< More is shown as this.
 
 /// A word of a POSIX shell between single quotes.
 std::string shell_quoted(std::string_view text) {

@@ -29,7 +29,7 @@ struct CommitRange {
 /// Nightly run `since` of a study and the one of it before.
 CommitRange commits_of(const StudyTrend& trend, int since);
 
-/// The first digits of a commit, as many as are told apart.
+/// The first digits of a commit, enough to distinguish it.
 std::string short_commit(const std::string& commit);
 
 /// The page of a commit: "REPOSITORY/commit/ID", as GitHub, GitLab and Gitea have it; empty if the

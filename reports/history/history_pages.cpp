@@ -210,7 +210,7 @@ Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
   return table;
 }
 
-/// What got worse in one group, and where to look for it.
+/// What got worse in one group, and where to find it.
 FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
                            NightlyLinks& links) {
   const NightlyFacts& this_run = facts.nightly_runs.back();

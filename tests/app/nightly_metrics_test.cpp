@@ -60,7 +60,7 @@ class Project {
 TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
   const Project project;
   const Outcome outcome = project.regress(
-      "--markdown n.md --junit n.xml --on-worse 'cat > told.md; echo $MAPPROOF_COMMITS >> told.md'");
+      "--markdown n.md --junit n.xml --on-worse 'cat > sent.md; echo $MAPPROOF_COMMITS >> sent.md'");
   ASSERT_EQ(outcome.exit_code, 1) << outcome.error << outcome.out;
   const json result = json::parse(outcome.out);
   ASSERT_EQ(result["findings"].size(), 1U) << outcome.out;
@@ -70,7 +70,7 @@ TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
   const std::string range =
       project.shell("git rev-parse --short=9 HEAD~2").out.substr(0, 9) + ".." +
       project.shell("git rev-parse --short=9 HEAD~1").out.substr(0, 9);
-  for (const char* file : {"n.md", "n.xml", "told.md", "history/index.html", "history/feed.xml"}) {
+  for (const char* file : {"n.md", "n.xml", "sent.md", "history/index.html", "history/feed.xml"}) {
     const std::string text = read_file(project.path() / file);
     EXPECT_NE(text.find(range), std::string::npos) << file;
     EXPECT_EQ(text.find("<script>alert"), std::string::npos) << file;
