@@ -101,7 +101,10 @@ fs::path write_history_pages(HistoryStore& history, const HistoryOutputs& output
       write_trend(history, outputs, study, facts);
     const std::vector<NightlySummary> summaries = last_summaries(facts);
     OutputFolder(out).write(
-        "feed.xml", outputs.disclosure.text(nightly_feed({history.identifier(), summaries})));
+        "feed.xml", outputs.disclosure.text(nightly_feed(
+                        {.identifier = history.identifier(),
+                         .summaries = summaries,
+                         .nightly_runs = paths_from(out, out, outputs.store).nightly_runs})));
     OutputFolder(out).write("badge.svg", nightly_badge(summaries.front()));
     OutputFolder(out).write("badge.json", nightly_badge_json(summaries.front()));
   }

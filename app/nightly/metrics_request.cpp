@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -31,12 +30,13 @@ ResultsStudy study_of(const Metrics& metrics, const std::string& name) {
   for (const Metric& metric : metrics.metrics) {
     const Quantity quantity = quantity_of(metric);
     study.results.quantities.declare(quantity);
+    if (std::ranges::find(study.quantities, quantity.id) == study.quantities.end())
+      study.quantities.push_back(quantity.id);
     study.results.rows.push_back({.at = {.setup = metric.suite},
                                   .method = metric.name,
                                   .quantity = quantity.id,
                                   .value = metric.value});
   }
-  complete(study);
   return study;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/sha256.hpp"
+#include "core/base/text/percent.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "reports/model/format.hpp"
 
@@ -33,14 +34,15 @@ std::string content_of(const NightlySummary& summary) {
   return with_plain_spaces(std::move(text));
 }
 
-std::string entry_of(const NightlySummary& summary, const std::string& identifier) {
+std::string entry_of(const NightlySummary& summary, const FeedFacts& feed) {
   const NightlyFacts& facts = summary.facts;
   const std::string ended = facts.ended_utc.empty() ? facts.started_utc : facts.ended_utc;
   return fmt::format(
       "  <entry>\n    <title>{}</title>\n    <id>{}</id>\n    <updated>{}</updated>\n"
-      "    <link href=\"nightly_runs/{:04}/\"/>\n    <content type=\"text\">{}</content>\n"
+      "    <link href=\"{}nightly_runs/{:04}/\"/>\n    <content type=\"text\">{}</content>\n"
       "  </entry>\n",
-      xml_line(summary.title()), entry_identifier(identifier, facts), xml_line(ended), facts.number,
+      xml_line(summary.title()), entry_identifier(feed.identifier, facts), xml_line(ended),
+      percent_encoded(feed.nightly_runs, [](char c) { return is_plain(c, "-._~/"); }), facts.number,
       html_escaped(content_of(summary)));
 }
 
@@ -49,7 +51,7 @@ std::string entry_of(const NightlySummary& summary, const std::string& identifie
 std::string nightly_feed(const FeedFacts& facts) {
   std::string entries;
   for (const NightlySummary& summary : facts.summaries)
-    entries += entry_of(summary, facts.identifier);
+    entries += entry_of(summary, facts);
   const std::string updated = facts.summaries.empty() ? "1970-01-01T00:00:00Z"
                               : facts.summaries.front().facts.ended_utc;
   return fmt::format(

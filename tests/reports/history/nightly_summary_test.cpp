@@ -143,7 +143,8 @@ TEST(NightlyFeed, HasAnEntryPerNightlyRunWhoseIdentifierStays) {
   NightlySummary second = summary_of();
   second.facts.number = 2;
   const std::string identifier = "urn:uuid:00000000-0000-4000-a000-000000000000";
-  const std::string feed = nightly_feed({identifier, {first, second}});
+  const std::string feed = nightly_feed({identifier, {first, second}, "../my store/"});
+  EXPECT_NE(feed.find("href=\"../my%20store/nightly_runs/0003/\""), std::string::npos);
   EXPECT_NE(feed.find("<updated>2026-11-22T02:31:00Z</updated>"), std::string::npos);
   const std::size_t id = feed.find("<id>urn:uuid:", feed.find("<entry>"));
   ASSERT_NE(id, std::string::npos);
