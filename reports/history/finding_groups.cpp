@@ -89,8 +89,15 @@ std::string settings_text(const std::vector<std::string>& settings) {
   const std::size_t is = settings.front().find(kIs);
   const std::string head = settings.front().substr(0, is == std::string::npos ? 0 : is + kIs.size());
   for (const std::string& setting : settings)
-    if (!head.empty() && setting.starts_with(head)) values.push_back(setting.substr(head.size()));
-  return values.size() == settings.size() ? head + listed(values, kMost) : listed(settings, kMost);
+    if (!head.empty() && setting.starts_with(head) && setting.find(", ") == std::string::npos)
+      values.push_back(setting.substr(head.size()));
+  if (values.size() == settings.size()) return head + listed(values, kMost);
+  // Settings with levels hold commas of their own.
+  std::string text;
+  for (std::size_t i = 0; i < std::min(settings.size(), kMost); ++i)
+    text += (i > 0 ? "; " : "") + settings[i];
+  if (settings.size() > kMost) text += fmt::format("; and {} more", settings.size() - kMost);
+  return text;
 }
 
 std::string amount(double change) {
@@ -184,6 +191,17 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
   }
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
   return groups;
+}
+
+std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings) {
+  int base = trend.nightly_runs.back().reference.value_or(0);
+  for (const NightlyFinding& finding : findings)
+    if (finding.study == trend.name && finding.since <= base)
+      base = commits_of(trend, finding.since).before.number;
+  const auto found = std::ranges::find(trend.nightly_runs, base, &NightlyFacts::number);
+  return found == trend.nightly_runs.end()
+             ? 0
+             : static_cast<std::size_t>(found - trend.nightly_runs.begin());
 }
 
 std::string local_time(const NightlyFacts& nightly_run) {

@@ -66,6 +66,12 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,
                                   std::span<const NightlyNote> notes);
 
+/// The index of the nightly run that changes of a study are shown against: the one that the last was
+/// compared with, or the one before its findings began if that is earlier; the first where that is
+/// none of these.
+/// @param findings  Of the last nightly run; those of other studies are left out.
+std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings);
+
 /// "2026-11-22 03:30 +01:00": when a nightly run began, by the clock of the place where it ran; in
 /// UTC "2026-11-22 02:30 UTC". What is not a time stays as it is.
 std::string local_time(const NightlyFacts& nightly_run);

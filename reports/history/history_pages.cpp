@@ -45,17 +45,6 @@ std::string words_of(const NightlyFacts& nightly_run, NightlyVerdict verdict) {
   }
 }
 
-/// The index of the nightly run that the last one was compared with; of the first if that is none of
-/// these.
-std::size_t reference_index(const StudyTrend& trend) {
-  const std::optional<int> reference = trend.nightly_runs.back().reference;
-  const auto found = std::ranges::find(trend.nightly_runs, reference.value_or(0),
-                                       &NightlyFacts::number);
-  return found == trend.nightly_runs.end()
-             ? 0
-             : static_cast<std::size_t>(found - trend.nightly_runs.begin());
-}
-
 /// The last step of each method, of what is an error or shown.
 std::vector<SeriesId> last_steps(const StudyTrend& trend) {
   std::vector<SeriesId> last;
@@ -158,9 +147,8 @@ std::optional<Callout> reported_of(const LostNightlyRuns& lost) {
                  {{{text}}}};
 }
 
-/// The series of a study that changed most since the reference: "ISOMAP, K = 6: MPE +17.6 %".
-std::string greatest_change(const StudyTrend& trend) {
-  const std::size_t from = reference_index(trend);
+/// The series of a study that changed most since nightly run `from`: "ISOMAP, K = 6: MPE +17.6 %".
+std::string greatest_change(const StudyTrend& trend, std::size_t from) {
   std::string text;
   double most = 0.0;
   for (const auto& [id, levels] : trend.levels) {
@@ -184,16 +172,17 @@ Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
               .caption = "Change of each study over its nightly runs.",
               .columns = {{"Study", "", "", ""},
                           {"Change", "%", "",
-                           "Mean over the judged methods and quantities, against the reference run; "
-                           "above zero is worse"},
+                           "Mean over the judged methods and quantities, against the reference run, "
+                           "or the one before what got worse; above zero is worse"},
                           {"Largest change", "", "", "Of one method and quantity, in its own values"},
                           {"Trends", "", "", ""},
                           {"Report", "", "", ""}},
               .rows = {},
               .notes = {}};
   for (const StudyTrend& trend : facts.trends) {
-    const std::vector<double> change = change_over_nightly_runs(trend);
-    const std::string most = greatest_change(trend);
+    const std::size_t from = base_index(trend, found_on(this_run.number, facts.findings));
+    const std::vector<double> change = change_over_nightly_runs(trend, from);
+    const std::string most = greatest_change(trend, from);
     const Phrase report = links.report(this_run.number, trend.name);
     const Phrase trends = links.trends(trend.name);
     const double last = change.back();
@@ -400,8 +389,7 @@ NightlySummary last_summary(const IndexFacts& facts) {
   return summary;
 }
 
-std::vector<double> change_over_nightly_runs(const StudyTrend& trend) {
-  const std::size_t from = reference_index(trend);
+std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from) {
   const auto mean_of = [&](NightlyRule judged) {
     std::vector<double> means;
     for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i) {

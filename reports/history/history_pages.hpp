@@ -93,10 +93,10 @@ struct IndexFacts {
 /// The last nightly run of them, with its findings in groups; empty facts without any.
 NightlySummary last_summary(const IndexFacts& facts);
 
-/// By how much the accuracy of a study is worse than in the last nightly run's reference, in percent
+/// By how much the accuracy of a study is worse than in the nightly run of index `from`, in percent
 /// of what it was: the mean of its judged series, one value per nightly run, NaN where there is
 /// none. In points where all of its series are judged by points.
-std::vector<double> change_over_nightly_runs(const StudyTrend& trend);
+std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from);
 
 /// One row per nightly run, the last one first.
 Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links);

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <variant>
+#include <vector>
+
+#include "core/base/text/slug.hpp"
+#include "core/base/text/words.hpp"
 
 namespace mapproof {
 namespace {
@@ -12,13 +16,33 @@ void add(std::string& all, const std::string& text) {
   all += (all.empty() ? "" : "; ") + text;
 }
 
-/// Whether a cell names the method: "ISOMAP, K = 6", or "ISOMAP" where the setting is best or in
-/// another cell.
+bool holds(const std::vector<std::string>& texts, const std::string& text) {
+  return std::ranges::find(texts, text) != texts.end();
+}
+
+std::vector<std::string> texts_of(const Row& row) {
+  std::vector<std::string> texts;
+  for (const Cell& cell : row.cells)
+    if (const auto* text = std::get_if<TextCell>(&cell)) texts.push_back(text->text);
+  return texts;
+}
+
+/// Whether cells name the method with one of its settings: "ISOMAP, K = 6", or "ISOMAP" and "K = 6".
 bool names_method(const Row& row, const FindingGroup& group) {
-  if (row.cells.empty()) return false;
-  const auto* first = std::get_if<TextCell>(&row.cells.front());
-  if (first == nullptr) return false;
-  return std::ranges::find(group.lines, first->text) != group.lines.end();
+  const std::vector<std::string> texts = texts_of(row);
+  const auto is_there = [&](const std::string& text) { return holds(texts, text); };
+  if (std::ranges::any_of(group.lines, is_there)) return true;
+  return is_there(group.method) && std::ranges::any_of(group.settings, is_there);
+}
+
+/// Whether a table is about the setup: its caption, its id or a cell names it.
+bool is_of_setup(const Table& table, const Row& row, const std::string& setup) {
+  if (setup.empty()) return true;
+  const std::string wanted = lower_case(setup);
+  return lower_case(table.caption).find(wanted) != std::string::npos ||
+         table.id.find(slug_of(setup)) != std::string::npos ||
+         std::ranges::any_of(texts_of(row),
+                             [&](const std::string& text) { return lower_case(text) == wanted; });
 }
 
 /// Whether one of the table's columns shows the quantity.
@@ -32,7 +56,8 @@ bool shows_quantity(const Table& table, const std::string& quantity) {
 void mark_table(Table& table, const FindingGroup& group) {
   if (!shows_quantity(table, group.quantity)) return;
   for (Row& row : table.rows)
-    if (names_method(row, group)) add(row.regressed, group.change_text());
+    if (names_method(row, group) && is_of_setup(table, row, group.setup))
+      add(row.regressed, group.change_text());
 }
 
 std::string label_of(const Layer& layer) {

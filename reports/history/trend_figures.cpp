@@ -158,15 +158,11 @@ std::vector<double> places_of(const StudyTrend& trend) {
   return x;
 }
 
-/// Values as changes since the nightly run that the last one was compared with, or the first that
-/// has a value: in percent of that value, or as differences. NaN where there is no such value.
-std::vector<double> changes_of(const std::vector<double>& values, const StudyTrend& trend,
+/// Values as changes since the nightly run of index `from`, or the first that has a value: in
+/// percent of that value, or as differences. NaN where there is no such value.
+std::vector<double> changes_of(const std::vector<double>& values, std::size_t from,
                                bool by_ratio) {
-  const auto reference = std::ranges::find(
-      trend.nightly_runs, trend.nightly_runs.back().reference.value_or(0), &NightlyFacts::number);
-  double base = reference == trend.nightly_runs.end()
-                    ? kNaN
-                    : values[static_cast<std::size_t>(reference - trend.nightly_runs.begin())];
+  double base = values[from];
   for (const double value : values)
     if (!std::isfinite(base)) base = value;
   std::vector<double> changes;
@@ -177,13 +173,16 @@ std::vector<double> changes_of(const std::vector<double>& values, const StudyTre
   return changes;
 }
 
-/// "nightly run 5", or "the first nightly run": what changes are of.
-std::string base_words(const StudyTrend& trend) {
-  const std::optional<int> reference = trend.nightly_runs.back().reference;
-  const bool is_there =
-      reference && std::ranges::find(trend.nightly_runs, *reference, &NightlyFacts::number) !=
-                       trend.nightly_runs.end();
-  return is_there ? fmt::format("nightly run {}", *reference) : "the first nightly run";
+/// The nightly run that changes are of.
+std::size_t base_of(const Reported& reported) {
+  std::vector<NightlyFinding> last;
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (nightly_run + 1 == reported.trend.nightly_runs.size()) last.push_back(*finding);
+  return base_index(reported.trend, last);
+}
+
+std::string base_words(const Reported& reported) {
+  return fmt::format("nightly run {}", reported.trend.nightly_runs[base_of(reported)].number);
 }
 
 /// A mark at each nightly run's value of a line that a finding is about.
@@ -237,7 +236,8 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
   const std::string setup = shown_setup(reported.trend.labels, sensor);
   ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
                                    setup.empty() ? facts.label : setup + ": " + facts.label);
-  const bool by_ratio = facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
+  const bool by_ratio =
+      facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
   const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
   spec.y_label = changes ? fmt::format("change of {} [{}]", facts.label, by_ratio ? "%" : "points")
                          : label_with_unit(facts);
@@ -250,12 +250,12 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
       std::ranges::any_of(lines, [](const Line& line) { return line.id.step > 0; })
           ? " at the last step"
           : "",
-      changes ? ", as its change since " + base_words(reported.trend) : "");
+      changes ? ", as its change since " + base_words(reported) : "");
   ErrorPanel panel = panel_of(reported.trend);
   for (const Line& line : lines) {
     const std::string label = shown_method(reported.trend.labels, line.id.method);
     const std::vector<double> values =
-        changes ? changes_of(*line.values, reported.trend, by_ratio) : *line.values;
+        changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
@@ -273,14 +273,14 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   const std::vector<double>& known = reported.trend.peak_memory_mib;
   if (std::ranges::none_of(known, [](double value) { return std::isfinite(value); }))
     return std::nullopt;
-  const std::vector<double> mib = changes_of(known, reported.trend, true);
+  const std::vector<double> mib = changes_of(known, base_of(reported), true);
   ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory");
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;
   spec.quantity = "change of peak memory";
   spec.caption = fmt::format(
       "Peak memory of the process that made the study, as its change since {}.",
-      base_words(reported.trend));
+      base_words(reported));
   ErrorPanel panel = panel_of(reported.trend);
   panel.lines.push_back({.label = "peak memory",
                          .key = "peak-memory",

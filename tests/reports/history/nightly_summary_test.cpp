@@ -182,9 +182,13 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
 
 TEST(RegressionMarks, AreOnTheRowsAndFiguresOfWhatGotWorse) {
   const NightlySummary summary = summary_of();
-  Table table{.id = "t", .caption = "MPE of all methods", .columns = {{"Method", "", "", ""}}};
+  Table table{.id = "t", .caption = "Bearing: MPE", .columns = {{"Method", "", "", ""}}};
   table.rows = {{{TextCell{"ISOMAP, K = 6"}}, ""}, {{TextCell{"LPCA"}}, ""}};
-  Report report{.sections = {{"s", "S", {table, FigureBlock{.id = "f"}, FigureBlock{.id = "g"}}}}};
+  Table other_sensor = table;
+  other_sensor.id = "u";
+  other_sensor.caption = "Range: MPE";
+  Report report{.sections = {{"s", "S", {table, FigureBlock{.id = "f"}, FigureBlock{.id = "g"},
+                                     other_sensor}}}};
   Figure figure{.id = "f", .title = "MPE over steps"};
   figure.panels.push_back({});
   figure.panels[0].layers.emplace_back(Polyline{.label = "ISOMAP, K = 8"});
@@ -197,6 +201,7 @@ TEST(RegressionMarks, AreOnTheRowsAndFiguresOfWhatGotWorse) {
   EXPECT_EQ(std::get<Table>(blocks[0]).rows[1].regressed, "");
   EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed, "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
   EXPECT_EQ(std::get<FigureBlock>(blocks[2]).regressed, "");
+  EXPECT_EQ(std::get<Table>(blocks[3]).rows[0].regressed, "");
 }
 
 }  // namespace
