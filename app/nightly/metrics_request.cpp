@@ -26,7 +26,9 @@ std::string study_name(const Metrics& metrics, const std::string& file) {
 }
 
 ResultsStudy study_of(const Metrics& metrics, const std::string& name) {
-  ResultsStudy study{.name = name, .title = name, .question = "Numbers of another program."};
+  ResultsStudy study;
+  study.name = study.title = name;
+  study.question = "Numbers of another program.";
   for (const Metric& metric : metrics.metrics) {
     const Quantity quantity = quantity_of(metric);
     study.results.quantities.declare(quantity);

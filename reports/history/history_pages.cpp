@@ -204,7 +204,9 @@ FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
                            NightlyLinks& links) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
   const CommitRange& commits = group.commits;
-  FindingBlock block{.title = group.headline(), .details = group.sentences};
+  FindingBlock block;
+  block.title = group.headline();
+  block.details = group.sentences;
   block.known = group.known.has_value();
   block.command = block.known ? "" : commits.bisect();
   auto& phrases = block.text.phrases;

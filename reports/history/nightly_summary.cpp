@@ -17,7 +17,7 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kLongest = 2000;  ///< Characters of a sentence.
+constexpr std::size_t kLongestText = 2000;  ///< Characters of a sentence.
 
 std::size_t count_of(const std::vector<FindingGroup>& groups, bool known) {
   std::size_t count = 0;
@@ -26,7 +26,7 @@ std::size_t count_of(const std::vector<FindingGroup>& groups, bool known) {
   return count;
 }
 
-std::string text_of(const std::string& text) { return markdown_text(text, kLongest); }
+std::string text_of(const std::string& text) { return markdown_text(text, kLongestText); }
 
 /// A link whose words are a text of ours.
 std::string linked(const std::string& words, const std::string& url) {
@@ -45,7 +45,7 @@ std::string markdown_item(const FindingGroup& group) {
   item += "\n";
   // A command as it stands, which no fence of Markdown ends.
   if (const std::string bisect = group.commits.bisect(); !group.known && !bisect.empty())
-    item += "\n  <pre>" + html_escaped(printable(bisect, kLongest)) + "</pre>\n";
+    item += "\n  <pre>" + html_escaped(printable(bisect, kLongestText)) + "</pre>\n";
   return item;
 }
 
