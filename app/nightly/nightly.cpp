@@ -277,6 +277,16 @@ NightlyFacts facts_of(int number, const NightlyArguments& arguments, const Sessi
   return facts;
 }
 
+/// The commit that is asked for, else what a file of metrics says, else that of the folder here.
+TestedCommit measured_commit(CommitOptions options, const TestedCommit& of_metrics) {
+  if (!options.commit && !of_metrics.id.empty()) {
+    options.commit = of_metrics.id;
+    if (!options.repository && !of_metrics.repository.empty())
+      options.repository = of_metrics.repository;
+  }
+  return tested_commit(options, {std::string(source_commit()), ""});
+}
+
 NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequests& requests,
                             const Invocation& invocation) {
   const Console& console = invocation.console;
@@ -286,9 +296,7 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
   const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs,
                                invocation.disclosure};
   const SessionNames names{invocation.command, invocation.disclosure.host()};
-  const TestedCommit commit = tested_commit(
-      arguments.commit, requests.commit.id.empty() ? TestedCommit{std::string(source_commit()), ""}
-                                                   : requests.commit);
+  const TestedCommit commit = measured_commit(arguments.commit, requests.commit);
   make_folder(store);
   const FolderLock lock(store, [&] {
     console.warning(store.string() +
@@ -348,8 +356,8 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
 
 void add_commit_options(CLI::App& app, NightlyArguments& arguments) {
   app.add_option("--commit", arguments.commit.commit,
-                 "Commit that is measured, or none; by default HEAD of the git repository here, else "
-                 "what --metrics says, else that of this program")
+                 "Commit that is measured, or none; by default what --metrics says, else HEAD of the git "
+                 "repository here, else that of this program")
       ->type_name("ID");
   app.add_option("--repository-url", arguments.commit.repository,
                  "Address of the repository for links to commits, or none; by default that of the "
