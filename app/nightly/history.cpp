@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/nightly/history_report.hpp"
-#include "app/nightly/nightly_comparisons.hpp"
+#include "app/nightly/nightly_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
@@ -19,8 +19,7 @@
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
-#include "reports/history/nightly_decisions.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
 namespace {

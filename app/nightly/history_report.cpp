@@ -8,7 +8,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/history/judge_nightly_run.hpp"
-#include "reports/history/nightly_feed.hpp"
+#include "reports/history/nightly_summary.hpp"
 #include "reports/html/report_html.hpp"
 
 namespace mapproof {

@@ -16,11 +16,9 @@
 #include <fmt/ranges.h>
 
 #include "app/build_facts.hpp"
-#include "app/nightly/bisect.hpp"
 #include "app/nightly/history_report.hpp"
-#include "app/nightly/nightly_comparisons.hpp"
-#include "app/nightly/nightly_folders.hpp"
 #include "app/nightly/nightly_outputs.hpp"
+#include "app/nightly/nightly_folders.hpp"
 #include "app/nightly/nightly_study.hpp"
 #include "app/nightly/tested_commit.hpp"
 #include "app/study/embedded_experiments.hpp"
@@ -39,7 +37,7 @@
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/nightly_summary.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/nightly/tested_commit.hpp"
 #include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
+#include "core/results/quantity.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -45,5 +46,33 @@ std::vector<NightlyStudy> read_nightly_studies(const std::vector<StudyRequest>& 
 /// @return The ExitCode of that process, kInternal if a signal ended it. @throws IoError.
 int make_apart(const StudyRequest& request, const std::filesystem::path& folder, int jobs,
                const SessionNames& names, const Console& console);
+
+/// A file of metrics as a study.
+struct MetricsRequest {
+  StudyRequest study = {};
+  TestedCommit commit = {};  ///< What the file says was measured; empty: nothing.
+  std::vector<std::string> remarks = {};
+};
+
+/// Reads a file of metrics (see parse_metrics()). The study is named by the file itself, else by its
+/// name, and is the same one whatever metrics come and go.
+/// @throws IoError, InvalidInput.
+MetricsRequest read_metrics_request(const std::string& file, std::optional<Better> better);
+
+/// What `git bisect run` asks of a commit.
+struct BisectTask {
+  std::filesystem::path store;
+  int since = 0;  ///< The nightly run in which the regression began.
+  int jobs = 1;
+  SessionNames names;
+};
+
+/// Makes the studies in a folder that is removed again, and compares what got worse in nightly run
+/// `since` with it and with the nightly run before: the value that is nearer decides. Nothing is
+/// recorded.
+/// @return kDone if all are nearer to the values before, kNo if one is nearer to those that got
+///         worse, kCannotTest if a study was not finished or nothing can be compared.
+/// @throws IoError, InvalidInput.
+int bisect(const NightlyRequests& requests, const BisectTask& task, const Console& console);
 
 }  // namespace mapproof

@@ -17,7 +17,6 @@
 #include "core/base/text/words.hpp"
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/nightly_standing.hpp"
-#include "reports/history/regression_marks.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
 #include "reports/model/report.hpp"

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "reports/history/history_pages.hpp"
 #include "reports/history/nightly_run.hpp"
 #include "reports/history/nightly_summary.hpp"
 #include "reports/history/trend_figures.hpp"

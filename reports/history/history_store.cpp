@@ -11,8 +11,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
-#include "reports/history/database.hpp"
-#include "reports/history/schema.hpp"
+#include "reports/history/store/database.hpp"
+#include "reports/history/store/schema.hpp"
 
 namespace mapproof {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reports/history/database.hpp"
+#include "reports/history/store/database.hpp"
 #include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "render/plot/figure.hpp"
+#include "reports/history/finding_groups.hpp"
 #include "reports/history/nightly_summary.hpp"
 #include "reports/model/report.hpp"
 
@@ -22,5 +24,12 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
 
 /// The verdict on all studies of a nightly run: the first groups of each, after its name.
 Standing nightly_standing(const NightlySummary& summary);
+
+/// Marks what got worse of a study in its report: the rows of tables that are about a method with a
+/// finding, and the figures that draw it with the quantity of the finding.
+/// @param figures  Of the report, as values.
+/// @param groups   Of any study; known ones are marked as well.
+void mark_regressed(Report& report, std::span<const Figure> figures,
+                    std::span<const FindingGroup> groups, const std::string& study);
 
 }  // namespace mapproof

@@ -4,8 +4,8 @@
 
 #include "core/base/errors.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/nightly_decisions.hpp"
-#include "reports/history/schema.hpp"
+#include "reports/history/history_export.hpp"
+#include "reports/history/store/schema.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,8 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/history/history_pages.hpp"
-#include "reports/history/nightly_feed.hpp"
-#include "reports/history/regression_marks.hpp"
+#include "reports/history/nightly_standing.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -3,7 +3,6 @@
 #include "core/json/json_text.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/history/history_export.hpp"
-#include "reports/history/nightly_decisions.hpp"
 #include "tests/support/schemas/record_schema.hpp"
 
 namespace mapproof::test {

@@ -1,4 +1,4 @@
-#include "reports/history/schema.hpp"
+#include "reports/history/store/schema.hpp"
 
 #include <algorithm>
 #include <array>
