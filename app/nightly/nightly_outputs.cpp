@@ -8,6 +8,7 @@
 
 #include "core/base/child_process.hpp"
 #include "core/base/files/descriptor.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/html/diff/diff_html.hpp"

@@ -145,7 +145,6 @@ std::string tick_of(const NightlyFacts& nightly_run) {
 ErrorPanel panel_of(const StudyTrend& trend) {
   ErrorPanel panel;
   panel.x.label = "nightly run: date";
-  const std::size_t count = trend.nightly_runs.size();
   for (const NightlyFacts& nightly_run : trend.nightly_runs)
     panel.x.names.push_back(tick_of(nightly_run));
   panel.x.limits = Range{-0.5, static_cast<double>(trend.nightly_runs.size()) - 0.5};
