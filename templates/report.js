@@ -46,7 +46,7 @@ whenPutIn.push(addTools, addSteps, followLandmarks);
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);
-addThumbnails();
+addOpeningImages();
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 putInWhenNear(held);

@@ -63,7 +63,8 @@ Report report_of(const MapOutput& location, const MapResult& map,
                      .provenance = build_provenance(),
                      .command = location.command,
                      .more = map.sections,
-                     .fit = fit_section(map.fit, of_fit)});
+                     .fit = fit_section(map.fit, of_fit),
+                     .verdict = verdict_text(map.fit)});
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.

@@ -256,6 +256,19 @@ data table_data(const Table& table, const HtmlOptions& options) {
   return out;
 }
 
+list highlight_items(const Highlights& highlights) {
+  list items;
+  for (const Highlights::Item& item : highlights.items) {
+    data out;
+    out.set("label", item.label);
+    out.set("value", item.value);
+    out.set("detail", item.detail);
+    out.set("section", text_or_false(item.section));
+    items.push_back(std::move(out));
+  }
+  return items;
+}
+
 data phrases_data(const Paragraph& paragraph, const HtmlOptions& options) {
   list phrases;
   for (const Phrase& phrase : paragraph.phrases) phrases.push_back(phrase_data(phrase, options));
@@ -290,15 +303,7 @@ class BlockVisitor {
   }
 
   void operator()(const Highlights& highlights) {
-    list items;
-    for (const Highlights::Item& item : highlights.items) {
-      data out;
-      out.set("label", item.label);
-      out.set("value", item.value);
-      out.set("detail", item.detail);
-      items.push_back(std::move(out));
-    }
-    block_.set("highlights", data("items", items));
+    block_.set("highlights", data("items", highlight_items(highlights)));
   }
 
   void operator()(const Callout& callout) {

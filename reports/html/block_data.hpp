@@ -40,6 +40,9 @@ kainjow::mustache::data table_data(const Table& table, const HtmlOptions& option
 kainjow::mustache::data block_data(const Block& block, const FigureContext& drawn,
                                    const HtmlOptions& options);
 
+/// The items of the template of a few numbers.
+kainjow::mustache::list highlight_items(const Highlights& highlights);
+
 /// The phrases of a paragraph, for the template of that name.
 kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptions& options);
 

@@ -44,6 +44,7 @@ struct Highlights {
     std::string label;
     std::string value;
     std::string detail;
+    std::string section = {};  ///< Id of the section that says more; empty: the item is no link.
   };
   std::vector<Item> items;
 };
@@ -158,11 +159,14 @@ struct Standing {
   std::vector<std::string> sentences;  ///< What, with numbers.
 };
 
-/// What the reader is to see before anything else; what is empty is left out.
+/// What the reader is to see before anything else: what was done, how good it is, compared with
+/// what, what is wrong and where the rest is. What is empty is left out.
 struct Opening {
-  std::vector<Paragraph> findings;      ///< Two or three sentences with numbers.
-  std::vector<std::string> figure_ids;  ///< Shown small, each leading to its figure.
+  std::vector<Paragraph> findings;      ///< Two or three sentences: what was done, what is wrong.
+  std::vector<std::string> figure_ids;  ///< Shown small and cropped, each leading to its figure.
   std::optional<Standing> standing = std::nullopt;
+  Highlights numbers = {};       ///< How good it is, the most important number first.
+  std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
 };
 
 /// What a report says; how it looks is another matter.
@@ -173,10 +177,11 @@ struct Report {
   std::string footer;
   Opening opening = {};
   std::string figure_command = {};  ///< Draws a figure again, its id to follow; empty: none does.
+  std::string date = {};            ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 
 /// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, every row has a
-/// cell a column, and the opening's figures are among the report's.
+/// cell a column, and the opening's figures and sections are among the report's.
 /// @throws InvalidInput naming the id.
 void check(const Report& report);
 

@@ -19,12 +19,16 @@
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/certificates.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
 
 using Eigen::Index;
+
+constexpr const char* kPositions = "positions";  ///< Section of the landmarks.
+constexpr const char* kWarnings = "warnings";
 
 Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
   const std::string unit = record.frame == Frame::kGroundTruth ? "m" : "";
@@ -123,20 +127,24 @@ Table anchors_table(const MapRecord& record) {
   return table;
 }
 
-Highlights highlights(const MapRecord& record) {
+Highlights numbers_of(const MapRecord& record) {
   Highlights out;
-  out.items.push_back({"Landmarks mapped",
-                       fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
-                       counted(record.step, "observation") + " used"});
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
       out.items.push_back(
           {error.name, error.value,
-           fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
-  out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
+           fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit),
+           kPositions});
+  out.items.push_back({"landmarks mapped",
+                       fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
+                       counted(record.step, "observation") + " used", kPositions});
+  out.items.push_back({"anchors", fmt::format("{}", record.anchors.size()),
                        record.frame != Frame::kGroundTruth ? "shape alone, without scale"
                        : record.anchors.empty()            ? "map in metres, in a frame of its own"
-                                                           : "map in metres, in their frame"});
+                                                           : "map in metres, in their frame",
+                       kPositions});
+  out.items.push_back({"warnings and failures", fmt::format("{}", record.statuses.size()),
+                       record.statuses.empty() ? "none" : "listed with their reasons", kWarnings});
   return out;
 }
 
@@ -168,19 +176,47 @@ std::string shape_finding(const MapRecord& record) {
              : "; no error in metres can be determined.");
 }
 
+/// By which method, from what.
+Paragraph what_was_done(const MapRecord& record) {
+  const std::string landmarks = counted(record.estimate.rows(), "landmark");
+  return plain(
+      std::holds_alternative<FromSensor>(record.origin)
+          ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
+                        sensor_label(record), landmarks, info(setting_of(record)->method).summary)
+          : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks));
+}
+
+/// The map, how well it fits its data, and what needs attention.
+Opening opening_of(const MapReportInput& input) {
+  const MapRecord& record = input.record;
+  Opening opening;
+  opening.numbers = numbers_of(record);
+  opening.findings.push_back(what_was_done(record));
+  if (!input.verdict.empty())
+    opening.findings.push_back({{strong("Fit"), phrase(": " + input.verdict)}});
+  if (!any_ground_truth(record))
+    opening.findings.push_back(plain("No ground truth was given to compare the map with."));
+  std::vector<std::string> wrong = input.warnings;
+  for (const Status& status : record.statuses) wrong.push_back(status_text(status));
+  if (!wrong.empty())
+    opening.findings.push_back({{strong("Warnings"), phrase(": " + listed(wrong, 3) + ".")}});
+  opening.main_figure = input.figure.id;
+  if (input.fit)
+    for (const Block& block : input.fit->blocks)
+      if (const auto* figure = std::get_if<FigureBlock>(&block))
+        opening.figure_ids.push_back(figure->id);
+  for (const FigureBlock& figure : input.more_figures)
+    if (opening.figure_ids.size() < kMostThumbnails) opening.figure_ids.push_back(figure.id);
+  return opening;
+}
+
 Section summary(const MapReportInput& input) {
   const MapRecord& record = input.record;
   Section section{"summary", "Summary", {}};
   for (const std::string& warning : input.warnings)
     section.blocks.emplace_back(Callout{Callout::Tone::kWarning, "Warning", plain(warning)});
-  section.blocks.emplace_back(highlights(record));
   BulletList findings;
-  const std::string landmarks = counted(record.estimate.rows(), "landmark");
-  findings.items.push_back(plain(
-      std::holds_alternative<FromSensor>(record.origin)
-          ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
-                        sensor_label(record), landmarks, info(setting_of(record)->method).summary)
-          : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks)));
+  findings.items.push_back(what_was_done(record));
   if (record.frame == Frame::kGroundTruth && any_ground_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
@@ -211,7 +247,7 @@ Section input_section(const MapReportInput& input) {
 }
 
 Section statuses(const MapRecord& record) {
-  Section section{"warnings", "Warnings and failures", {}};
+  Section section{kWarnings, "Warnings and failures", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("None."));
     return section;
@@ -281,12 +317,13 @@ Report map_report(const MapReportInput& input) {
   report.subtitle =
       fmt::format("{}, {}, {}", method_label(input.record), sensor_label(input.record),
                   counted(input.record.step, "observation"));
+  report.opening = opening_of(input);
   if (input.fit) report.sections.push_back(*input.fit);
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   for (const FigureBlock& figure : input.more_figures)
     report.sections.back().blocks.emplace_back(figure);
-  Section landmarks{"positions", "Landmarks", {}};
+  Section landmarks{kPositions, "Landmarks", {}};
   if (!input.record.anchors.empty()) landmarks.blocks.emplace_back(anchors_table(input.record));
   landmarks.blocks.emplace_back(landmarks_table(input.record));
   report.sections.push_back(std::move(landmarks));

@@ -26,10 +26,11 @@ struct MapReportInput {
   std::string command;              ///< The one that makes it again, ready to be typed.
   std::vector<Section> more = {};   ///< After the landmarks: what else was asked for.
   std::optional<Section> fit = {};  ///< At the head: see fit_section().
+  std::string verdict = {};         ///< On the fit, a sentence: see verdict_text().
 };
 
-/// Summary, figure, landmarks (with errors where the ground truth is known), remarks, statuses,
-/// provenance.
+/// Opening, summary, figure, landmarks (with errors where the ground truth is known), remarks,
+/// statuses, provenance.
 Report map_report(const MapReportInput& input);
 
 /// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.

@@ -12,19 +12,31 @@ const insertSome = (page) => page.evaluate(() =>
 
 const insertAll = (page) => page.evaluate(() => dispatchEvent(new Event("beforeprint")));
 
-test("the first screen reports the findings and links to figures", async () => {
-  const { page, errors, requests, close } = await open();
-  const opening = page.locator("#opening");
-  assert.match(await opening.innerText(), /Best by visibility: [\d.]+\sm mean position error/);
+test("the first screen has the verdict, the figure it rests on, what is wrong and the rest", async () => {
+  const { page, errors, requests, close } = await open({ viewport: { width: 1280, height: 800 } });
+  const opening = page.locator("#opening"), text = await opening.innerText();
+  assert.match(text, /simulated robot.+10 methods.+runs?\./);  // What was done.
+  assert.match(text, /\d+ of \d+\s+published errors inside our 95\s%/);  // Whether it is good.
+  assert.match(text, /best published: [\d.]+\sm/);  // Compared with what.
+  assert.match(text, /Warnings: /);
+  assert.match(await page.locator(".made").innerText(), /mapproof \S+ \(.+\)\. \d{4}-\d\d-\d\d/);
+  // All of it, the images too, is seen without scrolling.
+  const { y, height } = await opening.boundingBox();
+  assert.ok(y + height <= 800, `the opening ends at ${y + height}`);
+  const figureLink = opening.locator(".main-figure a");
+  assert.equal(await figureLink.getAttribute("href"), "#figure-published-errors");
+  assert.ok((await figureLink.locator("img").getAttribute("alt")).length > 40);
   const links = opening.locator(".thumbnails a");
-  assert.ok(await links.count() >= 4);
-  const { y, height } = await links.first().boundingBox();
-  assert.ok(y + height < 900, `${y} ${height}`);
-  for (const image of await links.locator("img").all()) {
+  assert.equal(await links.count(), 6);
+  assert.ok(await opening.locator('.thumbnails a[href^="#figure-scene-"]').count() >= 1);
+  for (const image of await opening.locator("img").all()) {
     assert.ok(await image.evaluate((each) => each.decode().then(() => each.naturalWidth > 0)));
   }
   // There is no earlier nightly run to compare with.
   assert.equal(await page.locator(".standing").count(), 0);
+  for (const link of await opening.locator(".highlights a").all()) {
+    assert.equal(await page.locator(await link.getAttribute("href")).count(), 1);
+  }
   const target = (await links.nth(1).getAttribute("href")).slice(1);
   await links.nth(1).click();
   await page.locator(`#${target} svg`).waitFor();

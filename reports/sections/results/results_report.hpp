@@ -26,6 +26,7 @@ struct ResultsReportInput {
       {};                        ///< On the study's files beside the table, a sentence each.
   std::vector<Table> cost = {};  ///< What it took.
   std::string footer = "Made by mapproof.";
+  std::string date = {};  ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 
 /// The provenance of results that another program made.
