@@ -22,9 +22,9 @@ function addImage(link, alt, drawing) {
   const figure = document.getElementById(link.hash.slice(1));
   const text = figure ? sourceOf(figure) : "";
   if (text === "") return;
-  const image = new Image();
+  const image = link.querySelector("img") ?? new Image();
   image.alt = alt;
-  image.src = svgUrl(drawing(text));
+  image.src = svgUrl(inPageColours(drawing(text)));
   link.prepend(image);
 }
 

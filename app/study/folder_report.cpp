@@ -124,7 +124,10 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
     std::ranges::move(part.scenes, std::back_inserter(all.scenes));
     std::ranges::move(part.films, std::back_inserter(all.films));
     std::ranges::move(part.missing, std::back_inserter(all.missing));
-    std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
+    for (Section& section : part.in_company) {
+      section.group = part.group;
+      all.report.sections.push_back(std::move(section));
+    }
     all.report.footer = part.report.footer;
     all.report.date = std::max(all.report.date, part.report.date);
   }
@@ -215,9 +218,10 @@ FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
                               .command = command};
   FolderReport result{.folder = folder,
                       .report = slam_report(input),
-                      .in_company = slam_sections(input),
+                      .group = "Range-only SLAM",
                       .runs = study.runs.size(),
                       .missing = study.missing};
+  result.in_company = result.report.sections;
   add_images(figures, result);
   return result;
 }

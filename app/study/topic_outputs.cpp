@@ -96,6 +96,7 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                       .of_paper = false,
                       .report = results_report(input),
                       .in_company = results_sections(input),
+                      .group = labelled.title,
                       .runs = study.parts.size()};
   add_images(figures, result);
   return result;

@@ -29,13 +29,26 @@ void check_drawing(const std::string& id, const std::string& drawing) {
     throw InvalidInput("report: the drawing of \"" + id + "\" holds </noscript");
 }
 
+/// The figures of galleries that the page folds.
+std::set<const FigureBlock*> folded_figures(const Report& report) {
+  std::set<const FigureBlock*> folded;
+  for (const Section& section : report.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* gallery = std::get_if<Gallery>(&block))
+        for (std::size_t i = gallery->open; i < gallery->figures.size(); ++i)
+          folded.insert(&gallery->figures[i]);
+  return folded;
+}
+
 /// Figures in the order in which they are embedded.
 std::vector<const FigureBlock*> by_weight(const Report& report) {
   std::vector<const FigureBlock*> all = figures(report);
   const std::vector<std::string>& first = report.opening.figure_ids;
+  const std::set<const FigureBlock*> folded = folded_figures(report);
   const auto weight = [&](const FigureBlock* figure) {
+    if (figure->id == report.opening.main_figure) return 0;
     if (std::ranges::find(first, figure->id) != first.end()) return 0;
-    return figure->value == "scene" ? 2 : 1;
+    return (figure->value == "scene" ? 2 : 1) + (folded.contains(figure) ? 2 : 0);
   };
   std::ranges::stable_sort(all, {}, weight);
   return all;
@@ -178,6 +191,50 @@ void add_frames(const Table& table, bool copies, data& out) {
   out.set("latex_tail", latex.tail);
 }
 
+/// A note that an earlier table has is said there alone.
+void add_notes(const Table& table, const FigureContext& drawn, data& out) {
+  list notes, earlier;
+  std::vector<const Table*> named;
+  for (const std::string& note : table.notes) {
+    const auto first = drawn.notes.find(note);
+    if (first == drawn.notes.end() || first->second == &table) {
+      notes.push_back(data("note", note));
+    } else if (std::ranges::find(named, first->second) == named.end()) {
+      named.push_back(first->second);
+      data link;
+      link.set("id", first->second->id);
+      link.set("caption", first->second->caption);
+      earlier.push_back(std::move(link));
+    }
+  }
+  out.set("any_notes", !notes.empty() || !earlier.empty());
+  out.set("notes", notes);
+  out.set("earlier_notes", earlier);
+}
+
+/// The cell of a matrix of warnings; without an item, an empty one.
+data warning_cell(const StatusList::Item* item, const std::string& id) {
+  data out;
+  out.set("any", data(item != nullptr));
+  if (item == nullptr) return out;
+  const double share = item->of > 0 ? 100.0 * item->count / item->of : 0.0;
+  out.set("id", id);
+  out.set("failed", data(item->failed));
+  out.set("share", format_number(share, share < 1.0 ? 1 : 0) + "\u00a0%");
+  out.set("count", fmt::format("{} of {}", item->count, counted(item->of, "map")));
+  return out;
+}
+
+/// The distinct texts, in the order in which they occur.
+template <typename Get>
+std::vector<std::string> distinct(const std::vector<StatusList::Item>& items, Get get) {
+  std::vector<std::string> found;
+  for (const StatusList::Item& item : items)
+    if (const std::string& text = get(item); std::ranges::find(found, text) == found.end())
+      found.push_back(text);
+  return found;
+}
+
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
 
@@ -220,6 +277,7 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   out.set("caption", figure.caption);
   out.set("alt", figure.alt);
   out.set("value", figure.value);
+  out.set("wide", data(figure.wide));
   out.set("long", figure.caption.size() > kLongCaption);
   const bool linked = drawn.linked.contains(figure.id);
   const std::string drawing = drawn.svg && !linked ? drawn.svg(figure.id) : "";
@@ -237,7 +295,14 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   return out;
 }
 
-data table_data(const Table& table, const HtmlOptions& options) {
+std::map<std::string, const Table*> first_notes(const Report& report) {
+  std::map<std::string, const Table*> first;
+  for (const Table* table : tables(report))
+    for (const std::string& note : table->notes) first.emplace(note, table);
+  return first;
+}
+
+data table_data(const Table& table, const FigureContext& drawn, const HtmlOptions& options) {
   data out;
   out.set("id", table.id);
   out.set("caption", table.caption);
@@ -246,13 +311,11 @@ data table_data(const Table& table, const HtmlOptions& options) {
   const list rows = rows_data(table, options);
   add_frames(table, options.copies_tables, out);
   out.set("any_rows", !rows.empty());
-  out.set("folded", data(table.rows.size() > kMostRowsOpen));
+  out.set("secondary", data(table.secondary));
+  out.set("folded", data(!table.secondary && table.rows.size() > kMostRowsOpen));
   out.set("row_count", counted(std::ssize(table.rows), "row"));
   out.set("table_rows", rows);
-  list notes;
-  for (const std::string& note : table.notes) notes.push_back(data("note", note));
-  out.set("any_notes", !notes.empty());
-  out.set("notes", notes);
+  add_notes(table, drawn, out);
   return out;
 }
 
@@ -280,8 +343,8 @@ namespace {
 /// Makes the data of each kind of block, under the name of its template.
 class BlockVisitor {
  public:
-  BlockVisitor(const FigureContext& drawn, const HtmlOptions& options)
-      : drawn_(drawn), options_(options) {
+  BlockVisitor(const FigureContext& drawn, const HtmlOptions& options, std::string matrix)
+      : drawn_(drawn), options_(options), matrix_(std::move(matrix)) {
     for (const char* kind : {"paragraph", "bullet_list", "highlights", "callout", "table", "figure",
                              "gallery", "key_values", "status_list"})
       block_.set(kind, false);
@@ -314,17 +377,28 @@ class BlockVisitor {
     block_.set("callout", out);
   }
 
-  void operator()(const Table& table) { block_.set("table", table_data(table, options_)); }
+  void operator()(const Table& table) { block_.set("table", table_data(table, drawn_, options_)); }
 
   void operator()(const FigureBlock& figure) {
     block_.set("figure", figure_data(figure, drawn_, options_));
   }
 
   void operator()(const Gallery& gallery) {
-    list figures;
-    for (const FigureBlock& figure : gallery.figures)
-      figures.push_back(figure_data(figure, drawn_, options_));
-    block_.set("gallery", data("figures", figures));
+    list shown, more;
+    std::vector<std::string> titles;
+    for (std::size_t i = 0; i < gallery.figures.size(); ++i) {
+      (i < gallery.open ? shown : more)
+          .push_back(figure_data(gallery.figures[i], drawn_, options_));
+      if (i >= gallery.open) titles.push_back(gallery.figures[i].title);
+    }
+    data out;
+    out.set("any_figures", data(!shown.empty()));
+    out.set("figures", shown);
+    out.set("any_more", data(!more.empty()));
+    out.set("more", more);
+    out.set("more_words", fmt::format("{}{}: {}", counted(std::ssize(titles), "figure"),
+                                      shown.empty() ? "" : " more", listed(titles, 3)));
+    block_.set("gallery", out);
   }
 
   void operator()(const KeyValues& pairs) {
@@ -338,21 +412,48 @@ class BlockVisitor {
   }
 
   void operator()(const StatusList& statuses) {
-    list items;
-    for (const StatusList::Item& item : statuses.items) items.push_back(status_data(item));
-    block_.set("status_list", data("items", items));
+    const auto rows = distinct(statuses.items, [](const auto& item) { return item.where; });
+    const auto codes = distinct(statuses.items, [](const auto& item) { return item.code; });
+    list heads, lines, items;
+    for (const std::string& code : codes) {
+      const auto item = std::ranges::find(statuses.items, code, &StatusList::Item::code);
+      data head;
+      head.set("code", code);
+      head.set("meaning", item->meaning);
+      heads.push_back(std::move(head));
+    }
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      list cells;
+      for (std::size_t column = 0; column < codes.size(); ++column) {
+        const auto item = std::ranges::find_if(statuses.items, [&](const auto& each) {
+          return each.where == rows[row] && each.code == codes[column];
+        });
+        const std::string id = fmt::format("{}-{}-{}", matrix_, row + 1, column + 1);
+        const bool is_there = item != statuses.items.end();
+        cells.push_back(warning_cell(is_there ? &*item : nullptr, id));
+        if (is_there) items.push_back(status_data(*item, id));
+      }
+      data line;
+      line.set("where", rows[row]);
+      line.set("cells", cells);
+      lines.push_back(std::move(line));
+    }
+    data out;
+    out.set("heads", heads);
+    out.set("lines", lines);
+    out.set("items", items);
+    block_.set("status_list", out);
   }
 
  private:
-  static data status_data(const StatusList::Item& item) {
+  static data status_data(const StatusList::Item& item, const std::string& id) {
     data out;
+    out.set("id", id);
     out.set("code", item.code);
     out.set("meaning", item.meaning);
     out.set("where", item.where);
     out.set("failed", item.failed);
-    const double share = item.of > 0 ? 100.0 * item.count / item.of : 0.0;
-    out.set("count", fmt::format("{} of {} ({} %)", item.count, counted(item.of, "map"),
-                                 format_number(share, share < 1.0 ? 1 : 0)));
+    out.set("count", fmt::format("{} of {}", item.count, counted(item.of, "map")));
     list locations;
     for (const StatusList::Location& location : item.locations) {
       data entry;
@@ -370,13 +471,15 @@ class BlockVisitor {
 
   const FigureContext& drawn_;
   const HtmlOptions& options_;
+  std::string matrix_;  ///< Begins the ids of what a matrix links to.
   data block_;
 };
 
 }  // namespace
 
-data block_data(const Block& block, const FigureContext& drawn, const HtmlOptions& options) {
-  BlockVisitor visitor(drawn, options);
+data block_data(const Block& block, const FigureContext& drawn, const HtmlOptions& options,
+                const std::string& section) {
+  BlockVisitor visitor(drawn, options, section + "-runs");
   std::visit(visitor, block);
   return visitor.take();
 }

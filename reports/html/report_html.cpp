@@ -28,12 +28,34 @@ data section_data(const Section& section, const Report& report, const FigureCont
   data out;
   out.set("id", section.id);
   out.set("title", section.title);
+  out.set("study", text_or_false(section.group));
   list blocks;
-  for (const Block& block : section.blocks) blocks.push_back(block_data(block, drawn, options));
+  for (const Block& block : section.blocks)
+    blocks.push_back(block_data(block, drawn, options, section.id));
   if (section.id.ends_with("provenance") && !report.figure_command.empty())
-    blocks.push_back(block_data(figure_command(report), drawn, options));
+    blocks.push_back(block_data(figure_command(report), drawn, options, section.id));
   out.set("blocks", blocks);
   return out;
+}
+
+/// The sections, those of one study under its name.
+list contents(const Report& report) {
+  list groups;
+  for (std::size_t i = 0; i < report.sections.size();) {
+    const Section& first = report.sections[i];
+    list entries;
+    for (; i < report.sections.size() && report.sections[i].group == first.group; ++i) {
+      data entry;
+      entry.set("id", report.sections[i].id);
+      entry.set("title", report.sections[i].title);
+      entries.push_back(std::move(entry));
+    }
+    data group;
+    group.set("group", text_or_false(first.group));
+    group.set("entries", entries);
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 data standing_data(const Standing& standing) {
@@ -122,12 +144,14 @@ std::string report_html(const Report& report, const Templates& templates, const 
   page.set("provenance", text_or_false(provenance_of(report)));
   set_page_frame(page, "report", templates);
   const FigureContext drawn{.svg = svg,
-                            .linked = linked_figures(report, svg, options.drawing_bytes)};
+                            .linked = linked_figures(report, svg, options.drawing_bytes),
+                            .notes = first_notes(report)};
   set_opening(page, report, linked_words(report, drawn.linked.size(), options), options);
   list sections;
   for (const Section& section : report.sections)
     sections.push_back(section_data(section, report, drawn, options));
   page.set("sections", sections);
+  page.set("contents", contents(report));
   return rendered("report", templates, page);
 }
 

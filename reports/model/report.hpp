@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -99,6 +100,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<Row> rows;
   std::vector<std::string> notes;
+  bool secondary = false;  ///< What few readers need: a page folds it.
 };
 
 /// Where a figure stands; its drawing is handed to the writer apart.
@@ -110,11 +112,14 @@ struct FigureBlock {
   std::vector<std::string> record_ids;
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
   std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
+  bool wide = false;                    ///< It has many panels: a page gives it the whole width.
 };
 
 /// Figures of one kind, side by side.
 struct Gallery {
   std::vector<FigureBlock> figures;
+  /// A page shows so many of them and folds the rest.
+  std::size_t open = std::numeric_limits<std::size_t>::max();
 };
 
 struct KeyValues {
@@ -125,7 +130,7 @@ struct KeyValues {
   std::vector<Item> items;
 };
 
-/// Warnings and failures, one item a kind.
+/// Warnings and failures: a page shows a matrix of where they occurred and of their codes.
 struct StatusList {
   struct Location {
     std::string record_id;
@@ -134,7 +139,7 @@ struct StatusList {
   struct Item {
     std::string code;                 ///< As in the files: "not_converged".
     std::string meaning;              ///< One sentence.
-    std::string where;                ///< "bearing, ISOMAP, K = 9".
+    std::string where;                ///< A row of the matrix: "bearing, ISOMAP".
     int count = 0;                    ///< Maps that carry it.
     int of = 0;                       ///< Maps of that kind in all.
     bool failed = false;              ///< No map came out.
@@ -150,6 +155,7 @@ struct Section {
   std::string id;  ///< [a-z0-9-]+, unique among sections.
   std::string title;
   std::vector<Block> blocks;
+  std::string group = {};  ///< In a report of several studies, the one that it belongs to.
 };
 
 /// How what is reported stands against something earlier.

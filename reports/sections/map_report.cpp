@@ -253,14 +253,19 @@ Section statuses(const MapRecord& record) {
     return section;
   }
   StatusList list;
-  for (const Status& status : record.statuses)
-    list.items.push_back({std::string(name(status.code)),
-                          std::string(meaning(status.code)),
-                          method_label(record),
-                          1,
-                          1,
-                          status.code == StatusCode::kFailed,
-                          {{record.id, status_text(status)}}});
+  for (const Status& status : record.statuses) {
+    const auto same = std::ranges::find(list.items, name(status.code), &StatusList::Item::code);
+    if (same != list.items.end())
+      same->locations.push_back({record.id, status_text(status)});
+    else
+      list.items.push_back({std::string(name(status.code)),
+                            std::string(meaning(status.code)),
+                            method_label(record),
+                            1,
+                            1,
+                            status.code == StatusCode::kFailed,
+                            {{record.id, status_text(status)}}});
+  }
   section.blocks.emplace_back(std::move(list));
   return section;
 }

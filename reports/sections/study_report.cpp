@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -59,12 +58,10 @@ void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& sec
 
 constexpr std::size_t kLocationsShown = 5;
 
-/// Sensor, method, parameter: what statuses are counted by.
-using StatusKind = std::tuple<Sensor, Method, double>;
+/// Sensor and method: what statuses are counted by, over all parameters.
+using StatusKind = std::pair<Sensor, Method>;
 
-StatusKind kind_of(const RunRecord& record) {
-  return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
-}
+StatusKind kind_of(const RunRecord& record) { return {record.sensor, record.setting.method}; }
 
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
@@ -93,7 +90,7 @@ StatusList status_list(const Study& study) {
         const auto earlier = std::span(record.statuses).first(i);
         if (std::ranges::any_of(earlier, [&](const Status& s) { return s.code == code; })) continue;
         StatusList::Item& item = items[{kind_of(record), code}];
-        item.where = fmt::format("{}, {}", name(record.sensor), label(record.setting));
+        item.where = fmt::format("{}, {}", name(record.sensor), info(record.setting.method).label);
         add_record(item, run.id, record, code);
       }
     }
@@ -184,6 +181,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
       last_step(sensor), counted(study.experiment.anchors, "anchor"),
       label(study.experiment.affine_fit))));
   section.blocks.emplace_back(accuracy_table(sensor, best, grid));
+  const std::size_t main_blocks = section.blocks.size();
   if (!sensor.published.values.empty())
     section.blocks.emplace_back(paper_parameter_table(sensor, all));
   if (!sensor.published.orderings.empty())
@@ -192,6 +190,8 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), section);
   section.blocks.emplace_back(spread_table(sensor, best));
   if (grid) section.blocks.emplace_back(parameter_table(sensor, all));
+  for (std::size_t i = main_blocks; i < section.blocks.size(); ++i)
+    if (auto* table = std::get_if<Table>(&section.blocks[i])) table->secondary = true;
   return section;
 }
 
@@ -245,7 +245,7 @@ std::optional<Section> variations_section(const Study& study) {
       plain("The numbers behind the figures of anchors, noise and missing entries, one thing "
             "changed at a time."));
   for (const Variation& variation : study.experiment.variations)
-    section.blocks.emplace_back(variation_table(study, variation));
+    fold(variation_table(study, variation), section);
   return section;
 }
 

@@ -64,13 +64,13 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
   MapRecord record = triangle();
   record.score = Score{kNaN, kNaN, 0.31, 4.2};
   const Report report = report_of(record);
-  const auto& items = std::get<Highlights>(report.sections[0].blocks[0]).items;
-  EXPECT_EQ(items[1].value, "0.310 m");
-  EXPECT_EQ(items[1].detail, "mean position error, after the best affine fit to all landmarks");
-  EXPECT_EQ(items[2].value, "4.20 %");
+  const auto& items = report.opening.numbers.items;
+  EXPECT_EQ(items[0].value, "0.310 m");
+  EXPECT_EQ(items[0].detail, "mean position error, after the best affine fit to all landmarks");
+  EXPECT_EQ(items[1].value, "4.20 %");
   record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);
-  for (const auto& item : std::get<Highlights>(unknown.sections[0].blocks[0]).items) {
+  for (const auto& item : unknown.opening.numbers.items) {
     EXPECT_EQ(item.value.find("nan"), std::string::npos) << item.label;
     EXPECT_EQ(item.value.find("unknown"), std::string::npos) << item.label;
     EXPECT_NE(item.label, "MPE");
@@ -84,7 +84,7 @@ TEST(MapReport, TellsAnchorsThatDidNotTieTheMapFromNone) {
       status_with_message(StatusCode::kAnchorsMissing, "1 of 1 anchors are on the map."));
   const auto findings = [](const Report& report) {
     std::string text;
-    for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[1]).items)
+    for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[0]).items)
       for (const Phrase& phrase : item.phrases) text += phrase.text;
     return text;
   };

@@ -8,14 +8,19 @@
 namespace mapproof {
 
 std::size_t series_of_method(const Experiment& experiment, Method method) {
-  // There are seven colours: the last three take those of the first three, which are of the other
-  // family, with other dashes and markers.
+  // There are seven colours: the last three methods take those of the first three, with other
+  // dashes and markers. No two methods of one figure of the paper share a colour.
   constexpr std::array kOrder = {
-      Method::kSmacofKnn,    Method::kSde,
-      Method::kIsomap,       Method::kLle,
-      Method::kHessianLle,   Method::kLaplacianEigenmap,
-      Method::kSmacof,       Method::kLpca,
-      Method::kKpcaGaussian, Method::kKpcaPolynomial,
+      Method::kLpca,
+      Method::kSde,
+      Method::kIsomap,
+      Method::kLle,
+      Method::kSmacof,
+      Method::kSmacofKnn,
+      Method::kLaplacianEigenmap,
+      Method::kHessianLle,
+      Method::kKpcaGaussian,
+      Method::kKpcaPolynomial,
   };
   const auto ours = std::ranges::find(kOrder, method);
   const auto series = static_cast<std::size_t>(ours - kOrder.begin());

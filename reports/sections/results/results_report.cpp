@@ -352,9 +352,7 @@ std::vector<std::string> figure_ids_of(const StudyFigures& figures) {
 }  // namespace
 
 std::vector<Section> results_sections(const ResultsReportInput& input) {
-  std::vector<Section> sections = sections_of(input, false);
-  for (Section& section : sections) section.title = input.view.study().title + ": " + section.title;
-  return sections;
+  return sections_of(input, false);
 }
 
 Report results_report(const ResultsReportInput& input) {

@@ -38,8 +38,7 @@ std::vector<Block> given_provenance(const ResultsView& view, const std::string& 
 /// and where the numbers come from.
 Report results_report(const ResultsReportInput& input);
 
-/// Its sections alone, for a report with others: ids begin with the study's name, titles
-/// with its title.
+/// Its sections alone, for a report with others: ids begin with the study's name.
 std::vector<Section> results_sections(const ResultsReportInput& input);
 
 /// The maps of the study of a topic, and the distances of the pairs that they were made of.

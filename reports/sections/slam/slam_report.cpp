@@ -381,8 +381,7 @@ std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
         "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
         "any.");
   section.blocks.emplace_back(std::move(errors));
-  if (auto alignments = slam_alignment_table(runs))
-    section.blocks.emplace_back(*std::move(alignments));
+  if (auto alignments = slam_alignment_table(runs)) fold(*std::move(alignments), section);
   return section;
 }
 
@@ -444,8 +443,7 @@ Section slam_provenance_section(const SlamReportInput& input) {
     facts.items.push_back({key, {value, Emphasis::kData}});
   section.blocks.emplace_back(std::move(facts));
   section.blocks.emplace_back(provenance_items(input.study.provenance));
-  if (!input.sessions.empty())
-    section.blocks.emplace_back(sessions_table("slam-sessions", input.sessions));
+  if (!input.sessions.empty()) fold(sessions_table("slam-sessions", input.sessions), section);
   return section;
 }
 
@@ -488,7 +486,10 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   if (!warnings.empty())
     opening.findings.push_back(
         {{strong("Warnings"), phrase(fmt::format(": {}.", listed(warnings, 3)))}});
-  std::vector<std::string> ids = {"fig-2b", "fig-2c", "fig-1b", "fig-1a"};
+  std::vector<std::string> ids = {"fig-2b", "fig-2c"};
+  for (const SlamRun& run : study.runs)
+    if (!run.simulated) ids.push_back(path_figure_id(run));
+  ids.insert(ids.end(), {"fig-1b", "fig-1a"});
   for (const FigureGroup& group : figures.groups) {
     if (!group.figures.empty()) ids.push_back(group.figures.front().id);
     if (!group.scenes.empty()) ids.insert(ids.begin() + 1, group.scenes.front().id);
