@@ -45,7 +45,7 @@ struct Highlights {
     std::string label;
     std::string value;
     std::string detail;
-    std::string section = {};  ///< Id of the section that says more; empty: the item is no link.
+    std::string section = {};  ///< Id of the section that says more; empty: the item links to nothing.
   };
   std::vector<Item> items;
 };
