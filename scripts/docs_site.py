@@ -18,7 +18,7 @@ NAV = [
                "docs/troubleshooting.md", "examples/README.md"]),
     ("Use", ["docs/commands.md", "docs/file-formats.md", "docs/figures.md", "docs/report.md",
              "docs/your-results.md", "docs/evaluate.md", "docs/diff.md", "docs/diff-images.md",
-             "docs/nightly.md", "docs/packages.md", "docs/library.md",
+             "docs/nightly.md", "docs/packages.md", "docs/library.md", "docs/python.md",
              "docs/limits.md"]),
     ("Methods", ["docs/methods-list.md", "docs/quantities.md"]),
     ("Schemas", ["docs/schemas/README.md"]),
