@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kMinus = "\u2212";
 constexpr const char* kReplacement = "\uFFFD";
-constexpr double kLargest = 1e6;  ///< From here on an exponent reads better.
+constexpr double kLargest = 1e9;  ///< Beyond any coordinate on Earth, an exponent reads better.
 
 constexpr int kManyDecimals = 6;  ///< What has these is small as a whole.
 

@@ -10,7 +10,7 @@ namespace mapproof {
 inline constexpr const char* kMissingText = "\u2013";
 
 /// `value` with `decimals` places and a true minus (U+2212); "–" if it is not a finite number. Zero
-/// carries no sign. With an exponent beyond a million, and where six places or more show zeros
+/// carries no sign. With an exponent from 1e9 on, and where six places or more show zeros
 /// alone of a value that is none.
 std::string format_number(double value, int decimals, bool with_sign = false);
 

@@ -19,6 +19,7 @@
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/certificates.hpp"
+#include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -71,9 +72,21 @@ bool any_ground_truth(const MapRecord& record) {
 
 std::string unit(const MapRecord& record) { return record.frame == Frame::kGroundTruth ? "m" : ""; }
 
-void add_ground_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
+/// Of the coordinates of a table.
+struct Decimals {
+  int of_map = 3;
+  int of_ground_truth = 3;
+};
+
+Decimals decimals_of(const MapRecord& record) {
+  return {.of_map = position_decimals(record.estimate),
+          .of_ground_truth = record.ground_truth_m ? position_decimals(*record.ground_truth_m) : 3};
+}
+
+void add_ground_truth(const MapRecord& record, Index row, int decimals, std::vector<Cell>& cells) {
   const Points& ground_truth = *record.ground_truth_m;
-  for (Index axis = 0; axis < 2; ++axis) cells.emplace_back(NumberCell{ground_truth(row, axis), 3});
+  for (Index axis = 0; axis < 2; ++axis)
+    cells.push_back(position_cell(ground_truth(row, axis), decimals));
   if (record.frame == Frame::kGroundTruth)
     cells.emplace_back(NumberCell{(record.estimate.row(row) - ground_truth.row(row)).norm(), 3});
 }
@@ -89,12 +102,13 @@ std::vector<Column> point_columns(const MapRecord& record) {
   return columns;
 }
 
-Row point_row(const MapRecord& record, Index row) {
+Row point_row(const MapRecord& record, Index row, const Decimals& decimals) {
   const auto number = static_cast<std::size_t>(row);
   Row out;
   out.cells = {TextCell{record.names[number], Emphasis::kData},
-               NumberCell{record.estimate(row, 0), 3}, NumberCell{record.estimate(row, 1), 3}};
-  if (any_ground_truth(record)) add_ground_truth(record, row, out.cells);
+               position_cell(record.estimate(row, 0), decimals.of_map),
+               position_cell(record.estimate(row, 1), decimals.of_map)};
+  if (any_ground_truth(record)) add_ground_truth(record, row, decimals.of_ground_truth, out.cells);
   out.source = record.id;
   return out;
 }
@@ -102,8 +116,9 @@ Row point_row(const MapRecord& record, Index row) {
 Table landmarks_table(const MapRecord& record) {
   Table table{"landmarks", "Every landmark", point_columns(record), {}, {}};
   table.columns.push_back({"Anchor", "", "", "Its true position was given."});
+  const Decimals decimals = decimals_of(record);
   for (Index i = 0; i < record.estimate.rows(); ++i) {
-    table.rows.push_back(point_row(record, i));
+    table.rows.push_back(point_row(record, i, decimals));
     table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
   }
   if (record.frame == Frame::kSimilarity)
@@ -119,7 +134,8 @@ Table anchors_table(const MapRecord& record) {
   const char* caption = record.frame == Frame::kGroundTruth ? "Anchors: the map was aligned to them"
                                                             : "Anchors, as given";
   Table table{"anchors", caption, point_columns(record), {}, {}};
-  for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
+  const Decimals decimals = decimals_of(record);
+  for (const Index row : record.anchors) table.rows.push_back(point_row(record, row, decimals));
   return table;
 }
 
@@ -130,9 +146,10 @@ Highlights highlights(const MapRecord& record) {
                        counted(record.step, "observation") + " used"});
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
-      out.items.push_back(
-          {error.name, error.value,
-           fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
+      out.items.push_back({error.name, error.value,
+                           fmt::format("{}{}{}{}{}", error.meaning, error.limit.empty() ? "" : ", ",
+                                       error.limit, error.name == "MPE" ? "; over " : "",
+                                       error.name == "MPE" ? scored_landmarks_text(record) : "")});
   out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
                        record.frame != Frame::kGroundTruth ? "shape alone, without scale"
                        : record.anchors.empty()            ? "map in metres, in a frame of its own"
@@ -299,6 +316,21 @@ Report map_report(const MapReportInput& input) {
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);
   return report;
+}
+
+std::string scored_landmarks_text(const MapRecord& record) {
+  if (!record.score || !record.ground_truth_m) return "";
+  const bool leaves_out = std::isfinite(record.score->mpe_m);
+  if (!leaves_out && !std::isfinite(record.score->mpe_all_fitted_m)) return "";
+  std::ptrdiff_t scored = 0;
+  for (Index i = 0; i < record.estimate.rows(); ++i)
+    if (placed(record.estimate, i) && placed(*record.ground_truth_m, i) &&
+        (!leaves_out || !is_anchor(record, i)))
+      ++scored;
+  std::string text = counted(scored, "landmark");
+  if (leaves_out && !record.anchors.empty())
+    text += fmt::format(", without the {}", counted(std::ssize(record.anchors), "anchor"));
+  return text;
 }
 
 }  // namespace mapproof

@@ -36,4 +36,8 @@ Report map_report(const MapReportInput& input);
 /// @throws InvalidInput unless there is a covariance a landmark.
 Section certainty_section(const MapRecord& record, const MapCertainty& certainty);
 
+/// Over which landmarks the MPE of a map is: "26 landmarks, without the 4 anchors"; empty without
+/// an MPE.
+std::string scored_landmarks_text(const MapRecord& record);
+
 }  // namespace mapproof
