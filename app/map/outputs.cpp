@@ -137,7 +137,10 @@ std::string map_text(const MapResult& map, const fs::path& out) {
       fmt::format("Method: {}{}, {}, {} steps", method_label(record),
                   is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
   if (record.score)
-    if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;
+    if (const std::string score = score_text(*record.score); !score.empty()) {
+      const std::string scored = scored_landmarks_text(record);
+      text += ": " + score + (scored.empty() ? "" : " (" + scored + ")");
+    }
   text += "\n" + verdict_text(map.fit);
   return text + "\n" + (out / "report.html").string() + "\n";
 }
