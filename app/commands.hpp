@@ -9,6 +9,7 @@ namespace mapproof {
 Action reproduce_command(CLI::App& app);
 Action example_command(CLI::App& app);
 Action run_command(CLI::App& app);
+Action merge_command(CLI::App& app);
 Action render_command(CLI::App& app);
 Action report_command(CLI::App& app);
 Action map_command(CLI::App& app);

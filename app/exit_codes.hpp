@@ -9,6 +9,7 @@ enum ExitCode {
   kUsage = 2,     ///< Usage or input.
   kInternal = 3,  ///< A fault of the program.
   kCostGrew = 4,  ///< Of nightly: only seconds or memory got worse.
+  kCannotTest = 125,  ///< Of nightly --bisect: git bisect skips the commit.
 };
 
 /// As the help of a command ends; nightly has one of its own.

@@ -139,12 +139,13 @@ std::string objection(const CLI::ParseError& error, const CLI::App& command) {
 }
 
 constexpr std::pair<const char*, AddCommand> kCommands[] = {
-    {"reproduce", reproduce_command}, {"run", run_command},         {"render", render_command},
-    {"report", report_command},       {"map", map_command},         {"slam", slam_command},
-    {"evaluate", evaluate_command},   {"export", export_command},   {"import", import_command},
-    {"diff", diff_command},           {"approve", approve_command}, {"check", check_command},
-    {"example", example_command},     {"methods", methods_command}, {"validate", validate_command},
-    {"nightly", nightly_command},     {"history", history_command}, {"generate", generate_command},
+    {"reproduce", reproduce_command}, {"run", run_command},           {"merge", merge_command},
+    {"render", render_command},       {"report", report_command},     {"map", map_command},
+    {"slam", slam_command},           {"evaluate", evaluate_command}, {"export", export_command},
+    {"import", import_command},       {"diff", diff_command},         {"approve", approve_command},
+    {"check", check_command},         {"example", example_command},   {"methods", methods_command},
+    {"validate", validate_command},   {"nightly", nightly_command},   {"history", history_command},
+    {"generate", generate_command},
 };
 
 /// Does a command's work. @param typed  The words of the command line.

@@ -55,6 +55,7 @@ void add_table_options(CLI::App& app, TableOptions& options) {
                  "Headers or numbers of the columns of a table, as in time=Zeit,landmark=Objekt,"
                  "bearing=3; also step, nanoseconds, robot, range, value, x, y, right")
       ->type_name("NAME=COLUMN")
+      ->allow_extra_args(false)
       ->delimiter(',');
   app.add_option("--scan-window", options.scan_window,
                  "Rows of a robot whose time stamps follow one another within SECONDS, or 50ms, "

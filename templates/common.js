@@ -42,8 +42,29 @@ function makeSortable(table) {
   }
 }
 
+// The theme that a reader chose, for all pages of mapproof; a browser may forbid to keep it.
+const kThemeKey = "mapproof-theme";
+
+function remember(theme) {
+  try {
+    localStorage.setItem(kThemeKey, theme);
+  } catch {
+    // The page works without it.
+  }
+}
+
+function rememberedTheme() {
+  try {
+    const theme = localStorage.getItem(kThemeKey);
+    return theme === "light" || theme === "dark" ? theme : "";
+  } catch {
+    return "";
+  }
+}
+
 function addThemeSwitch(parent) {
   const root = document.documentElement;
+  if (rememberedTheme() !== "") root.dataset.theme = rememberedTheme();
   const system = window.matchMedia("(prefers-color-scheme: dark)");
   const isDark = () => (root.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
   const button = document.createElement("button");
@@ -55,9 +76,14 @@ function addThemeSwitch(parent) {
   };
   button.addEventListener("click", () => {
     root.dataset.theme = isDark() ? "light" : "dark";
+    remember(root.dataset.theme);
     label();
+    dispatchEvent(new Event("themechange"));
   });
-  system.addEventListener("change", label);
+  system.addEventListener("change", () => {
+    label();
+    dispatchEvent(new Event("themechange"));
+  });
   label();
   parent.append(button);
 }
@@ -69,19 +95,4 @@ function save(name, blob) {
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-}
-
-// Long tables are folded on the screen and whole on paper. So are the runs that a warning affects,
-// unless there are many warnings.
-function foldOnScreen() {
-  const tables = document.querySelectorAll(".folded > details");
-  const affected = document.querySelectorAll(".warnings details");
-  const mostOnPaper = 12;
-  const open = (all, value) => { for (const details of all) details.open = value; };
-  open(tables, false);
-  window.addEventListener("beforeprint", () => {
-    open(tables, true);
-    if (affected.length <= mostOnPaper) open(affected, true);
-  });
-  window.addEventListener("afterprint", () => open(tables, false));
 }

@@ -48,7 +48,7 @@ root.classList.add("scripted");
 document.querySelector(".search").hidden = false;
 addThemeSwitch(document.querySelector(".masthead"));
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
-foldOnScreen();
+foldDetails();
 makeChips();
 by("search").addEventListener("input", applyFilter);
 by("close-keys").addEventListener("click", () => by("keys").close());

@@ -42,13 +42,19 @@ function followReading() {
 
 const figures = document.querySelectorAll("figure[data-id]");
 const held = Array.from(figures).filter((figure) => figure.querySelector(".drawing"));
-whenPutIn.push(addTools, addSteps, followLandmarks);
+whenPutIn.push(addTools, addSteps, followLandmarks, addCurveBoxes);
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);
-addThumbnails();
+addFigureColours();
+addOpeningImages();
+addEventListener("themechange", addOpeningImages);
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 putInWhenNear(held);
+addDecisions();
 followReading();
-foldOnScreen();
+foldDetails();
+(globalThis.requestIdleCallback ?? setTimeout)(
+  () => addMethodList(document.querySelector(".search")));
+addSearch(document.querySelector(".contents"));

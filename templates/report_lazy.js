@@ -15,7 +15,7 @@ function sourceOf(figure) {
 // Reserves the space of a drawing, so that nothing moves when it is inserted.
 function reserveSpace(figure) {
   const size = /viewBox="0 0 ([\d.]+) ([\d.]+)"/.exec(sourceOf(figure).slice(0, 500));
-  if (size) figure.querySelector(".drawing").style.aspectRatio = `${size[1]} / ${size[2]}`;
+  if (size) figure.querySelector(".drawing").style.setProperty("--aspect", size[1] / size[2]);
 }
 
 function putIn(figure) {
@@ -25,7 +25,10 @@ function putIn(figure) {
   const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
   if (svg.localName !== "svg") return;
   // A drawing is one image with a title and a description; its texts are not separate elements.
-  for (const words of svg.querySelectorAll("g[aria-label]")) words.removeAttribute("aria-label");
+  for (const words of svg.querySelectorAll("g[aria-label]")) {
+    words.dataset.words = words.getAttribute("aria-label");
+    words.removeAttribute("aria-label");
+  }
   holder.replaceWith(document.adoptNode(svg));
   for (const each of whenPutIn) each(figure, svg);
 }

@@ -1,6 +1,7 @@
 // A figure whose panels are one map at several times has a slider. Each step fills the box with one
 // panel and the axes that all panels share, so that the map forms in front of the reader.
 
+const kStepTime_ms = 900;
 const kRoomAbove = 40, kRoomBelow = 24, kRoomRight = 10;  // Around a panel's frame, in points.
 
 // The frames of the panels in their order; empty if one is missing.
@@ -97,6 +98,28 @@ function showStep(svg, parts, frames, home, step) {
   return setHome(svg, stepBox(parts, frames, step), frames[step]);
 }
 
+// Goes through the steps from the one that is shown, or from the first one, and stops at the last.
+function addPlayButton(parent, slider, show) {
+  let timer = 0;
+  const stop = (button) => {
+    clearInterval(timer);
+    timer = 0;
+    button.textContent = "Play";
+  };
+  addButton(parent, "Play", "", (button) => {
+    if (timer !== 0) return stop(button);
+    if (slider.value === slider.max) slider.value = 0;
+    button.textContent = "Stop";
+    const next = () => {
+      slider.value = Number(slider.value) + 1;
+      show();
+      if (slider.value === slider.max) stop(button);
+    };
+    timer = setInterval(next, kStepTime_ms);
+    return next();
+  });
+}
+
 function addSteps(figure, svg) {
   const steps = Array.from(figure.querySelectorAll(".steps > li"), (item) => item.textContent);
   const frames = panelFrames(figure, svg, steps.length);
@@ -104,7 +127,6 @@ function addSteps(figure, svg) {
   if (frames.length < 2 || parts.panels.length !== frames.length) return;
   const { home } = viewOf(svg);
   const label = document.createElement("label");
-  label.className = "step";
   const slider = document.createElement("input");
   Object.assign(slider, { type: "range", min: 0, max: frames.length, value: 0 });
   const shown = document.createElement("output");
@@ -116,6 +138,10 @@ function addSteps(figure, svg) {
   };
   slider.addEventListener("input", show);
   label.append("Step ", slider, shown);
-  figure.querySelector(".tools").after(label);
+  const row = document.createElement("div");
+  row.className = "step";
+  row.append(label);
+  addPlayButton(row, slider, show);
+  figure.querySelector(".tools").after(row);
   show();
 }

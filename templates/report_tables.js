@@ -37,7 +37,7 @@ function addFilter(parent, holder, table) {
   field.type = "search";
   field.setAttribute("list", list.id);
   const found = document.createElement("output");
-  const details = holder.querySelector(":scope > details");
+  const details = holder.querySelector(":scope > details:not(.fold)");
   field.addEventListener("input", () => {
     filterRows(table, field.value);
     const count = shownRows(table).length;
@@ -62,7 +62,7 @@ function addTableTools(holder) {
     addButton(tools, "Copy LaTeX", `Copy LaTeX of ${name}`,
       (button) => copyText(copyOf(holder, table, "latex"), button));
   }
-  caption.after(tools);
+  (caption.closest("summary") ?? caption).after(tools);
   const filter = () => tools.querySelector("input")?.value ?? "";
   // Paper shows all rows.
   addEventListener("beforeprint", () => filterRows(table, ""));

@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/child_process.hpp"
+#include "app/git.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
 
@@ -47,27 +47,11 @@ bool leads_out(std::string_view path) {
   return false;
 }
 
-struct GitAnswer : ProgramAnswer {
-  /// Without the line's end.
-  std::string line() const { return output.substr(0, output.find('\n')); }
-};
-
-/// Calls git in the current folder, without a shell. @param input  Its standard input.
-GitAnswer git(const std::vector<std::string>& words, std::string_view input = {}) {
-  ProgramCall call{.program = "/usr/bin/env",
-                   .arguments = {"LC_ALL=C", "GIT_TERMINAL_PROMPT=0", "git", "--no-pager"}};
-  call.arguments.insert(call.arguments.end(), words.begin(), words.end());
-  const Descriptor in = memory_file("mapproof-git");
-  if (!write_all(in, input)) throw ProcessError(fmt::format("git: {}", std::strerror(errno)));
-  return {answer_of(call, in)};
-}
-
 /// The answer of a call that has to succeed.
 GitAnswer required(const GitFolder& source, const std::vector<std::string>& words,
                    std::string_view input = {}) {
-  constexpr int kNotFound = 127;
   GitAnswer answer = git(words, input);
-  if (answer.end.exit_code == kNotFound) refuse(source.text(), "git is not installed");
+  if (answer.is_missing()) refuse(source.text(), "git is not installed");
   if (!answer.end.is_success())
     refuse(source.text(), fmt::format("git: {}", printable(last_line(answer.messages), 500)));
   return answer;

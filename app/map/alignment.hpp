@@ -28,9 +28,16 @@ CertaintyFrame align(MapResult& result, const Reference& reference, const FrameF
 void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,
                      AffineFit fit);
 
-/// Warnings of a map in the frame of its anchors that is worth little: errors as large as if all
-/// landmarks were put at the anchors' mean, or, without a ground truth, landmarks far outside of
-/// what the anchors span. A sentence each.
-std::vector<std::string> frame_warnings(const MapRecord& record);
+/// Whether a map in the frame of its anchors is worth anything there.
+struct FrameCheck {
+  std::vector<std::string> warnings = {};  ///< A sentence each.
+  std::vector<FitCause> tests = {};        ///< For with_tests().
+};
+
+/// A map is worth little if its errors are as large as if all landmarks were put at the anchors'
+/// mean, or, without a ground truth, if its landmarks lie far outside of what the anchors span; or
+/// if it misses anchors. A map that was not in metres is met by its anchors but for their
+/// redundancy: by how much, compared with their spread, tells whether one is wrong.
+FrameCheck check_frame(const MapRecord& record);
 
 }  // namespace mapproof

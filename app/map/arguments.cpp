@@ -117,6 +117,7 @@ void add_incremental_options(CLI::App& app, MapJob& job) {
          "--uncertain-ids", job.uncertain_ids,
          "Landmark IDs that may be confused with one another, a,b,...: their data association "
          "is estimated together with the map, as that of the landmark ? in long CSV")
+      ->allow_extra_args(false)
       ->delimiter(',');
   app.add_option("--templates", job.templates, "Folder whose templates replace the embedded ones")
       ->check(names_folder());

@@ -12,6 +12,7 @@
 #include "app/map/option_table.hpp"
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
+#include "app/map/stop_rules.hpp"
 #include "app/map/reference.hpp"
 #include "app/understood.hpp"
 #include "core/base/errors.hpp"
@@ -22,9 +23,6 @@
 
 namespace mapproof {
 namespace {
-
-constexpr double kStressFall = 1e-10;
-constexpr int kMostIterations = 20'000;
 
 /// The method, and its parameter if one was given. @throws InvalidInput for an unknown method, or a
 /// parameter out of its bounds.
@@ -44,14 +42,13 @@ MethodSetting chosen_setting(const MapJob& job) {
 
 /// SMACOF's stop rules: near the minimum of the stress, unless it is to stop early.
 void set_stop_rules(MapJob& job) {
-  job.embedder.smacof.relative_fall = kStressFall;
-  job.embedder.smacof.max_iterations = kMostIterations;
+  job.embedder.smacof = near_minimum();
   if (!job.stress_fall) return;
   const bool is_weighted = method_of(job) == Method::kSmacofKnn;
   if (!is_weighted) job.embedder.smacof.relative_fall = *job.stress_fall;
   if (is_weighted || job.chooses_method())
     job.embedder.smacof_knn = {.relative_fall = *job.stress_fall,
-                               .max_iterations = kMostIterations};
+                               .max_iterations = near_minimum().max_iterations};
 }
 
 /// Opens the observations, and takes the sensor of detections from their columns if none is given.

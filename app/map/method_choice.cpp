@@ -63,6 +63,30 @@ Table ranking_table(const MethodChoice& choice) {
   return table;
 }
 
+/// The candidates that are as good as the best one, but for rounding; the best one first.
+std::vector<std::string> equals_of(const MethodChoice& choice) {
+  constexpr double kRounding = 1e-9;
+  std::vector<std::string> equals;
+  const auto value = [&](std::size_t m) {
+    return value_of(choice.maps[m].values, choice.criterion);
+  };
+  for (const std::size_t m : choice.order)
+    if (std::abs(value(m) - value(choice.order.front())) <=
+        kRounding * std::max(1.0, std::abs(value(choice.order.front()))))
+      equals.push_back(label(choice.maps[m].setting));
+  return equals;
+}
+
+/// "LPCA and ISOMAP, K = 6 are equally good by it; ..."; empty if one is the best.
+std::string equals_text(const MethodChoice& choice) {
+  const std::vector<std::string> equals = equals_of(choice);
+  if (equals.size() < 2) return "";
+  return fmt::format(
+      "{} candidates are equally good by \"{}\" ({}): the one tried first was "
+      "taken.",
+      equals.size(), info(choice.criterion).label, listed(equals, 6));
+}
+
 /// The ranking as a table, and in words what was done.
 Section choice_section(const MethodChoice& choice, bool is_asked) {
   const CriterionInfo& criterion = info(choice.criterion);
@@ -73,6 +97,8 @@ Section choice_section(const MethodChoice& choice, bool is_asked) {
       "criteria uses the ground truth; in simulated worlds this one chose best.",
       is_asked ? "by --method auto" : "since --method names none",
       counted(std::ssize(choice.maps), "candidate"), criterion.label, criterion.meaning)}}});
+  if (const std::string equals = equals_text(choice); !equals.empty())
+    section.blocks.emplace_back(Paragraph{{{equals}}});
   section.blocks.emplace_back(ranking_table(choice));
   return section;
 }
@@ -118,6 +144,8 @@ MapDraft choose(MapDraft draft, const MapJob& job) {
       {.embedder = job.embedder, .rule = draft.distances.of_others, .fit = job.affine_fit()});
   if (!choice.order.empty()) draft.setting = choice.maps[choice.order.front()].setting;
   draft.result.sections.push_back(choice_section(choice, job.chooses_method()));
+  if (std::string equals = equals_text(choice); !equals.empty())
+    draft.result.remarks.push_back(std::move(equals));
   draft.result.members.push_back({"choice", choice_json(choice)});
   return draft;
 }

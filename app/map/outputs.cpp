@@ -63,7 +63,8 @@ Report report_of(const MapOutput& location, const MapResult& map,
                      .provenance = build_provenance(),
                      .command = location.command,
                      .more = map.sections,
-                     .fit = fit_section(map.fit, of_fit)});
+                     .fit = fit_section(map.fit, of_fit),
+                     .verdict = verdict_text(map.fit)});
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.
@@ -137,7 +138,10 @@ std::string map_text(const MapResult& map, const fs::path& out) {
       fmt::format("Method: {}{}, {}, {} steps", method_label(record),
                   is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
   if (record.score)
-    if (const std::string score = score_text(*record.score); !score.empty()) text += ": " + score;
+    if (const std::string score = score_text(*record.score); !score.empty()) {
+      const std::string scored = scored_landmarks_text(record);
+      text += ": " + score + (scored.empty() ? "" : " (" + scored + ")");
+    }
   text += "\n" + verdict_text(map.fit);
   return text + "\n" + (out / "report.html").string() + "\n";
 }

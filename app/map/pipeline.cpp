@@ -12,8 +12,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
+#include "core/map_fit/map_fit.hpp"
 #include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
+#include "reports/sections/fit_section.hpp"
 
 namespace mapproof {
 namespace {
@@ -242,7 +244,10 @@ MapDraft explain(MapDraft draft, const MapJob& job) {
     map.facts.emplace_back(job.is_rigid() ? "Fit to the anchors" : "Affine fit to the anchors",
                            job.fit);
   }
-  for (std::string& warning : frame_warnings(record)) map.warnings.push_back(std::move(warning));
+  FrameCheck check = check_frame(record);
+  for (std::string& warning : check.warnings) map.warnings.push_back(std::move(warning));
+  for (FitCause& test : check.tests) test.figure = kFitSection;
+  map.fit = with_tests(std::move(map.fit), std::move(check.tests));
   return draft;
 }
 

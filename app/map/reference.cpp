@@ -40,8 +40,9 @@ Points matched_ground_truth(const MappedLandmarks& source, const NamedPointsFile
   const auto given = std::ssize(ground_truth.points.names);
   if (matched == 0)
     throw IoError(ground_truth.path,
-                  fmt::format("none of its {} names is a landmark of {} ({}, ...)", given,
-                              source.path, quoted_name(source.names.at(0))));
+                  fmt::format("none of its {} names is a landmark of {} ({}, ...){}", given,
+                              source.path, quoted_name(source.names.at(0)),
+                              case_hint(ground_truth.points.names.at(0), source.names)));
   if (matched < given)
     remarks.push_back(fmt::format(
         "True positions of landmarks that were not observed, not used: {}.", given - matched));
@@ -60,10 +61,10 @@ std::vector<Eigen::Index> matched_anchors(const MappedLandmarks& source,
     const std::string& name = anchors.points.names[i];
     const auto row = rows.find(name);
     if (row == rows.end())
-      throw IoError(
-          anchors.path, anchors.points.locations[i],
-          fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...)", quoted_name(name),
-                      source.landmarks(), source.path, quoted_name(source.names.at(0))));
+      throw IoError(anchors.path, anchors.points.locations[i],
+                    fmt::format("anchor {} is not among the {} landmarks of {} ({}, ...){}",
+                                quoted_name(name), source.landmarks(), source.path,
+                                quoted_name(source.names.at(0)), case_hint(name, source.names)));
     if (std::ranges::binary_search(source.unseen, row->second)) continue;
     positions.row(row->second) = anchors.points.positions_m.row(static_cast<Eigen::Index>(i));
     chosen.push_back(row->second);
@@ -136,6 +137,12 @@ std::optional<NamedPointsFile> read_points(const std::string& path, ColumnNames&
 
 std::string quoted_name(const std::string& name) { return "\"" + printable(name) + "\""; }
 
+std::string case_hint(const std::string& name, const std::vector<std::string>& names) {
+  const auto found = std::ranges::find_if(
+      names, [&](const std::string& known) { return lower_case(known) == lower_case(name); });
+  return found == names.end() ? "" : "; did you mean " + quoted_name(*found) + "?";
+}
+
 Reference reference_of(const MappedLandmarks& source, const std::optional<NamedPointsFile>& anchors,
                        const std::optional<NamedPointsFile>& ground_truth,
                        std::vector<std::string>& remarks) {
@@ -147,6 +154,8 @@ Reference reference_of(const MappedLandmarks& source, const std::optional<NamedP
   } else if (source.ground_truth_m) {
     known.positions_m = *source.ground_truth_m;
   }
+  for (const auto* file : {&anchors, &ground_truth})
+    if (*file && !(*file)->points.heights.empty()) remarks.push_back((*file)->points.heights);
   if (anchors) {
     const Points ground_truth_m = known.positions_m;
     known.anchors = matched_anchors(source, *anchors, known.positions_m);

@@ -13,6 +13,9 @@ namespace mapproof {
 /// A name from a file, between quotation marks.
 std::string quoted_name(const std::string& name);
 
+/// "; did you mean "B1"?" for a name that is one of the names but for its case; else empty.
+std::string case_hint(const std::string& name, const std::vector<std::string>& names);
+
 /// Positions read from a file, with its name for messages.
 struct NamedPointsFile {
   std::string path;

@@ -1,19 +1,25 @@
 #include "app/commands.hpp"
 
+#include <algorithm>
+#include <ctime>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "app/nightly/history_report.hpp"
+#include "app/nightly/nightly_outputs.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -26,18 +32,30 @@ struct HistoryArguments {
   std::optional<std::string> format;
   std::optional<int> pin;
   bool verify = false;
+  std::vector<std::string> note, known, accept;  ///< A target and a text each.
+  std::optional<std::string> decisions;          ///< File.
+  std::vector<int> compare;
 };
 
 int list(HistoryStore& history, const Console& console) {
   std::string text;
+  const std::vector<NightlyNote> notes = history.notes();
   for (const NightlyFacts& nightly_run : history.nightly_runs()) {
-    text += fmt::format("{:>5}  {}  {:<12}{}", nightly_run.number, nightly_run.started_utc,
-                        verdict_word(nightly_run), nightly_run.pinned ? "  pinned" : "");
+    text += fmt::format("{:>5}  {}  {:<9}  {:<12}{}", nightly_run.number, nightly_run.started_utc,
+                        short_commit(nightly_run.commit), verdict_word(nightly_run),
+                        nightly_run.pinned ? "  pinned" : "");
     for (const NightlyStudy& study : history.studies(nightly_run.number))
       text += fmt::format("  {} ({})", study.name, counted(study.runs, "run"));
     text += "\n";
-    for (const NightlyFinding& finding : history.findings(nightly_run.number))
-      text += fmt::format("         {}: {}\n", finding.study, finding.sentence);
+    int index = 0;
+    for (const NightlyFinding& finding : history.findings(nightly_run.number)) {
+      const NightlyNote* known = known_by(notes, finding);
+      text += fmt::format("{:>8}.{}  {}: {}{}\n", nightly_run.number, ++index, finding.study,
+                          finding.sentence, known == nullptr ? "" : "; known: " + known->text);
+    }
+    for (const NightlyNote& note : notes_on(nightly_run.number, notes))
+      if (note.kind != NoteKind::kKnown)
+        text += fmt::format("         {}: {}\n", name(note.kind), note.text);
   }
   if (text.empty()) text = "no nightly run yet\n";
   // The result of a command; the exported file names its own schema.
@@ -61,18 +79,90 @@ int verify(HistoryStore& history, const fs::path& store, const Console& console)
   return problems.empty() ? kDone : kNo;
 }
 
+/// Writes the pages again where there are some: they are to show what changed.
+void write_pages_again(HistoryStore& history, const HistoryArguments& arguments,
+                       const Invocation& invocation) {
+  std::error_code error;
+  if (!fs::exists(fs::path(arguments.store) / "index.html", error)) return;
+  const Templates page = load_templates();
+  const HistoryOutputs outputs{arguments.store, arguments.store, page, 1, invocation.disclosure};
+  write_history_pages(history, outputs, read_index_facts(history, outputs, {}));
+}
+
+FolderLock locked(const HistoryArguments& arguments, const Console& console) {
+  return FolderLock(arguments.store, [&] {
+    console.warning(arguments.store + ": a nightly run is being made in it; waiting for its end");
+  });
+}
+
+/// What the options say, as notes; one per finding of what is known of a whole nightly run.
+std::vector<NightlyNote> asked_notes(HistoryStore& history, const HistoryArguments& arguments) {
+  std::vector<NightlyNote> asked;
+  if (arguments.decisions)
+    asked = parse_decisions(read_file(*arguments.decisions), *arguments.decisions);
+  const auto add = [&](const std::vector<std::string>& words, NoteKind kind,
+                       std::string_view option) {
+    if (!words.empty()) asked.push_back(note_of({words[0], kind, words[1]}, option));
+  };
+  add(arguments.note, NoteKind::kNote, "--note");
+  add(arguments.known, NoteKind::kKnown, "--known");
+  add(arguments.accept, NoteKind::kAccepted, "--accept");
+  std::vector<NightlyNote> notes;
+  for (const NightlyNote& note : asked) {
+    const std::vector<NightlyFinding> findings = history.findings(note.nightly_run);
+    if (note.kind == NoteKind::kKnown && findings.empty())
+      throw InvalidInput(fmt::format("nightly run {} has no finding", note.nightly_run));
+    std::ranges::move(by_finding(note, findings), std::back_inserter(notes));
+  }
+  for (NightlyNote& note : notes)
+    note.written_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  return notes;
+}
+
+int note_in(HistoryStore& history, const HistoryArguments& arguments,
+            const Invocation& invocation) {
+  const FolderLock lock = locked(arguments, invocation.console);
+  const std::vector<NightlyNote> notes = asked_notes(history, arguments);
+  history.add_notes(notes);
+  write_pages_again(history, arguments, invocation);
+  invocation.console.result(counted(std::ssize(notes), "note") + " written\n",
+                            {{"notes", notes.size()}});
+  return kDone;
+}
+
+/// Compares each study that both nightly runs have.
+int compare(HistoryStore& history, const HistoryArguments& arguments,
+            const Invocation& invocation) {
+  NightlyPair pair{.before = arguments.compare[0], .after = arguments.compare[1]};
+  const std::vector<NightlyFacts> all = history.nightly_runs();
+  for (const int number : arguments.compare)
+    if (std::ranges::find(all, number, &NightlyFacts::number) == all.end())
+      throw InvalidInput(fmt::format("--compare: there is no nightly run {}", number));
+  const std::vector<NightlyStudy> others = history.studies(pair.after);
+  for (const NightlyStudy& study : history.studies(pair.before))
+    if (std::ranges::find(others, study.name, &NightlyStudy::name) != others.end())
+      pair.studies.push_back(study.name);
+  const FolderLock lock = locked(arguments, invocation.console);
+  const Templates page = load_templates();
+  const HistoryOutputs outputs{arguments.store, arguments.store, page, 1, invocation.disclosure};
+  const std::vector<std::string> written = write_comparisons(pair, outputs);
+  if (written.empty())
+    throw InvalidInput(fmt::format("--compare: nightly runs {} and {} have no study in common whose "
+                                   "files are still there",
+                                   pair.before, pair.after));
+  write_pages_again(history, arguments, invocation);
+  std::string text;
+  for (const std::string& file : written) text += (outputs.out / file).string() + "\n";
+  invocation.console.result(text, {{"pages", written}});
+  return kDone;
+}
+
 int prune_by(HistoryStore& history, const HistoryArguments& arguments,
              const Invocation& invocation) {
   const Console& console = invocation.console;
-  const FolderLock lock(arguments.store, [&] {
-    console.warning(arguments.store + ": a nightly run is being made in it; waiting for its end");
-  });
+  const FolderLock lock = locked(arguments, console);
   const Pruned pruned = prune(history, arguments.store, parse_prune_rule(*arguments.prune));
-  std::error_code error;
-  if (fs::exists(fs::path(arguments.store) / "index.html", error))  // Its links are to be true.
-    write_history_pages(
-        history, {arguments.store, arguments.store, load_templates(), 1, invocation.disclosure},
-        {});
+  write_pages_again(history, arguments, invocation);
   console.result(
       fmt::format("{} and {} removed\n",
                   counted(static_cast<long long>(pruned.nightly_runs.size()), "nightly run"),
@@ -91,8 +181,13 @@ int history_of(const HistoryArguments& arguments, const Invocation& invocation) 
   HistoryStore history = HistoryStore::open_existing(arguments.store);
   if (arguments.prune) return prune_by(history, arguments, invocation);
   if (arguments.verify) return verify(history, arguments.store, console);
+  if (!arguments.note.empty() || !arguments.known.empty() || !arguments.accept.empty() ||
+      arguments.decisions)
+    return note_in(history, arguments, invocation);
+  if (!arguments.compare.empty()) return compare(history, arguments, invocation);
   if (arguments.pin) {
     history.pin(*arguments.pin);
+    write_pages_again(history, arguments, invocation);
     console.result(fmt::format("nightly run {} is pinned\n", *arguments.pin),
                    {{"pinned", *arguments.pin}});
     return kDone;
@@ -114,9 +209,14 @@ Action history_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof history history\n"
       "  mapproof history history --prune last=30,every=7\n"
-      "  mapproof history history --export csv > nightly_runs.csv\n\n"
-      "Later nightly runs are compared with a pinned one: pin a nightly run to accept its "
+      "  mapproof history history --export csv > nightly_runs.csv\n"
+      "  mapproof history history --known 7.2 \"broken sensor, issue 12\"\n"
+      "  mapproof history history --accept 7 \"new solver\"\n"
+      "  mapproof history history --compare 5 6\n\n"
+      "Later nightly runs are compared with a pinned one: accept or pin a nightly run to accept its "
       "changes.\n"
+      "A finding that is known fails no nightly run until it gets worse. An empty text removes "
+      "what was said.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
   app.add_option("STORE", arguments->store, "Folder of the history, the --store of nightly")
       ->required()
@@ -131,9 +231,28 @@ Action history_command(CLI::App& app) {
       ->transform(one_of({"csv", "json"}));
   what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
       ->check(CLI::PositiveNumber);
+  const auto add_note = [&](const char* option, std::vector<std::string>& words,
+                            const char* text) {
+    what->add_option(option, words, text)->expected(2)->type_name("N TEXT");
+  };
+  add_note("--note", arguments->note,
+           "Keep a text with nightly run N, or with finding K of it: N.K");
+  add_note("--known", arguments->known,
+           "Mark the findings of nightly run N, or finding N.K, as known, with a text");
+  add_note("--accept", arguments->accept, "Pin nightly run N, with a text");
+  what->add_option("--from", arguments->decisions,
+                   "Take the decisions in a file that the index page saved")
+      ->type_name("FILE");
+  what->add_option("--compare", arguments->compare,
+                   "Compare nightly runs A and B study by study, and write a page of each")
+      ->expected(2)
+      ->type_name("A B")
+      ->check(CLI::PositiveNumber);
   what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
   what->require_option(0, 1);
-  group_options(app, {{"Task", {"--prune", "--export", "--pin", "--verify"}}});
+  group_options(app, {{"Task",
+                       {"--prune", "--export", "--pin", "--note", "--known", "--accept", "--from",
+                        "--compare", "--verify"}}});
   return [arguments](const Invocation& invocation) { return history_of(*arguments, invocation); };
 }
 

@@ -8,6 +8,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/history/judge_nightly_run.hpp"
+#include "reports/history/nightly_summary.hpp"
 #include "reports/html/report_html.hpp"
 
 namespace mapproof {
@@ -18,16 +19,16 @@ namespace {
 
 constexpr const char* kIndex = "index.html";
 
-/// Writes trends/STUDY/report.html of a study of the last nightly run. @return The trend.
-StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
-                       const NightlyStudy& study, const IndexFacts& facts) {
+/// Writes trends/STUDY/report.html of a study of the last nightly run.
+void write_trend(HistoryStore& history, const HistoryOutputs& outputs, const NightlyStudy& study,
+                 const IndexFacts& facts) {
+  const auto trend = std::ranges::find(facts.trends, study.name, &StudyTrend::name);
+  if (trend == facts.trends.end()) return;
   const NightlyFacts& this_run = facts.nightly_runs.back();
-  StudyTrend trend =
-      history.trend(study.name, study.experiment_digest, kTrendRuns, this_run.number);
   const bool is_compared = this_run.reference && has_study(history, *this_run.reference, study);
   const fs::path folder = outputs.out / "trends" / study.name;
-  HistoryPage shown = trend_page(trend, facts.findings, is_compared,
-                                 paths_from(folder, outputs.out, outputs.store));
+  HistoryPage shown = trend_page(*trend, facts.findings, is_compared,
+                                 paths_from(folder, outputs.out, outputs.store), facts.notes);
   const FolderReport report{.folder = folder,
                             .report = std::move(shown.report),
                             .in_company = {},
@@ -39,11 +40,32 @@ StudyTrend write_trend(HistoryStore& history, const HistoryOutputs& outputs,
                             .link_words = std::move(shown.link_words)};
   make_folder(folder);
   write_report(report, {outputs.page, outputs.jobs, outputs.disclosure}, FolderLock(folder));
-  return trend;
 }
 
-IndexFacts read_facts(HistoryStore& history, const fs::path& store,
-                      std::span<const std::string> remarks) {
+/// Nightly runs that the feed has; readers keep older ones themselves.
+constexpr std::size_t kMostEntries = 30;
+
+/// Each of the last nightly runs by itself, the last one first.
+std::vector<NightlySummary> last_summaries(const IndexFacts& facts) {
+  std::vector<NightlySummary> summaries = {last_summary(facts)};
+  const std::size_t count = facts.nightly_runs.size();
+  for (std::size_t i = 1; i < std::min(count, kMostEntries); ++i) {
+    const NightlyFacts& nightly_run = facts.nightly_runs[count - 1 - i];
+    const auto found = facts.findings.find(nightly_run.number);
+    NightlySummary summary{.facts = nightly_run,
+                           .notes = notes_on(nightly_run.number, facts.notes)};
+    if (found != facts.findings.end())
+      summary.groups = grouped(found->second, facts.trends, facts.notes);
+    summaries.push_back(std::move(summary));
+  }
+  return summaries;
+}
+
+}  // namespace
+
+IndexFacts read_index_facts(HistoryStore& history, const HistoryOutputs& outputs,
+                            std::span<const std::string> remarks) {
+  const fs::path& store = outputs.store;
   IndexFacts facts{.nightly_runs = history.nightly_runs(),
                    .remarks = {remarks.begin(), remarks.end()}};
   for (const NightlyFacts& nightly_run : facts.nightly_runs) {
@@ -52,10 +74,14 @@ IndexFacts read_facts(HistoryStore& history, const fs::path& store,
       facts.studies[nightly_run.number].push_back(study.name);
   }
   facts.lost = lost_nightly_runs(store, facts.nightly_runs);
+  facts.notes = history.notes();
+  facts.comparisons = comparisons_in(outputs.out);
+  if (!facts.nightly_runs.empty())
+    for (const NightlyStudy& study : history.studies(facts.nightly_runs.back().number))
+      facts.trends.push_back(history.trend(study.name, study.experiment_digest, kTrendRuns,
+                                           facts.nightly_runs.back().number));
   return facts;
 }
-
-}  // namespace
 
 HistoryFolders paths_from(const fs::path& folder, const fs::path& out, const fs::path& store) {
   const auto to = [&](const fs::path& target) {
@@ -68,12 +94,20 @@ HistoryFolders paths_from(const fs::path& folder, const fs::path& out, const fs:
 }
 
 fs::path write_history_pages(HistoryStore& history, const HistoryOutputs& outputs,
-                             std::span<const std::string> remarks) {
+                             const IndexFacts& facts) {
   const fs::path& out = outputs.out;
-  IndexFacts facts = read_facts(history, outputs.store, remarks);
-  if (!facts.nightly_runs.empty())
+  if (!facts.nightly_runs.empty()) {
     for (const NightlyStudy& study : history.studies(facts.nightly_runs.back().number))
-      facts.trends.push_back(write_trend(history, outputs, study, facts));
+      write_trend(history, outputs, study, facts);
+    const std::vector<NightlySummary> summaries = last_summaries(facts);
+    OutputFolder(out).write(
+        "feed.xml", outputs.disclosure.text(nightly_feed(
+                        {.identifier = history.identifier(),
+                         .summaries = summaries,
+                         .nightly_runs = paths_from(out, out, outputs.store).nightly_runs})));
+    OutputFolder(out).write("badge.svg", nightly_badge(summaries.front()));
+    OutputFolder(out).write("badge.json", nightly_badge_json(summaries.front()));
+  }
   const HistoryPage shown = index_page(facts, paths_from(out, out, outputs.store));
   HtmlOptions options{.figure_folder = "", .table_folder = ""};
   options.link_words = shown.link_words;

@@ -24,11 +24,14 @@ struct HistoryOutputs {
   const Disclosure& disclosure;
 };
 
-/// Writes index.html and, of every study of the last nightly run, trends/STUDY/report.html with its
-/// figures, again from the history.
-/// @param remarks  On the last nightly run.
+/// What the pages show of a history, whose last nightly run has these remarks. @throws IoError.
+IndexFacts read_index_facts(HistoryStore& history, const HistoryOutputs& outputs,
+                            std::span<const std::string> remarks);
+
+/// Writes index.html, feed.xml, badge.svg, badge.json and, of every study of the last nightly run,
+/// trends/STUDY/report.html with its figures, again from the history.
 /// @return The path of index.html. @throws IoError.
 std::filesystem::path write_history_pages(HistoryStore& history, const HistoryOutputs& outputs,
-                                          std::span<const std::string> remarks);
+                                          const IndexFacts& facts);
 
 }  // namespace mapproof

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <ctime>
 #include <memory>
+#include <set>
+#include <stdexcept>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -15,14 +17,17 @@
 
 #include "app/build_facts.hpp"
 #include "app/nightly/history_report.hpp"
+#include "app/nightly/nightly_outputs.hpp"
 #include "app/nightly/nightly_folders.hpp"
 #include "app/nightly/nightly_study.hpp"
+#include "app/nightly/tested_commit.hpp"
 #include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/retired_names.hpp"
+#include "core/base/version.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/value_fields.hpp"
@@ -31,7 +36,8 @@
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/nightly_standing.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/nightly_summary.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -47,6 +53,12 @@ struct NightlyArguments {
   std::string reference = kLastPassing;
   int jobs = 1;
   std::optional<std::string> templates;
+  std::vector<std::string> metrics;
+  std::optional<std::string> better;
+  CommitOptions commit;
+  std::string build;
+  std::optional<int> bisect;
+  NightlyWishes wishes;
   StudyOptions request;
 };
 
@@ -66,10 +78,18 @@ std::optional<int> asked_reference(const std::string& text) {
   return number;
 }
 
+/// Seconds east of UTC, now.
+int utc_offset_s() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  return ::localtime_r(&now, &local) == nullptr ? 0 : static_cast<int>(local.tm_gmtoff);
+}
+
 NightlyFacts begun(int number, int jobs, const SessionNames& names) {
   utsname system{};
   return {.number = number,
           .started_utc = now_utc(),
+          .utc_offset_s = utc_offset_s(),
           .ended_utc = "",
           .command = names.command,
           .provenance = json_line(to_json_value(build_provenance())),
@@ -88,13 +108,15 @@ int make_all(const std::vector<StudyRequest>& requests, const fs::path& folder, 
   return worst;
 }
 
-/// What each study is, from its records.
-std::vector<NightlyStudy> read_all(const std::vector<StudyRequest>& requests,
-                                   const fs::path& folder) {
-  std::vector<NightlyStudy> studies;
-  for (const StudyRequest& request : requests)
-    studies.push_back(read_nightly_study(folder / request.name, request.name));
-  return studies;
+/// Each study of a nightly run that is not recorded yet, over the nightly runs.
+std::vector<StudyTrend> trends_with(HistoryStore& history, const NightlyRun& nightly_run) {
+  std::vector<StudyTrend> trends;
+  for (const NightlyStudy& study : nightly_run.studies) {
+    trends.push_back(history.trend(study.name, study.experiment_digest, kTrendRuns,
+                                   nightly_run.facts.number - 1));
+    add_this_run(trends.back(), nightly_run.facts, study);
+  }
+  return trends;
 }
 
 /// Draws a study's report. @return Whether all of its scenes could be drawn; a warning if not.
@@ -125,6 +147,8 @@ bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& f
   const ObjectFolder objects(outputs.store / "objects");
   const bool begins = history.nightly_runs().empty();
   const LostNightlyRuns lost = begins ? lost_nightly_runs(outputs.store, {}) : LostNightlyRuns{};
+  const std::vector<FindingGroup> groups =
+      grouped(nightly_run.findings, trends_with(history, nightly_run), history.notes());
   bool scenes_drawn = true;
   for (NightlyStudy& study : nightly_run.studies) {
     FolderReport report =
@@ -134,7 +158,12 @@ bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& f
     NightlyLinks links(paths_from(folder / study.name, outputs.out, outputs.store));
     add_nightly_run(
         report.report,
-        {.nightly_run = nightly_run, .name = study.name, .is_compared = is_compared, .lost = lost},
+        {.nightly_run = nightly_run,
+         .name = study.name,
+         .is_compared = is_compared,
+         .lost = lost,
+         .groups = groups,
+         .figures = report.figures},
         links);
     report.link_words = links.words();
     scenes_drawn &= draw(report, outputs, invocation.console);
@@ -154,14 +183,32 @@ int exit_code(NightlyVerdict verdict) {
   }
 }
 
+/// Where to search for what got worse, once per nightly run in which something began.
+std::string commits_text(const NightlySummary& summary) {
+  std::string text;
+  std::set<int> named;
+  for (const FindingGroup& group : summary.groups)
+    if (!group.known && group.commits.has_commits() &&
+        named.insert(group.commits.since.number).second)
+      text += fmt::format("  since nightly run {}: commits {}\n    {}\n",
+                          group.commits.since.number, group.commits.text(), group.commits.bisect());
+  return text;
+}
+
 /// The first findings of each study, and where all of them stand.
-std::string nightly_text(const NightlyRun& nightly_run, const std::vector<std::string>& remarks,
+std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& summary,
                          const fs::path& pages) {
-  std::string text = fmt::format("nightly run {}: {}\n", nightly_run.facts.number,
-                                 verdict_sentence(nightly_run.facts, nightly_run.findings.size()));
+  NightlyFacts facts = nightly_run.facts;
+  facts.verdict = summary.verdict();
+  std::string text = fmt::format("nightly run {}: {}\n", facts.number,
+                                 verdict_sentence(facts, summary.new_findings()));
+  for (const FindingGroup& group : summary.groups)
+    if (group.known)
+      text += fmt::format("  {}: {}, known: {}\n", group.study, group.headline(),
+                          group.known->text);
   for (const NightlyStudy& study : nightly_run.studies) {
     std::size_t count = 0;
-    for (const NightlyFinding& finding : nightly_run.findings)
+    for (const NightlyFinding& finding : new_findings(nightly_run.findings, summary.all_notes))
       if (finding.study == study.name && ++count <= kMostReported)
         text += fmt::format("  {}: {}\n", finding.study, finding.sentence);
     if (count > kMostReported)
@@ -169,20 +216,85 @@ std::string nightly_text(const NightlyRun& nightly_run, const std::vector<std::s
           fmt::format("  {}: and {} more: {}#section-findings\n", study.name, count - kMostReported,
                       (pages / "trends" / study.name / "report.html").string());
   }
-  for (const std::string& remark : remarks) text += fmt::format("  ({})\n", remark);
+  text += commits_text(summary);
+  for (const std::string& remark : summary.remarks) text += fmt::format("  ({})\n", remark);
   return text;
 }
 
-int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
+/// Pages that compare the nightly runs between which something new began. A failure is a warning:
+/// the nightly run is recorded already.
+void compare_where_it_began(const NightlySummary& summary, const HistoryOutputs& outputs,
+                            const Console& console) {
+  std::set<std::string> there = comparisons_in(outputs.out);
+  for (const FindingGroup& group : summary.groups) {
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    if (group.known || before == 0 ||
+        !there.insert(comparison_file(before, since, group.study)).second)
+      continue;
+    try {
+      write_comparisons({before, since, {group.study}}, outputs);
+    } catch (const std::runtime_error& error) {
+      console.warning(error.what());
+    }
+  }
+}
+
+/// What a nightly run ended with.
+struct NightlyEnd {
+  int exit_code = kDone;
+  NightlySummary summary = {};
+  fs::path index = {};  ///< Empty: it is not recorded.
+};
+
+/// Writes the pages of a history, and those that compare. @return How its last nightly run ended.
+NightlyEnd write_pages(HistoryStore& history, const std::vector<std::string>& remarks,
+                       const HistoryOutputs& outputs, const Console& console) {
+  NightlyEnd end{.summary = last_summary(read_index_facts(history, outputs, remarks))};
+  compare_where_it_began(end.summary, outputs, console);
+  end.index = write_history_pages(history, outputs, read_index_facts(history, outputs, remarks));
+  end.exit_code = exit_code(end.summary.verdict());
+  return end;
+}
+
+void say(const NightlyRun& nightly_run, const NightlyEnd& end, const fs::path& pages,
+         const Console& console) {
+  nlohmann::ordered_json object = nightly_value(nightly_run.facts, nightly_run.findings);
+  object["new_findings"] = end.summary.new_findings();
+  object["remarks"] = end.summary.remarks;
+  object["index"] = end.index.string();
+  console.result(nightly_text(nightly_run, end.summary, pages) + end.index.string() + "\n", object);
+}
+
+/// The facts of a nightly run that begins, with the commit that it measures.
+NightlyFacts facts_of(int number, const NightlyArguments& arguments, const SessionNames& names,
+                      const TestedCommit& commit) {
+  NightlyFacts facts = begun(number, arguments.jobs, names);
+  facts.commit = commit.id;
+  facts.repository = commit.repository;
+  facts.build = arguments.build;
+  return facts;
+}
+
+/// The commit that is asked for, else what a file of metrics says, else that of the folder here.
+TestedCommit measured_commit(CommitOptions options, const TestedCommit& of_metrics) {
+  if (!options.commit && !of_metrics.id.empty()) {
+    options.commit = of_metrics.id;
+    if (!options.repository && !of_metrics.repository.empty())
+      options.repository = of_metrics.repository;
+  }
+  return tested_commit(options, {std::string(source_commit()), ""});
+}
+
+NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequests& requests,
+                            const Invocation& invocation) {
   const Console& console = invocation.console;
   const Templates page = load_templates(arguments.templates);
   const std::optional<int> asked = asked_reference(arguments.reference);
-  const std::vector<StudyRequest> requests =
-      read_nightly_requests(arguments.experiments, arguments.request);
   const fs::path store = arguments.store;
   const HistoryOutputs outputs{store, out_of(arguments), page, arguments.jobs,
                                invocation.disclosure};
   const SessionNames names{invocation.command, invocation.disclosure.host()};
+  const TestedCommit commit = measured_commit(arguments.commit, requests.commit);
   make_folder(store);
   const FolderLock lock(store, [&] {
     console.warning(store.string() +
@@ -193,34 +305,82 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
   HistoryStore history = HistoryStore::open(store);
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
-  NightlyRun nightly_run{.facts = begun(next_nightly_run(history, store), arguments.jobs, names)};
+  NightlyRun nightly_run{
+      .facts = facts_of(next_nightly_run(history, store), arguments, names, commit)};
   if (asked) {  // Refused before hours of work.
-    nightly_run.studies = planned_studies(requests);
+    nightly_run.studies = planned_studies(requests.studies);
     reference_nightly_run(history, nightly_run, asked);
   }
   const fs::path folder = nightly_folder(store, nightly_run.facts.number);
   say_when_stopped(kContinuesWord);
-  begin_nightly_run(folder, requests, console);
-  const int made = make_all(requests, folder, arguments.jobs, names, console);
+  begin_nightly_run(folder, requests.studies, console);
+  const int made = make_all(requests.studies, folder, arguments.jobs, names, console);
   if (made != kDone) {
     console.warning(fmt::format("nightly run {}: not recorded, since a study was not finished",
                                 nightly_run.facts.number));
-    return made;
+    return {.exit_code = made};
   }
-  nightly_run.studies = read_all(requests, folder);
-  const std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
+  nightly_run.studies = read_nightly_studies(requests.studies, folder);
+  std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
+  remarks.insert(remarks.end(), requests.remarks.begin(), requests.remarks.end());
   const bool scenes_drawn = write_all(nightly_run, history, folder, outputs, invocation);
   nightly_run.facts.ended_utc = now_utc();
   history.append(nightly_run);
   end_nightly_run(folder, nightly_run);
-  const fs::path index = write_history_pages(history, outputs, remarks);
+  NightlyEnd end = write_pages(history, remarks, outputs, console);
+  write_summaries(end.summary, arguments.wishes, outputs.disclosure);
+  say(nightly_run, end, outputs.out, console);
+  if (!scenes_drawn) end.exit_code = kInternal;
+  return end;
+}
 
-  nlohmann::ordered_json object = nightly_value(nightly_run.facts, nightly_run.findings);
-  object["remarks"] = remarks;
-  object["index"] = index.string();
-  console.result(nightly_text(nightly_run, remarks, out_of(arguments)) + index.string() + "\n",
-                 object);
-  return scenes_drawn ? exit_code(nightly_run.facts.verdict) : kInternal;
+int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
+  const NightlyRequests requests = read_nightly_requests(
+      {.experiments = arguments.experiments,
+       .metrics = arguments.metrics,
+       .better = arguments.better ? better_named(*arguments.better) : std::nullopt,
+       .options = arguments.request});
+  if (arguments.bisect)
+    return bisect(requests,
+                  {arguments.store, *arguments.bisect, arguments.jobs,
+                   {invocation.command, invocation.disclosure.host()}},
+                  invocation.console);
+  const NightlyEnd end = make_nightly_run(arguments, requests, invocation);
+  // The history is free again: the command may ask it.
+  if (!end.index.empty())
+    run_on_worse(end.summary, arguments.wishes, end.index, invocation.console);
+  return end.exit_code;
+}
+
+void add_commit_options(CLI::App& app, NightlyArguments& arguments) {
+  app.add_option("--commit", arguments.commit.commit,
+                 "Commit that is measured, or none; by default what --metrics says, else HEAD of the git "
+                 "repository here, else that of this program")
+      ->type_name("ID");
+  app.add_option("--repository-url", arguments.commit.repository,
+                 "Address of the repository for links to commits, or none; by default that of the "
+                 "remote origin")
+      ->type_name("URL");
+  app.add_option("--build", arguments.build,
+                 "Command that builds what is measured, and makes its metrics, for the line of git "
+                 "bisect")
+      ->type_name("COMMAND");
+  app.add_option("--bisect", arguments.bisect,
+                 "For git bisect: record nothing; end with 0 if what got worse in nightly run N is "
+                 "as before it, with 1 if not, with 125 if it cannot be tested")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_wish_options(CLI::App& app, NightlyWishes& wishes) {
+  app.add_option("--markdown", wishes.markdown, "Write a summary in Markdown, e.g. nightly.md")
+      ->type_name("FILE");
+  app.add_option("--junit", wishes.junit, "Write the verdicts as JUnit XML, e.g. nightly.junit.xml")
+      ->type_name("FILE");
+  app.add_option("--on-worse", wishes.on_worse,
+                 "Run a command of the shell if something new got worse; it reads the summary in "
+                 "Markdown")
+      ->type_name("COMMAND");
 }
 
 }  // namespace
@@ -231,19 +391,31 @@ Action nightly_command(CLI::App& app) {
   app.footer(
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
-      "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n\n"
+      "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n"
+      "  mapproof nightly --metrics bench.json --better lower --store history --markdown nightly.md\n"
+      "  mapproof nightly --metrics bench.json --store history --on-worse 'mail -s worse me'\n\n"
       "Exit codes:\n"
       "  0  nothing got worse, or there was no run to compare with\n"
       "  1  accuracy got worse, or results are lost\n"
       "  2  wrong usage or input\n"
       "  3  internal error\n"
-      "  4  only seconds or memory grew\n\n"
+      "  4  only seconds or memory grew\n"
+      "  125  with --bisect: the commit cannot be tested\n\n"
       "docs/nightly.md has the rules, and shows how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,
          fmt::format("Experiments' JSON files, folders with a results.csv of your own, or {}",
-                     fmt::join(experiment_names(), ", ")))
-      ->required();
+                     fmt::join(experiment_names(), ", ")));
+  app.add_option("--metrics", arguments->metrics,
+                 "Numbers of another program: JSON of mapproof.metrics, github-action-benchmark, "
+                 "Google Benchmark or pytest-benchmark; several times")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  app.add_option("--better", arguments->better,
+                 "Which way metrics improve whose file does not say it")
+      ->transform(one_of({"lower", "higher"}));
+  add_commit_options(app, *arguments);
+  add_wish_options(app, arguments->wishes);
   app.add_option("--store", arguments->store, "Folder of the history; made if it is not there")
       ->required()
       ->check(names_folder());
@@ -259,10 +431,12 @@ Action nightly_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_data_options(app, arguments->request);
-  group_options(app, {{"Input", {"EXPERIMENT"}},
+  group_options(app, {{"Input", {"EXPERIMENT", "--metrics", "--better"}},
                       {"Experiment", {"--profile"}},
-                      {"Comparison", {"--reference"}},
-                      {"Output", {"--store", "--templates"}}});
+                      {"Comparison", {"--reference", "--bisect"}},
+                      {"Commits", {"--commit", "--repository-url", "--build"}},
+                      {"Output",
+                       {"--store", "--templates", "--markdown", "--junit", "--on-worse"}}});
   return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
 }
 

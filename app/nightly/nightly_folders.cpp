@@ -86,6 +86,19 @@ void end_nightly_run(const fs::path& folder, const NightlyRun& nightly_run) {
   OutputFolder(folder).write_durably(kEndFile, nightly_json(nightly_run));
 }
 
+std::set<std::string> comparisons_in(const fs::path& out) {
+  std::set<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator pair(out / "compare", error), end; !error && pair != end;
+       pair.increment(error)) {
+    std::error_code inner;
+    for (fs::directory_iterator page(pair->path(), inner); !inner && page != end;
+         page.increment(inner))
+      files.insert(page->path().lexically_relative(out).generic_string());
+  }
+  return files;
+}
+
 LostNightlyRuns lost_nightly_runs(const fs::path& store, std::span<const NightlyFacts> known) {
   LostNightlyRuns lost;
   for (const std::string& name : names_in(store))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ void begin_nightly_run(const std::filesystem::path& folder,
 /// finished.
 /// @throws IoError.
 void end_nightly_run(const std::filesystem::path& folder, const NightlyRun& nightly_run);
+
+/// comparison_file() of every page that is there. @param out  The folder of the pages.
+std::set<std::string> comparisons_in(const std::filesystem::path& out);
 
 /// What is left of nightly runs that no history knows any more, since theirs was damaged: empty if
 /// none was.

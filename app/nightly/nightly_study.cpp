@@ -1,5 +1,12 @@
 #include "app/nightly/nightly_study.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -9,9 +16,17 @@
 #include "app/study/study_run.hpp"
 #include "core/base/child_process.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/sha256.hpp"
+#include "core/base/text/slug.hpp"
+#include "core/records/metrics/metrics_json.hpp"
 #include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
+#include "reports/history/finding_groups.hpp"
+#include "reports/history/history_store.hpp"
+#include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_scores.hpp"
 
 namespace mapproof {
@@ -34,12 +49,18 @@ namespace {
 
 }  // namespace
 
-std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& experiments,
-                                                StudyOptions options) {
+NightlyRequests read_nightly_requests(const NightlyInput& input) {
+  StudyOptions options = input.options;
   options.profile_if_there = options.one_of_several = true;
-  std::vector<StudyRequest> requests;
+  NightlyRequests all;
+  std::vector<StudyRequest>& requests = all.studies;
   std::map<std::string, std::string> files;  // By the study's name.
-  for (const std::string& experiment : experiments) {
+  const auto add = [&](StudyRequest request, const std::string& file) {
+    const auto [other, is_new] = files.try_emplace(request.name, file);
+    if (!is_new) refuse_same_name(request, other->second, file);
+    requests.push_back(std::move(request));
+  };
+  for (const std::string& experiment : input.experiments) {
     refuse_links_out(experiment);  // Of the folder of a study of results.
     StudyRequest request;
     std::string file = (fs::path(experiment) / kStudyFile).string();
@@ -50,19 +71,38 @@ std::vector<StudyRequest> read_nightly_requests(const std::vector<std::string>& 
       file = text.source;
       request = read_study_request(text, options);
     }
-    const auto [other, is_new] = files.try_emplace(request.name, file);
-    if (!is_new) refuse_same_name(request, other->second, file);
-    requests.push_back(std::move(request));
+    add(std::move(request), file);
   }
   check_data_used(requests, options);
-  return requests;
+  for (const std::string& file : input.metrics) {
+    MetricsRequest metrics = read_metrics_request(file, input.better);
+    if (!metrics.commit.id.empty()) all.commit = metrics.commit;
+    std::ranges::move(metrics.remarks, std::back_inserter(all.remarks));
+    add(std::move(metrics.study), file);
+  }
+  if (requests.empty())
+    throw InvalidInput("there is nothing to run: name an EXPERIMENT, or a file with --metrics");
+  return all;
 }
 
 std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests) {
   std::vector<NightlyStudy> studies;
   for (const StudyRequest& request : requests)
     studies.push_back({.name = request.name,
-                       .experiment_digest = experiment_digest(study_json(request), request.name)});
+                       .experiment_digest =
+                           request.compared_by.empty()
+                               ? experiment_digest(study_json(request), request.name)
+                               : request.compared_by});
+  return studies;
+}
+
+std::vector<NightlyStudy> read_nightly_studies(const std::vector<StudyRequest>& requests,
+                                               const fs::path& folder) {
+  std::vector<NightlyStudy> studies;
+  for (const StudyRequest& request : requests) {
+    studies.push_back(read_nightly_study(folder / request.name, request.name));
+    if (!request.compared_by.empty()) studies.back().experiment_digest = request.compared_by;
+  }
   return studies;
 }
 
@@ -79,6 +119,157 @@ int make_apart(const StudyRequest& request, const fs::path& folder, int jobs,
   } catch (const ProcessError& error) {
     throw IoError(folder.string(), error.what());
   }
+}
+
+namespace {
+
+/// A study's name: of the file's, what ids may hold.
+std::string study_name(const Metrics& metrics, const std::string& file) {
+  std::string name =
+      metrics.name.empty() ? slug_of(std::filesystem::path(file).stem().string()) : metrics.name;
+  if (name.empty() || name.front() < 'a') name = "metrics" + (name.empty() ? "" : "-" + name);
+  return name;
+}
+
+ResultsStudy study_of(const Metrics& metrics, const std::string& name) {
+  ResultsStudy study;
+  study.name = study.title = name;
+  study.question = "Numbers of another program.";
+  for (const Metric& metric : metrics.metrics) {
+    const Quantity quantity = quantity_of(metric);
+    study.results.quantities.declare(quantity);
+    if (std::ranges::find(study.quantities, quantity.id) == study.quantities.end())
+      study.quantities.push_back(quantity.id);
+    study.results.rows.push_back({.at = {.setup = metric.suite},
+                                  .method = metric.name,
+                                  .quantity = quantity.id,
+                                  .value = metric.value});
+  }
+  return study;
+}
+
+}  // namespace
+
+MetricsRequest read_metrics_request(const std::string& file, std::optional<Better> better) {
+  const Metrics metrics = parse_metrics(read_file(file), file, better);
+  MetricsRequest request{.commit = {metrics.commit, ""}};
+  if (const std::string page = page_of_remote(metrics.repository); !page.empty())
+    request.commit.repository = page;
+  const ResultsStudy study = study_of(metrics, study_name(metrics, file));
+  request.study.name = study.name;
+  request.study.texts = {{kStudyFile, results_study_json(study)},
+                         {"results.csv", results_csv(study.results.rows)}};
+  request.study.compared_by = sha256_hex("metrics\n" + study.name);
+  request.study.digest = sha256_hex(request.study.texts.at(kStudyFile) + "\n" +
+                                    request.study.texts.at("results.csv"));
+  const auto negative = std::ranges::find_if(metrics.metrics, [](const Metric& metric) {
+    return metric.value < 0.0 && metric.better != Better::kNeither && metric.unit != "%";
+  });
+  if (negative != metrics.metrics.end())
+    request.remarks.push_back(
+        fmt::format("{}: \"{}\" is {}: values below 0 are shown and not judged, since metrics are "
+                    "judged by ratio",
+                    file, printable(negative->name, 40), negative->value));
+  return request;
+}
+
+namespace {
+
+/// A folder that is removed with all that is in it.
+class PassingFolder {
+ public:
+  PassingFolder() {
+    std::string name = (fs::temp_directory_path() / "mapproof-bisect-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw IoError(name, std::strerror(errno));
+    path_ = name;
+  }
+  ~PassingFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  PassingFolder(const PassingFolder&) = delete;
+  PassingFolder& operator=(const PassingFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What began in a nightly run, in whichever nightly run it was found.
+std::vector<NightlyFinding> begun_in(HistoryStore& history, int since) {
+  std::vector<NightlyFinding> all;
+  for (const NightlyFacts& nightly_run : history.nightly_runs())
+    if (nightly_run.number >= since)
+      for (const NightlyFinding& finding : history.findings(nightly_run.number))
+        if (finding.since == since) all.push_back(finding);
+  return all;
+}
+
+bool is_about(const NightlyFinding& finding, const SeriesId& id) {
+  return id.quantity == finding.quantity &&
+         (finding.subject == method_of(id) || finding.subject.starts_with(method_of(id) + ", "));
+}
+
+/// The values of one series before, in which it got worse, and now.
+struct Triple {
+  double before, worse, now;
+
+  bool is_known() const {
+    return std::isfinite(before) && std::isfinite(worse) && std::isfinite(now) && before != worse;
+  }
+  bool is_worse() const { return std::abs(now - worse) < std::abs(now - before); }
+};
+
+double median_in(const Scores& scores, const SeriesId& id) {
+  const auto found = scores.find(id);
+  return found == scores.end() ? known_median({}) : known_median(found->second);
+}
+
+/// The series of a study that got worse.
+std::vector<Triple> triples_of(HistoryStore& history, const NightlyStudy& study, int since,
+                               const std::vector<NightlyFinding>& findings) {
+  const StudyTrend trend = history.trend(study.name, study.experiment_digest, kTrendRuns, since);
+  const int before = commits_of(trend, since).before.number;
+  const Scores good = history.scores(before, study.name), bad = history.scores(since, study.name);
+  std::vector<Triple> triples;
+  for (const auto& [id, values] : study.scores) {
+    const bool is_found = std::ranges::any_of(findings, [&](const NightlyFinding& finding) {
+      return finding.study == study.name && is_about(finding, id);
+    });
+    if (!is_found) continue;
+    const Triple triple{median_in(good, id), median_in(bad, id), known_median(values)};
+    if (triple.is_known()) triples.push_back(triple);
+  }
+  return triples;
+}
+
+}  // namespace
+
+int bisect(const NightlyRequests& requests, const BisectTask& task, const Console& console) {
+  HistoryStore history = HistoryStore::open_existing(task.store);
+  const std::vector<NightlyFinding> findings = begun_in(history, task.since);
+  if (findings.empty())
+    throw InvalidInput(fmt::format("--bisect: nothing got worse in nightly run {}", task.since));
+  const PassingFolder folder;
+  for (const StudyRequest& request : requests.studies)
+    if (make_apart(request, folder.path() / request.name, task.jobs, task.names, console) != kDone) {
+      console.warning(request.name + ": was not finished: this commit cannot be tested");
+      return kCannotTest;
+    }
+  std::vector<Triple> all;
+  for (const NightlyStudy& study : read_nightly_studies(requests.studies, folder.path()))
+    std::ranges::move(triples_of(history, study, task.since, findings), std::back_inserter(all));
+  if (all.empty()) {
+    console.warning(fmt::format("--bisect: no value of what got worse in nightly run {} is here: "
+                                "this commit cannot be tested",
+                                task.since));
+    return kCannotTest;
+  }
+  const auto worse = std::ranges::count_if(all, &Triple::is_worse);
+  console.result(fmt::format("{} of {} values that got worse in nightly run {} are worse here\n",
+                             worse, all.size(), task.since),
+                 {{"since", task.since}, {"values", all.size()}, {"worse", worse}});
+  return worse == 0 ? kDone : kNo;
 }
 
 }  // namespace mapproof

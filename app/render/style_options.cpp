@@ -108,14 +108,7 @@ FigureStyle style_of(const StyleArguments& arguments) {
   if (arguments.font) style.font = *arguments.font;
   if (arguments.language) style.language = *arguments.language;
   if (arguments.title) style.draws_title = true;
-  if (arguments.no_title) {
-    const bool drawn = style.draws_title.value_or(style.theme == BaseTheme::kReport);
-    if (!drawn)
-      throw InvalidInput(
-          "--no-title: no title is drawn anyway, neither by the theme paper nor with "
-          "this style");
-    style.draws_title = false;
-  }
+  if (arguments.no_title) style.draws_title = false;
   return style;
 }
 

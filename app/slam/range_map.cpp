@@ -53,6 +53,23 @@ void remark_on_limits(const std::optional<KnownLandmarks>& known, RangeLog& log)
                     known->rows.size() == 1 ? "1 is" : fmt::format("{} are", known->rows.size())));
 }
 
+/// Over how many landmarks their errors are.
+void remark_on_errors(const std::optional<KnownLandmarks>& known, RangeLog& log) {
+  if (!log.true_landmarks || !known || known->rows.size() < 2) return;
+  std::ptrdiff_t others = 0, given = 0;
+  for (Eigen::Index n = 0; n < log.true_landmarks->rows(); ++n)
+    if (log.true_landmarks->row(n).allFinite())
+      ++(std::ranges::count(known->rows, n) > 0 ? given : others);
+  if (given == 0) return;
+  log.remarks.push_back(
+      others == 0 ? std::string("Every landmark with ground truth is an anchor: there are no "
+                                "errors of landmarks.")
+                  : fmt::format("Errors of landmarks are means over {}: the {} with ground truth "
+                                "{} left out.",
+                                counted(others, "landmark"), counted(given, "anchor"),
+                                given == 1 ? "is" : "are"));
+}
+
 bool has_map(const SlamRecord& record) {
   return record.estimate.path.size() > 0 &&
          (record.estimate.landmarks_m.array().isFinite().rowwise().all()).any();
@@ -64,12 +81,32 @@ const SlamRecord* of_method(const SlamRun& run, SlamMethod method) {
   return nullptr;
 }
 
+/// What --repair came to.
+void remark_on_repair(const SlamRun& run, std::vector<std::string>& remarks) {
+  if (!run.fit || run.fit->verdict == FitVerdict::kNotTestable) return;
+  const FitNumber* plain = run.fit->number("fit_held_out_nats");
+  const FitNumber* repaired = run.fit->number("fit_repaired_held_out_nats");
+  const bool is_made = of_method(run, SlamMethod::kRepaired) != nullptr;
+  if (plain == nullptr || repaired == nullptr) {
+    if (!is_made)
+      remarks.push_back(
+          "There is no repaired map: no cause was found for which a map can be corrected.");
+    return;
+  }
+  remarks.push_back(fmt::format(
+      "The map that allows for the cause predicts held-out ranges {}: mean log-likelihood {:.3f} "
+      "instead of {:.3f} nats per range.",
+      is_made ? "as well or better, and is the result" : "worse, and is not the result",
+      repaired->value, plain->value));
+}
+
 /// How two results differ that are not the same one made twice; empty if they do not.
 std::string difference(const SlamRun& there, const SlamRun& here) {
   const auto input = [](const SlamRun& run) {
     SlamRun bare;
     bare.id = run.id;
     bare.log = run.log;
+    bare.log.remarks.clear();  // They are about what was done with it, too.
     return slam_run_json(bare);
   };
   if (there.log.landmarks != here.log.landmarks) return "of other landmarks";
@@ -93,9 +130,10 @@ KnownLandmarks known_landmarks_of(const RangeLog& log, const NamedPointsFile& fi
     const auto found = std::ranges::find(log.landmarks, points.names[i]);
     if (found == log.landmarks.end())
       throw IoError(file.path, points.locations[i],
-                    fmt::format("landmark \"{}\" is not among the {} that were ranged to ({})",
+                    fmt::format("landmark \"{}\" is not among the {} that were ranged to ({}){}",
                                 printable(points.names[i]), log.landmarks.size(),
-                                printable(listed(log.landmarks, 6), 200)));
+                                printable(listed(log.landmarks, 6), 200),
+                                case_hint(points.names[i], log.landmarks)));
     known.rows.push_back(found - log.landmarks.begin());
   }
   known.positions_m = points.positions_m;
@@ -105,6 +143,7 @@ KnownLandmarks known_landmarks_of(const RangeLog& log, const NamedPointsFile& fi
 SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known, LogFitOptions fit,
                         bool repairs) {
   remark_on_limits(known, log);
+  remark_on_errors(known, log);
   const double unit = unit_of(log);
   std::optional<KnownLandmarks> scaled = known;
   if (scaled) scaled->positions_m /= unit;
@@ -122,6 +161,7 @@ SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known
                                         .repairs = repairs});
   log.remarks = result.run.log.remarks;
   take_unit(result.run, std::move(log), unit);
+  if (repairs) remark_on_repair(result.run, result.run.log.remarks);
   return result;
 }
 

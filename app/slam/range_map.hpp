@@ -22,7 +22,8 @@ KnownLandmarks known_landmarks_of(const RangeLog& log, const NamedPointsFile& fi
 /// no map by them.
 /// The noise is estimated from the log but for what `fit` gives, and the fit of log and map is
 /// tested. The results do not depend on the unit of lengths.
-/// @param repairs  The map under the cause of a misfit is made, too, and is the result.
+/// @param repairs  The map under the cause of a misfit is made, too, and is the result unless it
+///                 predicts held-out ranges worse; a remark has both likelihoods.
 SlamRunResult range_map(RangeLog log, const std::optional<KnownLandmarks>& known,
                         LogFitOptions fit = {}, bool repairs = false);
 

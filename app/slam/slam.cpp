@@ -255,7 +255,10 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
   std::optional<ProgressLine> working(std::in_place, invocation.console, "reading");
   RangeLog log = read_range_log(arguments.data, arguments.log);
   std::optional<KnownLandmarks> known;
-  if (anchors) known = known_landmarks_of(log, *anchors);
+  if (anchors) {
+    known = known_landmarks_of(log, *anchors);
+    if (!anchors->points.heights.empty()) log.remarks.push_back(anchors->points.heights);
+  }
   invocation.console.info(fmt::format(
       "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
       "{}",
@@ -285,8 +288,7 @@ void add_input_options(CLI::App& app, SlamArguments& arguments) {
                  "Ground truth, to compute errors only: the true path (CSV with t, x, y, heading; "
                  "TUM; or g2o), true positions of landmarks (CSV with name, x [m], y [m]), or "
                  "both, each by an option of its own")
-      ->expected(1)
-      ->take_all()
+      ->allow_extra_args(false)
       ->type_name("FILE");
   app.add_option("--odometry", arguments.odometry,
                  "Odometry, instead of that in DATA: CSV with t, ddist, dheading");
@@ -297,6 +299,7 @@ void add_input_options(CLI::App& app, SlamArguments& arguments) {
          "range=3; also nanoseconds, robot; of odometry distance, heading_change, sideways; "
          "of the ground truth x, y, heading")
       ->type_name("NAME=COLUMN")
+      ->allow_extra_args(false)
       ->delimiter(',');
 }
 
@@ -318,7 +321,8 @@ void add_fit_options(CLI::App& app, SlamArguments& arguments) {
       ->capture_default_str();
   app.add_flag("--repair", arguments.repair,
                "If the data do not fit the map and the cause can be modelled: also make the map "
-               "that allows for it, and take it as the result");
+               "that allows for it, and take it as the result if it predicts held-out ranges as "
+               "well or better");
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
 #include "reports/sections/slam/slam_report.hpp"
 #include "reports/sections/wording.hpp"
@@ -51,20 +52,28 @@ std::string figure_command(const fs::path& folder) {
   return quoted_command({"mapproof", "render", folder.string(), "--figure"});
 }
 
-/// As many of each part's findings, under its title, and of its figures as leave room for the
-/// others'; of findings one at least.
+/// As many of each part's numbers, findings, under its title, and figures as leave room for the
+/// others'; of findings one at least. The figure of the first part that has one is the figure of
+/// all.
 void add_opening(const Report& part, std::size_t parts, Opening& all) {
-  constexpr std::size_t kMostThumbnails = 6, kMostFindings = 6;
+  constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
+  const auto take = [&](const auto& from, std::size_t most, auto& to) {
+    const std::size_t count = std::min(from.size(), most / parts);
+    to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  take(part.opening.numbers.items, kMostNumbers, all.numbers.items);
   std::size_t left = std::max<std::size_t>(1, kMostFindings / parts);
   for (Paragraph finding : part.opening.findings) {
     if (left-- == 0) break;
     finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
     all.findings.push_back(std::move(finding));
   }
-  const std::vector<std::string>& ids = part.opening.figure_ids;
-  const std::size_t count = std::min(ids.size(), kMostThumbnails / parts);
-  all.figure_ids.insert(all.figure_ids.end(), ids.begin(),
-                        ids.begin() + static_cast<std::ptrdiff_t>(count));
+  std::vector<std::string> ids = part.opening.figure_ids;
+  if (all.main_figure.empty())
+    all.main_figure = part.opening.main_figure;
+  else if (!part.opening.main_figure.empty())
+    ids.insert(ids.begin(), part.opening.main_figure);
+  take(ids, kMostThumbnails, all.figure_ids);
 }
 
 }  // namespace
@@ -115,8 +124,12 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
     std::ranges::move(part.scenes, std::back_inserter(all.scenes));
     std::ranges::move(part.films, std::back_inserter(all.films));
     std::ranges::move(part.missing, std::back_inserter(all.missing));
-    std::ranges::move(part.in_company, std::back_inserter(all.report.sections));
+    for (Section& section : part.in_company) {
+      section.group = part.group;
+      all.report.sections.push_back(std::move(section));
+    }
     all.report.footer = part.report.footer;
+    all.report.date = std::max(all.report.date, part.report.date);
   }
   check(all.report);
   return all;
@@ -205,9 +218,10 @@ FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
                               .command = command};
   FolderReport result{.folder = folder,
                       .report = slam_report(input),
-                      .in_company = slam_sections(input),
+                      .group = "Range-only SLAM",
                       .runs = study.runs.size(),
                       .missing = study.missing};
+  result.in_company = result.report.sections;
   add_images(figures, result);
   return result;
 }

@@ -14,13 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As it stands within a sentence; names in capitals stay.
-std::string lower_first(std::string text) {
-  const bool is_word = text.size() > 1 && text[1] >= 'a' && text[1] <= 'z';
-  if (is_word && text[0] >= 'A' && text[0] <= 'Z') text[0] = static_cast<char>(text[0] - 'A' + 'a');
-  return text;
-}
-
 FolderReport mapping_report(const fs::path& folder, const std::string& command) {
   const Study study = read_study(folder);
   const std::vector<Timing> timings = read_timings(folder);
@@ -35,11 +28,10 @@ FolderReport mapping_report(const fs::path& folder, const std::string& command) 
                                               .timings = timings,
                                               .figures = figures,
                                               .command = command}),
+                      .group = "Map building",
                       .runs = study.runs.size()};
   add_images(figures, report);
   report.in_company = report.report.sections;
-  for (Section& section : report.in_company)
-    section.title = "Map building: " + lower_first(section.title);
   return report;
 }
 

@@ -55,6 +55,7 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
                       .of_paper = false,
                       .report = results_report(input),
                       .in_company = results_sections(input),
+                      .group = study.title,
                       .runs = view.runs()};
   add_images(figures, result);
   return result;

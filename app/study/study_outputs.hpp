@@ -24,6 +24,7 @@ struct FolderReport {
   Report report = {};
   std::vector<Section> in_company =
       {};                            ///< Its sections as they stand beside those of other studies.
+  std::string group = {};            ///< What heads them in the contents of such a report.
   std::vector<Figure> figures = {};  ///< In the order of the report.
   std::vector<Scene> scenes = {};    ///< Likewise.
   std::vector<Film> films = {};      ///< Of some of the scenes.

@@ -113,6 +113,7 @@ std::vector<std::string> words_of(std::span<const StudyRequest> requests,
 }
 
 std::string study_json(const StudyRequest& request) {
+  if (!request.texts.empty()) return request.texts.at(kStudyFile);
   return request.given.empty() ? request.plan.start(build_provenance()).text
                                : read_file(request.given / kStudyFile);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "app/command_line.hpp"
 #include "app/study/embedded_experiments.hpp"
+#include "core/model/shard.hpp"
 #include "core/studies/study_plan.hpp"
 
 namespace mapproof {
@@ -29,9 +31,14 @@ void add_data_options(CLI::App& app, StudyOptions& options);
 /// A study of any type, ready to be made.
 struct StudyRequest {
   std::string name = {};
-  std::string digest = {};           ///< SHA-256 of its text and profile.
-  StudyPlan plan = {};               ///< Of an experiment.
-  std::filesystem::path given = {};  ///< A study that another program made, which is copied.
+  std::string digest = {};                 ///< SHA-256 of its text and profile.
+  StudyPlan plan = {};                     ///< Of an experiment.
+  std::optional<ShardSession> shard = {};  ///< The plan is its share of a study.
+  std::filesystem::path given = {};        ///< A study that another program made, which is copied.
+  std::map<std::string, std::string> texts = {};  ///< The files of a study that is at hand, by name.
+  /// What nightly runs of it are compared by, where it is not what its study.json says; may be
+  /// empty.
+  std::string compared_by = {};
 };
 
 /// Reads an experiment of any type and looks up its data; nothing is made. Folders of data that it

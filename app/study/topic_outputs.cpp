@@ -8,6 +8,7 @@
 #include "core/records/studies/results_of.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/topic_store.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -80,21 +81,22 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
   StudyFigures figures = results_figures(view, comparisons);
   FigureGroup maps = topic_maps(study, labelled.name);
   if (!maps.empty()) figures.groups.push_back(std::move(maps));
-  ResultsReportInput input{
-      .view = view,
-      .comparisons = comparisons,
-      .figures = figures,
-      .provenance = topic_provenance(study, sessions, command, labelled.name),
-      .conclusions = conclusions_of(study),
-      .incomplete = topic_incomplete(study),
-      .footer = fmt::format("Made by mapproof {} ({}).", study.provenance.version,
-                            study.provenance.commit)};
+  ResultsReportInput input{.view = view,
+                           .comparisons = comparisons,
+                           .figures = figures,
+                           .provenance = topic_provenance(study, sessions, command, labelled.name),
+                           .conclusions = conclusions_of(study),
+                           .incomplete = topic_incomplete(study),
+                           .footer = fmt::format("Made by mapproof {} ({}).",
+                                                 study.provenance.version, study.provenance.commit),
+                           .date = date_of(sessions)};
   if (auto seconds = topic_seconds_table(study, labelled.name))
     input.cost.push_back(*std::move(seconds));
   FolderReport result{.folder = folder,
                       .of_paper = false,
                       .report = results_report(input),
                       .in_company = results_sections(input),
+                      .group = labelled.title,
                       .runs = study.parts.size()};
   add_images(figures, result);
   return result;

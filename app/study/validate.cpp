@@ -273,12 +273,37 @@ void mark_found(const std::vector<StatedInput>& inputs, ColumnNames& columns) {
   }
 }
 
-/// What a file is and what was understood of it, or its problems, a line each.
+/// The problems of a file; those that differ in their numbers alone share a line.
+std::string problems_text(const Finding& finding) {
+  struct Group {
+    std::string kind;
+    std::string first;
+    int more = 0;
+  };
+  std::vector<Group> groups;
+  const auto add = [&](const std::string& problem) {
+    std::string kind = problem;
+    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+    const auto group = std::ranges::find(groups, kind, &Group::kind);
+    if (group == groups.end())
+      groups.push_back({.kind = kind, .first = problem});
+    else
+      ++group->more;
+  };
+  add(finding.problem);
+  for (const std::string& further : finding.further) add(further);
+  std::string text;
+  for (const Group& group : groups)
+    text += printable(group.first, 4000) +
+            (group.more > 0 ? fmt::format(" (and {} more like it)\n", group.more) : "\n");
+  return text;
+}
+
+/// What a file is and what was understood of it, or its problems.
 std::string finding_text(const Finding& finding) {
   std::string text;
   if (!finding.problem.empty()) {
-    text = printable(finding.problem, 4000) + "\n";
-    for (const std::string& further : finding.further) text += printable(further, 4000) + "\n";
+    text = problems_text(finding);
   } else if (finding.input) {
     text = fmt::format("{} ({})\n", understood_line(finding.path, *finding.input), finding.kind);
   } else {
@@ -343,7 +368,7 @@ Action validate_command(CLI::App& app) {
       ->transform(one_of({"visibility", "bearing", "range", "range-bearing"}));
   const auto add_files = [&](const char* option, std::vector<std::string>& files,
                              const char* description) {
-    app.add_option(option, files, description)->expected(1)->take_all()->type_name("FILE");
+    app.add_option(option, files, description)->allow_extra_args(false)->type_name("FILE");
   };
   add_files("--odometry", arguments->odometry, "Odometry, as slam takes it");
   add_files("--anchors", arguments->anchors, "Known positions, as map and slam take them");

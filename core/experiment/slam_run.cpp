@@ -95,6 +95,18 @@ bool is_spectral(SlamMethod method) {
          method == SlamMethod::kSpectralKnown || method == SlamMethod::kSpectralKnown7;
 }
 
+KnownLandmarks without(const KnownLandmarks& known, Eigen::Index row) {
+  KnownLandmarks others;
+  std::vector<Eigen::Index> kept;
+  for (std::size_t k = 0; k < known.rows.size(); ++k)
+    if (known.rows[k] != row) {
+      others.rows.push_back(known.rows[k]);
+      kept.push_back(static_cast<Eigen::Index>(k));
+    }
+  others.positions_m = known.positions_m(kept, Eigen::all);
+  return others;
+}
+
 using Clock = std::chrono::steady_clock;
 
 bool is_refinement(SlamMethod method) {
@@ -106,16 +118,54 @@ bool has_start_pose(const StartPose& start) {
   return start.x_m != 0.0 || start.y_m != 0.0 || start.heading_rad != 0.0;
 }
 
+/// A log and what is known of it, in coordinates about a point near by: squares of coordinates far
+/// from 0 would leave no digits for the map.
+struct NearOrigin {
+  RangeLog log;
+  SlamRunOptions options;
+  Eigen::RowVector2d origin_m = Eigen::RowVector2d::Zero();  ///< Of these, in those of the log.
+  bool has_start = false;                                    ///< The log has a start pose.
+};
+
+void move_by(Points& positions_m, const Eigen::RowVector2d& offset_m) {
+  positions_m.rowwise() += offset_m;
+}
+
+/// About the mean of the landmarks that tie a frame, else about the start.
+NearOrigin near_origin(RangeLog log, const SlamRunOptions& options) {
+  NearOrigin near{.log = std::move(log), .options = options};
+  near.has_start = has_start_pose(near.log.start);
+  if (options.known && options.known->rows.size() >= 2)
+    near.origin_m = options.known->positions_m.colwise().mean();
+  else
+    near.origin_m << near.log.start.x_m, near.log.start.y_m;
+  const Eigen::RowVector2d offset_m = -near.origin_m;
+  if (near.has_start) {
+    near.log.start.x_m += offset_m.x();
+    near.log.start.y_m += offset_m.y();
+  }
+  if (near.log.ground_truth) move_by(near.log.ground_truth->positions_m, offset_m);
+  if (near.log.true_landmarks) move_by(*near.log.true_landmarks, offset_m);
+  if (near.options.known) move_by(near.options.known->positions_m, offset_m);
+  // What the map holds where it is given would flatter it.
+  if (options.ties_refinement && options.known && near.log.true_landmarks)
+    for (const Eigen::Index row : options.known->rows)
+      near.log.true_landmarks->row(row).setConstant(kNaN);
+  if (near.options.fit && near.options.fit->known)
+    move_by(near.options.fit->known->positions_m, offset_m);
+  return near;
+}
+
 /// The alignment under which the error of a method on this log is reported first.
-Alignment first_alignment(SlamMethod method, const RangeLog& log, const SlamRunOptions& options) {
+Alignment first_alignment(SlamMethod method, const NearOrigin& near) {
   const SlamMethodInfo& facts = info(method);
   if (facts.knows_landmarks) return Alignment::kNone;
   // What starts in a frame of its own cannot be compared as it is.
   if (method == SlamMethod::kDeadReckoning)
-    return has_start_pose(log.start) ? Alignment::kNone : Alignment::kRigid;
+    return near.has_start ? Alignment::kNone : Alignment::kRigid;
   const bool refines = is_refinement(method) || method == SlamMethod::kBatchFixedScale;
-  if (refines && options.ties_refinement && options.known) return Alignment::kNone;
-  return log.odometry.empty() ? Alignment::kRigidWithReflection : facts.alignment;
+  if (refines && near.options.ties_refinement && near.options.known) return Alignment::kNone;
+  return near.log.odometry.empty() ? Alignment::kRigidWithReflection : facts.alignment;
 }
 
 bool has(const SlamEstimate& estimate, StatusCode code) {
@@ -135,10 +185,11 @@ RefinementStart start_of(const SlamRecord& record, int number) {
 }
 
 /// The random starts after the first, which is a record of its own.
-void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, SlamRun& run) {
+void add_random_starts(SlamEstimates& estimates, const NearOrigin& near, SlamRun& run) {
   const SlamMethod method = SlamMethod::kRefinedFromRandom;
+  const SlamRunOptions& options = near.options;
   if (std::ranges::find(options.methods, method) == options.methods.end() ||
-      run.log.odometry.empty())
+      near.log.odometry.empty())
     return;
   for (int number = 2; number <= options.random_starts; ++number) {
     SlamRecord record{.method = method, .estimate = {}, .errors = {}, .error_m = {}};
@@ -147,21 +198,56 @@ void add_random_starts(SlamEstimates& estimates, const SlamRunOptions& options, 
     } catch (const InvalidInput&) {
       return;  // The first one has the reason.
     }
-    score_against_ground_truth(record, run.log, first_alignment(method, run.log, options));
+    score_against_ground_truth(record, near.log, first_alignment(method, near));
     run.starts.push_back(start_of(record, number));
   }
 }
 
-/// Without ground truth all paths are aligned to the first one.
-void align_to_first(SlamRun& run, const SlamRunOptions& options) {
-  const SlamRecord* first = nullptr;
-  for (SlamRecord& record : run.records) {
-    if (first == nullptr && record.estimate.path.size() > 0) first = &record;
-    if (first == nullptr || first == &record ||
-        first_alignment(record.method, run.log, options) == Alignment::kNone)
-      continue;
-    align_to(record.estimate, first->estimate.path, run.log.odometry.empty());
+/// The path that the others are aligned to without ground truth: one in the frame of the known
+/// landmarks, the refined one if it is there, else the first.
+const SlamRecord* reference_path(const std::vector<SlamRecord>& records, const NearOrigin& near) {
+  const SlamRecord* best = nullptr;
+  const auto rank = [&](const SlamRecord& record) {
+    const bool is_tied = record.method != SlamMethod::kDeadReckoning &&
+                         first_alignment(record.method, near) == Alignment::kNone;
+    return (is_tied ? 2 : 0) + (is_tied && record.method == SlamMethod::kRefined ? 1 : 0);
+  };
+  for (const SlamRecord& record : records)
+    if (record.estimate.path.size() > 0 && (best == nullptr || rank(record) > rank(*best)))
+      best = &record;
+  return best;
+}
+
+/// Without ground truth.
+void align_to_reference(std::vector<SlamRecord>& records, const NearOrigin& near) {
+  const SlamRecord* reference = reference_path(records, near);
+  for (SlamRecord& record : records)
+    if (&record != reference && first_alignment(record.method, near) != Alignment::kNone)
+      align_to(record.estimate, reference->estimate.path, near.log.odometry.empty());
+}
+
+/// The verdict on the fit, and the repaired map where it is asked for.
+void take_fit(SlamEstimates& estimates, const NearOrigin& near, SlamRun& run) {
+  if (!near.options.fit) return;
+  const LogFit* fit = estimates.log_fit();
+  if (fit == nullptr) {
+    run.fit = Fit{.why = {FitMissing::kOdometry}};
+    return;
   }
+  run.fit = fit->fit;
+  run.fitted_ranges = fit->ranges;
+  if (fit->held_out) {
+    run.fit->numbers.push_back({"fit_held_out_nats", fit->held_out->plain});
+    run.fit->numbers.push_back({"fit_repaired_held_out_nats", fit->held_out->repaired});
+  }
+  if (!near.options.repairs || !fit->repaired || (fit->held_out && !fit->held_out->is_better()))
+    return;
+  SlamRecord record{.method = SlamMethod::kRepaired,
+                    .estimate = estimates.estimate(SlamMethod::kRepaired),
+                    .errors = {},
+                    .error_m = {}};
+  score_against_ground_truth(record, near.log, first_alignment(SlamMethod::kRefined, near));
+  run.records.push_back(std::move(record));
 }
 
 constexpr double kUsualRange_m = 30.0;
@@ -181,6 +267,8 @@ void scale_fit(Fit& fit, double factor) {
     if (test.limit) scale_value(*test.limit, factor);
   // The variance of odometry grows with the way, as the square root of which its deviation does.
   for (FitNumber& number : fit.numbers) {
+    // Densities are per length.
+    if (number.quantity.ends_with("held_out_nats")) number.value -= std::log(factor);
     const double power = number.quantity == "fit_range_sigma_m"              ? 1.0
                          : number.quantity == "fit_forward_sigma_m"          ? 0.5
                          : number.quantity == "fit_heading_change_sigma_rad" ? -0.5
@@ -208,14 +296,16 @@ void scale_error(TrajectoryError& error, double factor) {
 
 }  // namespace
 
-SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOptions& options) {
+SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOptions& given) {
   SlamRunResult result;
   SlamRun& run = result.run;
   run.id = id;
-  run.log = std::move(log);
-  if (options.known) run.known = options.known->rows;
+  if (given.known) run.known = given.known->rows;
   std::ranges::sort(run.known);
-  SlamEstimates estimates(run.log, options);
+  const NearOrigin near = near_origin(log, given);
+  run.log = std::move(log);
+  const SlamRunOptions& options = near.options;
+  SlamEstimates estimates(near.log, options);
   for (const SlamMethod method : options.methods) {
     estimates.prepare(method);
     const Clock::time_point start = Clock::now();
@@ -225,29 +315,21 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
     result.timings.push_back({.run = id, .method = method, .seconds = seconds});
     if (record.estimate.landmark_cov_m2.empty())
       record.estimate.landmark_cov_m2 = estimates.landmark_covariances(method, record.estimate);
-    score_against_ground_truth(record, run.log, first_alignment(method, run.log, options));
+    score_against_ground_truth(record, near.log, first_alignment(method, near));
     if (is_refinement(method) && options.random_starts > 0)
       run.starts.push_back(start_of(record, 1));
     run.records.push_back(std::move(record));
   }
-  if (const LogFit* fit = options.fit ? estimates.log_fit() : nullptr; fit != nullptr) {
-    run.fit = fit->fit;
-    run.fitted_ranges = fit->ranges;
-    if (options.repairs && fit->repaired) {
-      SlamRecord record{
-          .method = SlamMethod::kRepaired, .estimate = *fit->repaired, .errors = {}, .error_m = {}};
-      score_against_ground_truth(record, run.log,
-                                 first_alignment(SlamMethod::kRefined, run.log, options));
-      run.records.push_back(std::move(record));
-    }
-  } else if (options.fit) {
-    run.fit = Fit{.why = {FitMissing::kOdometry}};
-  }
-  add_random_starts(estimates, options, run);
+  take_fit(estimates, near, run);
+  add_random_starts(estimates, near, run);
   run.windows = estimates.windows();
   if (std::ranges::find(options.methods, SlamMethod::kSpectral) != options.methods.end())
     run.upgrade = estimates.upgrade();
-  if (!run.log.ground_truth) align_to_first(run, options);
+  if (!run.log.ground_truth) align_to_reference(run.records, near);
+  for (SlamRecord& record : run.records) {
+    move_by(record.estimate.path.positions_m, near.origin_m);
+    move_by(record.estimate.landmarks_m, near.origin_m);
+  }
   return result;
 }
 
@@ -345,7 +427,7 @@ SlamEstimate SlamEstimates::solve(SlamMethod method) {
     case SlamMethod::kRepaired:
       if (log_fit() == nullptr || !log_fit()->repaired)
         return failed(log_, status_of<StatusReason::kNoStart>());
-      return *log_fit()->repaired;
+      return repaired();
     case SlamMethod::kRefined:
       if (log_fit() != nullptr && log_fit()->estimate.path.size() > 0) {
         if (!options_.ties_refinement) return log_fit()->estimate;
@@ -396,7 +478,9 @@ const LogFit* SlamEstimates::log_fit() {
   if (const SlamEstimate& spectral = spectral_start(); spectral.path.size() > 0)
     starts.push_back(spectral);
   starts.push_back(odometry_start());
-  fit_ = fit_log(log_, starts, *options_.fit);
+  LogFitOptions options = *options_.fit;
+  options.holds_out = options_.repairs;
+  fit_ = fit_log(log_, starts, options);
   return &*fit_;
 }
 
@@ -417,16 +501,41 @@ OdometryNoise SlamEstimates::noise_of_motion(const LogNoise& noise) const {
       .forward_m = forward_m, .sideways_m = forward_m, .heading_change_rad = heading_change_rad};
 }
 
-SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) {
+RefineOptions SlamEstimates::refinement(const LogNoise& noise) const {
   RefineOptions options;
-  if (const LogFit* fit = log_fit(); fit != nullptr && fit->noise.range_m > 0.0) {
-    options.odometry = noise_of_motion(fit->noise);
-    options.range_sigma_m = fit->noise.range_m;
+  if (noise.range_m > 0.0) {
+    options.odometry = noise_of_motion(noise);
+    options.range_sigma_m = noise.range_m;
   }
-  options.estimate_scale = estimate_scale;
   options.covariances = kPosesWithCovariance;
   if (options_.ties_refinement) options.known = options_.known;
+  return options;
+}
+
+SlamEstimate SlamEstimates::refined(const SlamEstimate& start, bool estimate_scale) {
+  const LogFit* fit = log_fit();
+  RefineOptions options = refinement(fit == nullptr ? LogNoise() : fit->noise);
+  options.estimate_scale = estimate_scale;
   return refine(log_, start, options);
+}
+
+SlamEstimate SlamEstimates::repaired() {
+  const LogFit& fit = *log_fit();
+  if (!options_.ties_refinement || !options_.known) return fit.repaired->estimate;
+  RefineOptions options = refinement(fit.repaired->noise);
+  SlamEstimate start = fit.repaired->estimate;
+  const Eigen::Index N = start.landmarks_m.rows();
+  if (fit.cause.code == FitCode::kLandmarkMoved) {
+    // Nothing says at which of its two positions it was surveyed.
+    options.known = without(*options.known, fit.cause.landmarks.front());
+    start.landmarks_m.conservativeResize(N + 1, 2);
+    start.landmarks_m.row(N).setConstant(kNaN);
+  }
+  SlamEstimate found = refine(fit.repaired->log, start, options);
+  found.landmarks_m.conservativeResize(N, 2);
+  if (std::ssize(found.landmark_cov_m2) > N)
+    found.landmark_cov_m2.resize(static_cast<std::size_t>(N));
+  return found;
 }
 
 const Trajectory& SlamEstimates::reckoned() {

@@ -12,18 +12,23 @@
 
 namespace mapproof {
 
+struct RefineOptions;
+
 /// How the methods are run on one log.
 struct SlamRunOptions {
   std::vector<SlamMethod> methods;        ///< In the order of the tables.
   std::optional<KnownLandmarks> known{};  ///< For the methods that know landmarks.
-  bool ties_refinement = false;           ///< The refinement holds the known landmarks too.
+  /// The refinement holds the known landmarks too; errors of landmarks then leave them out.
+  bool ties_refinement = false;
   RangeNoise noise{};      ///< The bias that is subtracted from squared ranges that come together.
   int random_starts = 0;   ///< Of the refinement, in addition to the one that is kept.
   std::uint64_t seed = 0;  ///< Of the random starts.
   /// The noise is estimated from the log, and the fit of log and map tested; empty: the noise is
   /// that of RefineOptions and EkfOptions.
   std::optional<LogFitOptions> fit{};
-  bool repairs = false;  ///< With `fit`: a record of the map under the cause of a misfit, too.
+  /// With `fit`: a record of the map under the cause of a misfit, too, unless it predicts held-out
+  /// ranges worse.
+  bool repairs = false;
 };
 
 struct SlamRunResult {
@@ -33,8 +38,10 @@ struct SlamRunResult {
 };
 
 /// Runs each method on a log, aligns the results to the frame of the ground truth (or, without one,
-/// of the first method), and computes the errors.
+/// of a method that holds the known landmarks, or of the first method), and computes the errors.
 ///
+/// All is computed about the mean of the known landmarks, or about the start where none is known:
+/// the results move with the coordinates that are given, however far from 0 these are.
 /// With odometry, windows of the ranges are chosen by their predictions. Without, the spectral
 /// methods take the times at which all landmarks were ranged to, the map's reflection is as good as
 /// the map, and all other methods fail with kFailed.
@@ -84,6 +91,9 @@ class SlamEstimates {
   SlamEstimate spectral(bool with_known, bool with_heading);
   SlamEstimate filtered();
   SlamEstimate refined(const SlamEstimate& start, bool estimate_scale);
+  /// In the frame of the known landmarks where they tie the refinement.
+  SlamEstimate repaired();
+  RefineOptions refinement(const LogNoise& noise) const;
   OdometryNoise noise_of_motion(const LogNoise& noise) const;
   const Trajectory& reckoned();
   const WindowOptions& window();

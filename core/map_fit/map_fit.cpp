@@ -98,12 +98,14 @@ bool FitMaker::has_cause(FitCode one, FitCode other) const {
       fit_.causes, [&](const FitCause& cause) { return cause.code == one || cause.code == other; });
 }
 
-Fit FitMaker::finished() && {
-  std::ranges::stable_sort(fit_.causes, std::ranges::greater(), gravity);
-  std::ranges::stable_sort(fit_.tests, {}, &FitTest::code);
-  fit_.verdict = verdict_of(fit_.causes);
-  return std::move(fit_);
+Fit sorted_out(Fit fit) {
+  std::ranges::stable_sort(fit.causes, std::ranges::greater(), gravity);
+  std::ranges::stable_sort(fit.tests, {}, &FitTest::code);
+  fit.verdict = verdict_of(fit.causes);
+  return fit;
 }
+
+Fit FitMaker::finished() && { return sorted_out(std::move(fit_)); }
 
 void test_scatter(FitMaker& maker, const ScatterFit& scatter) {
   maker.number("fit_scatter_m", scatter.sigma_m);
@@ -536,6 +538,23 @@ Fit range_bearing_fit(const DetectionLog& log, const Points& map, const MapEvide
   test_moved(maker, log, map);
   if (evidence.known_m != nullptr) test_known(maker, log, map, found, *evidence.known_m);
   return std::move(maker).finished();
+}
+
+Fit with_tests(Fit fit, std::vector<FitCause> tests) {
+  for (FitCause& test : tests) {
+    fit.tests.push_back({test.code, test.landmarks, test.statistic, test.bound});
+    if (!(test.statistic > test.bound)) continue;
+    const auto same = std::ranges::find_if(fit.causes, [&](const FitCause& cause) {
+      return cause.code == test.code && cause.landmarks == test.landmarks;
+    });
+    if (same == fit.causes.end())
+      fit.causes.push_back(std::move(test));
+    else if (same->is_small)
+      *same = std::move(test);
+  }
+  if (fit.verdict == FitVerdict::kNotTestable && fit.causes.empty()) return fit;
+  fit.why.clear();
+  return sorted_out(std::move(fit));
 }
 
 Fit history_fit(const ObservationHistory& history, Eigen::Index steps, const Points& map,

@@ -66,4 +66,9 @@ inline constexpr int kFewestStepsToTest = 60;         ///< For tests over time.
 Fit history_fit(const ObservationHistory& history, Eigen::Index steps, const Points& map,
                 const Points& known_m, double most_known_share = kMostKnownShare);
 
+/// Adds tests that were made after the others, in the frame of the anchors, and those of them that
+/// exceed their bounds as causes. The verdict is that of all causes; a fit that could not be tested
+/// stays so unless there is a cause.
+Fit with_tests(Fit fit, std::vector<FitCause> tests);
+
 }  // namespace mapproof

@@ -25,6 +25,7 @@ constexpr Tolerance kNumber{1e-9, 1e-6};
 std::vector<Quantity> dictionary() {
   using enum NightlyRule;
   constexpr auto kLower = Better::kLower;
+  constexpr auto kHigher = Better::kHigher;
   constexpr auto kNeither = Better::kNeither;
   return {
       {"mpe_m", "MPE", "m", kLower, kLength, kRatio},
@@ -57,6 +58,9 @@ std::vector<Quantity> dictionary() {
       {"fit_range_sigma_m", "noise of a range", "m", kNeither, kLength, kKept},
       {"fit_forward_sigma_m", "noise of odometry after 1 m", "m", kNeither, kLength, kKept},
       {"fit_heading_sigma_rad", "noise of the heading after 1 m", "rad", kNeither, kNumber, kKept},
+      {"fit_held_out_nats", "log-likelihood of a held-out range", "nats", kHigher, kNumber, kKept},
+      {"fit_repaired_held_out_nats", "the same of the repaired map", "nats", kHigher, kNumber,
+       kKept},
       {"seconds", "seconds", "s", kLower, kNumber, kDuration},
   };
 }

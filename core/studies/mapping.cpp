@@ -64,7 +64,7 @@ StudyPlan plan_mapping(std::string_view text, const std::string& source,
                  .start = start,
                  .noun = "runs"};
   for (const RunId& id : runs_of(experiment))
-    plan.tasks.push_back({[=](const fs::path& folder) { return holds_run(folder, id); },
+    plan.tasks.push_back({slug(id), [=](const fs::path& folder) { return holds_run(folder, id); },
                           [=] { return part_of(simulate_run(experiment, id, others.get())); }});
   return plan;
 }
@@ -140,6 +140,11 @@ const StudyKind kMappingStudies = {
               {"mapproof.details", [](auto text, auto& source) { parse_details(text, source); }}},
     .records = StudyFiles{}.records(),
     .plan = plan_mapping,
+    .start =
+        [](auto text, auto& source) {
+          const Study study = parse_study(text, source);
+          return study_start(study.experiment, study.provenance);
+        },
     .read = read_mapping,
     .check = check_mapping,
 };

@@ -54,7 +54,8 @@ void add_log_task(const SharedExperiment& experiment, LogOfSet item, StudyPlan& 
     plan.remarks.push_back(item.set.title + ": " + remark);
   const auto log = std::make_shared<const LogOfSet>(std::move(item));
   plan.tasks.push_back(
-      {[=](const fs::path& folder) { return holds_run(folder, log->set.id, log->log); },
+      {"run " + log->set.id,
+       [=](const fs::path& folder) { return holds_run(folder, log->set.id, log->log); },
        [=] {
          const SlamRunResult result = make_run(*experiment, *log);
          return part_of(result.run, result.timings);
@@ -65,14 +66,18 @@ void add_simulated_tasks(const SharedExperiment& experiment, StudyPlan& plan) {
   if (experiment->convergence)
     for (const RangeNoiseModel& noise : experiment->convergence->noises)
       plan.tasks.push_back(
-          {[id = noise.id](const fs::path& folder) { return holds_convergence(folder, id); },
+          {"convergence " + noise.id,
+           [id = noise.id](const fs::path& folder) { return holds_convergence(folder, id); },
            [=] { return part_of(make_convergence(*experiment, noise)); }});
   if (experiment->histories)
-    plan.tasks.push_back({holds_histories, [=] { return part_of(make_histories(*experiment)); }});
+    plan.tasks.push_back(
+        {"histories", holds_histories, [=] { return part_of(make_histories(*experiment)); }});
   if (experiment->space)
-    plan.tasks.push_back({holds_space, [=] { return part_of(make_space_run(*experiment)); }});
+    plan.tasks.push_back(
+        {"space", holds_space, [=] { return part_of(make_space_run(*experiment)); }});
   if (experiment->example)
-    plan.tasks.push_back({[id = experiment->example->noise.id](const fs::path& folder) {
+    plan.tasks.push_back({"run " + experiment->example->noise.id,
+                          [id = experiment->example->noise.id](const fs::path& folder) {
                             return holds_run(folder, id);
                           },
                           [=] {
@@ -165,6 +170,11 @@ const StudyKind kRangeStudies = {
                [](auto text, auto& source) { parse_space_run(text, source); }}},
     .records = SlamFiles{}.records(),
     .plan = plan_ranges,
+    .start =
+        [](auto text, auto& source) {
+          const SlamStudyStart study = parse_slam_study(text, source);
+          return study_start(study.experiment, study.provenance);
+        },
     .read = read_ranges,
     .check =
         [](const fs::path& folder) { return read_slam_study(folder), std::vector<std::string>(); },

@@ -33,6 +33,9 @@ struct StudyKind {
   StudyPlan (*plan)(std::string_view text, const std::string& source,
                     const PlanOptions& options) = nullptr;
 
+  /// What a folder with that study.json begins with; null where no experiment makes it.
+  /// @throws IoError.
+  StudyStart (*start)(std::string_view text, const std::string& source) = nullptr;
   /// Adds what a folder holds; `text` is its study.json. @throws IoError.
   void (*read)(const std::filesystem::path& folder, const std::string& text,
                const ContentsAsked& asked, StudyContents& contents) = nullptr;

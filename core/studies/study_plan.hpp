@@ -35,6 +35,7 @@ struct PlanOptions {
 
 /// What one worker does.
 struct Task {
+  std::string id;  ///< Unlike those of the plan's other tasks.
   /// Whether the study's folder holds what it gives, whole.
   std::function<bool(const std::filesystem::path& folder)> is_done;
   std::function<StudyPart()> make;  ///< Depends on the plan alone, seconds apart.

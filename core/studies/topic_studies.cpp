@@ -44,7 +44,8 @@ struct PlannedTopicStudy {
 void add_data_tasks(const std::shared_ptr<const PlannedTopicStudy>& planned, StudyPlan& plan) {
   for (const DataSetFolder& data : planned->input.data)
     plan.tasks.push_back(
-        {[=](const fs::path& folder) {
+        {data.set.id,
+         [=](const fs::path& folder) {
            return holds_part(folder, planned->design, data.set.id, data.set.digest);
          },
          [=] { return part_of(make_of_data(planned->input.experiment, data), data.set.digest); }});
@@ -56,7 +57,8 @@ void add_run_tasks(const std::shared_ptr<const PlannedTopicStudy>& planned, Stud
     for (int pose = 1; pose <= experiment.poses; ++pose) {
       const RunId run{.layout = layout, .pose = pose};
       plan.tasks.push_back(
-          {[=](const fs::path& folder) {
+          {slug(run),
+           [=](const fs::path& folder) {
              return holds_part(folder, planned->design, slug(run), "");
            },
            [=] { return part_of(simulate_part(planned->input.experiment, run), ""); }});
@@ -211,6 +213,7 @@ const StudyKind kTopicStudies = {
     .records = {"parts"},
     .needs_data = needs_data,
     .plan = plan_topic_study,
+    .start = [](auto text, auto& source) { return study_start(parse_topic_study(text, source)); },
     .read = read_topic_parts,
     .check =
         [](const fs::path& folder) { return read_topic_study(folder), std::vector<std::string>(); },

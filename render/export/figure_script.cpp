@@ -84,7 +84,8 @@ std::string script_colour(Colour of) { return "\"" + hex(of) + "\""; }
 std::string script_head(const std::string& id, const std::string& title, const Theme& theme) {
   return fmt::format(
       "#!/usr/bin/env python3\n"
-      "# Draws {0} of mapproof by matplotlib: python3 {0}.py [FILE]; without FILE, {0}.pdf.\n"
+      "# Draws {0} of mapproof by matplotlib: python3 {0}.py [FILE]; without FILE, "
+      "{0}-matplotlib.pdf.\n"
       "import sys\n\n"
       "import matplotlib\n\n"
       "matplotlib.use(\"Agg\")\n"
@@ -96,7 +97,8 @@ std::string script_head(const std::string& id, const std::string& title, const T
       "    \"font.family\": \"DejaVu Sans\", \"font.size\": {2}, \"axes.labelsize\": {2},\n"
       "    \"xtick.labelsize\": {3}, \"ytick.labelsize\": {3}, \"axes.titlesize\": {2},\n"
       "    \"legend.fontsize\": {2}, \"figure.titlesize\": {4}, \"axes.linewidth\": {5},\n"
-      "    \"savefig.dpi\": {6}, \"figure.facecolor\": {7}, \"axes.facecolor\": {7},\n"
+      "    \"savefig.dpi\": {6}, \"pdf.fonttype\": 42, \"ps.fonttype\": 42,\n"
+      "    \"figure.facecolor\": {7}, \"axes.facecolor\": {7},\n"
       "    \"text.color\": {8}, \"axes.labelcolor\": {8}, \"xtick.color\": {8}, \"ytick.color\": "
       "{8},\n"
       "    \"axes.edgecolor\": {8}, \"axes.axisbelow\": True,\n"
@@ -124,7 +126,9 @@ std::string script_tail(const std::string& id, const std::string& title,
   for (const Note& note : notes) head += (head.empty() ? "" : "\n") + note.text;
   std::string out;
   if (!head.empty()) out += fmt::format("fig.suptitle({}, wrap=True)\n", python_text(head));
-  return out + fmt::format("fig.savefig(sys.argv[1] if len(sys.argv) > 1 else \"{}.pdf\")\n", id);
+  return out +
+         fmt::format("fig.savefig(sys.argv[1] if len(sys.argv) > 1 else \"{}-matplotlib.pdf\")\n",
+                     id);
 }
 
 std::string axis_list(const std::vector<Point3>& points, int axis) {

@@ -9,9 +9,9 @@
 namespace mapproof {
 
 /// A script of Python that draws the figure's data by matplotlib, for a person to go on with: the
-/// data as lists, one call per layer, the colours and sizes of the theme. It writes ID.pdf, or the
-/// file that it is called with. The script places labels
-/// where they cover the fewest marks.
+/// data as lists, one call per layer, the colours and sizes of the theme. It writes
+/// ID-matplotlib.pdf, or the file that it is called with. The script places labels where they cover
+/// the fewest marks.
 /// @throws InvalidInput if the figure cannot be drawn.
 std::string figure_script(const Figure& figure, const Theme& theme);
 

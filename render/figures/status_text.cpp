@@ -40,10 +40,9 @@ std::string condition_text(double condition) {
                                   : "infinite condition number";
 }
 
-std::string nearly_on_a_line(std::string_view what, std::string_view of_what, double condition) {
-  return fmt::format(
-      "{} nearly on one line, {}: the side of it on which {} lies is hardly determined.", what,
-      condition_text(condition), of_what);
+std::string nearly_on_a_line(std::string_view what, std::string_view which, double condition) {
+  return fmt::format("{} nearly on one line, {}: on which side of it {} is hardly determined.",
+                     what, condition_text(condition), which);
 }
 
 /// A status whose reason is put in words.

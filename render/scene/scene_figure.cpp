@@ -37,7 +37,7 @@ class RuleLayers {
 
   Text text_at(Point at, Point outward, double ems, Align align, const std::string& text) const;
   std::vector<Text> tick_labels(const Rule& rule, Point outward, Align align,
-                                std::vector<Point>& feet) const;
+                                std::vector<Point>& feet, std::string& factor) const;
   bool is_free(const Box& box) const;
 
   const Projection& project_;
@@ -92,14 +92,17 @@ bool RuleLayers::is_free(const Box& box) const {
   return std::ranges::none_of(taken_, [&box](const Box& other) { return overlap(box, other); });
 }
 
-/// @param feet  Set to where the ticks meet the axis, as many as labels.
+/// @param feet       Set to where the ticks meet the axis, as many as labels.
+/// @param factor  Set to that of the ticks.
 std::vector<RuleLayers::Text> RuleLayers::tick_labels(const Rule& rule, Point outward, Align align,
-                                                      std::vector<Point>& feet) const {
+                                                      std::vector<Point>& feet,
+                                                      std::string& factor) const {
   constexpr int kMostTicks = 6, kFewestTicks = 2;
   std::vector<Text> texts;
   for (int most = kMostTicks; most >= kFewestTicks; --most) {
     const Ticks ticks = linear_ticks(rule.range.low, rule.range.high,
                                      tick_step(rule.range.low, rule.range.high, most));
+    factor = ticks.factor;
     texts.clear();
     feet.clear();
     for (std::size_t i = 0; i < ticks.at.size(); ++i) {
@@ -133,7 +136,8 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
   };
 
   std::vector<Point> feet;
-  for (const Text& label : tick_labels(rule, outward, texts.align, feet)) write(label);
+  std::string factor;
+  for (const Text& label : tick_labels(rule, outward, texts.align, feet, factor)) write(label);
   for (const Point& foot : feet) {
     marks.x0.push_back(foot.x);
     marks.y0.push_back(foot.y);
@@ -141,9 +145,10 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
     marks.y1.push_back(foot.y + kTick * em_ * outward.y);
   }
   const Point middle = project_((rule.from + rule.to) / 2.0);
-  if (is_finite(middle) && !rule.label.empty())
+  const std::string name = factor.empty() ? rule.label : rule.label + " " + factor;
+  if (is_finite(middle) && !name.empty())
     for (double ems = kNameGap; ems < kFarthest; ems += kStep)
-      if (write(text_at(middle, outward, ems, texts.align, rule.label))) break;
+      if (write(text_at(middle, outward, ems, texts.align, name))) break;
   return {std::move(line), std::move(marks), std::move(texts)};
 }
 

@@ -26,6 +26,16 @@ std::string log_label(int factor, int exponent) {
   return (factor == 1 ? "10" : fmt::format("{}×10", factor)) + superscript(exponent);
 }
 
+/// A round number below a range that is far from 0 for its extent; 0 if it is not.
+double offset_below(double low, double high) {
+  constexpr double kFewestDigits = 1e5;  // Of six digits, few would change along the axis.
+  constexpr double kFar = 100.0;         // Extents from 0.
+  const double nearest = low > 0.0 ? low : -high;
+  if (!(high > low && nearest >= kFewestDigits && nearest >= kFar * (high - low))) return 0.0;
+  const double round = std::pow(10.0, std::floor(std::log10(high - low)) + 1.0);
+  return std::floor(low / round) * round;
+}
+
 }  // namespace
 
 std::string power_of_ten(int exponent) { return "×10" + superscript(exponent); }
@@ -50,6 +60,13 @@ double tick_step(double low, double high, int most) {
 }
 
 Ticks linear_ticks(double low, double high, double step) {
+  if (const double offset = offset_below(low, high); offset != 0.0) {
+    Ticks ticks = linear_ticks(low - offset, high - offset, step);
+    for (double& at : ticks.at) at += offset;
+    const int decimals = decimals_for(std::pow(10.0, std::floor(std::log10(high - low)) + 1.0));
+    ticks.factor = (offset < 0.0 ? "\u2212 " : "+ ") + number_text(std::abs(offset), decimals);
+    return ticks;
+  }
   const double largest = std::max(std::abs(low), std::abs(high));
   const int exponent = static_cast<int>(std::floor(std::log10(largest)));
   const bool factored = exponent >= 6 || exponent <= -4;

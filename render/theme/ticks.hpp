@@ -10,13 +10,13 @@ struct Ticks {
   std::vector<double> at;           ///< Ascending, within the range asked for.
   std::vector<std::string> labels;  ///< As many; equal numbers of decimals, U+2212 for minus.
   std::vector<double> minor;        ///< Without a label, on a log axis.
-  std::string factor;  ///< "×10⁶" if the labels are to be multiplied by it, or empty.
+  std::string factor;  ///< "×10⁶" to multiply the labels by, "+ 5821200" to add; or empty.
 };
 
 /// The least step 1, 2 or 5 × 10^k that puts at most `most` (>= 2) marks into [low, high].
 double tick_step(double low, double high, int most);
 
-/// Multiples of `step` > 0 in [low, high].
+/// Multiples of `step` > 0 in [low, high]. Labels far from 0 for their extent leave out an offset.
 Ticks linear_ticks(double low, double high, double step);
 
 /// Decades in [low, high], 0 < low < high, thinned to about `most`; with 2s and 5s between them if

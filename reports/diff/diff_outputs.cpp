@@ -21,25 +21,9 @@ namespace {
 constexpr std::size_t kMostRows = 50;
 constexpr std::size_t kLongest = 2000;  // Characters of a cause.
 
-/// A text as XML on one line.
-std::string xml(const std::string& text) {
-  std::string out = html_escaped(text);
-  std::ranges::replace_if(
-      out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
-  return out;
-}
+std::string xml(const std::string& text) { return xml_line(text); }
 
-/// Makes a text fit for a cell of a Markdown table on a page that accepts HTML.
-std::string cell(const std::string& text) {
-  std::string out;
-  for (const char c : xml(printable(text, kLongest))) {
-    if (std::string_view("|\\`*_[]#~@").find(c) != std::string_view::npos)
-      out += fmt::format("&#{};", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return out;
-}
+std::string cell(const std::string& text) { return markdown_text(text, kLongest); }
 
 /// Lines that name the images of an item that does not pass.
 std::string attachments(const ImageLinks& links, const DiffItem& item) {

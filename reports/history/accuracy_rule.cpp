@@ -265,7 +265,8 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
               evidence.reference->nightly_run, interval, comparison.before,
               with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
               comparison.has_steps ? " at the last step" : "", units, p_text(p),
-              counted(static_cast<long long>(tests), "test"))};
+              counted(static_cast<long long>(tests), "test")),
+          .change = change_of(quantity, change.shift)};
 }
 
 NightlyFinding finding_of(const Losses& losses, double p, const StudyEvidence& evidence) {
@@ -340,6 +341,13 @@ void judge_losses(const Work& work, std::span<const double> p, const StudyEviden
 std::string change_words(double change, bool ratio, const std::string& word) {
   return ratio ? fmt::format("{:.1f}\u00a0% {}", 100.0 * std::expm1(change), word)
                : fmt::format("{:.2f}\u00a0points {}", change, word);
+}
+
+double change_of(const Quantity& quantity, double worsening) {
+  const double change = quantity.nightly == NightlyRule::kRatio
+                            ? worse_percent(quantity, worsening)
+                            : worsening;
+  return quantity.better == Better::kHigher ? -change : change;
 }
 
 std::string worse_words(const Quantity& quantity, double worsening) {

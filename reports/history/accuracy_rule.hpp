@@ -17,6 +17,11 @@ RuleOutcome judge_accuracy(const StudyEvidence& evidence, const RegressionRules&
 /// "12 % higher", "0.8 points higher" of a change in a series' own values.
 std::string change_words(double change, bool ratio, const std::string& word);
 
+/// By how much values changed: in percent, or in points of what is judged by points; the sign is
+/// that of the change of the values.
+/// @param worsening  Of a level (see level_of).
+double change_of(const Quantity& quantity, double worsening);
+
 /// The same of a change for the worse of a level (see level_of): "12 % higher", or "lower" of what
 /// is better if it is higher.
 std::string worse_words(const Quantity& quantity, double worsening);

@@ -106,6 +106,12 @@ NightlyFinding finding_of(const NightlySeries& series, const Limit& limit, const
                           int since, const std::string& word) {
   const std::string label =
       series.quantity == "memory" ? "peak memory" : trend.quantities.at(series.quantity).label;
+  const bool is_error = series.rule == HistoryRule::kAccuracy;
+  const auto words = [&](double worsening) {
+    return is_error ? worse_words(trend.quantities.at(series.quantity), worsening)
+                    : change_words(worsening, series.ratio, word);
+  };
+  const double worsening = series.values.back() - limit.usual;
   return {
       .study = trend.name,
       .rule = series.rule,
@@ -114,11 +120,12 @@ NightlyFinding finding_of(const NightlySeries& series, const Limit& limit, const
       .since = since,
       .sentence = fmt::format(
           "{}: {} {} than usual in {} passing nightly runs, where the limit is {}{}", series.shown,
-          label, change_words(series.values.back() - limit.usual, series.ratio, word),
-          limit.nightly_runs, change_words(limit.most - limit.usual, series.ratio, word),
+          label, words(worsening), limit.nightly_runs, words(limit.most - limit.usual),
           since == trend.nightly_runs.back().number
               ? ""
-              : fmt::format("; since nightly run {}", since))};
+              : fmt::format("; since nightly run {}", since)),
+      .change = is_error ? change_of(trend.quantities.at(series.quantity), worsening)
+                         : 100.0 * std::expm1(worsening)};
 }
 
 /// The index of the last nightly run before this one that has a value and was made on the same

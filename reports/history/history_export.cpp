@@ -90,10 +90,33 @@ ordered_json history_json(HistoryStore& history, bool with_scores) {
     for (NightlyStudy& study : history.studies(nightly_run.number))
       one.studies.push_back(exported(history, nightly_run.number, std::move(study), with_scores));
   }
+  whole.notes = history.notes();
   ordered_json value = to_json_value(whole);
   for (std::size_t i = 0; i < whole.nightly_runs.size(); ++i)
     put_provenance(value["nightly_runs"][i], whole.nightly_runs[i].nightly_run.facts.provenance);
   return value;
+}
+
+NightlyNote note_of(const NightlyDecision& decision, std::string_view option) {
+  constexpr std::size_t kLongest = 1000;
+  NightlyNote note = parse_note_target(decision.target, option);
+  note.kind = decision.decision;
+  note.text = decision.text;
+  if (printable(note.text, kLongest) != note.text)
+    throw InvalidInput(fmt::format("{}: the text holds hidden characters or more than {}: \"{}\"",
+                                   option, kLongest, printable(note.text, 40)));
+  if (note.kind == NoteKind::kAccepted && note.finding > 0)
+    throw InvalidInput(fmt::format(
+        "{}: a nightly run is accepted as a whole: \"{}\"; a finding by itself can be known",
+        option, note.nightly_run));
+  return note;
+}
+
+std::vector<NightlyNote> parse_decisions(std::string_view text, const std::string& source) {
+  std::vector<NightlyNote> notes;
+  for (const NightlyDecision& decision : from_json_text<NightlyDecisions>(text, source).decisions)
+    notes.push_back(note_of(decision, source));
+  return notes;
 }
 
 }  // namespace mapproof

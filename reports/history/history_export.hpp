@@ -11,6 +11,7 @@
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -52,6 +53,9 @@ void fields(Visitor& v, NightlyFinding& finding) {
   v.field("since", finding.since,
           {.description = "The nightly run in which it began.", .minimum = 0});
   v.field("sentence", finding.sentence, {.description = "For readers, with numbers."});
+  v.field("change", finding.change,
+          {.description = "Of the value, in percent of what it was, or in points of what is judged "
+                          "by points; null: results are lost."});
 }
 
 /// The fields of a nightly run, in either file.
@@ -63,6 +67,11 @@ void nightly_fields(Visitor& v, NightlyFile& nightly_run) {
           {.description = "Its index in the order, from 1.", .minimum = 0});
   v.field("started_utc", facts.started_utc, {.description = "ISO 8601."});
   v.field("ended_utc", facts.ended_utc);
+  v.field("utc_offset_s", facts.utc_offset_s,
+          {.description = "Of the local time then, seconds east of UTC."});
+  v.field("commit", facts.commit,
+          {.description = "Of what was under test; empty: not known.", .max_bytes = 64});
+  v.field("repository", facts.repository, {.description = "Its address; may be empty."});
   v.field("command", facts.command, {.max_bytes = 1'000'000});
   v.field("provenance", nightly_run.provenance);
   v.field("host", facts.host);
@@ -87,6 +96,20 @@ void fields(Visitor& v, NightlyFile& nightly_run) {
   nightly_fields(v, nightly_run);
 }
 
+inline EnumNames enum_names(NoteKind) { return names_up_to(NoteKind::kAccepted, "note_kind"); }
+
+template <typename Visitor>
+void fields(Visitor& v, NightlyNote& note) {
+  v.type("note");
+  v.field("nightly_run", note.nightly_run, {.minimum = 0});
+  v.field("finding", note.finding,
+          {.description = "Its index among those of the nightly run, from 1; 0: all.",
+           .minimum = 0});
+  v.field("kind", note.kind);
+  v.field("text", note.text);
+  v.field("written_utc", note.written_utc, {.description = "ISO 8601."});
+}
+
 /// The values of a series in an exported history.
 struct ExportedSeries {
   SeriesId id = {};
@@ -108,6 +131,7 @@ struct ExportedNightlyRun {
 /// What `history --export json` writes.
 struct ExportedHistory {
   std::vector<ExportedNightlyRun> nightly_runs = {};
+  std::vector<NightlyNote> notes = {};
 };
 
 template <typename Visitor>
@@ -167,6 +191,7 @@ template <typename Visitor>
 void fields(Visitor& v, ExportedHistory& history) {
   v.file("mapproof.history", "Every value of every nightly run: mapproof history --export json.");
   v.field("nightly_runs", history.nightly_runs);
+  v.field("notes", history.notes, {.description = "What people said of them, oldest first."});
 }
 
 /// Every value of every nightly run as CSV [rfc4180]: nightly run, started_utc, study, sensor,
@@ -184,5 +209,45 @@ std::string nightly_json(const NightlyRun& nightly_run);
 /// One nightly run's facts and findings, for what holds them among others: without a schema.
 nlohmann::ordered_json nightly_value(const NightlyFacts& facts,
                                      const std::vector<NightlyFinding>& findings);
+
+/// What a person decided on one page of a history.
+struct NightlyDecision {
+  std::string target = {};  ///< "7.2": finding 2 of nightly run 7; "7": the nightly run.
+  NoteKind decision = NoteKind::kNote;
+  std::string text = {};
+};
+
+/// mapproof-decisions.json, which the index of a history saves.
+struct NightlyDecisions {
+  std::vector<NightlyDecision> decisions = {};
+};
+
+template <typename Visitor>
+void fields(Visitor& v, NightlyDecision& decision) {
+  v.type("decision");
+  v.field("target", decision.target,
+          {.description = "A nightly run, \"7\", or one of its findings, \"7.2\".",
+           .max_bytes = 30});
+  v.field("decision", decision.decision);
+  v.field("text", decision.text,
+          {.description = "Why; empty: what was said of it before is removed.",
+           .max_bytes = 4000});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, NightlyDecisions& decisions) {
+  v.file("mapproof.decisions",
+         "Decisions on findings and nightly runs, saved by the index of a history: mapproof history "
+         "--from.");
+  v.field("decisions", decisions.decisions, {.max_items = 10'000});
+}
+
+/// A decision as a note. @param option  Is named in messages.
+/// @throws InvalidInput for a target that is none, a text with hidden characters, and a finding that
+///         is to be accepted by itself.
+NightlyNote note_of(const NightlyDecision& decision, std::string_view option);
+
+/// The notes of such a file. @throws IoError, InvalidInput that name the file.
+std::vector<NightlyNote> parse_decisions(std::string_view text, const std::string& source);
 
 }  // namespace mapproof

@@ -15,8 +15,10 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/history/accuracy_rule.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/model/format.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -29,10 +31,12 @@ Cell number(double value, int decimals) {
   return NumberCell{value, decimals};
 }
 
-std::string words_of(const NightlyFacts& nightly_run) {
-  switch (nightly_run.verdict) {
+/// @param verdict  Without the findings that are known.
+std::string words_of(const NightlyFacts& nightly_run, NightlyVerdict verdict) {
+  switch (verdict) {
     case NightlyVerdict::kPassed:
-      return std::string(verdict_word(nightly_run));
+      return nightly_run.verdict == NightlyVerdict::kPassed ? std::string(verdict_word(nightly_run))
+                                                            : "nothing new";
     case NightlyVerdict::kCost:
       return "slower or larger";
     default:
@@ -142,16 +146,149 @@ std::optional<Callout> reported_of(const LostNightlyRuns& lost) {
                  {{{text}}}};
 }
 
+/// The series of a study that changed most since nightly run `from`: "ISOMAP, K = 6: MPE +17.6 %".
+std::string greatest_change(const StudyTrend& trend, std::size_t from) {
+  std::string text;
+  double most = 0.0;
+  for (const auto& [id, levels] : trend.levels) {
+    const NightlyRule rule = rule_of(id, trend.quantities, trend.levels);
+    const double worsening = levels.back() - levels[from];
+    if (!is_accuracy(rule) || !std::isfinite(worsening) || std::abs(worsening) <= most) continue;
+    most = std::abs(worsening);
+    const Quantity& quantity = trend.quantities.at(id.quantity);
+    text = fmt::format("{}: {} {}\u00a0{}", shown_method_of(trend.labels, id), quantity.label,
+                       format_number(change_of(quantity, worsening), 1, true),
+                       rule == NightlyRule::kRatio ? "%" : "points");
+  }
+  constexpr double kLeast = 5e-4;  // Half of what is shown.
+  return most < kLeast ? "" : text;
+}
+
+/// One line per study of the last nightly run.
+Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  Table table{.id = "studies",
+              .caption = "Change of each study over its nightly runs.",
+              .columns = {{"Study", "", "", ""},
+                          {"Change", "%", "",
+                           "Mean over the judged methods and quantities, against the reference run, "
+                           "or the one before what got worse; above zero is worse"},
+                          {"Largest change", "", "", "Of one method and quantity, in its own values"},
+                          {"Trends", "", "", ""},
+                          {"Report", "", "", ""}},
+              .rows = {},
+              .notes = {}};
+  for (const StudyTrend& trend : facts.trends) {
+    const std::size_t from = base_index(trend, found_on(this_run.number, facts.findings));
+    const std::vector<double> change = change_over_nightly_runs(trend, from);
+    const std::string most = greatest_change(trend, from);
+    const Phrase report = links.report(this_run.number, trend.name);
+    const Phrase trends = links.trends(trend.name);
+    const double last = change.back();
+    table.rows.push_back({{text(trend.name),
+                           std::isfinite(last) ? Cell{NumberCell{last, 1, true}} : MissingCell{},
+                           most.empty() ? text("none") : text(most),
+                           TextCell{trends.text, trends.emphasis},
+                           TextCell{report.text, report.emphasis}},
+                          fmt::format("{} to {}",
+                                      counted(std::ssize(trend.nightly_runs), "nightly run"),
+                                      this_run.number)});
+    table.rows.back().curve = change;
+  }
+  return table;
+}
+
+/// What got worse in one group, and where to find it.
+FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
+                           NightlyLinks& links) {
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  const CommitRange& commits = group.commits;
+  FindingBlock block;
+  block.title = group.headline();
+  block.details = group.sentences;
+  block.known = group.known.has_value();
+  block.command = block.known ? "" : commits.bisect();
+  auto& phrases = block.text.phrases;
+  phrases.push_back({group.study, Emphasis::kData});
+  if (!group.setup.empty()) phrases.push_back({", " + group.setup});
+  phrases.push_back({fmt::format(", since nightly run {}", commits.since.number)});
+  if (!commits.since.started_utc.empty())
+    phrases.push_back({" (" + local_time(commits.since) + ")"});
+  if (commits.has_commits()) {
+    phrases.push_back({", commits "});
+    phrases.push_back(links.commits(commits));
+  } else if (!commits.since.commit.empty() && commits.since.commit == commits.before.commit) {
+    phrases.push_back({", commit "});
+    phrases.push_back(links.commit(commits.since));
+    phrases.push_back({" as before it"});
+  }
+  phrases.push_back({". See "});
+  const std::string file =
+      comparison_file(commits.before.number, commits.since.number, group.study);
+  if (facts.comparisons.contains(file)) {
+    phrases.push_back(
+        links.comparison(commits.before.number, commits.since.number, group.study));
+    phrases.push_back({", "});
+  }
+  phrases.push_back(links.trends(group.study));
+  phrases.push_back({", "});
+  phrases.push_back(links.report(this_run.number, group.study));
+  phrases.push_back({"."});
+  if (group.known) {
+    phrases.push_back({" Known: "});
+    phrases.push_back({group.known->text, Emphasis::kData});
+  } else {
+    for (const int number : group.numbers)
+      block.keys += fmt::format("{}{}.{}", block.keys.empty() ? "" : " ", this_run.number, number);
+  }
+  return block;
+}
+
+/// What got worse, what is new first; nothing if nothing did.
+std::optional<Section> worse_section(const IndexFacts& facts, const NightlySummary& summary,
+                                     NightlyLinks& links) {
+  constexpr std::size_t kMostBlocks = 30;
+  if (summary.groups.empty()) return std::nullopt;
+  Section section{"worse", "What got worse", {}};
+  for (const FindingGroup& group : summary.groups) {
+    if (section.blocks.size() == kMostBlocks) {
+      section.blocks.emplace_back(Paragraph{{{fmt::format(
+          "And {} more, among the findings of the trends.", summary.groups.size() - kMostBlocks)}}});
+      break;
+    }
+    section.blocks.emplace_back(finding_block(group, facts, links));
+  }
+  return section;
+}
+
 Section last_section(const IndexFacts& facts, NightlyLinks& links) {
   Section last{"last", "The last nightly run", {}};
   const NightlyFacts& this_run = facts.nightly_runs.back();
   if (auto damage = reported_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
-  if (const auto made = facts.studies.find(this_run.number); made != facts.studies.end())
+  for (const NightlyNote& note : notes_on(this_run.number, facts.notes))
+    if (note.kind != NoteKind::kKnown)
+      last.blocks.emplace_back(
+          Callout{Callout::Tone::kNote, note.kind == NoteKind::kAccepted ? "Accepted" : "Note",
+                  {{{note.text, Emphasis::kData}}}});
+  if (!facts.trends.empty())
+    last.blocks.emplace_back(studies_table(facts, links));
+  else if (const auto made = facts.studies.find(this_run.number); made != facts.studies.end())
     for (const std::string& study : made->second)
       last.blocks.emplace_back(Paragraph{{{study + ": ", Emphasis::kStrong},
                                           links.report(this_run.number, study),
                                           {", "},
                                           links.trends(study)}});
+  Paragraph made{{{"Begun " + local_time(this_run)}}};
+  if (!this_run.commit.empty()) {
+    made.phrases.push_back({", commit "});
+    made.phrases.push_back(links.commit(this_run));
+  }
+  made.phrases.push_back({". For readers of feeds: "});
+  made.phrases.push_back(links.feed());
+  made.phrases.push_back({"; for other pages: "});
+  made.phrases.push_back(links.badge());
+  made.phrases.push_back({"."});
+  last.blocks.emplace_back(std::move(made));
   BulletList list;
   for (const std::string& remark : facts.remarks) list.items.push_back({{{remark + "."}}});
   if (!list.items.empty()) last.blocks.emplace_back(std::move(list));
@@ -164,6 +301,28 @@ Section lost_section(const LostNightlyRuns& lost, NightlyLinks& links) {
     for (const std::string& study : studies)
       list.items.push_back({{{study + ": ", Emphasis::kStrong}, links.report(nightly_run, study)}});
   return {"lost", "Nightly runs of a damaged history", {std::move(list)}};
+}
+
+Cell commit_cell(const NightlyFacts& nightly_run, NightlyLinks& links) {
+  if (nightly_run.commit.empty()) return MissingCell{};
+  const Phrase commit = links.commit(nightly_run);
+  return TextCell{commit.text, commit.emphasis};
+}
+
+/// "accepted: better maps; 2 known: broken sensor".
+Cell notes_cell(int nightly_run, std::span<const NightlyNote> notes) {
+  std::map<std::pair<NoteKind, std::string>, int> said;
+  for (const NightlyNote& note : notes_on(nightly_run, notes)) ++said[{note.kind, note.text}];
+  std::string all;
+  for (const auto& [what, count] : said) {
+    const auto& [kind, words] = what;
+    if (!all.empty()) all += "; ";
+    if (kind == NoteKind::kKnown) all += fmt::format("{} known: ", count);
+    if (kind == NoteKind::kAccepted) all += "accepted: ";
+    all += words;
+  }
+  if (all.empty()) return MissingCell{};
+  return TextCell{all, Emphasis::kData};
 }
 
 }  // namespace
@@ -190,44 +349,107 @@ Phrase NightlyLinks::folder(int nightly_run) {
               fmt::format("folder of nightly run {}", nightly_run));
 }
 
-std::string to_the_minute(const std::string& utc) {
-  if (utc.size() != 20 || utc[10] != 'T' || utc[19] != 'Z') return utc;
-  return utc.substr(0, 10) + " " + utc.substr(11, 5);
+Phrase NightlyLinks::comparison(int before, int after, const std::string& study) {
+  return link(folders_.pages + comparison_file(before, after, study),
+              fmt::format("diff of nightly runs {} and {}", before, after));
 }
 
-Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
-                         const NightlyFindings& findings, const NightlyStudies& studies,
-                         NightlyLinks& links) {
+Phrase NightlyLinks::commit(const NightlyFacts& nightly_run) {
+  const std::string words = short_commit(nightly_run.commit);
+  const std::string url = commit_url(nightly_run.repository, nightly_run.commit);
+  if (url.empty()) return {words, Emphasis::kCode};
+  words_[url] = words;
+  return {url, Emphasis::kUrl};
+}
+
+Phrase NightlyLinks::commits(const CommitRange& range) {
+  const std::string url = range.url();
+  if (url.empty()) return {range.text(), Emphasis::kCode};
+  words_[url] = range.text();
+  return {url, Emphasis::kUrl};
+}
+
+Phrase NightlyLinks::feed() { return link(folders_.pages + "feed.xml", "Atom feed"); }
+
+Phrase NightlyLinks::badge() { return link(folders_.pages + "badge.svg", "badge"); }
+
+std::string comparison_file(int before, int after, const std::string& study) {
+  return fmt::format("compare/{:04}-{:04}/{}.html", before, after, study);
+}
+
+NightlySummary last_summary(const IndexFacts& facts) {
+  NightlySummary summary;
+  if (facts.nightly_runs.empty()) return summary;
+  summary.facts = facts.nightly_runs.back();
+  const auto found = found_on(summary.facts.number, facts.findings);
+  summary.groups = grouped(found, facts.trends, facts.notes);
+  summary.trends = facts.trends;
+  summary.remarks = facts.remarks;
+  summary.notes = notes_on(summary.facts.number, facts.notes);
+  summary.all_notes = facts.notes;
+  return summary;
+}
+
+std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from) {
+  const auto mean_of = [&](NightlyRule judged) {
+    std::vector<double> means;
+    for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i) {
+      double sum = 0.0;
+      int count = 0;
+      for (const auto& [id, levels] : trend.levels) {
+        if (rule_of(id, trend.quantities, trend.levels) != judged) continue;
+        const double worsening = levels[i] - levels[from];
+        if (!std::isfinite(worsening)) continue;
+        sum += worsening;
+        ++count;
+      }
+      means.push_back(count == 0 ? kNaN : sum / count);
+    }
+    return means;
+  };
+  std::vector<double> change = mean_of(NightlyRule::kRatio);
+  if (std::ranges::none_of(change, [](double v) { return std::isfinite(v); }))
+    return mean_of(NightlyRule::kPoints);
+  for (double& value : change) value = 100.0 * std::expm1(value);
+  return change;
+}
+
+Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
   Table table{
       .id = "nightly-runs",
       .caption = "Every nightly run, the last one first.",
       .columns = {{"Run", "", "", "Its number: the order of nightly runs, whatever clocks say"},
-                  {"Started", "", "", "UTC"},
-                  {"Verdict", "", "", ""},
+                  {"Started", "", "", "By the clock of the place where it ran"},
+                  {"Commit", "", "", "Of what was under test"},
+                  {"Verdict", "", "", "Without findings that are known"},
                   {"Findings", "", "", "How many"},
                   {"Compared with", "", "", "The nightly run it was compared with"},
-                  {"Host", "", "", ""},
+                  {"Host", "", "", "The machine; seconds are compared between runs on one machine"},
                   {"Report", "", "",
-                   "The report of that nightly run; its folder if there are several"}},
+                   "The report of that nightly run; its folder if there are several"},
+                  {"Note", "", "", "What was noted on it"}},
       .rows = {},
       .notes = {}};
-  for (const NightlyFacts& nightly_run : nightly_runs | std::views::reverse) {
-    const auto found = findings.find(nightly_run.number);
-    const std::size_t count = found == findings.end() ? 0 : found->second.size();
-    const auto made = studies.find(nightly_run.number);
-    const Phrase place = made != studies.end() && made->second.size() == 1
+  for (const NightlyFacts& nightly_run : facts.nightly_runs | std::views::reverse) {
+    const auto found = found_on(nightly_run.number, facts.findings);
+    const NightlyVerdict verdict = verdict_of(new_findings(found, facts.notes));
+    const auto made = facts.studies.find(nightly_run.number);
+    const Phrase place = made != facts.studies.end() && made->second.size() == 1
                              ? links.report(nightly_run.number, made->second.front())
                              : links.folder(nightly_run.number);
     // What got worse is marked by weight as well, not by its text alone.
     const Emphasis weight =
-        nightly_run.verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
+        verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
     const Cell against =
         nightly_run.reference ? Cell{number(*nightly_run.reference, 0)} : Cell{MissingCell{}};
     table.rows.push_back(
-        {{number(nightly_run.number, 0), text(to_the_minute(nightly_run.started_utc)),
-          TextCell{words_of(nightly_run) + (nightly_run.pinned ? ", pinned" : ""), weight},
-          number(static_cast<double>(count), 0), against,
-          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis}},
+        {{number(nightly_run.number, 0), text(local_time(nightly_run)),
+          commit_cell(nightly_run, links),
+          TextCell{words_of(nightly_run, verdict) + (nightly_run.pinned ? ", reference" : ""),
+                   weight},
+          number(static_cast<double>(found.size()), 0), against,
+          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis},
+          notes_cell(nightly_run.number, facts.notes)},
          fmt::format("nightly run {}", nightly_run.number)});
   }
   return table;
@@ -279,7 +501,7 @@ Table accuracy_table(const StudyTrend& trend) {
 }
 
 HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
-                       const HistoryFolders& folders) {
+                       const HistoryFolders& folders, std::span<const NightlyNote> notes) {
   HistoryPage page;
   NightlyLinks links(folders);
   page.figures = trend_figures(trend, findings);
@@ -287,8 +509,9 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   page.report.subtitle = fmt::format("Nightly runs {} to {}", trend.nightly_runs.front().number,
                                      trend.nightly_runs.back().number);
   const NightlyFacts& this_run = trend.nightly_runs.back();
-  page.report.opening.standing =
-      study_standing(this_run, found_on(this_run.number, findings), trend.name, is_compared);
+  const std::vector<FindingGroup> groups =
+      grouped(found_on(this_run.number, findings), std::span(&trend, 1), notes);
+  page.report.opening.standing = study_standing(this_run, groups, trend.name, is_compared);
   std::optional<Phrase> reference;
   if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
   page.report.opening.findings.push_back(
@@ -314,10 +537,12 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   NightlyLinks links(folders);
   const NightlyFacts& this_run = facts.nightly_runs.back();
   report.subtitle =
-      fmt::format("{}, the last begun {} UTC",
+      fmt::format("{}, the last begun {}",
                   counted(static_cast<long long>(facts.nightly_runs.size()), "nightly run"),
-                  to_the_minute(this_run.started_utc));
-  report.opening.standing = nightly_standing(this_run, found_on(this_run.number, facts.findings));
+                  local_time(this_run));
+  const NightlySummary summary = last_summary(facts);
+  report.opening.standing = nightly_standing(summary);
+  if (auto worse = worse_section(facts, summary, links)) report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, links));
   page.figures = course(facts);
   if (!page.figures.empty())
@@ -326,7 +551,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   report.sections.push_back(
       {"nightly-runs",
        "All nightly runs",
-       {nightly_runs_table(facts.nightly_runs, facts.findings, facts.studies, links)}});
+       {nightly_runs_table(facts, links)}});
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
@@ -337,7 +562,8 @@ void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLink
   const LostNightlyRuns& lost = study.lost;
   Opening& opening = report.opening;
   opening.standing =
-      study_standing(nightly_run.facts, nightly_run.findings, study.name, study.is_compared);
+      study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
+  mark_regressed(report, study.figures, study.groups, study.name);
   std::optional<Phrase> reference;
   if (study.is_compared && nightly_run.facts.reference)
     reference = links.report(*nightly_run.facts.reference, study.name);

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "reports/history/history_pages.hpp"
 #include "reports/history/nightly_run.hpp"
+#include "reports/history/nightly_summary.hpp"
 #include "reports/history/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
@@ -27,6 +28,14 @@ class NightlyLinks {
 
   Phrase index();
   Phrase trends(const std::string& study);
+  /// The page that compares a study of two nightly runs.
+  Phrase comparison(int before, int after, const std::string& study);
+  /// The page of a commit; its digits alone if its address is not known.
+  Phrase commit(const NightlyFacts& nightly_run);
+  /// The page that compares the two commits; the range alone if its address is not known.
+  Phrase commits(const CommitRange& range);
+  Phrase feed();
+  Phrase badge();
   Phrase report(int nightly_run, const std::string& study);
   /// The folder of a nightly run of several studies.
   Phrase folder(int nightly_run);
@@ -44,15 +53,9 @@ class NightlyLinks {
 /// Names of the studies by nightly run.
 using NightlyStudies = std::map<int, std::vector<std::string>>;
 
-/// "2026-11-22 02:30" of "2026-11-22T02:30:07Z"; any other text unchanged.
-std::string to_the_minute(const std::string& utc);
-
-/// One row per nightly run, the last one first.
-/// @param studies  Of each nightly run: its report is linked where there is one study, else its
-/// folder.
-Table nightly_runs_table(std::span<const NightlyFacts> nightly_runs,
-                         const NightlyFindings& findings, const NightlyStudies& studies,
-                         NightlyLinks& links);
+/// "compare/0005-0006/STUDY.html": the page that compares a study of two nightly runs, from the
+/// folder of the index.
+std::string comparison_file(int before, int after, const std::string& study);
 
 /// One row per finding of those nightly runs, the last nightly run first.
 Table findings_table(const NightlyFindings& findings, const std::string& study);
@@ -82,7 +85,20 @@ struct IndexFacts {
                                           ///< is only suspected.
   std::vector<StudyTrend> trends = {};    ///< Of the last nightly run's studies.
   LostNightlyRuns lost = {};
+  std::vector<NightlyNote> notes = {};
+  std::set<std::string> comparisons = {};  ///< comparison_file() of those that are there.
 };
+
+/// The last nightly run of them, with its findings in groups; empty facts without any.
+NightlySummary last_summary(const IndexFacts& facts);
+
+/// By how much the accuracy of a study is worse than in the nightly run of index `from`, in percent
+/// of what it was: the mean of its judged series, one value per nightly run, NaN where there is
+/// none. In points where all of its series are judged by points.
+std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from);
+
+/// One row per nightly run, the last one first.
+Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links);
 
 /// One study over the nightly runs: what was found, accuracy, seconds and memory of what
 /// trend_figures() shows. Pure: the same values give the same page.
@@ -90,10 +106,10 @@ struct IndexFacts {
 /// @param is_compared  Whether the last one's reference run has the study, ordered in the same
 ///                     way.
 HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
-                       const HistoryFolders& folders);
+                       const HistoryFolders& folders, std::span<const NightlyNote> notes = {});
 
-/// The verdict on the last nightly run, a figure or two of the trends, and all nightly runs, the
-/// last one first.
+/// The verdict on the last nightly run, what got worse and where it began, one line per study, a
+/// figure or two of the trends, and all nightly runs, the last one first.
 HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders);
 
 /// A study of one nightly run.
@@ -102,6 +118,8 @@ struct StudyOfNightlyRun {
   std::string name;
   bool is_compared = false;     ///< As for trend_page().
   const LostNightlyRuns& lost;  ///< Not empty: reported, since the history was found damaged.
+  std::span<const FindingGroup> groups = {};  ///< Of the nightly run.
+  std::span<const Figure> figures = {};       ///< Of the report: those of what got worse are marked.
 };
 
 /// Puts the verdict on a study's nightly run at the head of its report, with links to related

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
 namespace {

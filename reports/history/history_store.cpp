@@ -11,8 +11,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
-#include "reports/history/database.hpp"
-#include "reports/history/schema.hpp"
+#include "reports/history/store/database.hpp"
+#include "reports/history/store/schema.hpp"
 
 namespace mapproof {
 namespace {
@@ -21,7 +21,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kNightlyColumns =
     "number, started_utc, ended_utc, command, provenance, host, processor, cores, jobs, reference, "
-    "pinned, verdict";
+    "pinned, verdict, utc_offset_s, commit_id, repository, build";
+constexpr int kColumnsOfFacts = 16;
 
 NightlyFacts read_facts(const Statement& row, const fs::path& path) {
   NightlyFacts facts{.number = static_cast<int>(row.integer(0)),
@@ -40,6 +41,10 @@ NightlyFacts read_facts(const Statement& row, const fs::path& path) {
     throw DamagedFile(path.string(), fmt::format("nightly run {} has the unknown verdict \"{}\"",
                                                  facts.number, printable(row.text(11))));
   facts.verdict = *verdict;
+  facts.utc_offset_s = static_cast<int>(row.integer(12));
+  facts.commit = row.text(13);
+  facts.repository = row.text(14);
+  facts.build = row.text(15);
   return facts;
 }
 
@@ -154,7 +159,7 @@ std::vector<NightlyFacts> HistoryStore::nightly_runs() {
 
 std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
   Statement rows(*database_,
-                 "SELECT study, kind, subject, quantity, since, sentence FROM findings "
+                 "SELECT study, kind, subject, quantity, since, sentence, change FROM findings "
                  "WHERE nightly_run = ? ORDER BY id");
   rows.bind(nightly_run);
   std::vector<NightlyFinding> findings;
@@ -170,6 +175,7 @@ std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
                         .quantity = rows.text(3),
                         .since = static_cast<int>(rows.integer(4)),
                         .sentence = rows.text(5)});
+    if (!rows.is_null(6)) findings.back().change = rows.real(6);
   }
   return findings;
 }
@@ -227,8 +233,8 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& expe
   std::vector<std::int64_t> ids;
   while (rows.step()) {
     trend.nightly_runs.push_back(read_facts(rows, database_->path()));
-    ids.push_back(rows.integer(12));
-    trend.peak_memory_mib.push_back(rows.real(13));
+    ids.push_back(rows.integer(kColumnsOfFacts));
+    trend.peak_memory_mib.push_back(rows.real(kColumnsOfFacts + 1));
   }
   std::ranges::reverse(trend.nightly_runs);
   std::ranges::reverse(ids);
@@ -263,7 +269,7 @@ void HistoryStore::append(const NightlyRun& nightly_run) {
         fmt::format("nightly run {} is not after nightly run {}", facts.number, last_number()));
   Transaction transaction(*database_);
   Statement insert(*database_, fmt::format("INSERT INTO nightly_runs ({}) VALUES "
-                                           "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                                           "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                                            kNightlyColumns));
   insert.bind(facts.number).bind(facts.started_utc).bind(facts.ended_utc).bind(facts.command);
   insert.bind(facts.provenance).bind(facts.host).bind(facts.processor);
@@ -272,12 +278,13 @@ void HistoryStore::append(const NightlyRun& nightly_run) {
     insert.bind(*facts.reference);
   else
     insert.bind_null();
-  insert.bind(0).bind(name(facts.verdict)).run();
+  insert.bind(0).bind(name(facts.verdict)).bind(facts.utc_offset_s);
+  insert.bind(facts.commit).bind(facts.repository).bind(facts.build).run();
   for (const NightlyStudy& study : nightly_run.studies) append_study(facts.number, study);
   Statement found(
       *database_,
-      "INSERT INTO findings (nightly_run, study, kind, subject, quantity, since, sentence) "
-      "VALUES (?, ?, ?, ?, ?, ?, ?)");
+      "INSERT INTO findings (nightly_run, study, kind, subject, quantity, since, sentence, change) "
+      "VALUES (?, ?, ?, ?, ?, ?, ?, ?)");
   for (const NightlyFinding& finding : nightly_run.findings)
     found.bind(facts.number)
         .bind(finding.study)
@@ -286,6 +293,7 @@ void HistoryStore::append(const NightlyRun& nightly_run) {
         .bind(finding.quantity)
         .bind(finding.since)
         .bind(finding.sentence)
+        .bind(finding.change.value_or(kNaN))
         .run();
   transaction.commit();
 }
@@ -348,6 +356,80 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
                    "INSERT INTO figures (study, file, digest, bytes) VALUES (?, ?, ?, ?)");
   for (const FigureFile& file : study.figures)
     figure.bind(id).bind(file.file).bind(file.digest).bind(file.bytes).run();
+}
+
+std::vector<NightlyNote> HistoryStore::notes() {
+  Statement rows(*database_,
+                 "SELECT nightly_run, finding, kind, study, subject, quantity, since, change, text, "
+                 "written_utc FROM notes ORDER BY id");
+  std::vector<NightlyNote> notes;
+  while (rows.step()) {
+    const auto kind = note_kind_named(rows.text(2));
+    if (!kind)
+      throw DamagedFile(database_->path().string(),
+                        fmt::format("there is no note of the kind \"{}\"", printable(rows.text(2))));
+    notes.push_back({.nightly_run = static_cast<int>(rows.integer(0)),
+                     .finding = static_cast<int>(rows.integer(1)),
+                     .kind = *kind,
+                     .study = rows.text(3),
+                     .subject = rows.text(4),
+                     .quantity = rows.text(5),
+                     .since = static_cast<int>(rows.integer(6)),
+                     .text = rows.text(8),
+                     .written_utc = rows.text(9)});
+    if (!rows.is_null(7)) notes.back().change = rows.real(7);
+  }
+  return notes;
+}
+
+void HistoryStore::add_note(const NightlyNote& note) {
+  Statement(*database_, "DELETE FROM notes WHERE nightly_run = ? AND finding = ? AND kind = ?")
+      .bind(note.nightly_run)
+      .bind(note.finding)
+      .bind(name(note.kind))
+      .run();
+  if (note.text.empty()) return;
+  Statement(*database_,
+            "INSERT INTO notes (nightly_run, finding, kind, study, subject, quantity, since, "
+            "change, text, written_utc) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
+      .bind(note.nightly_run)
+      .bind(note.finding)
+      .bind(name(note.kind))
+      .bind(note.study)
+      .bind(note.subject)
+      .bind(note.quantity)
+      .bind(note.since)
+      .bind(note.change.value_or(kNaN))
+      .bind(note.text)
+      .bind(note.written_utc)
+      .run();
+}
+
+void HistoryStore::add_notes(const std::vector<NightlyNote>& notes) {
+  Transaction transaction(*database_);
+  for (NightlyNote note : notes) {
+    Statement find(*database_, "SELECT 1 FROM nightly_runs WHERE number = ?");
+    if (!find.bind(note.nightly_run).step())
+      throw InvalidInput(fmt::format("there is no nightly run {}", note.nightly_run));
+    if (note.finding > 0) {
+      const std::vector<NightlyFinding> found = findings(note.nightly_run);
+      if (std::cmp_greater(note.finding, found.size()))
+        throw InvalidInput(fmt::format("nightly run {} has no finding {}; it has {}",
+                                       note.nightly_run, note.finding, found.size()));
+      put_finding(note, found[static_cast<std::size_t>(note.finding - 1)]);
+    }
+    add_note(note);
+    if (note.kind == NoteKind::kAccepted && !note.text.empty())
+      Statement(*database_, "UPDATE nightly_runs SET pinned = (number = ?)")
+          .bind(note.nightly_run)
+          .run();
+  }
+  transaction.commit();
+}
+
+std::string HistoryStore::identifier() {
+  Statement row(*database_, "SELECT value FROM facts WHERE name = 'identifier'");
+  return row.step() ? row.text(0) : "";
 }
 
 void HistoryStore::pin(int nightly_run) {

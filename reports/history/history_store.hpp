@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "reports/history/database.hpp"
+#include "reports/history/store/database.hpp"
+#include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -49,6 +50,17 @@ class HistoryStore {
   /// number is taken or not above all others.
   void append(const NightlyRun& nightly_run);
 
+  /// What was said of findings and nightly runs, oldest first. @throws IoError.
+  std::vector<NightlyNote> notes();
+  /// Adds notes; each replaces those of its kind on the same finding or nightly run, and one with
+  /// an empty text only removes them. One that accepts its nightly run pins it as well.
+  /// @throws InvalidInput if its nightly run or finding is not there; IoError.
+  void add_notes(const std::vector<NightlyNote>& notes);
+
+  /// A UUID of this history, in the form of a URN, which is the same as long as it exists.
+  /// @throws IoError.
+  std::string identifier();
+
   /// Pins one nightly run and no other. @throws InvalidInput if it is not there; IoError.
   void pin(int nightly_run);
 
@@ -70,6 +82,7 @@ class HistoryStore {
  private:
   explicit HistoryStore(std::unique_ptr<Database> database) : database_(std::move(database)) {}
   void append_study(int nightly_run, const NightlyStudy& study);
+  void add_note(const NightlyNote& note);
 
   std::unique_ptr<Database> database_;
   std::vector<std::string> remarks_;

@@ -90,7 +90,9 @@ NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
                                   "for {} series of {} nightly runs",
                                   series.shown, label, change, since,
                                   known.change.gradual ? "a slow drift" : "a step", p, tests,
-                                  known.values.size())};
+                                  known.values.size()),
+          .change = accuracy ? change_of(trend.quantities.at(series.quantity), known.change.rise)
+                             : 100.0 * std::expm1(known.change.rise)};
 }
 
 /// Rises at an unknown nightly run, by rise_in(), of all of these over the nightly runs of the

@@ -110,7 +110,8 @@ double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
   double sum = 0.0;
   int count = 0;
   for (const RunValue& value : values) {
-    if (!std::isfinite(value.value)) continue;
+    // A ratio of what lies below 0 means nothing: it is not judged.
+    if (!std::isfinite(value.value) || (ratio && value.value < 0.0)) continue;
     sum += ratio ? std::log(std::max(value.value, kLeastError)) : value.value;
     ++count;
   }

@@ -99,6 +99,9 @@ struct NightlyFinding {
   std::string quantity = {};  ///< Quantity::id, or "memory".
   int since = 0;              ///< The nightly run in which it began, as far as can be determined.
   std::string sentence = {};  ///< With numbers.
+  /// By how much the value changed: in percent of what it was, or in points of a quantity that is
+  /// judged by points. Its sign is that of the value's change. Empty: results are lost.
+  std::optional<double> change = {};
 };
 
 /// The most severe verdict of these findings.
@@ -108,9 +111,13 @@ NightlyVerdict verdict_of(const std::vector<NightlyFinding>& findings);
 struct NightlyFacts {
   int number = 0;                ///< Its index in the order of nightly runs, from 1; never reused.
   std::string started_utc = {};  ///< ISO 8601. Clocks can jump: nightly runs are ordered by number.
+  int utc_offset_s = 0;          ///< Of the local time then, seconds east of UTC.
   std::string ended_utc = {};
   std::string command = {};
   std::string provenance = {};  ///< JSON.
+  std::string commit = {};      ///< Of what was under test, in hexadecimal digits; may be empty.
+  std::string repository = {};  ///< Its address, "https://host/owner/name"; may be empty.
+  std::string build = {};       ///< The command that builds it, for git bisect; may be empty.
   std::string host = {};
   std::string processor = {};  ///< "x86_64, AMD EPYC …".
   int cores = 0;

@@ -4,7 +4,9 @@
 #include <span>
 #include <string>
 
-#include "reports/history/nightly_run.hpp"
+#include "render/plot/figure.hpp"
+#include "reports/history/finding_groups.hpp"
+#include "reports/history/nightly_summary.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -13,17 +15,21 @@ namespace mapproof {
 /// lists all.
 inline constexpr std::size_t kMostReported = 3;
 
-/// "Nothing got worse than in nightly run 3.", "Accuracy got worse: 2 findings.", "Not compared: …"
-std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings);
-
-/// The verdict on a study of a judged nightly run: its first findings, and how many more there are.
-/// @param findings     Of that nightly run; those of other studies are left out.
+/// The verdict on a study of a judged nightly run: its first groups of findings, and how many more
+/// there are.
+/// @param groups       Of that nightly run; those of other studies are left out.
 /// @param is_compared  Whether the reference run has the study, ordered in the same way.
-Standing study_standing(const NightlyFacts& nightly_run, std::span<const NightlyFinding> findings,
+Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,
                         const std::string& study, bool is_compared);
 
-/// The verdict on all studies of a nightly run: the first findings of each, after its name.
-Standing nightly_standing(const NightlyFacts& nightly_run,
-                          std::span<const NightlyFinding> findings);
+/// The verdict on all studies of a nightly run: the first groups of each, after its name.
+Standing nightly_standing(const NightlySummary& summary);
+
+/// Marks what got worse of a study in its report: the rows of tables that are about a method with a
+/// finding, and the figures that draw it with the quantity of the finding.
+/// @param figures  Of the report, as values.
+/// @param groups   Of any study; known ones are marked as well.
+void mark_regressed(Report& report, std::span<const Figure> figures,
+                    std::span<const FindingGroup> groups, const std::string& study);
 
 }  // namespace mapproof

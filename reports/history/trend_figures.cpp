@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -14,8 +15,11 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
+#include "core/model/method.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
+#include "render/figures/curves/method_series.hpp"
+#include "reports/history/finding_groups.hpp"
 #include "reports/history/shown_names.hpp"
 
 namespace mapproof {
@@ -128,21 +132,56 @@ std::vector<Line> shown_settings(const Reported& reported, const std::string& se
   return lines;
 }
 
+/// "7: 11-22", the number and the local date of a nightly run.
+std::string tick_of(const NightlyFacts& nightly_run) {
+  constexpr std::size_t kMonth = 5, kDate = 5;  // In "2026-11-22 …".
+  const std::string time = local_time(nightly_run);
+  const bool is_dated = time.size() > kMonth + kDate && time[kMonth - 1] == '-';
+  return std::to_string(nightly_run.number) +
+         (is_dated ? ": " + time.substr(kMonth, kDate) : "");
+}
+
+/// The nightly runs side by side.
 ErrorPanel panel_of(const StudyTrend& trend) {
   ErrorPanel panel;
-  panel.x.label = "nightly run";
-  panel.x.whole = true;
-  // A single nightly run, too, has an axis.
-  const double first = trend.nightly_runs.front().number;
-  panel.x.limits =
-      Range{first - 0.5, std::max<double>(trend.nightly_runs.back().number, first) + 0.5};
+  panel.x.label = "nightly run: date";
+  for (const NightlyFacts& nightly_run : trend.nightly_runs)
+    panel.x.names.push_back(tick_of(nightly_run));
+  panel.x.limits = Range{-0.5, static_cast<double>(trend.nightly_runs.size()) - 0.5};
   return panel;
 }
 
-std::vector<double> nightly_numbers(const StudyTrend& trend) {
-  std::vector<double> x;
-  for (const NightlyFacts& nightly_run : trend.nightly_runs) x.push_back(nightly_run.number);
+std::vector<double> places_of(const StudyTrend& trend) {
+  std::vector<double> x(trend.nightly_runs.size());
+  std::iota(x.begin(), x.end(), 0.0);
   return x;
+}
+
+/// Values as changes since the nightly run of index `from`, or the first that has a value: in
+/// percent of that value, or as differences. NaN where there is no such value.
+std::vector<double> changes_of(const std::vector<double>& values, std::size_t from,
+                               bool by_ratio) {
+  double base = values[from];
+  for (const double value : values)
+    if (!std::isfinite(base)) base = value;
+  std::vector<double> changes;
+  for (const double value : values)
+    changes.push_back(!by_ratio ? value - base
+                      : base > 0.0 ? 100.0 * (value / base - 1.0)
+                                   : kNaN);
+  return changes;
+}
+
+/// The nightly run that changes are of.
+std::size_t base_of(const Reported& reported) {
+  std::vector<NightlyFinding> last;
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (nightly_run + 1 == reported.trend.nightly_runs.size()) last.push_back(*finding);
+  return base_index(reported.trend, last);
+}
+
+std::string base_words(const Reported& reported) {
+  return fmt::format("nightly run {}", reported.trend.nightly_runs[base_of(reported)].number);
 }
 
 /// A mark at each nightly run's value of a line that a finding is about.
@@ -157,7 +196,7 @@ void mark_findings(const Reported& reported, const std::string& label,
       panel.points.push_back(
           {.label = kFound,
            .line = label,
-           .x = static_cast<double>(reported.trend.nightly_runs[nightly_run].number),
+           .x = static_cast<double>(nightly_run),
            .y = values[nightly_run]});
 }
 
@@ -181,6 +220,13 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
   return figure;
 }
 
+/// A method has one style in all figures; the second of two settings gets one that is left.
+std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string& method) {
+  if (!labels.methods.empty()) return std::nullopt;
+  const std::optional<Method> known = method_named(base_method(labels, method));
+  return known ? std::optional(method_series(*known)) : std::nullopt;
+}
+
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
   const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
@@ -189,43 +235,55 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
   const std::string setup = shown_setup(reported.trend.labels, sensor);
   ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
                                    setup.empty() ? facts.label : setup + ": " + facts.label);
-  spec.y_label = label_with_unit(facts);
-  spec.quantity = facts.label;
+  const bool by_ratio =
+      facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
+  const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
+  spec.y_label = changes ? fmt::format("change of {} [{}]", facts.label, by_ratio ? "%" : "points")
+                         : label_with_unit(facts);
+  if (changes) spec.log_from = kInfinity;
+  spec.quantity = changes ? "change of " + facts.label : facts.label;
   spec.caption = fmt::format(
-      "Lines: median over runs of {}{}, of each method the setting that was best over these "
-      "nightly runs, "
-      "and every setting that got worse.",
+      "Lines: median over runs of {}{}{}, of each method the setting that was best over these "
+      "nightly runs, and every setting that got worse.",
       facts.label,
       std::ranges::any_of(lines, [](const Line& line) { return line.id.step > 0; })
           ? " at the last step"
-          : "");
+          : "",
+      changes ? ", as its change since " + base_words(reported) : "");
   ErrorPanel panel = panel_of(reported.trend);
   for (const Line& line : lines) {
     const std::string label = shown_method(reported.trend.labels, line.id.method);
+    const std::vector<double> values =
+        changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
-                           .x = nightly_numbers(reported.trend),
-                           .mean = *line.values});
+                           .x = places_of(reported.trend),
+                           .mean = values,
+                           .series = style_of(reported.trend.labels, line.id.method)});
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
-    mark_findings(reported, label, *line.values, is_about_it, panel);
+    mark_findings(reported, label, values, is_about_it, panel);
   }
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
 
 std::optional<Figure> memory_figure(const Reported& reported) {
-  const std::vector<double>& mib = reported.trend.peak_memory_mib;
-  if (std::ranges::none_of(mib, [](double value) { return std::isfinite(value); }))
+  const std::vector<double>& known = reported.trend.peak_memory_mib;
+  if (std::ranges::none_of(known, [](double value) { return std::isfinite(value); }))
     return std::nullopt;
+  const std::vector<double> mib = changes_of(known, base_of(reported), true);
   ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory");
-  spec.y_label = "peak memory [MiB]";
-  spec.quantity = "peak memory";
-  spec.caption = "Peak memory of the process that made the study.";
+  spec.y_label = "change of peak memory [%]";
+  spec.log_from = kInfinity;
+  spec.quantity = "change of peak memory";
+  spec.caption = fmt::format(
+      "Peak memory of the process that made the study, as its change since {}.",
+      base_words(reported));
   ErrorPanel panel = panel_of(reported.trend);
   panel.lines.push_back({.label = "peak memory",
                          .key = "peak-memory",
-                         .x = nightly_numbers(reported.trend),
+                         .x = places_of(reported.trend),
                          .mean = mib});
   const auto is_memory = [](const NightlyFinding& finding) { return finding.quantity == "memory"; };
   mark_findings(reported, "peak memory", mib, is_memory, panel);

@@ -29,16 +29,75 @@ void check_drawing(const std::string& id, const std::string& drawing) {
     throw InvalidInput("report: the drawing of \"" + id + "\" holds </noscript");
 }
 
+/// The figures of galleries that the page folds.
+std::set<const FigureBlock*> folded_figures(const Report& report) {
+  std::set<const FigureBlock*> folded;
+  for (const Section& section : report.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* gallery = std::get_if<Gallery>(&block))
+        for (std::size_t i = gallery->open; i < gallery->figures.size(); ++i)
+          folded.insert(&gallery->figures[i]);
+  return folded;
+}
+
 /// Figures in the order in which they are embedded.
 std::vector<const FigureBlock*> by_weight(const Report& report) {
   std::vector<const FigureBlock*> all = figures(report);
   const std::vector<std::string>& first = report.opening.figure_ids;
+  const std::set<const FigureBlock*> folded = folded_figures(report);
   const auto weight = [&](const FigureBlock* figure) {
+    if (figure->id == report.opening.main_figure) return 0;
     if (std::ranges::find(first, figure->id) != first.end()) return 0;
-    return figure->value == "scene" ? 2 : 1;
+    return (figure->value == "scene" ? 2 : 1) + (folded.contains(figure) ? 2 : 0);
   };
   std::ranges::stable_sort(all, {}, weight);
   return all;
+}
+
+constexpr double kWidth = 160.0, kHeight = 28.0, kMargin = 3.0;
+/// The least change that fills half of the height: less would show rounding as mountains.
+constexpr double kLeastPercent = 1.0;
+
+/// Less is the same for a reader: the rule for accuracy asks for as much.
+const char* class_of(double percent) {
+  if (percent >= kLeastPercent) return "worse";
+  return percent <= -kLeastPercent ? "better" : "same";
+}
+
+
+/// A small curve of changes in percent, oldest first, with a line at zero: an <svg> element without
+/// text of its own. Above zero is worse. Classes give the colours: "better", "same", "worse".
+std::string curve_svg(const std::vector<double>& percent) {
+  double most = kLeastPercent;
+  for (const double value : percent)
+    if (std::isfinite(value)) most = std::max(most, std::abs(value));
+  const double step = percent.size() > 1
+                          ? (kWidth - 2 * kMargin) / static_cast<double>(percent.size() - 1)
+                          : 0.0;
+  const auto x = [&](std::size_t i) { return kMargin + step * static_cast<double>(i); };
+  const auto y = [&](double value) {
+    return kHeight / 2 - (kHeight / 2 - kMargin) * value / most;
+  };
+  std::string svg = fmt::format(
+      "<svg class=\"curve\" viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" "
+      "aria-hidden=\"true\" focusable=\"false\"><line class=\"zero\" x1=\"0\" x2=\"{}\" "
+      "y1=\"{}\" y2=\"{}\"/>",
+      kWidth, kHeight, kWidth, kHeight, kWidth, kHeight / 2, kHeight / 2);
+  for (std::size_t i = 0; i + 1 < percent.size(); ++i)
+    if (std::isfinite(percent[i]) && std::isfinite(percent[i + 1]))
+      svg += fmt::format(
+          "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
+          class_of(percent[i + 1]), x(i), y(percent[i]), x(i + 1), y(percent[i + 1]));
+  if (!percent.empty() && std::isfinite(percent.back()))
+    svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\"/>",
+                       class_of(percent.back()), x(percent.size() - 1), y(percent.back()));
+  return svg + "</svg>";
+}
+
+/// The target of a link; empty if the text is none.
+std::string link_of(Emphasis emphasis, const std::string& text) {
+  if (emphasis == Emphasis::kFile) return file_link(text);
+  return emphasis == Emphasis::kUrl ? web_link(text) : "";
 }
 
 constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
@@ -109,18 +168,28 @@ struct SortKey {
   }
 };
 
+/// Whether the row's curve stands in this cell, its first number.
+bool has_curve(const Row& row, std::size_t index) {
+  const auto is_number = [](const Cell& cell) { return std::holds_alternative<NumberCell>(cell); };
+  return !row.curve.empty() && is_number(row.cells[index]) &&
+         std::none_of(row.cells.begin(), row.cells.begin() + static_cast<long>(index), is_number);
+}
+
 data cell_data(const Table& table, const Row& row, std::size_t index, const HtmlOptions& options) {
   const Cell& cell = row.cells[index];
   const auto* text = std::get_if<TextCell>(&cell);
   const auto emphasis = text != nullptr ? text->emphasis : Emphasis::kPlain;
   data out;
-  const bool is_file = emphasis == Emphasis::kFile;
+  const std::string link = text == nullptr ? "" : link_of(emphasis, text->text);
+  const bool is_file = !link.empty();
   out.set("value", is_file ? link_words(text->text, options) : format_cell(cell));
+  out.set("curve", has_curve(row, index) ? data(curve_svg(row.curve)) : data(false));
   out.set("heads", index == 0);
+  out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));
   out.set("is_text", text != nullptr || holds_text(table, index));
   out.set("code", emphasis == Emphasis::kCode);
   out.set("file", is_file);
-  out.set("link", is_file ? file_link(text->text) : "");
+  out.set("link", link);
   const bool is_strong = emphasis == Emphasis::kStrong;
   out.set("strong", is_strong);
   out.set("data", emphasis != Emphasis::kCode && !is_file && !is_strong);
@@ -140,6 +209,7 @@ data row_data(const Table& table, const Row& row, const HtmlOptions& options) {
     cells.push_back(cell_data(table, row, i, options));
   out.set("cells", cells);
   out.set("marked", row.marked);
+  out.set("regressed", text_or_false(row.regressed));
   out.set("source", text_or_false(row.source));
   return out;
 }
@@ -178,18 +248,64 @@ void add_frames(const Table& table, bool copies, data& out) {
   out.set("latex_tail", latex.tail);
 }
 
+/// A note that an earlier table has is said there alone.
+void add_notes(const Table& table, const FigureContext& drawn, data& out) {
+  list notes, earlier;
+  std::vector<const Table*> named;
+  for (const std::string& note : table.notes) {
+    const auto first = drawn.notes.find(note);
+    if (first == drawn.notes.end() || first->second == &table) {
+      notes.push_back(data("note", note));
+    } else if (std::ranges::find(named, first->second) == named.end()) {
+      named.push_back(first->second);
+      data link;
+      link.set("id", first->second->id);
+      link.set("caption", first->second->caption);
+      earlier.push_back(std::move(link));
+    }
+  }
+  out.set("any_notes", !notes.empty() || !earlier.empty());
+  out.set("notes", notes);
+  out.set("earlier_notes", earlier);
+}
+
+/// The cell of a matrix of warnings; without an item, an empty one.
+data warning_cell(const StatusList::Item* item, const std::string& id) {
+  data out;
+  out.set("any", data(item != nullptr));
+  if (item == nullptr) return out;
+  const double share = item->of > 0 ? 100.0 * item->count / item->of : 0.0;
+  out.set("id", id);
+  out.set("failed", data(item->failed));
+  out.set("share", format_number(share, share < 1.0 ? 1 : 0) + "\u00a0%");
+  out.set("count", fmt::format("{} of {}", item->count, counted(item->of, "map")));
+  return out;
+}
+
+/// The distinct texts, in the order in which they occur.
+template <typename Get>
+std::vector<std::string> distinct(const std::vector<StatusList::Item>& items, Get get) {
+  std::vector<std::string> found;
+  for (const StatusList::Item& item : items)
+    if (const std::string& text = get(item); std::ranges::find(found, text) == found.end())
+      found.push_back(text);
+  return found;
+}
+
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
 
 data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
-  const bool is_file = phrase.emphasis == Emphasis::kFile;
+  const std::string link = link_of(phrase.emphasis, phrase.text);
+  const bool is_file = !link.empty();
   out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
-  out.set("plain", phrase.emphasis == Emphasis::kPlain);
+  out.set("plain", phrase.emphasis == Emphasis::kPlain ||
+                       (phrase.emphasis == Emphasis::kUrl && !is_file));
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
   out.set("code", phrase.emphasis == Emphasis::kCode);
   out.set("file", is_file);
-  out.set("link", is_file ? file_link(phrase.text) : "");
+  out.set("link", link);
   out.set("data", phrase.emphasis == Emphasis::kData);
   out.set("long", phrase.text.size() > kLong);
   return out;
@@ -220,11 +336,13 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   out.set("caption", figure.caption);
   out.set("alt", figure.alt);
   out.set("value", figure.value);
+  out.set("wide", data(figure.wide));
   out.set("long", figure.caption.size() > kLongCaption);
   const bool linked = drawn.linked.contains(figure.id);
   const std::string drawing = drawn.svg && !linked ? drawn.svg(figure.id) : "";
   check_drawing(figure.id, drawing);
   out.set("svg", text_or_false(drawing));
+  out.set("regressed", text_or_false(figure.regressed));
   out.set("linked", data(linked));
   out.set("folder", text_or_false(options.figure_folder));
   std::string records;
@@ -237,7 +355,14 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   return out;
 }
 
-data table_data(const Table& table, const HtmlOptions& options) {
+std::map<std::string, const Table*> first_notes(const Report& report) {
+  std::map<std::string, const Table*> first;
+  for (const Table* table : tables(report))
+    for (const std::string& note : table->notes) first.emplace(note, table);
+  return first;
+}
+
+data table_data(const Table& table, const FigureContext& drawn, const HtmlOptions& options) {
   data out;
   out.set("id", table.id);
   out.set("caption", table.caption);
@@ -246,14 +371,25 @@ data table_data(const Table& table, const HtmlOptions& options) {
   const list rows = rows_data(table, options);
   add_frames(table, options.copies_tables, out);
   out.set("any_rows", !rows.empty());
-  out.set("folded", data(table.rows.size() > kMostRowsOpen));
+  out.set("secondary", data(table.secondary));
+  out.set("folded", data(!table.secondary && table.rows.size() > kMostRowsOpen));
   out.set("row_count", counted(std::ssize(table.rows), "row"));
   out.set("table_rows", rows);
-  list notes;
-  for (const std::string& note : table.notes) notes.push_back(data("note", note));
-  out.set("any_notes", !notes.empty());
-  out.set("notes", notes);
+  add_notes(table, drawn, out);
   return out;
+}
+
+list highlight_items(const Highlights& highlights) {
+  list items;
+  for (const Highlights::Item& item : highlights.items) {
+    data out;
+    out.set("label", item.label);
+    out.set("value", item.value);
+    out.set("detail", item.detail);
+    out.set("section", text_or_false(item.section));
+    items.push_back(std::move(out));
+  }
+  return items;
 }
 
 data phrases_data(const Paragraph& paragraph, const HtmlOptions& options) {
@@ -267,10 +403,10 @@ namespace {
 /// Makes the data of each kind of block, under the name of its template.
 class BlockVisitor {
  public:
-  BlockVisitor(const FigureContext& drawn, const HtmlOptions& options)
-      : drawn_(drawn), options_(options) {
+  BlockVisitor(const FigureContext& drawn, const HtmlOptions& options, std::string matrix)
+      : drawn_(drawn), options_(options), matrix_(std::move(matrix)) {
     for (const char* kind : {"paragraph", "bullet_list", "highlights", "callout", "table", "figure",
-                             "gallery", "key_values", "status_list"})
+                             "gallery", "key_values", "finding", "status_list"})
       block_.set(kind, false);
   }
 
@@ -290,15 +426,7 @@ class BlockVisitor {
   }
 
   void operator()(const Highlights& highlights) {
-    list items;
-    for (const Highlights::Item& item : highlights.items) {
-      data out;
-      out.set("label", item.label);
-      out.set("value", item.value);
-      out.set("detail", item.detail);
-      items.push_back(std::move(out));
-    }
-    block_.set("highlights", data("items", items));
+    block_.set("highlights", data("items", highlight_items(highlights)));
   }
 
   void operator()(const Callout& callout) {
@@ -309,17 +437,28 @@ class BlockVisitor {
     block_.set("callout", out);
   }
 
-  void operator()(const Table& table) { block_.set("table", table_data(table, options_)); }
+  void operator()(const Table& table) { block_.set("table", table_data(table, drawn_, options_)); }
 
   void operator()(const FigureBlock& figure) {
     block_.set("figure", figure_data(figure, drawn_, options_));
   }
 
   void operator()(const Gallery& gallery) {
-    list figures;
-    for (const FigureBlock& figure : gallery.figures)
-      figures.push_back(figure_data(figure, drawn_, options_));
-    block_.set("gallery", data("figures", figures));
+    list shown, more;
+    std::vector<std::string> titles;
+    for (std::size_t i = 0; i < gallery.figures.size(); ++i) {
+      (i < gallery.open ? shown : more)
+          .push_back(figure_data(gallery.figures[i], drawn_, options_));
+      if (i >= gallery.open) titles.push_back(gallery.figures[i].title);
+    }
+    data out;
+    out.set("any_figures", data(!shown.empty()));
+    out.set("figures", shown);
+    out.set("any_more", data(!more.empty()));
+    out.set("more", more);
+    out.set("more_words", fmt::format("{}{}: {}", counted(std::ssize(titles), "figure"),
+                                      shown.empty() ? "" : " more", listed(titles, 3)));
+    block_.set("gallery", out);
   }
 
   void operator()(const KeyValues& pairs) {
@@ -332,22 +471,63 @@ class BlockVisitor {
     block_.set("key_values", data("items", items));
   }
 
+  void operator()(const FindingBlock& finding) {
+    data out;
+    out.set("title", finding.title);
+    out.set("phrases", phrases_data(finding.text, options_));
+    list details;
+    for (const std::string& detail : finding.details) details.push_back(data("detail", detail));
+    out.set("details", details);
+    out.set("any_details", data(!finding.details.empty() || !finding.command.empty()));
+    out.set("command", text_or_false(finding.command));
+    out.set("keys", text_or_false(finding.keys));
+    out.set("known", data(finding.known));
+    block_.set("finding", out);
+  }
+
   void operator()(const StatusList& statuses) {
-    list items;
-    for (const StatusList::Item& item : statuses.items) items.push_back(status_data(item));
-    block_.set("status_list", data("items", items));
+    const auto rows = distinct(statuses.items, [](const auto& item) { return item.where; });
+    const auto codes = distinct(statuses.items, [](const auto& item) { return item.code; });
+    list heads, lines, items;
+    for (const std::string& code : codes) {
+      const auto item = std::ranges::find(statuses.items, code, &StatusList::Item::code);
+      data head;
+      head.set("code", code);
+      head.set("meaning", item->meaning);
+      heads.push_back(std::move(head));
+    }
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      list cells;
+      for (std::size_t column = 0; column < codes.size(); ++column) {
+        const auto item = std::ranges::find_if(statuses.items, [&](const auto& each) {
+          return each.where == rows[row] && each.code == codes[column];
+        });
+        const std::string id = fmt::format("{}-{}-{}", matrix_, row + 1, column + 1);
+        const bool is_there = item != statuses.items.end();
+        cells.push_back(warning_cell(is_there ? &*item : nullptr, id));
+        if (is_there) items.push_back(status_data(*item, id));
+      }
+      data line;
+      line.set("where", rows[row]);
+      line.set("cells", cells);
+      lines.push_back(std::move(line));
+    }
+    data out;
+    out.set("heads", heads);
+    out.set("lines", lines);
+    out.set("items", items);
+    block_.set("status_list", out);
   }
 
  private:
-  static data status_data(const StatusList::Item& item) {
+  static data status_data(const StatusList::Item& item, const std::string& id) {
     data out;
+    out.set("id", id);
     out.set("code", item.code);
     out.set("meaning", item.meaning);
     out.set("where", item.where);
     out.set("failed", item.failed);
-    const double share = item.of > 0 ? 100.0 * item.count / item.of : 0.0;
-    out.set("count", fmt::format("{} of {} ({} %)", item.count, counted(item.of, "map"),
-                                 format_number(share, share < 1.0 ? 1 : 0)));
+    out.set("count", fmt::format("{} of {}", item.count, counted(item.of, "map")));
     list locations;
     for (const StatusList::Location& location : item.locations) {
       data entry;
@@ -365,19 +545,26 @@ class BlockVisitor {
 
   const FigureContext& drawn_;
   const HtmlOptions& options_;
+  std::string matrix_;  ///< Begins the ids of what a matrix links to.
   data block_;
 };
 
 }  // namespace
 
-data block_data(const Block& block, const FigureContext& drawn, const HtmlOptions& options) {
-  BlockVisitor visitor(drawn, options);
+data block_data(const Block& block, const FigureContext& drawn, const HtmlOptions& options,
+                const std::string& section) {
+  BlockVisitor visitor(drawn, options, section + "-runs");
   std::visit(visitor, block);
   return visitor.take();
 }
 
 std::string percent_encoded(std::string_view text) {
   return percent_encoded(text, [](char c) { return is_plain(c, "-._/"); });
+}
+
+std::string web_link(const std::string& url) {
+  if (!url.starts_with("https://") && !url.starts_with("http://")) return "";
+  return percent_encoded(url, [](char c) { return is_plain(c, "-._~:/?#=&+%@,"); });
 }
 
 std::string file_link(const std::string& path) {

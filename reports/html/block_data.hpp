@@ -15,11 +15,16 @@ namespace mapproof {
 struct FigureContext {
   SvgLookup svg = {};
   std::set<std::string> linked = {};  ///< Figures with a drawing to which the page only links.
+  /// The table that first has a note: the notes of later tables refer to it.
+  std::map<std::string, const Table*> notes = {};
 };
 
 /// The figures of the report whose drawings do not fit into HtmlOptions::drawing_bytes.
 std::set<std::string> linked_figures(const Report& report, const SvgLookup& svg,
                                      std::size_t drawing_bytes);
+
+/// Each note of the report's tables, with the first table that has it.
+std::map<std::string, const Table*> first_notes(const Report& report);
 
 /// The data for the figure's template.
 /// @throws InvalidInput if its drawing holds the end tag of the element that holds it.
@@ -33,18 +38,26 @@ inline kainjow::mustache::data text_or_false(const std::string& text) {
 
 /// The data for the table's template: heading rows, cells with the text to show and the sort key,
 /// notes.
-kainjow::mustache::data table_data(const Table& table, const HtmlOptions& options);
+kainjow::mustache::data table_data(const Table& table, const FigureContext& drawn,
+                                   const HtmlOptions& options);
 
 /// The data for the templates of a block. Every key that a template may use is set, since Mustache
 /// would search enclosing contexts for a missing one.
+/// @param section  Id of its section, which begins the ids within the block.
 kainjow::mustache::data block_data(const Block& block, const FigureContext& drawn,
-                                   const HtmlOptions& options);
+                                   const HtmlOptions& options, const std::string& section);
+
+/// The items of the template of a few numbers.
+kainjow::mustache::list highlight_items(const Highlights& highlights);
 
 /// The phrases of a paragraph, for the template of that name.
 kainjow::mustache::data phrases_data(const Paragraph& paragraph, const HtmlOptions& options);
 
 /// Letters, digits and "-._/" stay, every other byte becomes %XX. Different texts stay different.
 std::string percent_encoded(std::string_view text);
+
+/// An http or https address as the target of a link; empty for any other text.
+std::string web_link(const std::string& url);
 
 /// A path relative to the page as the target of a link: never with another scheme or host.
 std::string file_link(const std::string& path);

@@ -17,8 +17,9 @@ struct HtmlOptions {
   /// The texts of links to files, by path; other links show the path.
   std::map<std::string, std::string> link_words = {};
   /// The most bytes of drawings that the page holds; it links the others and states their number.
-  /// Drawings of the opening come first, then figures, then 3-D figures, in their order.
-  std::size_t drawing_bytes = 9'000'000;
+  /// Drawings of the opening come first, then figures, then 3-D figures, in their order, and last
+  /// those that are folded.
+  std::size_t drawing_bytes = 5'200'000;
 };
 
 /// The text of a link to a file.

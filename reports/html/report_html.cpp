@@ -1,5 +1,6 @@
 #include "reports/html/report_html.hpp"
 
+#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -27,12 +28,34 @@ data section_data(const Section& section, const Report& report, const FigureCont
   data out;
   out.set("id", section.id);
   out.set("title", section.title);
+  out.set("study", text_or_false(section.group));
   list blocks;
-  for (const Block& block : section.blocks) blocks.push_back(block_data(block, drawn, options));
+  for (const Block& block : section.blocks)
+    blocks.push_back(block_data(block, drawn, options, section.id));
   if (section.id.ends_with("provenance") && !report.figure_command.empty())
-    blocks.push_back(block_data(figure_command(report), drawn, options));
+    blocks.push_back(block_data(figure_command(report), drawn, options, section.id));
   out.set("blocks", blocks);
   return out;
+}
+
+/// The sections, those of one study under its name.
+list contents(const Report& report) {
+  list groups;
+  for (std::size_t i = 0; i < report.sections.size();) {
+    const Section& first = report.sections[i];
+    list entries;
+    for (; i < report.sections.size() && report.sections[i].group == first.group; ++i) {
+      data entry;
+      entry.set("id", report.sections[i].id);
+      entry.set("title", report.sections[i].title);
+      entries.push_back(std::move(entry));
+    }
+    data group;
+    group.set("group", text_or_false(first.group));
+    group.set("entries", entries);
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 data standing_data(const Standing& standing) {
@@ -46,17 +69,25 @@ data standing_data(const Standing& standing) {
   return out;
 }
 
-/// Links to figures; the script puts thumbnails of embedded figures next to the text.
+const FigureBlock* figure_of(const Report& report, const std::string& id) {
+  const auto all = figures(report);
+  const auto found = std::ranges::find(all, id, &FigureBlock::id);
+  return found == all.end() ? nullptr : *found;
+}
+
+/// A link to a figure; the script puts an image of an embedded figure into it.
+data figure_link(const FigureBlock& figure) {
+  data out;
+  out.set("id", figure.id);
+  out.set("title", figure.title);
+  out.set("alt", figure.alt);
+  return out;
+}
+
 list thumbnails(const Report& report) {
   list shown;
   for (const std::string& id : report.opening.figure_ids)
-    for (const FigureBlock* figure : figures(report))
-      if (figure->id == id) {
-        data entry;
-        entry.set("id", id);
-        entry.set("title", figure->title);
-        shown.push_back(std::move(entry));
-      }
+    if (const FigureBlock* figure = figure_of(report, id)) shown.push_back(figure_link(*figure));
   return shown;
 }
 
@@ -71,6 +102,13 @@ std::string linked_words(const Report& report, std::size_t linked, const HtmlOpt
                      format_number(static_cast<double>(options.drawing_bytes) / 1e6, 1), where);
 }
 
+/// The section that says how to make the report again; empty if there is none.
+std::string provenance_of(const Report& report) {
+  const auto found = std::ranges::find_if(
+      report.sections, [](const Section& section) { return section.id.ends_with("provenance"); });
+  return found == report.sections.end() ? "" : found->id;
+}
+
 void set_opening(data& page, const Report& report, const std::string& linked,
                  const HtmlOptions& options) {
   const Opening& opening = report.opening;
@@ -78,10 +116,17 @@ void set_opening(data& page, const Report& report, const std::string& linked,
   for (const Paragraph& finding : opening.findings)
     findings.push_back(data("phrases", phrases_data(finding, options)));
   page.set("any_opening", data(!opening.findings.empty() || !opening.figure_ids.empty() ||
+                               !opening.numbers.items.empty() || !opening.main_figure.empty() ||
                                opening.standing || !linked.empty()));
+  page.set("highlights", opening.numbers.items.empty()
+                             ? data(false)
+                             : data("items", highlight_items(opening.numbers)));
   page.set("standing", opening.standing ? standing_data(*opening.standing) : data(false));
   page.set("findings", findings);
+  const FigureBlock* main_figure = figure_of(report, opening.main_figure);
+  page.set("main_figure", main_figure == nullptr ? data(false) : figure_link(*main_figure));
   page.set("any_thumbnails", data(!opening.figure_ids.empty()));
+  page.set("any_images", data(main_figure != nullptr || !opening.figure_ids.empty()));
   page.set("thumbnails", thumbnails(report));
   page.set("linked_words", text_or_false(linked));
 }
@@ -95,14 +140,18 @@ std::string report_html(const Report& report, const Templates& templates, const 
   page.set("title", report.title);
   page.set("subtitle", report.subtitle);
   page.set("footer", report.footer);
+  page.set("date", text_or_false(report.date));
+  page.set("provenance", text_or_false(provenance_of(report)));
   set_page_frame(page, "report", templates);
   const FigureContext drawn{.svg = svg,
-                            .linked = linked_figures(report, svg, options.drawing_bytes)};
+                            .linked = linked_figures(report, svg, options.drawing_bytes),
+                            .notes = first_notes(report)};
   set_opening(page, report, linked_words(report, drawn.linked.size(), options), options);
   list sections;
   for (const Section& section : report.sections)
     sections.push_back(section_data(section, report, drawn, options));
   page.set("sections", sections);
+  page.set("contents", contents(report));
   return rendered("report", templates, page);
 }
 

@@ -1,11 +1,13 @@
 #include "reports/model/format.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 
 constexpr const char* kMinus = "\u2212";
 constexpr const char* kReplacement = "\uFFFD";
-constexpr double kLargest = 1e6;  ///< From here on an exponent reads better.
+constexpr double kLargest = 1e9;  ///< Beyond any coordinate on Earth, an exponent reads better.
 
 constexpr int kManyDecimals = 6;  ///< What has these is small as a whole.
 
@@ -91,6 +93,24 @@ std::string html_escaped(const std::string& text) {
       out += reference;
     else if (c == '\'')
       out += "&#39;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string xml_line(const std::string& text) {
+  std::string out = html_escaped(text);
+  std::ranges::replace_if(
+      out, [](char c) { return c == '\n' || c == '\t'; }, ' ');
+  return out;
+}
+
+std::string markdown_text(const std::string& text, std::size_t longest) {
+  std::string out;
+  for (const char c : xml_line(printable(text, longest))) {
+    if (std::string_view("|\\`*_[]#~@").find(c) != std::string_view::npos)
+      out += fmt::format("&#{};", static_cast<int>(c));
     else
       out += c;
   }

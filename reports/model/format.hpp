@@ -10,7 +10,7 @@ namespace mapproof {
 inline constexpr const char* kMissingText = "\u2013";
 
 /// `value` with `decimals` places and a true minus (U+2212); "–" if it is not a finite number. Zero
-/// carries no sign. With an exponent beyond a million, and where six places or more show zeros
+/// carries no sign. With an exponent from 1e9 on, and where six places or more show zeros
 /// alone of a value that is none.
 std::string format_number(double value, int decimals, bool with_sign = false);
 
@@ -31,5 +31,12 @@ std::string displayable(const std::string& text);
 /// Escapes a text for content between tags and for quoted attributes of HTML and XML: special
 /// characters become references, and what displayable() changes becomes visible.
 std::string html_escaped(const std::string& text);
+
+/// The same on one line.
+std::string xml_line(const std::string& text);
+
+/// A text of at most `longest` characters that is text alone in Markdown, also in a cell of a table
+/// and on a page that accepts HTML.
+std::string markdown_text(const std::string& text, std::size_t longest);
 
 }  // namespace mapproof

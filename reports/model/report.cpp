@@ -45,8 +45,14 @@ void check(const Report& report) {
   }
   IdCheck figure_ids;
   for (const FigureBlock* figure : figures(report)) figure_ids.add(figure->id);
-  for (const std::string& id : report.opening.figure_ids)
+  const auto require_figure = [&](const std::string& id) {
     if (!figure_ids.has(id)) throw InvalidInput("report: there is no figure \"" + id + "\"");
+  };
+  for (const std::string& id : report.opening.figure_ids) require_figure(id);
+  if (!report.opening.main_figure.empty()) require_figure(report.opening.main_figure);
+  for (const Highlights::Item& number : report.opening.numbers.items)
+    if (!number.section.empty() && !section_ids.has(number.section))
+      throw InvalidInput("report: there is no section \"" + printable(number.section) + "\"");
 }
 
 bool holds_text(const Table& table, std::size_t column) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@ enum class Emphasis {
   kCode,  ///< Commands, file names, ids.
   kFile,  ///< A file or folder by its path from the page: a link.
   kData,  ///< Text from a user's file: kept apart from the direction of the text around it.
+  kUrl,   ///< An http or https address: a link; any other text is shown as it stands.
 };
 
 /// A piece of text. Never markup: whatever it holds is shown as it is.
@@ -44,6 +46,7 @@ struct Highlights {
     std::string label;
     std::string value;
     std::string detail;
+    std::string section = {};  ///< Id of the section that says more; empty: the item links to nothing.
   };
   std::vector<Item> items;
 };
@@ -90,6 +93,10 @@ struct Row {
   std::vector<Cell> cells;  ///< One a column.
   std::string source;       ///< Which records the numbers come from.
   bool marked = false;      ///< The best of its table.
+  std::string regressed = {};  ///< What got worse of it: "MPE +17.6 %"; pages alone show it.
+  /// By how much something got worse over time, oldest first, in percent, as a small curve beside
+  /// the first number; NaN: not known. Pages alone show it.
+  std::vector<double> curve = {};
 };
 
 struct Table {
@@ -98,6 +105,7 @@ struct Table {
   std::vector<Column> columns;
   std::vector<Row> rows;
   std::vector<std::string> notes;
+  bool secondary = false;  ///< What few readers need: a page folds it.
 };
 
 /// Where a figure stands; its drawing is handed to the writer apart.
@@ -109,11 +117,15 @@ struct FigureBlock {
   std::vector<std::string> record_ids;
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
   std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
+  std::string regressed = {};  ///< What got worse of what it shows; pages alone show it.
+  bool wide = false;                    ///< It has many panels: a page gives it the whole width.
 };
 
 /// Figures of one kind, side by side.
 struct Gallery {
   std::vector<FigureBlock> figures;
+  /// A page shows so many of them and folds the rest.
+  std::size_t open = std::numeric_limits<std::size_t>::max();
 };
 
 struct KeyValues {
@@ -124,7 +136,17 @@ struct KeyValues {
   std::vector<Item> items;
 };
 
-/// Warnings and failures, one item a kind.
+/// One thing that got worse, with what a reader wants to know next behind a click.
+struct FindingBlock {
+  std::string title;                 ///< "ISOMAP: MPE +17.6 % (K = 6 and 8)".
+  Paragraph text;                    ///< Where, since when, and where to search.
+  std::vector<std::string> details;  ///< Its statistics, a sentence each.
+  std::string command;               ///< That searches the commit; may be empty.
+  std::string keys;  ///< What a decision on it names: "7.1 7.2"; empty: none can be made here.
+  bool known = false;
+};
+
+/// Warnings and failures: a page shows a matrix of where they occurred and of their codes.
 struct StatusList {
   struct Location {
     std::string record_id;
@@ -133,7 +155,7 @@ struct StatusList {
   struct Item {
     std::string code;                 ///< As in the files: "not_converged".
     std::string meaning;              ///< One sentence.
-    std::string where;                ///< "bearing, ISOMAP, K = 9".
+    std::string where;                ///< A row of the matrix: "bearing, ISOMAP".
     int count = 0;                    ///< Maps that carry it.
     int of = 0;                       ///< Maps of that kind in all.
     bool failed = false;              ///< No map came out.
@@ -143,12 +165,13 @@ struct StatusList {
 };
 
 using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, FigureBlock, Gallery,
-                           KeyValues, StatusList>;
+                           KeyValues, FindingBlock, StatusList>;
 
 struct Section {
   std::string id;  ///< [a-z0-9-]+, unique among sections.
   std::string title;
   std::vector<Block> blocks;
+  std::string group = {};  ///< In a report of several studies, the one that it belongs to.
 };
 
 /// How what is reported stands against something earlier.
@@ -158,11 +181,14 @@ struct Standing {
   std::vector<std::string> sentences;  ///< What, with numbers.
 };
 
-/// What the reader is to see before anything else; what is empty is left out.
+/// What the reader is to see before anything else: what was done, how good it is, compared with
+/// what, what is wrong and where the rest is. What is empty is left out.
 struct Opening {
-  std::vector<Paragraph> findings;      ///< Two or three sentences with numbers.
-  std::vector<std::string> figure_ids;  ///< Shown small, each leading to its figure.
+  std::vector<Paragraph> findings;      ///< Two or three sentences: what was done, what is wrong.
+  std::vector<std::string> figure_ids;  ///< Shown small and cropped, each leading to its figure.
   std::optional<Standing> standing = std::nullopt;
+  Highlights numbers = {};       ///< How good it is, the most important number first.
+  std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
 };
 
 /// What a report says; how it looks is another matter.
@@ -173,10 +199,11 @@ struct Report {
   std::string footer;
   Opening opening = {};
   std::string figure_command = {};  ///< Draws a figure again, its id to follow; empty: none does.
+  std::string date = {};            ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 
 /// Throws unless every id is [a-z0-9-]+, unique among sections, tables or figures, every row has a
-/// cell a column, and the opening's figures are among the report's.
+/// cell a column, and the opening's figures and sections are among the report's.
 /// @throws InvalidInput naming the id.
 void check(const Report& report);
 

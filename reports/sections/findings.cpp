@@ -38,14 +38,6 @@ std::string with_interval(const MeanEstimate& mpe) {
                      format_number(interval->high, decimals));
 }
 
-/// The least published value among the methods that were tried.
-const SettingSummary* best_published(std::span<const SettingSummary> methods) {
-  const SettingSummary* best = nullptr;
-  for (const SettingSummary& s : methods)
-    if (s.published && (best == nullptr || s.published->mpe_m < best->published->mpe_m)) best = &s;
-  return best;
-}
-
 /// "Bearing: SMACOF, kNN weights, K = 7 is best, …"
 Paragraph best_finding(std::span<const SettingSummary> methods) {
   const SettingSummary& best = *best_of(methods);
@@ -112,34 +104,25 @@ Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
 
 /// How many published values lie within our intervals; those with a note cannot be compared.
 Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> methods) {
-  int compared = 0;
-  int within = 0;
-  int noted = 0;
+  const PublishedAgreement agreement = agreement_of(methods);
   const SettingSummary* farthest = nullptr;
   const auto gap = [](const SettingSummary& s) {
     return std::abs(mpe_difference_m(s) / s.published->mpe_m);
   };
-  for (const SettingSummary& s : methods) {
-    if (!s.published || !s.mpe_m) continue;
-    if (!s.published->note.empty()) {
-      ++noted;
-      continue;
-    }
-    if (farthest == nullptr || gap(s) > gap(*farthest)) farthest = &s;
-    const auto interval = interval_of(s.mpe_m);
-    if (!interval) continue;
-    ++compared;
-    if (s.published->mpe_m >= interval->low && s.published->mpe_m <= interval->high) ++within;
-  }
+  for (const SettingSummary& s : methods)
+    if (s.published && s.mpe_m && s.published->note.empty() &&
+        (farthest == nullptr || gap(s) > gap(*farthest)))
+      farthest = &s;
   std::string text = ", compared with the paper: ";
-  if (compared > 0)
-    text += fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", within, compared);
-  if (noted > 0)
+  if (agreement.compared > 0)
+    text += fmt::format("{} of {} printed MPE lie within our 95 % intervals; ", agreement.within,
+                        agreement.compared);
+  if (agreement.apart > 0)
     text += fmt::format("{} left out of this, for reasons under the table; ",
-                        counted(noted, "printed value"));
+                        counted(agreement.apart, "printed value"));
   if (farthest != nullptr)
     text += fmt::format("the largest difference{} is {} for {} ({}, printed {}).",
-                        noted > 0 ? " of the others" : "",
+                        agreement.apart > 0 ? " of the others" : "",
                         relative(farthest->mpe_m->mean, farthest->published->mpe_m),
                         label(farthest->setting), metres(farthest->mpe_m->mean),
                         metres(farthest->published->mpe_m));
@@ -185,6 +168,13 @@ std::string other_parameter_words(std::span<const SettingSummary> methods) {
 }  // namespace
 
 std::string metres(double value) { return format_number(value, value < 0.1 ? 4 : 3) + " m"; }
+
+const SettingSummary* best_published(std::span<const SettingSummary> methods) {
+  const SettingSummary* best = nullptr;
+  for (const SettingSummary& s : methods)
+    if (s.published && (best == nullptr || s.published->mpe_m < best->published->mpe_m)) best = &s;
+  return best;
+}
 
 std::string optimism_words(const HalfChoices& choices) {
   std::vector<double> shares;

@@ -13,6 +13,9 @@ namespace mapproof {
 /// "0.219 m", small errors with a place more.
 std::string metres(double value);
 
+/// The least published error among the methods that were tried; null if none was published.
+const SettingSummary* best_published(std::span<const SettingSummary> methods);
+
 /// The findings of the runs of one sensor as sentences, the most important first: the best method,
 /// the order of the methods, how near the printed values are, whether the paper's orderings hold,
 /// how optimistic its choice of parameters is. Each only where it applies.

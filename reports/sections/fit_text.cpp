@@ -100,6 +100,26 @@ std::string range_cause_words(const FitCause& cause) {
   }
 }
 
+std::string missed_words(const Values& values, const std::string& names) {
+  const std::string distance = values.amount("distance_m", "m");
+  if (const auto ratio = values.find("ratio"))
+    return fmt::format(
+        "half of the landmarks lie {} or more from the mean of the anchors, {} times as far as any "
+        "anchor",
+        distance, significant(*ratio));
+  if (names.empty()) return "the map misses the given positions by a mean of " + distance;
+  return fmt::format("the map misses the given position of {} by {}", names, distance);
+}
+
+std::string scale_words(const Values& values) {
+  if (const auto long_percent = values.find("share_percent"))
+    return fmt::format("the given positions show that odometry is {} % too {}",
+                       significant(std::abs(*long_percent)),
+                       *long_percent > 0.0 ? "long" : "short");
+  return fmt::format("the given positions are {} times as far apart as the landmarks in the map",
+                     significant(values.find("ratio").value_or(1.0)));
+}
+
 std::string map_cause_words(const FitCause& cause) {
   const Values values(cause);
   const std::string names = names_of(cause.landmarks);
@@ -113,8 +133,7 @@ std::string map_cause_words(const FitCause& cause) {
     case FitCode::kStress:
       return "the distances in the map differ from the measured ones by more than noise explains";
     case FitCode::kAnchorMissed:
-      return fmt::format("the map misses the given position of {} by {}", names,
-                         values.amount("distance_m", "m"));
+      return missed_words(values, names);
     case FitCode::kWeakBridge:
       return fmt::format("{} hang together with the other landmarks by few measurements", names);
     case FitCode::kMirror:
@@ -142,9 +161,7 @@ std::string map_cause_words(const FitCause& cause) {
       return "the given positions fit the reflected map: an axis of theirs, or the sign of the "
              "bearings, may be wrong";
     case FitCode::kKnownScale:
-      return fmt::format(
-          "the given positions are {} times as far apart as the landmarks in the map",
-          significant(values.find("ratio").value_or(1.0)));
+      return scale_words(values);
     case FitCode::kDisconnected:
       return fmt::format("no measurement connects {} with the other landmarks", names);
     default:

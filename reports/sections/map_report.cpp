@@ -19,12 +19,17 @@
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/certificates.hpp"
+#include "reports/sections/opening.hpp"
+#include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
 
 using Eigen::Index;
+
+constexpr const char* kPositions = "positions";  ///< Section of the landmarks.
+constexpr const char* kWarnings = "warnings";
 
 Table ellipse_table(const MapRecord& record, const std::vector<std::optional<Ellipse>>& ellipses) {
   const std::string unit = record.frame == Frame::kGroundTruth ? "m" : "";
@@ -71,9 +76,21 @@ bool any_ground_truth(const MapRecord& record) {
 
 std::string unit(const MapRecord& record) { return record.frame == Frame::kGroundTruth ? "m" : ""; }
 
-void add_ground_truth(const MapRecord& record, Index row, std::vector<Cell>& cells) {
+/// Of the coordinates of a table.
+struct Decimals {
+  int of_map = 3;
+  int of_ground_truth = 3;
+};
+
+Decimals decimals_of(const MapRecord& record) {
+  return {.of_map = position_decimals(record.estimate),
+          .of_ground_truth = record.ground_truth_m ? position_decimals(*record.ground_truth_m) : 3};
+}
+
+void add_ground_truth(const MapRecord& record, Index row, int decimals, std::vector<Cell>& cells) {
   const Points& ground_truth = *record.ground_truth_m;
-  for (Index axis = 0; axis < 2; ++axis) cells.emplace_back(NumberCell{ground_truth(row, axis), 3});
+  for (Index axis = 0; axis < 2; ++axis)
+    cells.push_back(position_cell(ground_truth(row, axis), decimals));
   if (record.frame == Frame::kGroundTruth)
     cells.emplace_back(NumberCell{(record.estimate.row(row) - ground_truth.row(row)).norm(), 3});
 }
@@ -89,12 +106,13 @@ std::vector<Column> point_columns(const MapRecord& record) {
   return columns;
 }
 
-Row point_row(const MapRecord& record, Index row) {
+Row point_row(const MapRecord& record, Index row, const Decimals& decimals) {
   const auto number = static_cast<std::size_t>(row);
   Row out;
   out.cells = {TextCell{record.names[number], Emphasis::kData},
-               NumberCell{record.estimate(row, 0), 3}, NumberCell{record.estimate(row, 1), 3}};
-  if (any_ground_truth(record)) add_ground_truth(record, row, out.cells);
+               position_cell(record.estimate(row, 0), decimals.of_map),
+               position_cell(record.estimate(row, 1), decimals.of_map)};
+  if (any_ground_truth(record)) add_ground_truth(record, row, decimals.of_ground_truth, out.cells);
   out.source = record.id;
   return out;
 }
@@ -102,8 +120,9 @@ Row point_row(const MapRecord& record, Index row) {
 Table landmarks_table(const MapRecord& record) {
   Table table{"landmarks", "Every landmark", point_columns(record), {}, {}};
   table.columns.push_back({"Anchor", "", "", "Its true position was given."});
+  const Decimals decimals = decimals_of(record);
   for (Index i = 0; i < record.estimate.rows(); ++i) {
-    table.rows.push_back(point_row(record, i));
+    table.rows.push_back(point_row(record, i, decimals));
     table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
   }
   if (record.frame == Frame::kSimilarity)
@@ -119,24 +138,30 @@ Table anchors_table(const MapRecord& record) {
   const char* caption = record.frame == Frame::kGroundTruth ? "Anchors: the map was aligned to them"
                                                             : "Anchors, as given";
   Table table{"anchors", caption, point_columns(record), {}, {}};
-  for (const Index row : record.anchors) table.rows.push_back(point_row(record, row));
+  const Decimals decimals = decimals_of(record);
+  for (const Index row : record.anchors) table.rows.push_back(point_row(record, row, decimals));
   return table;
 }
 
-Highlights highlights(const MapRecord& record) {
+Highlights numbers_of(const MapRecord& record) {
   Highlights out;
-  out.items.push_back({"Landmarks mapped",
-                       fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
-                       counted(record.step, "observation") + " used"});
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
-      out.items.push_back(
-          {error.name, error.value,
-           fmt::format("{}{}{}", error.meaning, error.limit.empty() ? "" : ", ", error.limit)});
-  out.items.push_back({"Anchors", fmt::format("{}", record.anchors.size()),
+      out.items.push_back({error.name, error.value,
+                           fmt::format("{}{}{}{}{}", error.meaning, error.limit.empty() ? "" : ", ",
+                                       error.limit, error.name == "MPE" ? "; over " : "",
+                                       error.name == "MPE" ? scored_landmarks_text(record) : ""),
+                           kPositions});
+  out.items.push_back({"landmarks mapped",
+                       fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
+                       counted(record.step, "observation") + " used", kPositions});
+  out.items.push_back({"anchors", fmt::format("{}", record.anchors.size()),
                        record.frame != Frame::kGroundTruth ? "shape alone, without scale"
                        : record.anchors.empty()            ? "map in metres, in a frame of its own"
-                                                           : "map in metres, in their frame"});
+                                                           : "map in metres, in their frame",
+                       kPositions});
+  out.items.push_back({"warnings and failures", fmt::format("{}", record.statuses.size()),
+                       record.statuses.empty() ? "none" : "listed with their reasons", kWarnings});
   return out;
 }
 
@@ -168,19 +193,47 @@ std::string shape_finding(const MapRecord& record) {
              : "; no error in metres can be determined.");
 }
 
+/// By which method, from what.
+Paragraph what_was_done(const MapRecord& record) {
+  const std::string landmarks = counted(record.estimate.rows(), "landmark");
+  return plain(
+      std::holds_alternative<FromSensor>(record.origin)
+          ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
+                        sensor_label(record), landmarks, info(setting_of(record)->method).summary)
+          : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks));
+}
+
+/// The map, how well it fits its data, and what needs attention.
+Opening opening_of(const MapReportInput& input) {
+  const MapRecord& record = input.record;
+  Opening opening;
+  opening.numbers = numbers_of(record);
+  opening.findings.push_back(what_was_done(record));
+  if (!input.verdict.empty())
+    opening.findings.push_back({{strong("Fit"), phrase(": " + input.verdict)}});
+  if (!any_ground_truth(record))
+    opening.findings.push_back(plain("No ground truth was given to compare the map with."));
+  std::vector<std::string> wrong = input.warnings;
+  for (const Status& status : record.statuses) wrong.push_back(status_text(status));
+  if (!wrong.empty())
+    opening.findings.push_back({{strong("Warnings"), phrase(": " + listed(wrong, 3) + ".")}});
+  opening.main_figure = input.figure.id;
+  if (input.fit)
+    for (const Block& block : input.fit->blocks)
+      if (const auto* figure = std::get_if<FigureBlock>(&block))
+        opening.figure_ids.push_back(figure->id);
+  for (const FigureBlock& figure : input.more_figures)
+    if (opening.figure_ids.size() < kMostThumbnails) opening.figure_ids.push_back(figure.id);
+  return opening;
+}
+
 Section summary(const MapReportInput& input) {
   const MapRecord& record = input.record;
   Section section{"summary", "Summary", {}};
   for (const std::string& warning : input.warnings)
     section.blocks.emplace_back(Callout{Callout::Tone::kWarning, "Warning", plain(warning)});
-  section.blocks.emplace_back(highlights(record));
   BulletList findings;
-  const std::string landmarks = counted(record.estimate.rows(), "landmark");
-  findings.items.push_back(plain(
-      std::holds_alternative<FromSensor>(record.origin)
-          ? fmt::format("{} from {} observations of {}: {}.", method_label(record),
-                        sensor_label(record), landmarks, info(setting_of(record)->method).summary)
-          : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks)));
+  findings.items.push_back(what_was_done(record));
   if (record.frame == Frame::kGroundTruth && any_ground_truth(record))
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
@@ -211,20 +264,25 @@ Section input_section(const MapReportInput& input) {
 }
 
 Section statuses(const MapRecord& record) {
-  Section section{"warnings", "Warnings and failures", {}};
+  Section section{kWarnings, "Warnings and failures", {}};
   if (record.statuses.empty()) {
     section.blocks.emplace_back(plain("None."));
     return section;
   }
   StatusList list;
-  for (const Status& status : record.statuses)
-    list.items.push_back({std::string(name(status.code)),
-                          std::string(meaning(status.code)),
-                          method_label(record),
-                          1,
-                          1,
-                          status.code == StatusCode::kFailed,
-                          {{record.id, status_text(status)}}});
+  for (const Status& status : record.statuses) {
+    const auto same = std::ranges::find(list.items, name(status.code), &StatusList::Item::code);
+    if (same != list.items.end())
+      same->locations.push_back({record.id, status_text(status)});
+    else
+      list.items.push_back({std::string(name(status.code)),
+                            std::string(meaning(status.code)),
+                            method_label(record),
+                            1,
+                            1,
+                            status.code == StatusCode::kFailed,
+                            {{record.id, status_text(status)}}});
+  }
   section.blocks.emplace_back(std::move(list));
   return section;
 }
@@ -281,12 +339,13 @@ Report map_report(const MapReportInput& input) {
   report.subtitle =
       fmt::format("{}, {}, {}", method_label(input.record), sensor_label(input.record),
                   counted(input.record.step, "observation"));
+  report.opening = opening_of(input);
   if (input.fit) report.sections.push_back(*input.fit);
   report.sections.push_back(summary(input));
   report.sections.push_back({"map", "Map", {input.figure}});
   for (const FigureBlock& figure : input.more_figures)
     report.sections.back().blocks.emplace_back(figure);
-  Section landmarks{"positions", "Landmarks", {}};
+  Section landmarks{kPositions, "Landmarks", {}};
   if (!input.record.anchors.empty()) landmarks.blocks.emplace_back(anchors_table(input.record));
   landmarks.blocks.emplace_back(landmarks_table(input.record));
   report.sections.push_back(std::move(landmarks));
@@ -299,6 +358,21 @@ Report map_report(const MapReportInput& input) {
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);
   return report;
+}
+
+std::string scored_landmarks_text(const MapRecord& record) {
+  if (!record.score || !record.ground_truth_m) return "";
+  const bool leaves_out = std::isfinite(record.score->mpe_m);
+  if (!leaves_out && !std::isfinite(record.score->mpe_all_fitted_m)) return "";
+  std::ptrdiff_t scored = 0;
+  for (Index i = 0; i < record.estimate.rows(); ++i)
+    if (placed(record.estimate, i) && placed(*record.ground_truth_m, i) &&
+        (!leaves_out || !is_anchor(record, i)))
+      ++scored;
+  std::string text = counted(scored, "landmark");
+  if (leaves_out && !record.anchors.empty())
+    text += fmt::format(", without the {}", counted(std::ssize(record.anchors), "anchor"));
+  return text;
 }
 
 }  // namespace mapproof

@@ -26,14 +26,19 @@ struct MapReportInput {
   std::string command;              ///< The one that makes it again, ready to be typed.
   std::vector<Section> more = {};   ///< After the landmarks: what else was asked for.
   std::optional<Section> fit = {};  ///< At the head: see fit_section().
+  std::string verdict = {};         ///< On the fit, a sentence: see verdict_text().
 };
 
-/// Summary, figure, landmarks (with errors where the ground truth is known), remarks, statuses,
-/// provenance.
+/// Opening, summary, figure, landmarks (with errors where the ground truth is known), remarks,
+/// statuses, provenance.
 Report map_report(const MapReportInput& input);
 
 /// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.
 /// @throws InvalidInput unless there is a covariance a landmark.
 Section certainty_section(const MapRecord& record, const MapCertainty& certainty);
+
+/// Over which landmarks the MPE of a map is: "26 landmarks, without the 4 anchors"; empty without
+/// an MPE.
+std::string scored_landmarks_text(const MapRecord& record);
 
 }  // namespace mapproof

@@ -156,6 +156,25 @@ std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate)
                   estimate->mean + *estimate->half_width};
 }
 
+PublishedAgreement agreement_of(std::span<const SettingSummary> summaries) {
+  PublishedAgreement all;
+  for (const SettingSummary& summary : summaries) {
+    if (!summary.published || !summary.mpe_m) continue;
+    if (!summary.published->note.empty()) {
+      ++all.apart;
+      continue;
+    }
+    const auto interval = interval_of(summary.mpe_m);
+    if (!interval) continue;
+    ++all.compared;
+    if (summary.published->mpe_m > interval->high)
+      ++all.ours_smaller;
+    else if (summary.published->mpe_m >= interval->low)
+      ++all.within;
+  }
+  return all;
+}
+
 std::string source_of(const SettingSummary& summary) {
   return fmt::format("{}/{}/{} of {} run{}", name(summary.sensor), slug(summary.setting),
                      summary.step, summary.runs, summary.runs == 1 ? "" : "s");

@@ -56,6 +56,16 @@ struct Interval {
 /// The 95 % interval of an error, cut at 0; empty where one layout, or none, was run.
 std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate);
 
+/// How the published errors compare with our 95 % intervals.
+struct PublishedAgreement {
+  int compared = 0;      ///< Methods with an interval and a published error that can be compared.
+  int within = 0;        ///< Of them, those with the published error inside the interval.
+  int ours_smaller = 0;  ///< Of the others, those with an interval below the published error.
+  int apart = 0;         ///< Methods whose published error cannot be compared, as a note says.
+};
+
+PublishedAgreement agreement_of(std::span<const SettingSummary> summaries);
+
 /// "bearing/isomap-K9/2000 of 25 runs": which records a summary rests on.
 std::string source_of(const SettingSummary& summary);
 

@@ -1,12 +1,18 @@
 #include "reports/sections/opening.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
+#include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/findings.hpp"
+#include "reports/sections/method_ranks.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/wording.hpp"
@@ -14,39 +20,150 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kMostThumbnails = 6;
+constexpr std::string_view kNoBreak = "\u00a0";
 
 /// With no break between number and unit.
 std::string whole_metres(double value) {
   std::string text = metres(value);
   const std::size_t space = text.find(' ');
-  return space == std::string::npos ? text : text.replace(space, 1, "\u00a0");
+  return space == std::string::npos ? text : text.replace(space, 1, kNoBreak);
 }
 
-/// "Best by bearing: 0.0615 m mean position error (the paper: 0.0609 m), SMACOF, K = 8. "
-void add_best(const SensorStudy& sensor, const SettingSummary* best, Paragraph& text) {
-  const std::string by = lower_case(title_of(sensor.sensor.sensor));
+/// One sensor and its methods, each at its best parameter.
+struct SensorMethods {
+  const SensorStudy* study = nullptr;
+  std::vector<SettingSummary> methods;
+
+  std::string section() const { return fmt::format("methods-{}", name(study->sensor.sensor)); }
+};
+
+std::vector<SensorMethods> methods_of(const Study& study) {
+  std::vector<SensorMethods> all;
+  for (const SensorStudy& sensor : study.experiment.sensors)
+    all.push_back({&sensor, best_of_each_method(summarize(study, sensor, last_step(sensor)))});
+  return all;
+}
+
+/// How the published errors compare with ours.
+void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& numbers) {
+  PublishedAgreement all;
+  for (const SensorMethods& sensor : sensors) {
+    const PublishedAgreement one = agreement_of(sensor.methods);
+    all.compared += one.compared;
+    all.within += one.within;
+    all.ours_smaller += one.ours_smaller;
+    all.apart += one.apart;
+  }
+  if (all.compared == 0) return;
+  const int outside = all.compared - all.within;
+  std::string detail = outside == 0 ? "none outside"
+                       : outside == all.ours_smaller
+                           ? fmt::format("in the other {} ours is smaller", outside)
+                           : fmt::format(
+                                 "ours is smaller in {} of the "
+                                 "other {}",
+                                 all.ours_smaller, outside);
+  if (all.apart > 0) detail += fmt::format("; {} more cannot be compared", all.apart);
+  numbers.items.push_back({"published errors inside our 95\u00a0% intervals",
+                           fmt::format("{} of {}", all.within, all.compared), std::move(detail),
+                           sensors.front().section()});
+}
+
+/// Which of the published orderings of methods hold here.
+void add_orderings(const Study& study, const std::vector<SensorMethods>& sensors,
+                   Highlights& numbers) {
+  int tried = 0, held = 0, significant = 0;
+  for (const SensorMethods& sensor : sensors)
+    for (const OrderingClaim& claim : ordering_claims(study, *sensor.study)) {
+      if (!claim.difference_m) continue;
+      ++tried;
+      held += claim.holds() ? 1 : 0;
+      significant += claim.holds() && claim.is_significant() ? 1 : 0;
+    }
+  if (tried > 0)
+    numbers.items.push_back(
+        {"published orderings of methods hold", fmt::format("{} of {}", held, tried),
+         fmt::format("{} of them significantly", significant), sensors.front().section()});
+}
+
+void add_best(const SensorMethods& sensor, Highlights& numbers) {
+  const std::string label_text = "best MPE by " + lower_case(title_of(sensor.study->sensor.sensor));
+  const SettingSummary* best = best_of(sensor.methods);
   if (best == nullptr) {
-    text.phrases.push_back({"By " + by + " no map could be scored. "});
+    numbers.items.push_back({label_text, kMissingText, "no map could be scored", sensor.section()});
     return;
   }
-  const bool is_first = text.phrases.empty();
-  text.phrases.push_back({"Best by " + by + ": "});
-  text.phrases.push_back({whole_metres(best->mpe_m->mean), Emphasis::kStrong});
-  std::string rest = is_first ? " mean position error" : "";
-  if (best->published) rest += " (the paper: " + whole_metres(best->published->mpe_m) + ")";
-  text.phrases.push_back({rest + ", " + label(best->setting) + ". "});
+  std::string detail = label(best->setting);
+  if (const SettingSummary* paper = best_published(sensor.methods))
+    detail += fmt::format("; best published: {}, {}", whole_metres(paper->published->mpe_m),
+                          info(paper->setting.method).label);
+  numbers.items.push_back(
+      {label_text, whole_metres(best->mpe_m->mean), std::move(detail), sensor.section()});
 }
 
-std::string ends(const Study& study) {
+void add_ends(const StudyCounts& counts, Highlights& numbers) {
+  if (counts.maps == 0) return;
+  const long clean = counts.maps - counts.with_status;
+  // Rounded down, so that only a study without any warning has 100 %.
+  numbers.items.push_back({fmt::format("of {} without a warning", counted(counts.maps, "map")),
+                           fmt::format("{} %", 100 * clean / counts.maps),
+                           counts.unscored == 0
+                               ? "all could be scored"
+                               : fmt::format("{} could not be scored", counts.unscored),
+                           "warnings"});
+}
+
+/// "Maps of 50 landmarks built from what a simulated robot observed, without ever estimating its
+/// pose: 10 methods, visibility and bearing, 25 runs."
+Paragraph what_was_done(const Study& study) {
+  std::set<Method> methods;
+  std::vector<std::string> sensors;
+  for (const SensorStudy& sensor : study.experiment.sensors) {
+    sensors.push_back(lower_case(title_of(sensor.sensor.sensor)));
+    for (const MethodGrid& grid : sensor.methods) methods.insert(grid.method);
+  }
+  std::string text = fmt::format(
+      "Maps of {} built from what a simulated robot observed, without ever estimating its pose: "
+      "{}, {}, {}.",
+      counted(study.experiment.world.landmarks, "landmark"), counted(std::ssize(methods), "method"),
+      listed(sensors, 6), counted(std::ssize(study.runs), "run"));
+  return plain(text + " MPE is the mean position error of the landmarks that are not anchors.");
+}
+
+/// "arbitrary_neighbours (12 maps) and not_converged (6 maps)": the most frequent first.
+std::string frequent_warnings(const Study& study) {
+  std::map<std::string, int> maps;
+  for (const Run& run : study.runs)
+    for (const RunRecord& record : run.records) {
+      std::set<std::string> codes;
+      for (const Status& status : record.statuses) codes.insert(std::string(name(status.code)));
+      for (const std::string& code : codes) ++maps[code];
+    }
+  std::vector<std::pair<std::string, int>> order(maps.begin(), maps.end());
+  std::ranges::stable_sort(order, std::greater(), &std::pair<std::string, int>::second);
+  std::vector<std::string> names;
+  for (const auto& [code, count] : order)
+    names.push_back(fmt::format("{} ({})", code, counted(count, "map")));
+  return listed(names, 3);
+}
+
+/// What is missing, what ended badly, and in what the study is smaller than the paper's.
+Paragraph what_is_wrong(const Study& study) {
+  const Experiment& experiment = study.experiment;
   const StudyCounts counts = count(study);
-  const std::string maps = counted(counts.maps, "map");
-  if (counts.unscored + counts.with_status == 0)
-    return fmt::format("None of {} has a warning.", maps);
-  return fmt::format("Of {} {} {} warnings, {} {} without a score.", maps, counts.with_status,
-                     counts.with_status == 1 ? "has" : "have",
-                     counts.unscored == 0 ? "none" : std::to_string(counts.unscored),
-                     counts.unscored < 2 ? "is" : "are");
+  const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
+  std::string text;
+  if (static_cast<long>(study.runs.size()) < planned)
+    text += fmt::format("{} of {} are done. ", study.runs.size(), counted(planned, "run"));
+  if (counts.maps > 0 && counts.with_status + counts.unscored == 0)
+    text += "No map has a warning. ";
+  else if (counts.with_status > 0)
+    text += frequent_warnings(study) + ". ";
+  if (const std::string smaller = smaller_than_paper(experiment); !smaller.empty())
+    text += "Not the paper\u2019s protocol: " + smaller;
+  if (text.empty()) text = "No map was made.";
+  while (text.ends_with(' ')) text.pop_back();
+  return {{strong("Warnings"), phrase(": " + text)}};
 }
 
 /// The first figure or scene of the group; empty if there is none.
@@ -56,7 +173,34 @@ std::string first_of(const StudyFigures& figures, const std::string& group) {
   return found->figures.empty() ? found->scenes.front().id : found->figures.front().id;
 }
 
+/// What [yairi2007, section 4.1] ran.
+constexpr int kPaperLayouts = 5;
+constexpr int kPaperPoses = 5;
+constexpr int kPaperSteps = 2000;
+constexpr int kPaperLandmarks = 50;
+
 }  // namespace
+
+std::string smaller_than_paper(const Experiment& experiment) {
+  const bool yairi = std::ranges::any_of(experiment.sensors, [](const SensorStudy& sensor) {
+    return sensor.published.source.starts_with("Yairi 2007");
+  });
+  if (!yairi) return "";
+  std::string text;
+  if (experiment.layouts < kPaperLayouts || experiment.poses < kPaperPoses)
+    text += fmt::format("{} of {} each where the paper averaged {} of {} each. ",
+                        counted(experiment.layouts, "layout"),
+                        counted(experiment.poses, "initial pose"), counted(kPaperLayouts, "layout"),
+                        counted(kPaperPoses, "initial pose"));
+  for (const SensorStudy& sensor : experiment.sensors)
+    if (last_step(sensor) < kPaperSteps)
+      text += fmt::format("{} stops at {} observations, the paper at {}. ",
+                          title_of(sensor.sensor.sensor), last_step(sensor), kPaperSteps);
+  if (experiment.world.landmarks != kPaperLandmarks)
+    text += fmt::format("{} where the paper had {}. ",
+                        counted(experiment.world.landmarks, "landmark"), kPaperLandmarks);
+  return text;
+}
 
 std::vector<std::string> present_ids(const std::vector<std::string>& ids,
                                      const StudyFigures& figures, std::size_t most) {
@@ -70,22 +214,40 @@ std::vector<std::string> present_ids(const std::vector<std::string>& ids,
   return chosen;
 }
 
+void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
+                    Opening& opening) {
+  opening.figure_ids = present_ids(ids, figures, kMostThumbnails + 1);
+  if (opening.figure_ids.empty()) return;
+  opening.main_figure = opening.figure_ids.front();
+  opening.figure_ids.erase(opening.figure_ids.begin());
+}
+
+std::string date_of(std::span<const Session> sessions) {
+  constexpr std::size_t kDateSize = 10;  // "2026-11-26"
+  return sessions.empty() ? "" : sessions.back().started_utc.substr(0, kDateSize);
+}
+
 Opening study_opening(const Study& study, const StudyFigures& figures) {
+  const std::vector<SensorMethods> sensors = methods_of(study);
   Opening opening;
-  Paragraph text;
-  std::vector<std::string> ids = {first_of(figures, "curves")};
-  for (const SensorStudy& sensor : study.experiment.sensors) {
-    const auto methods = best_of_each_method(summarize(study, sensor, last_step(sensor)));
-    const SettingSummary* best = best_of(methods);
-    add_best(sensor, best, text);
-    if (best != nullptr)
+  if (!sensors.empty()) {
+    add_agreement(sensors, opening.numbers);
+    add_orderings(study, sensors, opening.numbers);
+  }
+  std::vector<std::string> ids = {"published-errors"};
+  for (const SensorMethods& sensor : sensors) {
+    add_best(sensor, opening.numbers);
+    if (const SettingSummary* best = best_of(sensor.methods))
       ids.push_back(fmt::format("map-{}-{}", name(best->sensor), info(best->setting.method).name));
   }
-  text.phrases.push_back({ends(study)});
-  opening.findings.push_back(std::move(text));
-  for (const char* group : {"forming", "comparison", "scenes", "parameters", "observations"})
+  add_ends(count(study), opening.numbers);
+  opening.findings = {what_was_done(study), what_is_wrong(study)};
+  ids.push_back(first_of(figures, "scenes"));
+  if (!sensors.empty())
+    ids.push_back(fmt::format("scene-manifold-{}", name(sensors.back().study->sensor.sensor)));
+  for (const char* group : {"curves", "forming", "observations", "parameters"})
     ids.push_back(first_of(figures, group));
-  opening.figure_ids = present_ids(ids, figures, kMostThumbnails);
+  choose_figures(ids, figures, opening);
   return opening;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,12 +11,26 @@
 
 namespace mapproof {
 
-/// The opening of a study's report: the best method of each sensor compared with the paper's value,
-/// how the maps ended, and a figure of each kind.
+/// As many small figures fit beside the figure of an opening.
+inline constexpr std::size_t kMostThumbnails = 6;
+
+/// The opening of a study's report: published errors inside our intervals, published orderings,
+/// the best method of each sensor, how the maps ended, and a figure of each kind.
 Opening study_opening(const Study& study, const StudyFigures& figures);
+
+/// In what a study of Yairi's paper is smaller than the paper's, each a sentence; empty if in
+/// nothing, and for other studies.
+std::string smaller_than_paper(const Experiment& experiment);
 
 /// Those of the ids that are among the figures and scenes, each once, the first `most`.
 std::vector<std::string> present_ids(const std::vector<std::string>& ids,
                                      const StudyFigures& figures, std::size_t most);
+
+/// Makes the first of the ids that is there the opening's figure, the next ones its small figures.
+void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
+                    Opening& opening);
+
+/// The day of the last session, YYYY-MM-DD in UTC; empty without sessions.
+std::string date_of(std::span<const Session> sessions);
 
 }  // namespace mapproof

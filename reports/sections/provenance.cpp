@@ -161,11 +161,11 @@ Section provenance_section(const Study& study, std::span<const Session> sessions
   section.blocks.emplace_back(KeyValues{{{"Command", {command, Emphasis::kCode}}}});
   section.blocks.emplace_back(experiment_items(study.experiment));
   section.blocks.emplace_back(provenance_items(study.provenance));
-  if (!sessions.empty()) section.blocks.emplace_back(sessions_table("sessions", sessions));
+  if (!sessions.empty()) fold(sessions_table("sessions", sessions), section);
   if (timings.empty()) return section;
   const Durations durations = durations_of(timings);
   if (auto most = dominance(durations)) section.blocks.emplace_back(*std::move(most));
-  section.blocks.emplace_back(durations_table(durations));
+  fold(durations_table(durations), section);
   return section;
 }
 

@@ -26,6 +26,8 @@ void number(std::vector<Figure>& figures) {
       figure.title = fmt::format("{}. {}", words, figure.title);
 }
 
+constexpr std::size_t kManyPanels = 5;
+
 /// How the ids of film strips begin (docs/figures.md).
 constexpr std::string_view kForming = "forming-";
 
@@ -39,21 +41,27 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
 
   StudyFigures figures;
   const auto add = [&](const char* id, const char* title, const char* words,
-                       std::vector<Figure> group) {
+                       std::vector<Figure> group, std::size_t open = kFiguresOpen) {
     number(group);
-    if (!group.empty()) figures.groups.push_back({id, title, words, std::move(group)});
+    if (!group.empty())
+      figures.groups.push_back(
+          {.id = id, .title = title, .words = words, .figures = std::move(group), .open = open});
   };
   add("observations", "From observations to a map",
-      "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans));
+      "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans), 2);
   add("curves", "Error over observations",
       "Mean over runs; bands are 95 % intervals of the mean, layouts being the units. Each method "
       "has its best parameter at the last checkpoint.",
       curve_figures(source));
+  std::vector<Figure> maps = map_figures(source);
+  const auto compared = static_cast<std::size_t>(std::ranges::count_if(
+      maps, [](const Figure& figure) { return figure.id.starts_with("maps-"); }));
   add("maps", "Maps",
-      "Where the paper shows a map, the run whose MPE is nearest to it is shown with the median "
-      "run. For each method then the median run at the last checkpoint: neither its best map nor "
-      "its worst.",
-      map_figures(source));
+      "All methods on one run, the best first, with the same axes; a landmark that is chosen in "
+      "one map is highlighted in all. Where the paper shows a map, the run whose MPE is nearest to "
+      "it is shown with the median run. The last figures show each method on its own median run: "
+      "neither its best map nor its worst.",
+      std::move(maps), compared);
   add("forming", "How maps form and scatter",
       "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
       "scatter over the runs of that layout.",
@@ -67,18 +75,20 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
          "each method over the floor. Drawn by VTK without a screen.",
          {},
          std::move(scenes),
-         study_films(source)});
+         study_films(source),
+         2});
   add("parameters", "Error over parameters",
-      "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source));
+      "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source),
+      0);
   add("comparison", "Methods side by side",
       "Each at its best parameter. Ranks are over layouts, since runs in one layout are not "
       "independent; distances and eigenvalues are of the median run of the best method.",
-      comparison_figures(source));
+      comparison_figures(source), 3);
   add("conditions", "Occlusion and variations",
       "What happens if one thing is changed: methods with the parameters that the experiment "
       "names. "
       "The levels of one figure share their random numbers.",
-      condition_figures(source));
+      condition_figures(source), 0);
   add("cost", "Accuracy against seconds",
       "Seconds of one map beyond what the methods of a history share: distances, the order of "
       "neighbours, and the map that a method starts from. They differ from one run of the program "
@@ -110,6 +120,7 @@ std::vector<const Film*> all_films(const StudyFigures& figures) {
 
 FigureBlock figure_block(const Figure& figure) {
   FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
+  block.wide = figure.panels.size() >= kManyPanels;
   if (!figure.id.starts_with(kForming)) return block;
   for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);
   return block;
@@ -125,6 +136,7 @@ Gallery gallery_of(const FigureGroup& group, std::size_t first) {
   for (const Scene& scene : group.scenes) gallery.figures.push_back(figure_block(scene));
   gallery.figures.erase(gallery.figures.begin(),
                         gallery.figures.begin() + static_cast<std::ptrdiff_t>(first));
+  gallery.open = group.open - std::min(group.open, first);
   return gallery;
 }
 

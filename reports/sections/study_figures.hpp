@@ -12,14 +12,18 @@
 
 namespace mapproof {
 
+/// A page shows so many figures of a group before it folds the others.
+inline constexpr std::size_t kFiguresOpen = 4;
+
 /// Figures that stand together in a report.
 struct FigureGroup {
   std::string id;  ///< Of its section, [a-z0-9-]+.
   std::string title;
   std::string words;  ///< What they have in common, a sentence or two.
   std::vector<Figure> figures;
-  std::vector<Scene> scenes = {};  ///< They stand after the figures.
-  std::vector<Film> films = {};    ///< Of scenes of the same ids, drawn when they are asked for.
+  std::vector<Scene> scenes = {};   ///< They stand after the figures.
+  std::vector<Film> films = {};     ///< Of scenes of the same ids, drawn when they are asked for.
+  std::size_t open = kFiguresOpen;  ///< A page shows so many of them and folds the rest.
 
   bool empty() const { return figures.empty() && scenes.empty(); }
 };

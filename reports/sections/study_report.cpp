@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
-#include <tuple>
 
 #include <fmt/format.h>
 
@@ -59,12 +58,10 @@ void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& sec
 
 constexpr std::size_t kLocationsShown = 5;
 
-/// Sensor, method, parameter: what statuses are counted by.
-using StatusKind = std::tuple<Sensor, Method, double>;
+/// Sensor and method: what statuses are counted by, over all parameters.
+using StatusKind = std::pair<Sensor, Method>;
 
-StatusKind kind_of(const RunRecord& record) {
-  return {record.sensor, record.setting.method, record.setting.parameter.value_or(0.0)};
-}
+StatusKind kind_of(const RunRecord& record) { return {record.sensor, record.setting.method}; }
 
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
@@ -93,7 +90,7 @@ StatusList status_list(const Study& study) {
         const auto earlier = std::span(record.statuses).first(i);
         if (std::ranges::any_of(earlier, [&](const Status& s) { return s.code == code; })) continue;
         StatusList::Item& item = items[{kind_of(record), code}];
-        item.where = fmt::format("{}, {}", name(record.sensor), label(record.setting));
+        item.where = fmt::format("{}, {}", name(record.sensor), info(record.setting.method).label);
         add_record(item, run.id, record, code);
       }
     }
@@ -109,39 +106,18 @@ StatusList status_list(const Study& study) {
   return list;
 }
 
-/// What [yairi2007, section 4.1] ran.
-constexpr int kPaperLayouts = 5;
-constexpr int kPaperPoses = 5;
-constexpr int kPaperSteps = 2000;
-constexpr int kPaperLandmarks = 50;
-
-void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findings,
-                Highlights& highlights) {
+void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findings) {
   const auto methods = best_of_each_method(summarize(study, sensor, last_step(sensor)));
-  const SettingSummary* best = best_of(methods);
-  const std::string title = title_of(sensor.sensor.sensor);
-  if (best == nullptr) {
-    findings.items.push_back({{strong(title), phrase(": no map could be scored.")}});
-    highlights.items.push_back({title + ", best MPE", kMissingText, "no map could be scored"});
-    return;
-  }
-  std::ranges::move(sensor_findings(study, sensor, methods).items,
-                    std::back_inserter(findings.items));
-  std::string detail = label(best->setting);
-  if (best->published) detail += "; paper: " + metres(best->published->mpe_m);
-  highlights.items.push_back({title + ", best MPE", metres(best->mpe_m->mean), detail});
+  if (best_of(methods) == nullptr)
+    findings.items.push_back(
+        {{strong(title_of(sensor.sensor.sensor)), phrase(": no map could be scored.")}});
+  else
+    std::ranges::move(sensor_findings(study, sensor, methods).items,
+                      std::back_inserter(findings.items));
 }
 
-void add_ends(const Study& study, BulletList& findings, Highlights& highlights) {
+void add_ends(const Study& study, BulletList& findings) {
   const StudyCounts counts = count(study);
-  const Experiment& experiment = study.experiment;
-  const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
-  highlights.items.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), planned),
-                              fmt::format("{}, {} each", counted(experiment.layouts, "layout"),
-                                          counted(experiment.poses, "initial pose"))});
-  highlights.items.push_back({"Maps with warnings",
-                              fmt::format("{} of {}", counts.with_status, counts.maps),
-                              fmt::format("{} without a score", counts.unscored)});
   if (counts.maps == 0) return;
   const std::string maps = counted(counts.maps, "map");
   const std::string text = counts.with_status + counts.unscored == 0
@@ -151,28 +127,6 @@ void add_ends(const Study& study, BulletList& findings, Highlights& highlights) 
                                      "below with the reason.",
                                      maps, counts.unscored, counts.with_status);
   findings.items.push_back({{strong("Failures"), phrase(text)}});
-}
-
-/// In what the study is smaller than the paper's; empty if in nothing.
-std::string smaller_than_paper(const Experiment& experiment) {
-  const bool yairi = std::ranges::any_of(experiment.sensors, [](const SensorStudy& sensor) {
-    return sensor.published.source.starts_with("Yairi 2007");
-  });
-  if (!yairi) return "";
-  std::string text;
-  if (experiment.layouts < kPaperLayouts || experiment.poses < kPaperPoses)
-    text += fmt::format("{} of {} each where the paper averaged {} of {} each. ",
-                        counted(experiment.layouts, "layout"),
-                        counted(experiment.poses, "initial pose"), counted(kPaperLayouts, "layout"),
-                        counted(kPaperPoses, "initial pose"));
-  for (const SensorStudy& sensor : experiment.sensors)
-    if (last_step(sensor) < kPaperSteps)
-      text += fmt::format("{} stops at {} observations, the paper at {}. ",
-                          title_of(sensor.sensor.sensor), last_step(sensor), kPaperSteps);
-  if (experiment.world.landmarks != kPaperLandmarks)
-    text += fmt::format("{} where the paper had {}. ",
-                        counted(experiment.world.landmarks, "landmark"), kPaperLandmarks);
-  return text;
 }
 
 std::vector<Callout> caveats(const Study& study) {
@@ -209,6 +163,7 @@ Report study_report(const StudyReportInput& input) {
   report.sections.push_back(
       provenance_section(input.study, input.sessions, input.timings, input.command));
   report.opening = study_opening(input.study, input.figures);
+  report.date = date_of(input.sessions);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;
@@ -226,6 +181,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
       last_step(sensor), counted(study.experiment.anchors, "anchor"),
       label(study.experiment.affine_fit))));
   section.blocks.emplace_back(accuracy_table(sensor, best, grid));
+  const std::size_t main_blocks = section.blocks.size();
   if (!sensor.published.values.empty())
     section.blocks.emplace_back(paper_parameter_table(sensor, all));
   if (!sensor.published.orderings.empty())
@@ -234,6 +190,8 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), section);
   section.blocks.emplace_back(spread_table(sensor, best));
   if (grid) section.blocks.emplace_back(parameter_table(sensor, all));
+  for (std::size_t i = main_blocks; i < section.blocks.size(); ++i)
+    if (auto* table = std::get_if<Table>(&section.blocks[i])) table->secondary = true;
   return section;
 }
 
@@ -266,11 +224,8 @@ Section summary_section(const Study& study) {
       "orientation.",
       counted(study.experiment.world.landmarks, "landmark"))));
   BulletList findings;
-  Highlights highlights;
-  for (const SensorStudy& sensor : study.experiment.sensors)
-    add_sensor(study, sensor, findings, highlights);
-  add_ends(study, findings, highlights);
-  section.blocks.emplace_back(std::move(highlights));
+  for (const SensorStudy& sensor : study.experiment.sensors) add_sensor(study, sensor, findings);
+  add_ends(study, findings);
   for (Callout& callout : caveats(study)) section.blocks.emplace_back(std::move(callout));
   section.blocks.emplace_back(std::move(findings));
   return section;
@@ -290,7 +245,7 @@ std::optional<Section> variations_section(const Study& study) {
       plain("The numbers behind the figures of anchors, noise and missing entries, one thing "
             "changed at a time."));
   for (const Variation& variation : study.experiment.variations)
-    section.blocks.emplace_back(variation_table(study, variation));
+    fold(variation_table(study, variation), section);
   return section;
 }
 

@@ -58,6 +58,11 @@ std::string paper_number(std::string_view id) {
   return figure.empty() ? with("table-", "Table") : figure;
 }
 
+void fold(Table table, Section& section) {
+  table.secondary = true;
+  section.blocks.emplace_back(std::move(table));
+}
+
 Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
 
 namespace {

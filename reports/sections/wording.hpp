@@ -20,6 +20,9 @@ std::string_view meaning(StatusCode code);
 /// "Fig. 4" of "fig-4" and "Table 1" of "table-1"; empty for other ids.
 std::string paper_number(std::string_view id);
 
+/// Adds a table that a page folds.
+void fold(Table table, Section& section);
+
 /// A paragraph of plain text.
 Paragraph plain(std::string text);
 

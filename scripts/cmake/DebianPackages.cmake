@@ -105,4 +105,18 @@ folders. Use them by find_package(mapproof COMPONENTS render reports)."
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_DEPENDS "libmapproof-core-dev (= ${MAPPROOF_PACKAGE_VERSION}), \
 libcairo2-dev, libdeflate-dev, libexpat1-dev, libfreetype-dev, libharfbuzz-dev, libpng-dev, \
 libsqlite3-dev")
+
+if(MAPPROOF_PYTHON)
+  mapproof_package(python python3-mapproof python
+"maps from what a robot observed, module of Python
+The module mapproof: observation histories, distances, all mapping methods,
+alignment, scores, studies as pandas frames, and figures in notebooks."
+    python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python3_VERSION_MAJOR}.\
+${Python3_VERSION_MINOR}), python3-numpy, python3:any")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-pandas)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/scripts/deb/postinst ${PROJECT_SOURCE_DIR}/scripts/deb/prerm)
+endif()
 include(CPack)

@@ -46,6 +46,11 @@ function(mapproof_module path)
   endif()
   add_library(mapproof_${name} OBJECT ${module_SOURCES})
   target_include_directories(mapproof_${name} PRIVATE ${PROJECT_SOURCE_DIR})
+  if(MAPPROOF_PYTHON)
+    # The module of Python is a shared library. Functions are inlined as in a program.
+    set_target_properties(mapproof_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(mapproof_${name} PRIVATE -fno-semantic-interposition)
+  endif()
   target_link_libraries(mapproof_${name}
     PRIVATE mapproof_${library}_packages ${module_PACKAGES} mapproof::build_flags)
   target_sources(mapproof_${library} PRIVATE $<TARGET_OBJECTS:mapproof_${name}>)

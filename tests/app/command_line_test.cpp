@@ -86,6 +86,8 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
   const std::string data = MAPPROOF_TEST_DATA;
   const std::vector<std::vector<std::string>> calls = {
       {"run", data + "/experiments/small.json", "--out", study},
+      {"run", data + "/experiments/small.json", "--shard", "1/1", "--out", folder / "shard"},
+      {"merge", folder / "shard", "--out", folder / "merged"},
       {"render", study},
       {"report", study},
       {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},

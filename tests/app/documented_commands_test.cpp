@@ -250,8 +250,8 @@ TEST(DocumentedCommands, WithinSentencesAndInTheHelpExist) {
   }
   EXPECT_GE(checked, 80U);
   for (const char* command :
-       {"reproduce", "run", "render", "report", "map", "slam", "evaluate", "diff", "approve",
-        "check", "example", "methods", "validate", "nightly", "history"}) {
+       {"reproduce", "run", "merge", "render", "report", "map", "slam", "evaluate", "diff",
+        "approve", "check", "example", "methods", "validate", "nightly", "history"}) {
     SCOPED_TRACE(command);
     for (const std::string& line : lines_of(help_of(command)))
       if (line.starts_with("  mapproof ") && line.find("[OPTIONS]") == std::string::npos)

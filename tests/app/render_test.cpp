@@ -149,7 +149,6 @@ TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{map_, "--as", "csv", "--width", "5"}, "--width: has no effect on csv"},
       {{map_, "--as", "pdf", "--dpi", "300"}, "--dpi: only png has pixels"},
-      {{map_, "--theme", "paper", "--no-title"}, "--no-title: no title is drawn anyway"},
       {{map_, "--as", "mp4"}, "a map is one still figure"},
       {{map_, "--animate", "scene-x"}, "nothing moves"},
       {{map_, "--figure", "mop"}, "did you mean \"map\"?"},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -70,6 +71,39 @@ TEST(Slam, GroundTruthOdometryAndKnownLandmarksMayStandInFilesOfTheirOwn) {
   EXPECT_LT(mean_error(result, "spectral-known"), 0.5);
   EXPECT_EQ(method_of(result, "refined").at("errors").at(0).at("alignment"), "none");
   EXPECT_LT(mean_error(result, "refined"), 0.1);
+}
+
+TEST(Slam, SaysWhatItLeavesOutOfAnchors) {
+  const TemporaryFolder folder;
+  const RangeLog log = log_of_common_times();
+  write_log(log, folder / "log");
+  std::string anchors = "name,x,y,z_cm\n";
+  for (Eigen::Index n = 0; n < 5; ++n)
+    anchors += fmt::format("{},{},{},{}\n", log.landmarks[static_cast<std::size_t>(n)],
+                           (*log.true_landmarks)(n, 0), (*log.true_landmarks)(n, 1), 50 * (n + 1));
+  const Outcome outcome = mapproof({"slam", folder / "log", "--anchors",
+                                    folder.file("anchors.csv", anchors), "--out", folder / "out"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("The heights in"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("(0.5 to 2.5 m) are not used"), std::string::npos);
+  EXPECT_NE(outcome.error.find("Errors of landmarks are means over 1 landmark: the 5 anchors with "
+                               "ground truth are left out."),
+            std::string::npos)
+      << outcome.error;
+}
+
+TEST(Slam, SpeedsThatAreNamedAsOdometryAreRefused) {
+  const TemporaryFolder folder;
+  write_file(folder / "log/ranges.csv", "t,beacon,range\n0.5,a,1\n1.5,b,2\n");
+  const std::string odometry = folder.file("odometry.csv", "t,v_ms,omega_dps\n1,1,0\n2,1,0\n");
+  const Outcome outcome =
+      mapproof({"slam", folder / "log", "--odometry", odometry, "--columns",
+                "distance=v_ms,heading_change=omega_dps", "--out", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find("line 1: \"v_ms\" is a speed or a rate of turning; odometry is the "
+                               "way [m] and the heading change [rad] since the row before"),
+            std::string::npos)
+      << outcome.error;
 }
 
 TEST(Slam, WithoutOdometrySaysWhatItCannotDoAndMapsWhatComesTogether) {
@@ -160,6 +194,10 @@ INSTANTIATE_TEST_SUITE_P(
                       BadSlam{"BadOdometry", kRanges, "t,ddist,dheading\n1,x,0\n", "", "line 2"},
                       BadSlam{"OdometryBack", kRanges, "t,ddist,dheading\n1,0,0\n0.5,0,0\n", "",
                               "line 3"},
+                      BadSlam{"SpeedsAsOdometry", kRanges, "t,v_ms,omega_dps\n1,1,0\n2,1,0\n", "",
+                              "\"v_ms\" is a speed or a rate of turning"},
+                      BadSlam{"PosesAsOdometry", kRanges, "t,x,y,theta\n1,1,0,0\n2,1,0,0\n", "",
+                              "holds poses (x, y)"},
                       BadSlam{"UnknownLandmark", kRanges, "", "name,x,y\nzebra,1,2\n", "zebra"},
                       BadSlam{"NanLandmark", kRanges, "", "name,x,y\na,nan,2\n", "line 2"}),
     [](const auto& one) { return one.param.name; });

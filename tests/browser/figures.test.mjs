@@ -185,6 +185,57 @@ test("the step slider shows one panel at a time", async () => {
   await close();
 });
 
+test("a method that is chosen is highlighted in figures and tables, those inserted later too", async () => {
+  const { page, close } = await open();
+  const list = page.getByRole("combobox", { name: "Highlight a method in all figures and tables" });
+  await list.selectOption("SMACOF, kNN weights");
+  const rows = page.locator("tr.chosen th");
+  assert.ok(await rows.count() >= 2);
+  for (const name of await rows.allTextContents()) assert.equal(name.trim(), "SMACOF, kNN weights");
+  for (const id of ["fig-4", "published-errors", "cost-bearing"]) {
+    const shown = await figure(page, id);
+    const left = await shown.locator("[data-curve], [data-setting], [data-method]").evaluateAll(
+      (marks) => marks.filter((mark) => !mark.classList.contains("dim"))
+        .map((mark) => mark.dataset.curve ?? mark.dataset.setting ?? mark.dataset.method));
+    assert.ok(left.length >= 1, id);
+    for (const name of left) assert.match(name, /^SMACOF,? kNN/);
+  }
+  assert.equal(await page.locator("#figure-map-bearing-smacof-knn.chosen").count(), 1);
+  await list.selectOption("");
+  assert.equal(await page.locator(".dim, .chosen").count(), 0);
+  await close();
+});
+
+test("curves are hidden and shown by a list and by the legend", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "fig-4");
+  const parts = shown.locator('[data-curve="LPCA"]');
+  assert.ok(await parts.first().isVisible());
+  await shown.locator("details.curves summary").click();
+  await shown.getByRole("checkbox", { name: "LPCA" }).uncheck();
+  assert.equal(await parts.first().isVisible(), false);
+  const words = await shown.locator('.legend-text [data-words="LPCA"]').boundingBox();
+  await page.mouse.click(words.x + words.width / 2, words.y + words.height / 2);
+  assert.ok(await parts.first().isVisible());
+  assert.ok(await shown.getByRole("checkbox", { name: "LPCA" }).isChecked());
+  await close();
+});
+
+test("Play goes through the steps of a map forming and stops at the last", async () => {
+  const { page, close } = await open();
+  const film = await figure(page, "forming-bearing");
+  const slider = film.getByRole("slider"), last = Number(await slider.getAttribute("max"));
+  await slider.fill(String(last - 1));
+  await film.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction((value) => Number(
+    document.querySelector("#figure-forming-bearing input[type=range]").value) === value, last);
+  assert.equal(await film.getByRole("button", { name: "Stop" }).count(), 0);
+  await film.getByRole("button", { name: "Play" }).click();
+  assert.equal(await slider.inputValue(), "1");
+  assert.equal(await film.getByRole("button", { name: "Stop" }).count(), 1);
+  await close();
+});
+
 test("the page saves SVG and PNG, and links to the PDF and data files", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);

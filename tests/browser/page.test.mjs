@@ -12,24 +12,157 @@ const insertSome = (page) => page.evaluate(() =>
 
 const insertAll = (page) => page.evaluate(() => dispatchEvent(new Event("beforeprint")));
 
-test("the first screen reports the findings and links to figures", async () => {
-  const { page, errors, requests, close } = await open();
-  const opening = page.locator("#opening");
-  assert.match(await opening.innerText(), /Best by visibility: [\d.]+\sm mean position error/);
+test("the first screen has the verdict, the figure it rests on, what is wrong and the rest", async () => {
+  const { page, errors, requests, close } = await open({ viewport: { width: 1280, height: 800 } });
+  const opening = page.locator("#opening"), text = await opening.innerText();
+  assert.match(text, /simulated robot.+10 methods.+runs?\./);  // What was done.
+  assert.match(text, /published errors inside our 95\s% intervals\s+\d+ of \d+/);  // Is it good?
+  assert.match(text, /best published: [\d.]+\sm/);  // Compared with what.
+  assert.match(text, /Warnings: /);
+  assert.match(await page.locator(".made").innerText(), /mapproof \S+ \(.+\)\. \d{4}-\d\d-\d\d/);
+  // All of it, the images too, is seen without scrolling.
+  const { y, height } = await opening.boundingBox();
+  assert.ok(y + height <= 800, `the opening ends at ${y + height}`);
+  const figureLink = opening.locator(".main-figure a");
+  assert.equal(await figureLink.getAttribute("href"), "#figure-published-errors");
+  assert.ok((await figureLink.locator("img").getAttribute("alt")).length > 40);
   const links = opening.locator(".thumbnails a");
-  assert.ok(await links.count() >= 4);
-  const { y, height } = await links.first().boundingBox();
-  assert.ok(y + height < 900, `${y} ${height}`);
-  for (const image of await links.locator("img").all()) {
+  assert.equal(await links.count(), 6);
+  assert.ok(await opening.locator('.thumbnails a[href^="#figure-scene-"]').count() >= 1);
+  for (const image of await opening.locator("img").all()) {
     assert.ok(await image.evaluate((each) => each.decode().then(() => each.naturalWidth > 0)));
   }
   // There is no earlier nightly run to compare with.
   assert.equal(await page.locator(".standing").count(), 0);
+  for (const link of await opening.locator(".highlights a").all()) {
+    assert.equal(await page.locator(await link.getAttribute("href")).count(), 1);
+  }
   const target = (await links.nth(1).getAttribute("href")).slice(1);
   await links.nth(1).click();
   await page.locator(`#${target} svg`).waitFor();
   assert.deepEqual(errors, []);
   assert.deepEqual(requests, []);
+  await close();
+});
+
+test("a report opens at 16 screens or less, and folds the rest, whole on paper", async () => {
+  const { page, close } = await open({ viewport: { width: 1440, height: 900 } });
+  const height = await page.evaluate(() => document.documentElement.scrollHeight);
+  assert.ok(height <= 16 * 900, `${height / 900} screens`);
+  const folds = page.locator("details.fold");
+  assert.ok(await folds.count() > 8);
+  assert.equal(await page.locator("details.fold[open]").count(), 0);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.locator("details.fold:not([open])").count(), 0);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await page.locator("details.fold[open]").count(), 0);
+  await close();
+});
+
+test("a link to what is folded opens it, as in another tab", async () => {
+  const hash = "#figure-map-bearing-isomap";
+  const { page, close } = await open({}, undefined, undefined, hash);
+  await page.locator(`${hash} .drawing > svg`).waitFor();
+  const { y } = await page.locator(hash).boundingBox();
+  assert.ok(y >= -1 && y < 900, `${y}`);
+  await page.evaluate(() => { location.hash = "#table-durations"; });
+  await page.locator("#table-durations tbody tr").first().waitFor();
+  await close();
+});
+
+test("every section and figure gives a link to itself", async () => {
+  const { page, close } = await open();
+  const links = await page.locator("main > section[id^=section-] h2 a.anchor").evaluateAll(
+    (all) => all.map((link) => [link.hash.slice(1), link.closest("section").id]));
+  assert.ok(links.length > 8);
+  for (const [target, id] of links) assert.equal(target, id);
+  const figures = await page.locator("figure[data-id]").count();
+  assert.equal(await page.locator('figure[data-id] a[href^="#figure-"]').count(), figures);
+  await close();
+});
+
+test("the search finds figures by words that are outlines, and opens what is folded", async () => {
+  const { page, close } = await open();
+  const field = page.getByRole("searchbox", { name: "Search this page" });
+  await field.fill("eigenvalues bearing");
+  const found = page.locator(".found a");
+  assert.ok(await found.count() >= 1);
+  const target = await found.first().getAttribute("href");
+  await field.press("Enter");
+  assert.ok(await page.locator(target).isVisible());
+  await field.fill("no such words");
+  assert.equal(await found.count(), 0);
+  assert.equal(await page.locator(".contents > output").textContent(), "0 found");
+  await close();
+});
+
+test("a cell of the matrix of warnings opens the runs that it counts", async () => {
+  const { page, close } = await open();
+  const cells = page.locator("table.warnings a");
+  assert.ok(await cells.count() >= 1);
+  for (const cell of await cells.all()) assert.match(await cell.textContent(), /^[\d.]+\s%$/);
+  const runs = page.locator(await cells.first().getAttribute("href"));
+  assert.equal(await runs.isVisible(), false);
+  await cells.first().click();
+  await runs.locator("li").first().waitFor();
+  assert.match(await runs.innerText(), /layout-\d+-pose-\d+/);
+  await close();
+});
+
+test("a note of several tables is said once, and the others link to it", async () => {
+  const { page, close } = await open();
+  const notes = await page.locator(".notes li").evaluateAll(
+    (all) => all.map((note) => note.textContent).filter((text) => !text.startsWith("Notes as")));
+  assert.equal(new Set(notes).size, notes.length);
+  for (const link of await page.locator('.notes a[href^="#table-"]').all()) {
+    assert.equal(await page.locator(await link.getAttribute("href")).count(), 1);
+  }
+  await close();
+});
+
+test("a theme that was chosen is there after a reload, and figures follow it", async () => {
+  const { page, close } = await open();
+  await page.getByRole("button", { name: "Use dark colours" }).click();
+  await page.reload();
+  assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), "dark");
+  const map = await figure(page, "fig-4");
+  const brightness = (selector) => map.locator(selector).first().evaluate((each) => {
+    const [red, green, blue] = getComputedStyle(each).fill.match(/\d+/g).map(Number);
+    return (red + green + blue) / 765;
+  });
+  assert.ok(await brightness("g.title") > 0.7);
+  assert.ok(await brightness("svg > path") < 0.3);
+  const text = await map.evaluate((each) => sourceOf(each));
+  assert.match(text, /fill="#ffffff"/);  // Files keep their colours.
+  await page.emulateMedia({ media: "print" });
+  assert.ok(await brightness("g.title") < 0.3);
+  await close();
+});
+
+test("on a phone the words of a figure have 10 px at least", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  for (const id of ["fig-4", "maps-bearing"]) {
+    const shown = await figure(page, id);
+    const least = await shown.locator("svg").evaluate((svg) => {
+      const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+      const sizes = [...svg.querySelectorAll('g[transform*="scale("]')].map(
+        (words) => 2048 * Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform"))[1]));
+      return scale * Math.min(...sizes);
+    });
+    assert.ok(least >= 10, `${id}: ${least}`);
+  }
+  await close();
+});
+
+test("all methods are shown on one run with the same axes, and a landmark in all of them", async () => {
+  const { page, close } = await open();
+  const wall = await figure(page, "maps-bearing");
+  const panels = await wall.locator("svg clipPath > rect").evaluateAll(
+    (all) => all.map((rect) => [rect.getAttribute("width"), rect.getAttribute("height")].join()));
+  assert.ok(panels.length >= 9, `${panels.length}`);
+  assert.equal(new Set(panels).size, 1);
+  await wall.getByRole("combobox").selectOption({ label: "L10" });
+  assert.ok(await wall.locator("g.lit circle").count() >= panels.length);
   await close();
 });
 
@@ -108,7 +241,7 @@ test("without a script every figure is shown", async () => {
   const shown = await page.locator(".drawing noscript > svg").count();
   assert.ok(shown > 50);
   assert.equal(shown, await page.locator("figure .drawing").count());
-  assert.ok((await page.locator("#figure-map-bearing-isomap svg").boundingBox()).height > 200);
+  assert.ok((await page.locator("#figure-fig-4 svg").boundingBox()).height > 200);
   assert.equal(await page.locator(".tools").count(), 0);
   await close();
 });
@@ -140,8 +273,8 @@ test("the printed report has all figures", async () => {
   await close();
 });
 
-test("the report is one file of at most 10 MB that loads nothing else", async () => {
-  assert.ok(statSync(join(study, "report.html")).size <= 10e6);
+test("the report is one file of at most 6 MB that loads nothing else", async () => {
+  assert.ok(statSync(join(study, "report.html")).size <= 6e6);
   const { page, requests, errors, close } = await open();
   await insertAll(page);
   await page.waitForTimeout(500);

@@ -19,6 +19,8 @@ async function take(name, options, prepare = () => {}) {
   const page = await context.newPage();
   await page.goto(report);
   await page.evaluate(() => Promise.all(Array.from(document.images, (image) => image.decode())));
+  // Its date and commit are those of the run.
+  await page.evaluate(() => { document.querySelector(".made").textContent = "Made by mapproof."; });
   await prepare(page);
   await page.evaluate(() => document.fonts.ready);
   await page.screenshot({ path: join(folder, `${name}.png`), animations: "disabled" });
@@ -27,6 +29,7 @@ async function take(name, options, prepare = () => {}) {
 
 async function showMap(page) {
   const map = page.locator("#figure-map-bearing-isomap");
+  await map.evaluate((figure) => unfold(figure));
   await map.scrollIntoViewIfNeeded();
   await map.locator("svg").waitFor();
   await map.evaluate((figure) => figure.scrollIntoView({ block: "start" }));

@@ -42,6 +42,7 @@ export async function open(options = {}, folder = study, file = "report.html", h
 /// A figure of the report, with its drawing inserted.
 export async function figure(page, id) {
   const found = page.locator(`#figure-${id}`);
+  await found.evaluate((each) => unfold(each));
   await found.scrollIntoViewIfNeeded();
   await found.locator(".drawing > svg").waitFor();
   return found;

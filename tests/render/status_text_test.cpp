@@ -71,10 +71,9 @@ TEST(StatusReasons, HaveASentenceThatTellsEveryValue) {
 }
 
 TEST(StatusReasons, NameAnInfiniteConditionNumberInWords) {
-  EXPECT_EQ(
-      status_text(status_of<StatusReason::kLandmarksNearlyOnALine>(INFINITY)),
-      "The landmarks lie nearly on one line, infinite condition number: the side of it on which "
-      "the robot was lies is hardly determined.");
+  EXPECT_EQ(status_text(status_of<StatusReason::kLandmarksNearlyOnALine>(INFINITY)),
+            "The landmarks lie nearly on one line, infinite condition number: on which side of it "
+            "the robot was is hardly determined.");
   for (const StatusReasonInfo& reason : kStatusReasons) {
     if (reason.values.find("condition") == std::string_view::npos) continue;
     Status status = full(reason);

@@ -90,6 +90,17 @@ TEST(Ticks, LargeAndSmallValuesShareAFactor) {
   EXPECT_EQ(linear_ticks(0.0, 4e-7, 2e-7).factor, "×10⁻⁷");
 }
 
+TEST(Ticks, CoordinatesFarFromZeroAreLabelledBeyondARoundOffset) {
+  const Ticks northing = linear_ticks(5821210.0, 5821290.0, 20.0);
+  EXPECT_EQ(northing.labels, (std::vector<std::string>{"20", "40", "60", "80"}));
+  EXPECT_EQ(northing.at, (std::vector<double>{5821220, 5821240, 5821260, 5821280}));
+  EXPECT_EQ(northing.factor, "+ 5821200");
+  const Ticks south = linear_ticks(-391290.0, -391210.0, 20.0);
+  EXPECT_EQ(south.labels, (std::vector<std::string>{"20", "40", "60", "80"}));
+  EXPECT_EQ(south.factor, "\u2212 391300");
+  EXPECT_EQ(linear_ticks(10020.0, 10080.0, 20.0).factor, "");
+}
+
 TEST(Ticks, DecadesAreLabelledOnALogAxis) {
   const Ticks ticks = log_ticks(0.01, 100.0, 8);
   EXPECT_EQ(ticks.labels, (std::vector<std::string>{"0.01", "0.1", "1", "10", "100"}));

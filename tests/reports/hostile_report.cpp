@@ -62,7 +62,9 @@ std::string drawn_map(std::vector<std::string>& names) {
 Opening opening(Trap& text) {
   return {.findings = {{{{text(), Emphasis::kPlain}, {text(), Emphasis::kStrong}}}},
           .figure_ids = {"drawn", "figure"},
-          .standing = Standing{true, text(), {text(), text()}}};
+          .standing = Standing{true, text(), {text(), text()}},
+          .numbers = {{{text(), text(), text(), "provenance"}}},
+          .main_figure = "drawn"};
 }
 
 }  // namespace
@@ -88,7 +90,7 @@ HostileReport hostile_report() {
   section.blocks.emplace_back(
       KeyValues{{{text(), {text(), Emphasis::kCode}}, {text(), {text(), Emphasis::kData}}}});
   section.blocks.emplace_back(statuses(text));
-  out.report = {text(), text(), {section}, text(), opening(text), text()};
+  out.report = {text(), text(), {section}, text(), opening(text), text(), text()};
   const std::string drawing = drawn_map(out.landmarks);
   out.svg = [drawing](const std::string& id) { return id == "drawn" ? drawing : ""; };
   return out;

@@ -139,6 +139,17 @@ TEST(ReportHtml, RefusesADrawingThatCouldEndTheElementThatHoldsIt) {
   EXPECT_THROW(report_html(with_figures(5), load_templates(), svg), InvalidInput);
 }
 
+TEST(ReportHtml, LinksTheNumbersOfItsOpeningToTheirSections) {
+  Report report;
+  report.sections = {{"errors", "Errors", {}}};
+  report.opening.numbers.items = {{"of 4 inside", "3", "one outside", "errors"}};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("<a href=\"#section-errors\"\n      aria-label=\"3 of 4 inside\">3</a>"),
+            std::string::npos);
+  report.opening.numbers.items[0].section = "elsewhere";
+  EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
+}
+
 TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
   Report report = with_figures(2);
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);

@@ -4,6 +4,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -48,6 +49,36 @@ TEST(MapReport, GivesEachLandmarkItsErrorAndAnUnmappedOneADash) {
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[6]).text, "yes");
 }
 
+TEST(MapReport, GivesCoordinatesFarFromZeroInFull) {
+  MapRecord record = triangle();
+  record.estimate.rowwise() += Eigen::RowVector2d(391234.5, 5821234.5);
+  record.ground_truth_m->rowwise() += Eigen::RowVector2d(391234.5, 5821234.5);
+  const Table& table = landmarks(report_of(record));
+  EXPECT_EQ(format_cell(table.rows[1].cells[1]), "391237.500");
+  EXPECT_EQ(format_cell(table.rows[1].cells[2]), "5821238.500");
+  EXPECT_EQ(format_cell(table.rows[1].cells[4]), "5821234.500");
+  EXPECT_EQ(format_cell(table.rows[1].cells[5]), "5.000");
+}
+
+TEST(MapReport, SaysOverWhichLandmarksTheErrorIs) {
+  MapRecord record;
+  record.estimate = Points::Constant(6, 2, 1.0);
+  record.ground_truth_m = record.estimate;
+  record.estimate.row(5).setConstant(kNaN);
+  record.anchors = {0, 1, 2};
+  EXPECT_EQ(scored_landmarks_text(record), "");
+  record.score = Score{0.219, 4.7, 0.2, 4.7};
+  EXPECT_EQ(scored_landmarks_text(record), "2 landmarks, without the 3 anchors");
+  record.score->mpe_m = kNaN;
+  EXPECT_EQ(scored_landmarks_text(record), "5 landmarks");
+}
+
+TEST(MapReport, GivesASmallMapMoreDecimals) {
+  MapRecord record = triangle();
+  record.estimate *= 1e-3;
+  EXPECT_EQ(format_cell(landmarks(report_of(record)).rows[1].cells[2]), "0.004000");
+}
+
 TEST(MapReport, HasNoErrorsWithoutGroundTruthAndNoMetresWithoutAnchors) {
   MapRecord record = triangle();
   record.ground_truth_m.reset();
@@ -64,13 +95,14 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
   MapRecord record = triangle();
   record.score = Score{kNaN, kNaN, 0.31, 4.2};
   const Report report = report_of(record);
-  const auto& items = std::get<Highlights>(report.sections[0].blocks[0]).items;
-  EXPECT_EQ(items[1].value, "0.310 m");
-  EXPECT_EQ(items[1].detail, "mean position error, after the best affine fit to all landmarks");
-  EXPECT_EQ(items[2].value, "4.20 %");
+  const auto& items = report.opening.numbers.items;
+  EXPECT_EQ(items[0].value, "0.310 m");
+  EXPECT_EQ(items[0].detail,
+            "mean position error, after the best affine fit to all landmarks; over 2 landmarks");
+  EXPECT_EQ(items[1].value, "4.20 %");
   record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);
-  for (const auto& item : std::get<Highlights>(unknown.sections[0].blocks[0]).items) {
+  for (const auto& item : unknown.opening.numbers.items) {
     EXPECT_EQ(item.value.find("nan"), std::string::npos) << item.label;
     EXPECT_EQ(item.value.find("unknown"), std::string::npos) << item.label;
     EXPECT_NE(item.label, "MPE");
@@ -84,7 +116,7 @@ TEST(MapReport, TellsAnchorsThatDidNotTieTheMapFromNone) {
       status_with_message(StatusCode::kAnchorsMissing, "1 of 1 anchors are on the map."));
   const auto findings = [](const Report& report) {
     std::string text;
-    for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[1]).items)
+    for (const Paragraph& item : std::get<BulletList>(report.sections[0].blocks[0]).items)
       for (const Phrase& phrase : item.phrases) text += phrase.text;
     return text;
   };

@@ -29,6 +29,8 @@ TEST(FormatNumber, GivesZeroNoSign) {
 
 TEST(FormatNumber, TurnsHugeNumbersIntoPowersAndMissingOnesIntoADash) {
   EXPECT_EQ(format_number(1.234e11, 3), "1.23e+11");
+  EXPECT_EQ(format_number(5821234.5678, 3), "5821234.568");
+  EXPECT_EQ(format_number(-5821234.5678, 1), "\u22125821234.6");
   EXPECT_EQ(format_number(std::nan(""), 3), "\u2013");
   EXPECT_EQ(format_number(std::numeric_limits<double>::infinity(), 3), "\u2013");
 }

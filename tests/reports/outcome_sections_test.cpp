@@ -20,7 +20,7 @@ TEST(StatusesSection, CountsMapsOfEachKindAndListsFailuresFirst) {
   const auto& list = std::get<StatusList>(section.blocks.back());
   EXPECT_EQ(list.items[0].code, "failed");
   EXPECT_EQ(list.items[0].count, 4);
-  EXPECT_EQ(list.items[0].of, 40);
+  EXPECT_EQ(list.items[0].of, 120);  // At three parameters.
   EXPECT_EQ(list.items[0].locations[0].record_id, "layout-1-pose-1/visibility/isomap-K4/500");
   for (const StatusList::Item& item : list.items) {
     EXPECT_LE(item.locations.size(), 5u);

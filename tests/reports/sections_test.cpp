@@ -3,10 +3,12 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/experiment/run.hpp"
 #include "reports/sections/method_summary.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
@@ -16,6 +18,7 @@ namespace mapproof {
 namespace {
 
 using test::contains_text;
+using test::synthetic_figures;
 using test::synthetic_mpe;
 using test::synthetic_study;
 using test::table_named;
@@ -138,14 +141,15 @@ TEST(AccuracySection, SaysWhyAPrintedValueCannotBeMatched) {
   ASSERT_EQ(notes.size(), 5U);
   EXPECT_EQ(notes[3], "LPCA: The reason.");
   EXPECT_EQ(notes[4], "On all of them.");
-  EXPECT_TRUE(contains_text(summary_section(study), "1 printed value left out of this, for reasons under "))
+  EXPECT_TRUE(
+      contains_text(summary_section(study), "1 printed value left out of this, for reasons under "))
       << words(summary_section(study));
 }
 
 TEST(AccuracySection, SaysHowOptimisticThePapersChoiceIsAndWhyThereMayBeNoAnswer) {
   Study study = synthetic_study(4, 1);
-  EXPECT_TRUE(
-      contains_text(accuracy_section(study, visibility(study)), "is optimistic: on runs that had no "))
+  EXPECT_TRUE(contains_text(accuracy_section(study, visibility(study)),
+                            "is optimistic: on runs that had no "))
       << words(accuracy_section(study, visibility(study)));
   study = synthetic_study(1, 1);
   EXPECT_TRUE(contains_text(accuracy_section(study, visibility(study)), "there are no two halves"));
@@ -176,7 +180,7 @@ TEST(AccuracySection, RanksTheMethodsOverLayoutsAndMarksWhatIsAlike) {
   EXPECT_EQ(std::get<TextCell>(table.rows[3].cells[4]).text, "b");
   EXPECT_NE(table.notes[0].find("F is infinite, all layouts agreeing"), std::string::npos);
   EXPECT_TRUE(contains_text(accuracy_section(synthetic_study(1, 2), visibility(study)),
-                   "Methods cannot be ranked by a test: 1 layout scored by 4 methods"));
+                            "Methods cannot be ranked by a test: 1 layout scored by 4 methods"));
 }
 
 TEST(AccuracySection, SaysThatOneLayoutGivesNoInterval) {
@@ -202,12 +206,15 @@ TEST(SummarySection, SaysPlainlyThatNothingFailed) {
   Study study = synthetic_study(1, 1);
   std::erase_if(study.runs[0].records,
                 [](const RunRecord& record) { return !record.statuses.empty(); });
-  EXPECT_TRUE(contains_text(summary_section(study), "none in 53 maps")) << words(summary_section(study));
+  EXPECT_TRUE(contains_text(summary_section(study), "none in 53 maps"))
+      << words(summary_section(study));
 }
 
 TEST(SummarySection, SaysWhenTheStudyIsSmallerThanThePapers) {
-  EXPECT_TRUE(contains_text(summary_section(synthetic_study(5, 1)), "Not the paper\u2019s protocol"));
-  EXPECT_FALSE(contains_text(summary_section(synthetic_study(5, 5)), "Not the paper\u2019s protocol"));
+  EXPECT_TRUE(
+      contains_text(summary_section(synthetic_study(5, 1)), "Not the paper\u2019s protocol"));
+  EXPECT_FALSE(
+      contains_text(summary_section(synthetic_study(5, 5)), "Not the paper\u2019s protocol"));
 }
 
 TEST(SummarySection, SaysWhenRunsAreMissing) {
@@ -224,6 +231,48 @@ TEST(SummarySection, CopesWithAStudyWithoutARun) {
   EXPECT_FALSE(contains_text(section, "ended well"));
   EXPECT_NO_THROW(accuracy_section(study, visibility(study)));
   EXPECT_NO_THROW(statuses_section(study));
+}
+
+std::string number_of(const Opening& opening, const std::string& label) {
+  for (const Highlights::Item& item : opening.numbers.items)
+    if (item.label.starts_with(label)) return item.value + ", " + item.detail;
+  return "";
+}
+
+TEST(StudyOpening, BeginsWithHowThePublishedNumbersCompare) {
+  Study study = synthetic_study();
+  study.experiment.sensors[0].published.orderings = {
+      {Method::kSmacofKnn, Method::kIsomap, Method::kLpca}, {Method::kLpca, Method::kSmacof}};
+  const StudyFigures figures = synthetic_figures(study);
+  const Opening opening = study_opening(study, figures);
+  int compared = 0, within = 0;
+  for (const SensorStudy& sensor : study.experiment.sensors) {
+    const PublishedAgreement agreement =
+        agreement_of(best_of_each_method(summarize(study, sensor, last_step(sensor))));
+    compared += agreement.compared;
+    within += agreement.within;
+  }
+  ASSERT_GT(compared, 0);
+  EXPECT_TRUE(opening.numbers.items[0].label.starts_with("published errors inside our 95"));
+  EXPECT_TRUE(number_of(opening, "published errors")
+                  .starts_with(fmt::format("{} of {}", within, compared)));
+  EXPECT_TRUE(number_of(opening, "published orderings").starts_with("2 of 3, "));
+  EXPECT_NE(number_of(opening, "best MPE by visibility").find("SMACOF, kNN weights, K = 6"),
+            std::string::npos);
+  EXPECT_EQ(opening.main_figure, "published-errors");
+}
+
+TEST(StudyOpening, SaysWhatIsWrongWithAStudy) {
+  Study study = synthetic_study(5, 5);
+  study.runs.pop_back();
+  const auto wrong = [&] {
+    return words(Section{"opening", "", {study_opening(study, {}).findings.back()}});
+  };
+  EXPECT_NE(wrong().find("Warnings: 24 of 25 runs are done."), std::string::npos) << wrong();
+  EXPECT_NE(number_of(study_opening(study, {}), "of 1").find("could not be scored"),
+            std::string::npos);
+  study.runs.clear();
+  EXPECT_NE(wrong().find("0 of 25 runs are done."), std::string::npos) << wrong();
 }
 
 }  // namespace

@@ -103,7 +103,8 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
                                       "moe-visibility-graph", "moe-bearing-global",
                                       "moe-bearing-graph"}));
   EXPECT_EQ(ids_of(figures, "maps"),
-            (std::vector<std::string>{"fig-7", "map-visibility-lpca", "map-visibility-isomap",
+            (std::vector<std::string>{"maps-visibility", "maps-bearing", "fig-7",
+                                      "map-visibility-lpca", "map-visibility-isomap",
                                       "map-bearing-lpca", "map-bearing-isomap"}));
   EXPECT_EQ(ids_of(figures, "forming"),
             (std::vector<std::string>{"forming-visibility", "scatter-visibility", "forming-bearing",
@@ -163,6 +164,16 @@ TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {
         const ThemeColour colour = series_style(series_of_method(experiment, method.method)).colour;
         EXPECT_TRUE(colours.insert(colour).second) << method.name;
       }
+  }
+  using enum Method;
+  for (const std::vector<Method>& of_paper :
+       {std::vector{kLpca, kSmacof, kSmacofKnn, kKpcaGaussian, kKpcaPolynomial},  // Fig. 4
+        std::vector{kIsomap, kLle, kLaplacianEigenmap, kHessianLle, kSde},        // Fig. 5
+        std::vector{kLpca, kSmacof, kSmacofKnn, kIsomap, kLle, kLaplacianEigenmap, kSde}}) {
+    std::set<ThemeColour> colours;
+    for (const Method method : of_paper)
+      colours.insert(series_style(series_of_method(experiment, method)).colour);
+    EXPECT_EQ(colours.size(), of_paper.size());
   }
   std::set<std::size_t> series;
   for (const MethodInfo& method : all_methods())

@@ -41,6 +41,7 @@ enum class Kind : std::size_t {
   kMap,    ///< Memory or a file, of any size.
   kFork,   ///< A process of any kind.
   kExec,   ///< Another program.
+  kLock,   ///< flock, which some network file systems do not know.
 };
 
 struct Rule {
@@ -51,7 +52,7 @@ struct Rule {
   std::atomic<long> calls = 0;
 };
 
-std::array<Rule, 12> rules{{{"alloc", ENOMEM},
+std::array<Rule, 13> rules{{{"alloc", ENOMEM},
                             {"disk", EIO},
                             {"exchange", EINVAL},
                             {"link", EPERM},
@@ -62,7 +63,8 @@ std::array<Rule, 12> rules{{{"alloc", ENOMEM},
                             {"close", EIO},
                             {"mmap", ENOMEM},
                             {"fork", EAGAIN},
-                            {"exec", EACCES}}};
+                            {"exec", EACCES},
+                            {"lock", ENOLCK}}};
 std::atomic<bool> is_on = false;
 const char* counts = nullptr;  // Programs may clear their environment.
 
@@ -249,6 +251,12 @@ int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_action
                  const posix_spawnattr_t* attributes, char* const words[], char* const names[]) {
   if (fails(Kind::kFork, Kind::kExec)) return errno;
   return real<Spawn>("posix_spawnp")(process, file, actions, attributes, words, names);
+}
+
+// Named by its symbol: the system has a struct of that name too.
+int lock(int file, int how) noexcept __asm__("flock");
+int lock(int file, int how) noexcept {
+  return fails(Kind::kLock) ? -1 : real<int (*)(int, int)>("flock")(file, how);
 }
 
 int rename(const char* from, const char* to) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <new>
@@ -18,6 +19,7 @@
 extern "C" {
 [[noreturn]] void mapproof_csdp_exit(int) { throw std::bad_alloc(); }
 int mapproof_csdp_puts(const char*) { return 0; }
+FILE* mapproof_csdp_stdout = stdout;
 }
 
 namespace mapproof::unfolding {

@@ -81,14 +81,16 @@ struct GivenLandmark {
   Eigen::Vector2d given, mapped;
 };
 
-/// A rigid motion of given positions onto mapped ones.
-struct RigidMotion {
+/// A motion of given positions onto mapped ones, rigid but for the scale.
+struct KnownMotion {
   Eigen::Vector2d from, to;  ///< Means.
   Eigen::Matrix2d R;
-  double statistic = 0.0;  ///< Squared residuals by the covariances, the motion's part taken off.
+  double scale = 1.0;        ///< Mapped over given; 1 if it is held.
+  double scale_sigma = 0.0;  ///< Its standard deviation, a share; 0 if it is held.
+  double statistic = 0.0;    ///< Squared residuals by the covariances, the motion's part taken off.
 
   double distance_m(const GivenLandmark& p) const {
-    return (to + R * (p.given - from) - p.mapped).norm();
+    return (to + scale * R * (p.given - from) - p.mapped).norm();
   }
 };
 
@@ -98,9 +100,28 @@ class KnownLandmarksFit {
   KnownLandmarksFit(const Eigen::MatrixXd& covariance, double survey_sigma_m)
       : covariance_(covariance), survey_sigma_m_(survey_sigma_m) {}
 
-  RigidMotion operator()(const std::vector<GivenLandmark>& points) const {
+  KnownMotion operator()(const std::vector<GivenLandmark>& points) const {
+    KnownMotion motion = about_means(points);
+    weigh(points, 3, motion);
+    return motion;
+  }
+
+  KnownMotion with_scale(const std::vector<GivenLandmark>& points) const {
+    KnownMotion motion = about_means(points);
+    double along = 0.0, spread = 0.0;
+    for (const GivenLandmark& p : points) {
+      along += (motion.R * (p.given - motion.from)).dot(p.mapped - motion.to);
+      spread += (p.given - motion.from).squaredNorm();
+    }
+    if (along > 0.0 && spread > 0.0) motion.scale = along / spread;
+    weigh(points, 4, motion);
+    return motion;
+  }
+
+ private:
+  static KnownMotion about_means(const std::vector<GivenLandmark>& points) {
     const auto count = std::ssize(points);
-    RigidMotion motion{.from = Eigen::Vector2d::Zero(), .to = Eigen::Vector2d::Zero(), .R = {}};
+    KnownMotion motion{.from = Eigen::Vector2d::Zero(), .to = Eigen::Vector2d::Zero(), .R = {}};
     for (const GivenLandmark& p : points) {
       motion.from += p.given / double(count);
       motion.to += p.mapped / double(count);
@@ -112,30 +133,33 @@ class KnownLandmarksFit {
       s += a(0) * b(1) - a(1) * b(0);
     }
     motion.R = Eigen::Rotation2Dd(std::atan2(s, c)).toRotationMatrix();
-    motion.statistic = statistic_of(points, motion);
     return motion;
   }
 
- private:
-  double statistic_of(const std::vector<GivenLandmark>& points, const RigidMotion& motion) const {
+  /// The best step of translation, rotation and, of four unknowns, scale; and what it leaves.
+  void weigh(const std::vector<GivenLandmark>& points, Index unknowns, KnownMotion& motion) const {
     const auto count = std::ssize(points);
     Eigen::VectorXd r(2 * count);
-    Eigen::MatrixXd G(2 * count, 3), C(2 * count, 2 * count);
+    Eigen::MatrixXd G(2 * count, 4), C(2 * count, 2 * count);
     for (Index i = 0; i < count; ++i) {
       const GivenLandmark& p = points[static_cast<std::size_t>(i)];
-      const Eigen::Vector2d turned = motion.R * (p.given - motion.from);
+      const Eigen::Vector2d turned = motion.scale * motion.R * (p.given - motion.from);
       r.segment<2>(2 * i) = p.mapped - motion.to - turned;
-      G.middleRows<2>(2 * i) << 1.0, 0.0, -turned(1), 0.0, 1.0, turned(0);
+      G.middleRows<2>(2 * i) << 1.0, 0.0, -turned(1), turned(0), 0.0, 1.0, turned(0), turned(1);
       for (Index k = 0; k < count; ++k)
         C.block<2, 2>(2 * i, 2 * k) =
             covariance_.block<2, 2>(2 * p.row, 2 * points[static_cast<std::size_t>(k)].row);
     }
     C.diagonal().array() += survey_sigma_m_ * survey_sigma_m_;
+    G.conservativeResize(2 * count, unknowns);
     const Eigen::LDLT<Eigen::MatrixXd> factor(C);
-    const Eigen::MatrixXd CG = factor.solve(G);
     const Eigen::VectorXd Cr = factor.solve(r);
-    const Eigen::Vector3d move = (G.transpose() * CG).ldlt().solve(G.transpose() * Cr);
-    return std::max(0.0, r.dot(Cr) - (G.transpose() * Cr).dot(move));
+    const Eigen::MatrixXd information = G.transpose() * factor.solve(G);
+    const Eigen::VectorXd move = information.ldlt().solve(G.transpose() * Cr);
+    motion.statistic = std::max(0.0, r.dot(Cr) - (G.transpose() * Cr).dot(move));
+    if (unknowns < 4) return;
+    motion.scale *= 1.0 + move(3);
+    motion.scale_sigma = std::sqrt(std::max(0.0, information.inverse()(3, 3)));
   }
 
   const Eigen::MatrixXd& covariance_;
@@ -162,7 +186,7 @@ std::vector<KnownLandmarksCause> causes_that_fit(const std::vector<GivenLandmark
     for (std::size_t k = 0; k < all.size(); ++k) {
       std::vector<GivenLandmark> rest = all;
       rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(k));
-      const RigidMotion motion = fit(rest);
+      const KnownMotion motion = fit(rest);
       found.push_back({FitCode::kKnownLandmarkOff,
                        {all[k].row},
                        motion.statistic,
@@ -421,10 +445,54 @@ std::vector<Index> mirrored_landmarks(const LogProblem& problem, const LogProble
   return mirrored;
 }
 
+namespace {
+
+constexpr std::size_t kFewestForScale = 4;
+constexpr double kScaleBound = 20.0;  ///< As of other single numbers: 4.5 standard deviations.
+
+/// The covariance of a map whose scale is uncertain by a share, too.
+Eigen::MatrixXd with_scale(const Eigen::MatrixXd& covariance, double scale_sigma,
+                           const std::vector<Eigen::Vector2d>& landmarks_m) {
+  const auto count = std::ssize(landmarks_m);
+  Eigen::VectorXd way(2 * count);
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& m : landmarks_m) middle += m / double(count);
+  for (Index n = 0; n < count; ++n)
+    way.segment<2>(2 * n) = landmarks_m[static_cast<std::size_t>(n)] - middle;
+  return covariance + scale_sigma * scale_sigma * way * way.transpose();
+}
+
+/// Adds the test of the scale. @return Whether the scale is off, and explains what is.
+bool test_scale(const std::vector<GivenLandmark>& all, const KnownLandmarksNoise& noise,
+                KnownLandmarksTest& test) {
+  if (all.size() < kFewestForScale) return false;
+  const KnownMotion scaled =
+      KnownLandmarksFit(noise.covariance, noise.survey_sigma_m).with_scale(all);
+  const double off = std::log(scaled.scale);
+  const double sigma = std::hypot(scaled.scale_sigma, noise.scale_sigma);
+  if (!(sigma > 0.0) || !std::isfinite(off)) return false;
+  test.scale_statistic = off * off / (sigma * sigma);
+  test.scale_bound = kScaleBound;
+  if (!(test.scale_statistic > kScaleBound) || scaled.statistic > known_landmarks_bound(all.size()))
+    return false;
+  test.rows.emplace_back();
+  test.causes.push_back({.code = FitCode::kKnownScale,
+                         .values = {{.id = "ratio", .value = 1.0 / scaled.scale},
+                                    {.id = "share_percent", .value = 100.0 * (scaled.scale - 1.0)}},
+                         .statistic = test.scale_statistic,
+                         .bound = test.scale_bound});
+  return true;
+}
+
+}  // namespace
+
 KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
                                         const std::vector<Eigen::Vector2d>& landmarks_m,
-                                        const Eigen::MatrixXd& covariance, double survey_sigma_m) {
-  const KnownLandmarksFit fit(covariance, survey_sigma_m);
+                                        const KnownLandmarksNoise& noise) {
+  // The scale of odometry is uncertain, whatever ranges say.
+  const Eigen::MatrixXd covariance =
+      with_scale(noise.covariance, 2.0 * noise.scale_sigma, landmarks_m);
+  const KnownLandmarksFit fit(covariance, noise.survey_sigma_m);
   std::vector<GivenLandmark> all;
   for (std::size_t k = 0; k < known.rows.size(); ++k) {
     const Index row = known.rows[k];
@@ -435,9 +503,9 @@ KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
   KnownLandmarksTest test;
   if (all.size() < 2) return test;
   test.bound = known_landmarks_bound(all.size());
-  const RigidMotion whole = fit(all);
+  const KnownMotion whole = fit(all);
   test.statistic = whole.statistic;
-  if (!(test.statistic > test.bound)) return test;
+  if (test_scale(all, noise, test) || !(test.statistic > test.bound)) return test;
   const auto add = [&](FitCode code, std::vector<Index> rows, double distance_m) {
     test.rows.push_back(std::move(rows));
     test.causes.push_back({.code = code,

@@ -44,12 +44,22 @@ std::vector<Eigen::Index> mirrored_landmarks(const LogProblem& problem, const Lo
 struct KnownLandmarksTest {
   double statistic = 0.0;
   double bound = 1.0;
+  double scale_statistic = 0.0;  ///< Of the scale; 0 with fewer than four positions.
+  double scale_bound = 1.0;
   std::vector<FitCause> causes;  ///< By rows of landmarks as names: filled in by the caller.
   std::vector<std::vector<Eigen::Index>> rows;  ///< As many: the landmarks of each cause.
 };
-/// @param covariance  2N x 2N, of the map free of the frame.
+/// The errors of a free map and of given positions.
+struct KnownLandmarksNoise {
+  Eigen::MatrixXd covariance;   ///< 2N x 2N, of the map free of the frame.
+  double survey_sigma_m = 0.0;  ///< Of a given coordinate.
+  double scale_sigma = 0.0;     ///< Of the scale of odometry, a share: the map has that scale.
+};
+
+/// With four given positions or more, their scale is tested as well: if it alone is off, odometry
+/// is too long or too short, and no position is named.
 KnownLandmarksTest known_landmarks_test(const KnownLandmarks& known,
                                         const std::vector<Eigen::Vector2d>& landmarks_m,
-                                        const Eigen::MatrixXd& covariance, double survey_sigma_m);
+                                        const KnownLandmarksNoise& noise);
 
 }  // namespace mapproof

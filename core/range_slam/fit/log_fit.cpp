@@ -74,6 +74,49 @@ std::vector<double> breaks_of(const std::vector<OdometryGap>& gaps) {
   return breaks_s;
 }
 
+constexpr Index kHeldOutBlocks = 20;  ///< Of the ranges, in their order.
+
+Index half_of(std::size_t row, std::size_t rows) {
+  return static_cast<Index>(row) * kHeldOutBlocks / static_cast<Index>(rows) % 2;
+}
+
+/// A log without the effect of a cause, as Repair has it.
+RangeLog corrected(RangeLog log, const LogHypothesis& cause, const LogState& state) {
+  const auto is_of = [&](const RangeMeasurement& range, std::size_t k) {
+    return cause.landmarks.size() > k && range.landmark == cause.landmarks[k];
+  };
+  for (RangeMeasurement& range : log.ranges) {
+    const bool applies = range.time_s >= cause.from_s && range.time_s < cause.to_s;
+    switch (cause.code) {
+      case FitCode::kCommonOffset:
+        range.range_m -= state.offset_m;
+        break;
+      case FitCode::kLandmarkOffset:
+        if (is_of(range, 0)) range.range_m -= state.offset_m;
+        break;
+      case FitCode::kTimeOffset:
+      case FitCode::kClockJump:
+        if (applies) range.time_s -= state.shift_s;
+        break;
+      case FitCode::kLandmarkMoved:
+        if (applies && is_of(range, 0)) range.landmark = std::ssize(log.landmarks);
+        break;
+      case FitCode::kIdsExchanged:
+        if (applies && (is_of(range, 0) || is_of(range, 1)))
+          range.landmark = cause.landmarks[is_of(range, 0) ? 1 : 0];
+        break;
+      default:
+        break;
+    }
+  }
+  if (cause.code == FitCode::kLandmarkMoved)
+    log.landmarks.push_back(log.landmarks[static_cast<std::size_t>(cause.landmarks[0])] +
+                            ", moved");
+  std::erase_if(log.ranges, [](const RangeMeasurement& range) { return range.range_m < 0.0; });
+  std::ranges::stable_sort(log.ranges, {}, &RangeMeasurement::time_s);
+  return log;
+}
+
 bool has_time(FitCode code) {
   return code == FitCode::kClockJump || code == FitCode::kLandmarkMoved ||
          code == FitCode::kIdsExchanged;
@@ -90,6 +133,7 @@ class LogTester {
   LogFit run(const std::vector<SlamEstimate>& starts);
 
  private:
+  std::optional<HeldOutRanges> held_out(const TriedHypothesis& cause) const;
   void place_landmarks();
   bool is_redundant() const;
   LogProblem make_problem(Index keys, const std::vector<OdometryGap>& gaps) const;
@@ -635,19 +679,17 @@ void LogTester::judge_known(Fit& fit) const {
   if (!options_.known || options_.known->rows.size() < 2) return;
   const LogProblem::Covariances map = problem_->covariances(plain_);
   if (!map.is_determined) return;
-  // The scale of odometry is uncertain, whatever ranges say.
-  const auto count = static_cast<Index>(plain_.state.landmarks.size());
-  Eigen::VectorXd way(2 * count);
-  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& m : plain_.state.landmarks) middle += m / double(count);
-  for (Index n = 0; n < count; ++n)
-    way.segment<2>(2 * n) = plain_.state.landmarks[static_cast<std::size_t>(n)] - middle;
-  const double scale = 2.0 * options_.odometry_scale_sigma;
-  const Eigen::MatrixXd covariance = inflation_ * map.all + scale * scale * way * way.transpose();
-  const KnownLandmarksTest test = known_landmarks_test(*options_.known, plain_.state.landmarks,
-                                                       covariance, 0.2 * plain_.noise.range_m);
+  const KnownLandmarksTest test =
+      known_landmarks_test(*options_.known, plain_.state.landmarks,
+                           {.covariance = inflation_ * map.all,
+                            .survey_sigma_m = 0.2 * plain_.noise.range_m,
+                            .scale_sigma = options_.odometry_scale_sigma});
   fit.tests.push_back(
       {.code = FitCode::kKnownLandmarksAtOdds, .statistic = test.statistic, .bound = test.bound});
+  if (test.scale_statistic > 0.0)
+    fit.tests.push_back({.code = FitCode::kKnownScale,
+                         .statistic = test.scale_statistic,
+                         .bound = test.scale_bound});
   for (std::size_t k = 0; k < test.causes.size(); ++k) {
     FitCause cause = test.causes[k];
     for (const Index n : test.rows[k]) cause.landmarks.push_back(named(n));
@@ -668,13 +710,49 @@ void LogTester::take_best(LogFit& result) const {
   result.cause = best->hypothesis;
   result.repaired_cost = best->fit.cost;
   if (best->hypothesis.code == FitCode::kOdometryFrozen) return;
+  if (options_.holds_out) result.held_out = held_out(*best);
   LogProblem::Fit fit_of_cause = best->fit;
   fit_of_cause.state.landmarks.resize(log_.landmarks.size());
   fit_of_cause.state.offsets_m.resize(0);
-  result.repaired = estimate_of(*problem_, fit_of_cause);
-  result.repaired->landmark_cov_m2.clear();
-  result.repaired->position_cov_m2.clear();
-  result.repaired->position_cov_rows.clear();
+  Repair repair{.log = corrected(log_, best->hypothesis, best->fit.state),
+                .estimate = estimate_of(*problem_, fit_of_cause),
+                .noise = best->fit.noise};
+  repair.estimate.landmark_cov_m2.clear();
+  repair.estimate.position_cov_m2.clear();
+  repair.estimate.position_cov_rows.clear();
+  result.repaired = std::move(repair);
+}
+
+/// Each half of the blocks is predicted by the fits to the other one. Empty if a fit fails.
+std::optional<HeldOutRanges> LogTester::held_out(const TriedHypothesis& cause) const {
+  HeldOutRanges sums;
+  for (const Index half : {0, 1}) {
+    RangeLog others = log_;
+    others.ranges.clear();
+    for (std::size_t row = 0; row < log_.ranges.size(); ++row)
+      if (half_of(row, log_.ranges.size()) != half) others.ranges.push_back(log_.ranges[row]);
+    const LogProblem problem(
+        others, odometry_, is_placed_, gaps_,
+        {.most_keys = options_.test_keys, .breaks_s = breaks_of(gaps_), .given = given()});
+    const LogProblem::Effort effort{.rounds = 10, .steps = 3, .tolerance = 0.2};
+    const LogProblem::Fit plain = problem.fit({}, plain_.state, plain_.noise, effort);
+    const LogProblem::Fit repaired =
+        problem.fit(cause.hypothesis, cause.fit.state, cause.fit.noise, effort);
+    if (!plain.is_usable || !repaired.is_usable) return std::nullopt;
+    const Eigen::VectorXd of_plain = problem_->range_costs({}, plain);
+    const Eigen::VectorXd of_repaired = problem_->range_costs(cause.hypothesis, repaired);
+    for (std::size_t i = 0; i < problem_->ranges().size(); ++i) {
+      const LogProblem::Range& range = problem_->ranges()[i];
+      if (range.in_gap || half_of(range.row, log_.ranges.size()) != half) continue;
+      sums.plain -= 0.5 * of_plain(static_cast<Index>(i));
+      sums.repaired -= 0.5 * of_repaired(static_cast<Index>(i));
+      ++sums.ranges;
+    }
+  }
+  if (sums.ranges == 0) return std::nullopt;
+  sums.plain /= static_cast<double>(sums.ranges);
+  sums.repaired /= static_cast<double>(sums.ranges);
+  return sums;
 }
 
 void LogTester::find_open_parts(Fit& fit) const {

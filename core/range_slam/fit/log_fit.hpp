@@ -29,6 +29,26 @@ struct LogFitOptions {
   Eigen::Index final_keys = 1200;                      ///< In the map.
   Eigen::Index covariances = 60;                       ///< Poses with a covariance.
   bool only_tests = false;                             ///< No map of the final keys: for studies.
+  bool holds_out = false;                              ///< LogFit::held_out is computed.
+};
+
+/// How well the plain model and that under a cause predict ranges that neither was fitted to.
+struct HeldOutRanges {
+  double plain = 0.0;     ///< Mean log-likelihood of a held-out range, nats per range,
+  double repaired = 0.0;  ///< and under the cause.
+  Eigen::Index ranges = 0;
+
+  /// Whether the cause predicts as well or better.
+  bool is_better() const { return repaired >= plain; }
+};
+
+/// What a repaired map of known landmarks is made of.
+struct Repair {
+  /// Without the effect of the cause: IDs exchanged back, offsets and shifts of time subtracted. A
+  /// moved landmark has, after its move, the number N: one more than there are.
+  RangeLog log;
+  SlamEstimate estimate;  ///< Under the cause, landmarks N, in the frame of the first pose.
+  LogNoise noise;
 };
 
 struct LogFit {
@@ -37,10 +57,11 @@ struct LogFit {
   Fit fit;
   std::vector<FittedRange> ranges;  ///< In time; of the plain model.
   double inflation = 1.0;           ///< Of variances, as errors hang together in time.
-  LogHypothesis cause;  ///< The most significant that can be modelled; kResiduals: none.
-  std::optional<SlamEstimate> repaired;  ///< Under that cause.
-  double cost = 0.0;                     ///< -2 ln L of the plain model,
-  double repaired_cost = 0.0;            ///< and under the cause.
+  LogHypothesis cause;             ///< The most significant that can be modelled; kResiduals: none.
+  std::optional<Repair> repaired;  ///< Under that cause, where it can be modelled as a map.
+  std::optional<HeldOutRanges> held_out;  ///< With LogFitOptions::holds_out, of that repair.
+  double cost = 0.0;                      ///< -2 ln L of the plain model,
+  double repaired_cost = 0.0;             ///< and under the cause.
 };
 
 /// Fits path, landmarks, range scale and noise to a log, and tests whether the log fits them.

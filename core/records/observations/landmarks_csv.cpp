@@ -22,10 +22,12 @@
 namespace mapproof {
 namespace {
 
-/// Which cell of a row holds the name, x and y, and the factors of the last two to metres.
+/// Which cell of a row holds the name, x and y, and the factors to metres: of a height, of x and
+/// of y.
 struct Columns {
   std::array<std::size_t, 3> cell = {0, 1, 2};
   std::array<double, 3> factor = {1.0, 1.0, 1.0};
+  std::optional<std::size_t> height = {};  ///< Its cell.
 };
 
 constexpr std::array kRoles = {ColumnRole::kLandmark, ColumnRole::kX, ColumnRole::kY};
@@ -79,8 +81,19 @@ Columns columns_of(const TableRow& header, const std::string& source, const Colu
   const std::string location = fmt::format("line {}", header.line);
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     const Heading heading = heading_of(header.cells[i], i, named);
-    if (!heading.column) continue;
-    if (is_found[*heading.column])
+    if (!heading.column) {
+      if (const auto factor = column_factor(header.cells[i], ColumnRole::kX, kUpWords)) {
+        columns.height = i;
+        columns.factor[0] = *factor;
+      }
+      continue;
+    }
+    // Beside names, "anchor" is a yes or no, as in map.csv.
+    const auto is_flag = [&](std::size_t cell) {
+      return *heading.column == 0 && lower_case(trimmed(header.cells[cell])) == "anchor";
+    };
+    if (is_found[*heading.column] && is_flag(i)) continue;
+    if (is_found[*heading.column] && !is_flag(columns.cell[*heading.column]))
       throw IoError(source, location,
                     fmt::format("expected the columns name, x, y once; got {}; --columns "
                                 "{}=HEADER names the one to read",
@@ -128,6 +141,16 @@ double read_coordinate(std::string_view cell, double factor, const std::string& 
   return factor * *value;
 }
 
+/// A remark on the heights of a file; empty if all are 0, or if they are not numbers.
+std::string remark_on_heights(const std::vector<double>& heights_m, const std::string& source) {
+  if (std::ranges::all_of(heights_m, [](double height_m) { return height_m == 0.0; })) return "";
+  const auto [low, high] = std::ranges::minmax(heights_m);
+  return fmt::format(
+      "The heights in {} ({:g} to {:g} m) are not used: the map is plane. Ranges to a landmark far "
+      "above or below the robot are longer than their distance in the plane.",
+      source, low, high);
+}
+
 NamedPoints parse_table(std::string_view text, const std::string& source,
                         const ColumnNames& names_of_columns) {
   TableReader reader(text, source);
@@ -135,7 +158,7 @@ NamedPoints parse_table(std::string_view text, const std::string& source,
   Columns columns;
   std::size_t width = kRoles.size();
   NameList names(source);
-  std::vector<double> coordinates;
+  std::vector<double> coordinates, heights_m;
   for (bool is_first = true; reader.next(row); is_first = false) {
     if (is_first && is_landmarks_header(row)) {
       columns = columns_of(row, source, names_of_columns);
@@ -154,8 +177,13 @@ NamedPoints parse_table(std::string_view text, const std::string& source,
     for (const std::size_t axis : {1U, 2U})
       coordinates.push_back(
           read_coordinate(row.cells[columns.cell[axis]], columns.factor[axis], source, row.line));
+    if (columns.height)
+      if (const std::optional<double> height = number_in(row.cells[*columns.height]))
+        heights_m.push_back(columns.factor[0] * *height);
   }
-  return named_points(names, coordinates, source);
+  NamedPoints points = named_points(names, coordinates, source);
+  points.heights = remark_on_heights(heights_m, source);
+  return points;
 }
 
 /// Five bare numbers between blanks, as in Landmark_Groundground_truth.dat.

@@ -100,6 +100,8 @@ struct NamedPoints {
   std::vector<std::string> names;      ///< M, all different.
   Points positions_m;                  ///< M x 2, finite.
   std::vector<std::string> locations;  ///< M; where the file holds the landmark: "line 7".
+  /// A remark on heights that the file has too; empty: none, or all of them 0.
+  std::string heights = {};
 };
 
 /// What one sensor observed of detections.

@@ -64,11 +64,43 @@ std::optional<std::size_t> named_cell(ColumnRole role, const TableRow& header,
   return std::nullopt;
 }
 
+bool is_of_motion(ColumnRole role) {
+  return role == ColumnRole::kDistance || role == ColumnRole::kHeadingChange ||
+         role == ColumnRole::kSideways;
+}
+
+/// @throws IoError for a speed or a rate of turning.
+void require_increment(std::string_view cell, const std::string& source,
+                       const std::string& location) {
+  if (names_rate(cell))
+    throw IoError(source, location,
+                  fmt::format("{} is a speed or a rate of turning; odometry is the way [m] and the "
+                              "heading change [rad] since the row before: multiply by the time "
+                              "between the rows",
+                              in_quotes(cell)));
+}
+
+/// @throws IoError for a table of motions that has speeds or poses in their place.
+void require_motions(const TableRow& header, const std::string& source,
+                     const std::string& location) {
+  bool has_x = false, has_y = false;
+  for (const std::string_view cell : header.cells) {
+    require_increment(cell, source, location);
+    has_x = has_x || column_heading(cell, 0, {}).role == ColumnRole::kX;
+    has_y = has_y || column_heading(cell, 0, {}).role == ColumnRole::kY;
+  }
+  if (has_x && has_y)
+    throw IoError(source, location,
+                  "holds poses (x, y); odometry is the way [m] and the heading change [rad] since "
+                  "the row before: give the differences of the poses");
+}
+
 /// @throws IoError if the column is needed but not there, or there twice.
 std::optional<Cell> cell_of(const RangeColumn& column, const TableRow& header,
                             const std::string& source, const ColumnNames& names) {
   const std::string location = fmt::format("line {}", header.line);
   if (const auto named = named_cell(column.role, header, names)) {
+    if (is_of_motion(column.role)) require_increment(header.cells[*named], source, location);
     const double factor = named_column_factor(header.cells[*named], column.role);
     return Cell{column.role, *named, factor, factor != 1.0};
   }
@@ -84,6 +116,7 @@ std::optional<Cell> cell_of(const RangeColumn& column, const TableRow& header,
   }
   if (found || !column.is_needed) return found;
   require_named(column.role, header, source, names);
+  if (is_of_motion(column.role)) require_motions(header, source, location);
   throw IoError(source, location,
                 fmt::format("no column of {}: expected {} in the header; --columns {}=HEADER "
                             "names another",

@@ -19,18 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "/seed is 2007 there and 2008 here": the first of the differences.
-std::string difference(const std::string& experiment_there, const std::string& experiment_here) {
-  const auto there = nlohmann::json::parse(experiment_there);
-  const auto here = nlohmann::json::parse(experiment_here);
-  const nlohmann::json patch = nlohmann::json::diff(there, here);
-  const nlohmann::json::json_pointer location(patch.at(0).at("path").get<std::string>());
-  const auto shown = [&](const nlohmann::json& value) {
-    return value.contains(location) ? printable(value[location].dump(), 60) : "missing";
-  };
-  return fmt::format("{} is {} there and {} here", location.to_string(), shown(there), shown(here));
-}
-
 void check_is_new(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
@@ -69,7 +57,7 @@ std::string take_up_study(const fs::path& folder, const StudyStart& start) {
   if (there.experiment != here.experiment)
     throw IoError(folder.string(),
                   fmt::format("holds another experiment ({}); choose another folder or remove it",
-                              difference(there.experiment, here.experiment)));
+                              first_difference(there.experiment, here.experiment)));
   const std::string redone = other_maker(there, here);
   // The records first: until study.json is replaced, a kill in between leaves the old study's
   // start.
@@ -85,8 +73,20 @@ std::string take_up_study(const fs::path& folder, const StudyStart& start) {
 
 }  // namespace
 
+std::string first_difference(const std::string& there_text, const std::string& here_text) {
+  const auto there = nlohmann::json::parse(there_text);
+  const auto here = nlohmann::json::parse(here_text);
+  const nlohmann::json patch = nlohmann::json::diff(there, here);
+  const nlohmann::json::json_pointer location(patch.at(0).at("path").get<std::string>());
+  const auto shown = [&](const nlohmann::json& value) {
+    return value.contains(location) ? printable(value[location].dump(), 60) : "missing";
+  };
+  return fmt::format("{} is {} there and {} here", location.to_string(), shown(there), shown(here));
+}
+
 struct StudyWriter::State {
-  explicit State(const fs::path& study) : folder(study), lock(study) {}
+  State(const fs::path& study, const std::function<void()>& busy)
+      : folder(study), lock(busy ? FolderLock(study, busy) : FolderLock(study)) {}
 
   void append(const std::string& lines) {
     const std::lock_guard guard(mutex);
@@ -99,9 +99,10 @@ struct StudyWriter::State {
   std::mutex mutex;
 };
 
-StudyWriter::StudyWriter(const fs::path& folder, const StudyStart& start) {
+StudyWriter::StudyWriter(const fs::path& folder, const StudyStart& start,
+                         const std::function<void()>& busy) {
   make_folder(folder);
-  state_ = std::make_unique<State>(folder);
+  state_ = std::make_unique<State>(folder, busy);
   refuse_links_out(folder);
   state_->redone = take_up_study(folder, start);
 }

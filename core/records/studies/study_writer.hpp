@@ -40,6 +40,9 @@ struct StudyPart {
   std::filesystem::path emptied = {};  ///< A folder of its own, below the study's, emptied first.
 };
 
+/// "/seed is 2007 there and 2008 here": the first of the differences of two JSON texts.
+std::string first_difference(const std::string& there, const std::string& here);
+
 /// Writes the folder of a study of any kind (docs/file-formats.md says what is in it).
 ///
 /// One process at a time: the folder is locked as long as the writer lives. The bytes of every file
@@ -49,9 +52,12 @@ class StudyWriter {
   /// Makes the folder, or resumes the study in it; leftovers of a killed process are removed.
   /// Records that were made by another Provenance::solver_digest, or by other method_files, are
   /// removed too: see redone().
+  /// @param busy  If given, the writer waits while another process uses the folder; called once,
+  ///              before the wait.
   /// @throws IoError if the folder holds another experiment, holds files but no study, is in use
   ///         by another process, or cannot be written.
-  StudyWriter(const std::filesystem::path& folder, const StudyStart& start);
+  StudyWriter(const std::filesystem::path& folder, const StudyStart& start,
+              const std::function<void()>& busy = {});
 
   StudyWriter(StudyWriter&&) noexcept;
   StudyWriter& operator=(StudyWriter&&) noexcept;

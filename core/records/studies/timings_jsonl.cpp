@@ -36,6 +36,10 @@ void read_line(std::string_view line, const std::string& source, Timings& timing
       timings.slam.factorization.push_back(std::move(one));
     else if constexpr (std::is_same_v<T, MethodSeconds>)
       timings.outcomes.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, ShardSession>)
+      timings.shards.push_back(std::move(one));
+    else if constexpr (std::is_same_v<T, TaskRecords>)
+      timings.records.push_back(std::move(one));
     else
       timings.sessions.push_back(std::move(one));
   };
@@ -52,6 +56,8 @@ std::string timing_line(const SlamTiming& timing) { return json_line(to_json_val
 std::string timing_line(const FactorizationCost& cost) { return json_line(to_json_value(cost)); }
 std::string timing_line(const MethodSeconds& timing) { return json_line(to_json_value(timing)); }
 std::string session_line(const Session& session) { return json_line(to_json_value(session)); }
+std::string shard_line(const ShardSession& session) { return json_line(to_json_value(session)); }
+std::string records_line(const TaskRecords& records) { return json_line(to_json_value(records)); }
 
 Timings parse_timings(std::string_view text, const std::string& source) {
   Timings timings;
@@ -62,6 +68,28 @@ Timings parse_timings(std::string_view text, const std::string& source) {
     read_line(line, fmt::format("{}: line {}", source, number), timings);
   }
   return timings;
+}
+
+std::vector<ReadTimingLine> readable_lines(const std::filesystem::path& folder) {
+  std::string text;
+  try {
+    text = read_file(folder / kTimingsFile);
+  } catch (const IoError&) {
+    return {};
+  }
+  std::vector<ReadTimingLine> lines;
+  for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos;
+       start = end + 1) {
+    std::string line = text.substr(start, end + 1 - start);
+    try {
+      const JsonDocument document = parse_json(line, kTimingsFile);
+      auto read = from_json_value<TimingLine>(document.cursor());
+      lines.push_back({.text = std::move(line), .line = std::move(read)});
+    } catch (const IoError&) {
+      continue;
+    }
+  }
+  return lines;
 }
 
 void mend_lines(const std::filesystem::path& folder) {

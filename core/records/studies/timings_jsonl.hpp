@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/model/shard.hpp"
 #include "core/model/slam/slam_study.hpp"
 #include "core/model/study.hpp"
 #include "core/model/topic_study.hpp"
@@ -71,12 +72,48 @@ void fields(Visitor& v, Session& session) {
           {.description = "Of the process, at its end.", .minimum = 0.0, .key = Key::kIfAny});
 }
 
+template <typename Visitor>
+void fields(Visitor& v, Shard& shard) {
+  v.field("index", shard.index, {.minimum = 1, .maximum = kMostRuns});
+  v.field("count", shard.count, {.minimum = 1, .maximum = kMostRuns});
+  if (shard.index > shard.count) v.refuse("index", "is above count");
+}
+
+template <typename Visitor>
+void fields(Visitor& v, ShardSession& session) {
+  v.tag("kind", "shard");
+  v.field("shard", session.shard, {.description = "Every count-th task, from the index-th on."});
+  v.field("tasks", session.tasks,
+          {.description = "Of the whole study.", .minimum = 0, .maximum = kMostRuns});
+  v.field("plan", session.plan,
+          {.description = "SHA-256 of the ids of all tasks, a line each.", .max_bytes = 64});
+  v.field("command", session.command, {.max_bytes = kLongestText});
+  v.field("processor", session.processor);
+}
+
+template <typename Visitor>
+void fields(Visitor& v, FileDigest& file) {
+  v.type("file_digest");
+  v.field("file", file.file, {.description = "Below the study's folder.", .not_empty = true});
+  v.field("sha256", file.sha256, {.max_bytes = 64});
+}
+
+template <typename Visitor>
+void fields(Visitor& v, TaskRecords& records) {
+  v.tag("kind", "records");
+  v.field("task", records.task,
+          {.description = "Counted from 1.", .minimum = 1, .maximum = kMostRuns});
+  v.field("id", records.id, {.max_bytes = 200});
+  v.field("files", records.files, {.description = "What the task has written."});
+}
+
 /// A line behind the first one.
-using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, MethodSeconds, Session>;
+using TimingLine = std::variant<Timing, SlamTiming, FactorizationCost, MethodSeconds, Session,
+                                ShardSession, TaskRecords>;
 
 /// timings.jsonl: one JSON object per line: the schema, then {"kind": "map", ...},
 /// {"kind": "slam", ...}, {"kind": "factorization", ...}, {"kind": "method", ...} or
-/// {"kind": "session", ...}.
+/// {"kind": "session", ...}; of a shard also {"kind": "shard", ...} and {"kind": "records", ...}.
 ///
 /// Lines are appended, a batch at a time, by OutputFolder::append(): to rewrite the whole file for
 /// every run would cost the square of their number, and a kill can only tear the last line, which
@@ -86,6 +123,8 @@ struct Timings {
   SlamTimings slam;
   std::vector<MethodSeconds> outcomes;
   std::vector<Session> sessions;
+  std::vector<ShardSession> shards;
+  std::vector<TaskRecords> records;
 };
 
 /// The first line.
@@ -96,9 +135,21 @@ std::string timing_line(const SlamTiming& timing);
 std::string timing_line(const FactorizationCost& cost);
 std::string timing_line(const MethodSeconds& timing);
 std::string session_line(const Session& session);
+std::string shard_line(const ShardSession& session);
+std::string records_line(const TaskRecords& records);
 
 /// All whole lines in their order. @throws IoError naming the line.
 Timings parse_timings(std::string_view text, const std::string& source);
+
+struct ReadTimingLine {
+  std::string text;  ///< With its end.
+  TimingLine line;
+};
+
+/// The lines of a folder's timings.jsonl behind the schema, in their order. What cannot be read,
+/// such as lines that two processes on a file system without locks wrote into each other, is passed
+/// over, the whole file if need be.
+std::vector<ReadTimingLine> readable_lines(const std::filesystem::path& folder);
 
 /// Removes a last line without an end from the timings.jsonl of a study's folder. @throws IoError.
 void mend_lines(const std::filesystem::path& folder);

@@ -59,6 +59,10 @@ constexpr Word kWords[] = {
     {"bake", ColumnRole::kLandmark},
     {"objekt", ColumnRole::kLandmark},
     {"landmarke", ColumnRole::kLandmark},
+    {"anchor", ColumnRole::kLandmark},
+    {"node", ColumnRole::kLandmark},
+    {"tree", ColumnRole::kLandmark},
+    {"baum", ColumnRole::kLandmark},
     {"range", ColumnRole::kRange},
     {"distance", ColumnRole::kRange},
     {"dist", ColumnRole::kRange},
@@ -147,6 +151,8 @@ std::string joined(std::string_view text) {
     if (std::string_view(" ._-/[](){}").find(c) == std::string_view::npos) word += c;
   return word;
 }
+
+constexpr std::string_view kBeforeUnit = "[({_ .";  ///< What may separate a word from its unit.
 
 std::optional<ColumnRole> role_of(std::string_view word) {
   const Word* found = std::ranges::find(kWords, word, &Word::word);
@@ -311,6 +317,30 @@ double named_column_factor(std::string_view cell, ColumnRole role) {
 bool names_steps(std::string_view cell, const ColumnNames& columns) {
   const std::optional<ColumnRole> role = column_heading(cell, 0, columns).role;
   return role == ColumnRole::kStep || role == ColumnRole::kTime;
+}
+
+bool names_rate(std::string_view cell) {
+  static constexpr std::string_view kRateWords[] = {
+      "v",        "vx",   "vel",    "velocity",        "speed",        "geschwindigkeit",
+      "omega",    "wz",   "omegaz", "angularvelocity", "yawrate",      "turnrate",
+      "drehrate", "gyro", "gyroz",  "twistlinearx",    "twistangularz"};
+  // Joined as headers are: "m/s", "m_s" and "m s-1".
+  static constexpr std::string_view kRateUnits[] = {
+      "m/s",  "ms",    "mps",   "ms1",   "cm/s", "mm/s",  "km/h", "kmh", "kph", "rad/s",
+      "rads", "rads1", "radps", "deg/s", "degs", "degps", "dps",  "°/s", "rpm"};
+  const std::string text = lower_case(trimmed(cell));
+  const auto is_word = [](std::string_view part) {
+    return std::ranges::find(kRateWords, joined(part)) != std::end(kRateWords);
+  };
+  const auto is_unit = [](std::string_view part) {
+    return std::ranges::any_of(
+        kRateUnits, [part](std::string_view unit) { return joined(part) == joined(unit); });
+  };
+  if (is_word(text)) return true;
+  for (std::size_t at = text.find_first_of(kBeforeUnit); at != std::string::npos;
+       at = text.find_first_of(kBeforeUnit, at + 1))
+    if (is_word(text.substr(0, at)) || is_unit(text.substr(at))) return true;
+  return false;
 }
 
 bool is_geographic(std::string_view heading) {

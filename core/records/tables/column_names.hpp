@@ -115,6 +115,14 @@ double named_column_factor(std::string_view cell, ColumnRole role);
 /// Whether a header's cell names steps, scans or times.
 bool names_steps(std::string_view cell, const ColumnNames& columns = {});
 
+/// Whether a header's cell names a speed or a rate of turning, by its word or its unit: "v_ms",
+/// "yaw_rate", "omega [deg/s]".
+bool names_rate(std::string_view cell);
+
+/// What tables of positions call heights.
+inline constexpr std::array<std::string_view, 8> kUpWords = {
+    "z", "pz", "posz", "height", "altitude", "elevation", "hoehe", "höhe"};
+
 /// Whether a heading names latitudes or longitudes, in any case: no reader projects them.
 bool is_geographic(std::string_view heading);
 

@@ -334,9 +334,9 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
     p = fmt::format(", p = {:.2g}", comparison.test->p);
   if (is_alone) {
     const PairedValue& only = comparison.largest.front();
-    return fmt::format("{} {} in {} alone of {}{}", quantity.label,
+    return fmt::format("{} {} in run {} alone of {}{}", quantity.label,
                        change_text(only.baseline, only.current, quantity.unit), only.run,
-                       counted(comparison.pairs, "run"), p);
+                       comparison.pairs, p);
   }
   std::string text = fmt::format(
       "{} {}", quantity.label,

@@ -362,7 +362,8 @@ void set_blocks(data& out, const DiffItem& item, const DiffResult& all, std::siz
       if (size > room) continue;
       room -= size;
       blocks.push_back(
-          block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false}));
+          block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false},
+                     anchor_of(item)));
     }
   out.set("blocks", blocks);
 }
@@ -458,7 +459,7 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("current", percent_encoded(result.current));
   std::error_code error;
   page.set("files", std::filesystem::is_regular_file(result.current, error));
-  page.set("facts", block_data(whole_facts(result), {}, {}));
+  page.set("facts", block_data(whole_facts(result), {}, {}, "facts"));
   page.set("counts", counts_data(result));
   page.set("notes", notes_data(result, shown));
   page.set("version", std::string(version()));

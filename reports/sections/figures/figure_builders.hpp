@@ -23,7 +23,8 @@ std::vector<Figure> measurement_figures(FigureSource& source);
 std::vector<Figure> curve_figures(FigureSource& source);
 
 // map_figures.cpp
-/// The run nearest to the paper's example and the median run; then each method's median run.
+/// All methods on one run; the run nearest to the paper's example and the median run; then each
+/// method's median run.
 std::vector<Figure> map_figures(FigureSource& source);
 /// A map forming over the steps, and what scatters between the runs of one layout.
 std::vector<Figure> forming_figures(FigureSource& source);

@@ -12,6 +12,8 @@
 namespace mapproof {
 namespace {
 
+constexpr std::size_t kWallColumns = 5;
+
 /// "layout 1, pose 2".
 std::string words_of(const RunId& run) {
   return fmt::format("layout {}, pose {}", run.layout, run.pose);
@@ -52,6 +54,27 @@ void add_pair(FigureSource& source, const PaperFigure& wanted, std::vector<Figur
       "chosen by that number, as the one of {} whose MPE is nearest to it: that it is near says "
       "nothing about the method. The run on the right is the median one.",
       wanted.example->mpe_m, wanted.example->moe_percent, summary->scored);
+  figures.push_back(std::move(figure));
+}
+
+/// All methods on one run, the best first: the median run of the best method.
+void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
+  std::vector<SettingSummary> methods = source.best(sensor);
+  const SettingSummary* best = best_of(methods);
+  const auto run = best == nullptr ? std::nullopt : median_run(source.study(), *best);
+  if (!run) return;
+  std::ranges::stable_sort(methods, {}, [](const SettingSummary& one) { return one.mpe_m->mean; });
+  MapGridSpec spec{.id = fmt::format("maps-{}", name(sensor.sensor.sensor)),
+                   .title = fmt::format("{}: all methods on {}, the best on average first",
+                                        title_of(sensor.sensor.sensor), words_of(*run)),
+                   .maps = {}};
+  for (const SettingSummary& method : methods)
+    if (const MapRecord* map = source.map(*run, method.sensor, method.setting, method.step);
+        map != nullptr && map->frame == Frame::kGroundTruth)
+      spec.maps.push_back({short_label(method.setting), *map});
+  if (spec.maps.size() < 2) return;
+  Figure figure = map_wall_figure(spec);
+  figure.columns = kWallColumns;
   figures.push_back(std::move(figure));
 }
 
@@ -107,6 +130,8 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
 
 std::vector<Figure> map_figures(FigureSource& source) {
   std::vector<Figure> figures;
+  for (const SensorStudy& sensor : source.study().experiment.sensors)
+    add_wall(source, sensor, figures);
   for (const PaperFigure& figure : source.study().experiment.figures)
     if (figure.kind == FigureKind::kMap) add_pair(source, figure, figures);
   for (const SensorStudy& sensor : source.study().experiment.sensors)

@@ -1,24 +1,13 @@
 #include "reports/sections/figures/method_styles.hpp"
 
-#include <algorithm>
-#include <array>
-
 #include <fmt/format.h>
+
+#include "render/figures/curves/method_series.hpp"
 
 namespace mapproof {
 
 std::size_t series_of_method(const Experiment& experiment, Method method) {
-  // There are seven colours: the last three take those of the first three, which are of the other
-  // family, with other dashes and markers.
-  constexpr std::array kOrder = {
-      Method::kSmacofKnn,    Method::kSde,
-      Method::kIsomap,       Method::kLle,
-      Method::kHessianLle,   Method::kLaplacianEigenmap,
-      Method::kSmacof,       Method::kLpca,
-      Method::kKpcaGaussian, Method::kKpcaPolynomial,
-  };
-  const auto ours = std::ranges::find(kOrder, method);
-  const auto series = static_cast<std::size_t>(ours - kOrder.begin());
+  const std::size_t series = method_series(method);
   const ExternalMethod* external = find_external(experiment, method);
   if (external == nullptr) return series;
   return series + static_cast<std::size_t>(external - experiment.external_methods.data());

@@ -10,6 +10,8 @@
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
+#include "render/figures/number_text.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_figures.hpp"
@@ -60,8 +62,6 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
   if (map.certainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
-
-constexpr std::size_t kMostThumbnails = 6;
 
 std::vector<Paragraph> findings_of(const ResultsReportInput& input) {
   std::vector<Paragraph> findings;
@@ -294,10 +294,65 @@ std::vector<Block> given_provenance(const ResultsView& view, const std::string& 
   return blocks;
 }
 
+namespace {
+
+constexpr std::size_t kMostNumbers = 3;  ///< Comparisons shown by their best value.
+
+/// The best method's mean in the first comparisons, each of another quantity or setup.
+void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
+  std::vector<std::string> shown;
+  for (const MethodComparison& comparison : input.comparisons) {
+    const std::string label = comparison.quantity->label;
+    if (numbers.items.size() == kMostNumbers || std::ranges::find(shown, label) != shown.end())
+      continue;
+    shown.push_back(label);
+    const ComparedMethod& best = comparison.methods.front();
+    const auto worse = std::ranges::count_if(comparison.methods, is_significant);
+    const std::string& unit = comparison.quantity->unit;
+    numbers.items.push_back(
+        {fmt::format("best mean of {}, {}", label, where_of(comparison)),
+         significant(best.mean, 3) + (unit.empty() ? "" : "\u00a0" + unit),
+         fmt::format("{}; significantly better than {} of {}",
+                     input.view.study().methods[best.method].label, worse,
+                     counted(std::ssize(comparison.methods) - 1, "other method")),
+         comparison.block->id});
+  }
+}
+
+Highlights numbers_of(const ResultsReportInput& input) {
+  const ResultsStudy& study = input.view.study();
+  Highlights numbers;
+  add_best_values(input, numbers);
+  numbers.items.push_back({"methods compared", fmt::format("{}", study.methods.size()),
+                           counted(static_cast<long long>(input.view.runs()),
+                                   study.runs.empty() ? "run" : "data set")});
+  const auto rows = std::ssize(study.results.rows);
+  const auto lost = std::ranges::count_if(study.results.rows,
+                                          [](const Result& row) { return is_lost(row.value); });
+  if (rows > 0)
+    numbers.items.push_back(
+        {fmt::format("of {} have no value", counted(rows, "result")), fmt::format("{}", lost),
+         lost == 0 ? "nothing was lost" : "means rest on the others", study.name + "-provenance"});
+  return numbers;
+}
+
+/// Where a map or a path is, it is what a reader wants to open: it comes before curves, one of each
+/// group first.
+std::vector<std::string> figure_ids_of(const StudyFigures& figures) {
+  std::vector<std::string> first, rest;
+  for (const FigureGroup& group : figures.groups) {
+    for (const Figure& figure : group.figures)
+      (&figure == &group.figures.front() ? first : rest).push_back(figure.id);
+    for (const Scene& scene : group.scenes) first.push_back(scene.id);
+  }
+  first.insert(first.end(), rest.begin(), rest.end());
+  return first;
+}
+
+}  // namespace
+
 std::vector<Section> results_sections(const ResultsReportInput& input) {
-  std::vector<Section> sections = sections_of(input, false);
-  for (Section& section : sections) section.title = input.view.study().title + ": " + section.title;
-  return sections;
+  return sections_of(input, false);
 }
 
 Report results_report(const ResultsReportInput& input) {
@@ -315,10 +370,13 @@ Report results_report(const ResultsReportInput& input) {
     for (const std::string& conclusion : input.conclusions)
       if (report.opening.findings.size() < kFewComparisons)
         report.opening.findings.push_back(plain(conclusion));
-  for (const FigureGroup& group : input.figures.groups)
-    if (!group.figures.empty() && report.opening.figure_ids.size() < kMostThumbnails)
-      report.opening.figure_ids.push_back(group.figures.front().id);
+  report.opening.numbers = numbers_of(input);
+  if (!input.incomplete.empty())
+    report.opening.findings.push_back(
+        {{strong("Warnings"), phrase(": incomplete: " + input.incomplete)}});
+  choose_figures(figure_ids_of(input.figures), input.figures, report.opening);
   report.footer = input.footer;
+  report.date = input.date;
   return report;
 }
 

@@ -26,6 +26,7 @@ struct ResultsReportInput {
       {};                        ///< On the study's files beside the table, a sentence each.
   std::vector<Table> cost = {};  ///< What it took.
   std::string footer = "Made by mapproof.";
+  std::string date = {};  ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 
 /// The provenance of results that another program made.
@@ -37,8 +38,7 @@ std::vector<Block> given_provenance(const ResultsView& view, const std::string& 
 /// and where the numbers come from.
 Report results_report(const ResultsReportInput& input);
 
-/// Its sections alone, for a report with others: ids begin with the study's name, titles
-/// with its title.
+/// Its sections alone, for a report with others: ids begin with the study's name.
 std::vector<Section> results_sections(const ResultsReportInput& input);
 
 /// The maps of the study of a topic, and the distances of the pairs that they were made of.

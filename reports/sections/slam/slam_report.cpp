@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
@@ -69,7 +70,7 @@ std::string start_words(const SlamRun& run) {
          ".";
 }
 
-void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
+void add_run(const SlamRun& run, BulletList& findings) {
   const std::string errors = error_sentence_of(run);
   std::string text = errors.empty()
                          ? fmt::format(": {} mapped, no error claimed, there being no true path.",
@@ -77,13 +78,6 @@ void add_run(const SlamRun& run, BulletList& findings, Highlights& highlights) {
                          : ": mean position error " + errors + ".";
   findings.items.push_back(
       {{strong(title_of(run)), phrase(text + scale_words(run) + start_words(run))}});
-  for (const SlamMethod method : {SlamMethod::kRefined, SlamMethod::kSpectral}) {
-    const TrajectoryError* error = error_of(run, method);
-    if (error == nullptr || run.simulated) continue;
-    highlights.items.push_back(
-        {fmt::format("{}, {}", title_of(run), info(method).label), metres_of(error->mean_m),
-         fmt::format("mean position error, {}", alignment_words(error->alignment))});
-  }
 }
 
 /// The errors of landmarks and positions with the most measurements.
@@ -99,14 +93,12 @@ std::string end_words(const ConvergenceCurve& curve) {
   return text + ".";
 }
 
-void add_convergence(const SlamStudy& study, BulletList& findings, Highlights& highlights) {
+void add_convergence(const SlamStudy& study, BulletList& findings) {
   if (study.convergence.empty()) return;
   const ConvergenceCurve& curve = study.convergence.front();
   const double slope = convergence_slope(curve);
   if (!std::isfinite(slope)) return;
   const std::string text = slope_words(slope);
-  highlights.items.push_back(
-      {"Convergence of \u0108, slope", text, "theory: \u22121/2 in the logarithms"});
   findings.items.push_back(
       {{strong("Convergence"),
         phrase(fmt::format(": the error of the observation model changes as the number of "
@@ -267,32 +259,92 @@ void add_statuses(const std::string& where, const std::string& id,
   }
 }
 
-constexpr std::size_t kMostRuns = 2;  ///< Reported before anything else.
-constexpr std::size_t kMostThumbnails = 6;
+/// Of all records of the study, those without a map first.
+StatusList status_list(const SlamStudy& study) {
+  StatusList list;
+  for (const SlamRun& run : study.runs)
+    for (const SlamRecord& record : run.records)
+      add_statuses(fmt::format("{}, {}", title_of(run), info(record.method).label),
+                   record_id(run, record), record.estimate.statuses, list);
+  if (study.histories)
+    for (const RangeHistoryMap& map : study.histories->maps)
+      add_statuses(fmt::format("{}, {}", map.squared ? "squared ranges" : "ranges",
+                               map.setting ? label(*map.setting) : "spectral"),
+                   "histories", map.statuses, list);
+  if (study.space)
+    for (const SpaceRecord& record : study.space->records)
+      add_statuses(fmt::format("in space, {}",
+                               record.knows_landmarks ? "landmarks known" : "no landmark known"),
+                   "space", record.estimate.statuses, list);
+  std::ranges::stable_partition(list.items, &StatusList::Item::failed);
+  return list;
+}
 
-/// "Plaza 1: 0.19 m refined, 0.36 m spectral (rigid), 16 m dead reckoning (unaligned). "; an
-/// alignment is reported once for methods in a row that share it. Empty if no method has an error.
-std::vector<Phrase> errors_of(const SlamRun& run) {
-  std::vector<Phrase> phrases;
-  const TrajectoryError* before = nullptr;
-  for (const auto& [method, called] :
-       {std::pair{SlamMethod::kRefined, "refined"}, std::pair{SlamMethod::kSpectral, "spectral"},
-        std::pair{SlamMethod::kDeadReckoning, "dead reckoning"}}) {
-    const TrajectoryError* error = error_of(run, method);
-    if (error == nullptr || !std::isfinite(error->mean_m)) continue;
-    std::string text;
-    if (before != nullptr && before->alignment != error->alignment)
-      text = fmt::format(" ({})", alignment_words(before->alignment));
-    if (before != nullptr) text += ", ";
-    const std::string metres = significant(error->mean_m, 2) + "\u00a0m";
-    phrases.push_back({std::move(text)});
-    phrases.push_back(before == nullptr ? strong(metres) : Phrase{metres});
-    phrases.push_back({std::string(" ") + called});
-    before = error;
+constexpr std::size_t kMostRuns = 3;  ///< Shown by their numbers before anything else.
+
+/// "0.19 m" of the refined map or else of the spectral one, with what it compares with.
+std::optional<Highlights::Item> error_number(const SlamRun& run) {
+  const auto methods = {SlamMethod::kRefined, SlamMethod::kSpectral, SlamMethod::kDeadReckoning};
+  const auto method = std::ranges::find_if(methods, [&](SlamMethod one) {
+    const TrajectoryError* error = error_of(run, one);
+    return error != nullptr && std::isfinite(error->mean_m);
+  });
+  if (method == methods.end()) return std::nullopt;
+  std::vector<std::string> details;
+  if (const auto length = length_m(run.log))
+    details.push_back(*length < 1000.0 ? fmt::format("over {:.0f}\u00a0m", *length)
+                                       : fmt::format("over {:.1f}\u00a0km", *length / 1000.0));
+  for (auto other = method + 1; other != methods.end(); ++other)
+    if (const TrajectoryError* error = error_of(run, *other);
+        error != nullptr && std::isfinite(error->mean_m))
+      details.push_back(fmt::format("{} {}", info(*other).label, metres_of(error->mean_m)));
+  return Highlights::Item{"mean position error, " + title_of(run),
+                          metres_of(error_of(run, *method)->mean_m),
+                          fmt::format("{}", fmt::join(details, "; ")), "slam-accuracy"};
+}
+
+void add_run_numbers(const SlamStudy& study, Highlights& numbers) {
+  for (const SlamRun& run : study.runs) {
+    if (run.simulated || numbers.items.size() == kMostRuns) continue;
+    if (auto number = error_number(run))
+      numbers.items.push_back(*std::move(number));
+    else
+      numbers.items.push_back({"landmarks mapped, " + title_of(run),
+                               fmt::format("{}", run.log.landmarks.size()),
+                               "no error: there is no true path", "slam-accuracy"});
   }
-  if (before != nullptr)
-    phrases.push_back({fmt::format(" ({}). ", alignment_words(before->alignment))});
-  return phrases;
+}
+
+void add_slope(const SlamStudy& study, Highlights& numbers) {
+  const double slope =
+      study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
+  if (std::isfinite(slope))
+    numbers.items.push_back({"power of the number of measurements that the model error follows",
+                             slope_words(slope), "theory: \u22121/2", kSlamSimulation});
+}
+
+/// All warnings and failures, and in how many records.
+std::vector<std::string> warnings_of(const SlamStudy& study) {
+  std::vector<std::string> codes;
+  const StatusList list = status_list(study);
+  for (const StatusList::Item& item : list.items)
+    codes.push_back(fmt::format("{} ({})", item.code, item.where));
+  return codes;
+}
+
+/// "Range-only SLAM: landmarks and path from ranges, and odometry: 2 recorded drives, …"
+Paragraph what_was_done(const SlamStudy& study) {
+  const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
+  std::vector<std::string> extent;
+  if (real > 0) extent.push_back(counted(real, "recorded drive"));
+  if (std::ssize(study.runs) > real)
+    extent.push_back(counted(std::ssize(study.runs) - real, "simulated drive"));
+  if (!study.convergence.empty())
+    extent.push_back(counted(std::ssize(study.convergence), "simulation of convergence"));
+  return plain(
+      fmt::format("Positions of landmarks and the path of a robot from ranges, and "
+                  "odometry where there is any: {}.",
+                  listed(extent, 4)));
 }
 
 }  // namespace
@@ -303,17 +355,15 @@ Section slam_summary_section(const SlamStudy& study) {
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Data missing", Paragraph{{{missing, Emphasis::kData}}}});
   BulletList findings;
-  Highlights highlights;
   for (const SlamRun& run : study.runs)
-    if (!run.simulated) add_run(run, findings, highlights);
-  add_convergence(study, findings, highlights);
+    if (!run.simulated) add_run(run, findings);
+  add_convergence(study, findings);
   for (const SlamRun& run : study.runs)
-    if (run.simulated) add_run(run, findings, highlights);
+    if (run.simulated) add_run(run, findings);
   if (is_of_paper(study)) add_remarks_on_paper(findings);
   section.blocks.emplace_back(plain(
       "Path of a robot and positions of landmarks from ranges, and odometry where there is any. "
       "Squared ranges factor into landmarks and positions; least squares refines both."));
-  if (!highlights.items.empty()) section.blocks.emplace_back(std::move(highlights));
   section.blocks.emplace_back(std::move(findings));
   return section;
 }
@@ -331,8 +381,7 @@ std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
         "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
         "any.");
   section.blocks.emplace_back(std::move(errors));
-  if (auto alignments = slam_alignment_table(runs))
-    section.blocks.emplace_back(*std::move(alignments));
+  if (auto alignments = slam_alignment_table(runs)) fold(*std::move(alignments), section);
   return section;
 }
 
@@ -394,8 +443,7 @@ Section slam_provenance_section(const SlamReportInput& input) {
     facts.items.push_back({key, {value, Emphasis::kData}});
   section.blocks.emplace_back(std::move(facts));
   section.blocks.emplace_back(provenance_items(input.study.provenance));
-  if (!input.sessions.empty())
-    section.blocks.emplace_back(sessions_table("slam-sessions", input.sessions));
+  if (!input.sessions.empty()) fold(sessions_table("slam-sessions", input.sessions), section);
   return section;
 }
 
@@ -406,6 +454,7 @@ Report slam_report(const SlamReportInput& input) {
   report.sections = slam_sections(input);
   for (Section& section : report.sections) section.title = alone(section.title);
   report.opening = slam_opening(input.study, input.figures);
+  report.date = date_of(input.sessions);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,
                               input.study.provenance.commit);
   return report;
@@ -413,22 +462,7 @@ Report slam_report(const SlamReportInput& input) {
 
 Section slam_statuses_section(const SlamStudy& study) {
   Section section{"slam-warnings", "Range-only SLAM: warnings and failures", {}};
-  StatusList list;
-  for (const SlamRun& run : study.runs)
-    for (const SlamRecord& record : run.records)
-      add_statuses(fmt::format("{}, {}", title_of(run), info(record.method).label),
-                   record_id(run, record), record.estimate.statuses, list);
-  if (study.histories)
-    for (const RangeHistoryMap& map : study.histories->maps)
-      add_statuses(fmt::format("{}, {}", map.squared ? "squared ranges" : "ranges",
-                               map.setting ? label(*map.setting) : "spectral"),
-                   "histories", map.statuses, list);
-  if (study.space)
-    for (const SpaceRecord& record : study.space->records)
-      add_statuses(fmt::format("in space, {}",
-                               record.knows_landmarks ? "landmarks known" : "no landmark known"),
-                   "space", record.estimate.statuses, list);
-  std::ranges::stable_partition(list.items, &StatusList::Item::failed);
+  StatusList list = status_list(study);
   if (list.items.empty())
     section.blocks.emplace_back(plain("None."));
   else
@@ -438,33 +472,29 @@ Section slam_statuses_section(const SlamStudy& study) {
 
 Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   Opening opening;
+  if (study.runs.empty() && study.convergence.empty()) return opening;
+  add_run_numbers(study, opening.numbers);
+  add_slope(study, opening.numbers);
+  const std::vector<std::string> warnings = warnings_of(study);
+  opening.numbers.items.push_back({"warnings and failures", fmt::format("{}", warnings.size()),
+                                   warnings.empty() ? "none" : "each listed with its reason",
+                                   "slam-warnings"});
+  opening.findings.push_back(what_was_done(study));
   for (const SlamRun& run : study.runs)
     if (run.fit)
       opening.findings.push_back({{strong(title_of(run)), phrase(": " + verdict_text(*run.fit))}});
-  Paragraph text;
-  std::size_t reported = 0;
-  for (const SlamRun& run : study.runs) {
-    std::vector<Phrase> errors = errors_of(run);
-    if (run.simulated || errors.empty() || reported == kMostRuns) continue;
-    if (reported++ == 0) text.phrases.push_back({"Mean position error on "});
-    text.phrases.push_back(strong(title_of(run)));
-    text.phrases.push_back({": "});
-    text.phrases.insert(text.phrases.end(), errors.begin(), errors.end());
+  if (!warnings.empty())
+    opening.findings.push_back(
+        {{strong("Warnings"), phrase(fmt::format(": {}.", listed(warnings, 3)))}});
+  std::vector<std::string> ids = {"fig-2b", "fig-2c"};
+  for (const SlamRun& run : study.runs)
+    if (!run.simulated) ids.push_back(path_figure_id(run));
+  ids.insert(ids.end(), {"fig-1b", "fig-1a"});
+  for (const FigureGroup& group : figures.groups) {
+    if (!group.figures.empty()) ids.push_back(group.figures.front().id);
+    if (!group.scenes.empty()) ids.insert(ids.begin() + 1, group.scenes.front().id);
   }
-  const double slope =
-      study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
-  if (std::isfinite(slope)) {
-    text.phrases.push_back(
-        {"In simulation the error of the observation model changes as the number of measurements "
-         "to the power "});
-    text.phrases.push_back(strong(slope_words(slope)));
-    text.phrases.push_back({fmt::format("; theory: \u22121/2.{}", variant_words(study))});
-  }
-  if (!text.phrases.empty()) opening.findings.push_back(std::move(text));
-  std::vector<std::string> ids = {"fig-2b", "fig-2c", "fig-1b", "fig-1a"};
-  for (const FigureGroup& group : figures.groups)
-    ids.push_back(group.figures.empty() ? group.scenes.front().id : group.figures.front().id);
-  opening.figure_ids = present_ids(ids, figures, kMostThumbnails);
+  choose_figures(ids, figures, opening);
   return opening;
 }
 

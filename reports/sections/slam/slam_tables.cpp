@@ -184,6 +184,7 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
   if (record == nullptr) return std::nullopt;
   const SlamEstimate& estimate = record->estimate;
   const auto& ground_truth = run.log.true_landmarks;
+  const int decimals = position_decimals(estimate.landmarks_m);
   const bool has_covariances = std::ssize(estimate.landmark_cov_m2) == estimate.landmarks_m.rows();
   Table table;
   table.id = "slam-landmarks-" + run.id;
@@ -202,14 +203,14 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
     Row row;
     row.source = record_id(run, *record);
     row.cells = {TextCell{run.log.landmarks[i], Emphasis::kData},
-                 NumberCell{estimate.landmarks_m(i, 0), 3},
-                 NumberCell{estimate.landmarks_m(i, 1), 3}};
+                 position_cell(estimate.landmarks_m(i, 0), decimals),
+                 position_cell(estimate.landmarks_m(i, 1), decimals)};
     if (has_covariances)
       for (Index axis = 0; axis < 2; ++axis)
         row.cells.emplace_back(NumberCell{std::sqrt(estimate.landmark_cov_m2[i](axis, axis)), 3});
     if (ground_truth) {
       for (Index axis = 0; axis < 2; ++axis)
-        row.cells.emplace_back(NumberCell{(*ground_truth)(i, axis), 3});
+        row.cells.push_back(position_cell((*ground_truth)(i, axis), decimals));
       row.cells.emplace_back(
           NumberCell{(estimate.landmarks_m.row(i) - ground_truth->row(i)).norm(), 3});
     }

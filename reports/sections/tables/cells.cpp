@@ -1,7 +1,9 @@
 #include "reports/sections/tables/cells.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/base/not_finite.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -37,6 +39,26 @@ int mpe_decimals(std::span<const SettingSummary> summaries) {
            (summary.published && summary.published->mpe_m < 0.1);
   });
   return small ? 4 : 3;
+}
+
+int position_decimals(const Points& positions) {
+  constexpr int kUsual = 3, kMost = 12;
+  double extent = 0.0;
+  for (const auto& axis : positions.colwise()) {
+    double low = kInfinity, high = -kInfinity;
+    for (const double coordinate : axis)
+      if (std::isfinite(coordinate)) {
+        low = std::min(low, coordinate);
+        high = std::max(high, coordinate);
+      }
+    extent = std::max(extent, high - low);
+  }
+  if (!(extent > 0.0 && std::isfinite(extent))) return kUsual;
+  return std::clamp(kUsual - static_cast<int>(std::floor(std::log10(extent))), kUsual, kMost);
+}
+
+Cell position_cell(double coordinate, int decimals) {
+  return NumberCell{.value = coordinate, .decimals = decimals};
 }
 
 std::string interval_note(bool any_interval) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/model/method.hpp"
+#include "core/model/points.hpp"
 #include "core/statistics/intervals.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/method_summary.hpp"
@@ -30,6 +31,12 @@ Cell difference_interval_cell(const std::optional<MeanEstimate>& estimate, int d
 
 /// Of MPE, m: small errors, ours or a paper's, need a place more.
 int mpe_decimals(std::span<const SettingSummary> summaries);
+
+/// Of positions, by their extent: 3, or as many as show a thousandth of it.
+int position_decimals(const Points& positions);
+
+/// A coordinate; missing if it is not finite.
+Cell position_cell(double coordinate, int decimals);
 
 /// What the intervals of a table rest on.
 std::string interval_note(bool any_interval);

@@ -255,6 +255,23 @@ FaultCase run_case() {
           .varies = is_of_seconds};
 }
 
+FaultCase merge_case() {
+  return {.name = "merge",
+          .prepare =
+              [](const fs::path& folder) {
+                for (const char* shard : {"1/2", "2/2"})
+                  mapproof({"run", kSmall, "--profile", "tiny", "--shard", shard, "--out",
+                            folder / "shards" / std::string(1, *shard)});
+              },
+          .command =
+              [](const std::string& folder) {
+                return std::vector<std::string>{"merge", folder + "/shards/1", folder + "/shards/2",
+                                                "--out", folder + "/out"};
+              },
+          .varies = is_of_seconds,
+          .samples = 8};
+}
+
 FaultCase reproduce_case() {
   return {.name = "reproduce",
           .prepare = [](const fs::path&) {},
@@ -329,6 +346,7 @@ std::vector<FaultCase> make_cases() {
   };
   return {
       run_case(),
+      merge_case(),
       reproduce_case(),
       folder_case("report", "report"),
       folder_case("render", "render"),
@@ -379,7 +397,8 @@ const std::vector<FaultCase>& fault_cases() {
 std::vector<FaultCase> kill_cases() {
   std::vector<FaultCase> cases;
   for (const FaultCase& one : fault_cases())
-    if (one.name == "run" || one.name == "report" || one.name == "approve" || one.name == "nightly")
+    if (one.name == "run" || one.name == "merge" || one.name == "report" || one.name == "approve" ||
+        one.name == "nightly")
       cases.push_back(one);
   return cases;
 }

@@ -239,6 +239,80 @@ TEST(Map, SaysWhenAnchorsAndGroundTruthDisagree) {
       << outcome.error;
 }
 
+TEST(Map, DoesNotFitAnchorsThatAreFarOff) {
+  const TemporaryFolder folder;
+  const Survey survey;
+  const std::string seen = folder.file("seen.csv", survey.wide());
+  const auto fit_with = [&](const std::string& moved) {
+    const Outcome outcome =
+        mapproof({"map", seen, "--sensor", "bearing", "--method", "smacof", "--anchors",
+                  folder.file("anchors.csv", survey.positions({0, 4, 15}) + moved), "--out",
+                  folder / "map", "--force", "--json"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return nlohmann::json::parse(outcome.out).at("fit");
+  };
+  EXPECT_EQ(fit_with(survey.positions({19}).substr(9)).at("verdict"), "fits");
+  const nlohmann::json off = fit_with("post 19,100,100\n");
+  EXPECT_EQ(off.at("verdict"), "doubtful");
+  EXPECT_EQ(off.at("causes").at(0).at("code"), "known_landmarks_at_odds");
+}
+
+TEST(Map, ThatCannotBeUsedInMetresDoesNotFit) {
+  const TemporaryFolder folder;
+  const Survey survey;
+  std::string exchanged = "name,x,y\n";
+  for (const Eigen::Index i : survey.all())
+    exchanged += fmt::format("post {},{},{}\n", i, survey.landmarks(19 - i, 0),
+                             survey.landmarks((7 * i + 3) % 20, 1));
+  const Outcome outcome = mapproof(
+      {"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--method", "smacof",
+       "--anchors", folder.file("anchors.csv", survey.positions({0, 4, 15})), "--truth",
+       folder.file("ground_truth.csv", exchanged), "--out", folder / "map", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  const auto result = nlohmann::json::parse(outcome.out);
+  EXPECT_NE(outcome.error.find("cannot be used in metres"), std::string::npos) << outcome.error;
+  EXPECT_EQ(result.at("fit").at("verdict"), "does_not_fit");
+}
+
+TEST(Map, SaysOverHowManyLandmarksItsErrorIs) {
+  const TemporaryFolder folder;
+  const Survey survey;
+  const Outcome outcome = mapproof(
+      {"map", folder.file("seen.csv", survey.wide()), "--sensor", "bearing", "--method", "smacof",
+       "--anchors", folder.file("anchors.csv", survey.positions({0, 4, 15, 19})), "--truth",
+       folder.file("ground_truth.csv", survey.positions(survey.all())), "--out", folder / "map"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("(16 landmarks, without the 4 anchors)"), std::string::npos)
+      << outcome.out;
+}
+
+TEST(Map, IsTheSameFarFromZero) {
+  const TemporaryFolder folder;
+  const Survey survey;
+  Survey far;
+  far.landmarks.rowwise() += Eigen::RowVector2d(391234.5, 5821234.5);
+  const std::string seen = folder.file("seen.csv", survey.wide());
+  for (const char* method : {"smacof", "lpca", "isomap", "lle", "hlle"}) {
+    const auto map_with = [&](const Survey& anchors) {
+      const Outcome outcome =
+          mapproof({"map", seen, "--sensor", "bearing", "--method", method, "--anchors",
+                    folder.file("anchors.csv", anchors.positions({0, 4, 15, 19, 7})), "--out",
+                    folder / "map", "--force", "--json"});
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+      return nlohmann::json::parse(outcome.out).at("landmarks");
+    };
+    const nlohmann::json near_zero = map_with(survey), far_out = map_with(far);
+    for (std::size_t i = 0; i < near_zero.size(); ++i) {
+      EXPECT_NEAR(far_out[i].at("x_m").get<double>() - 391234.5,
+                  near_zero[i].at("x_m").get<double>(), 1e-6)
+          << method;
+      EXPECT_NEAR(far_out[i].at("y_m").get<double>() - 5821234.5,
+                  near_zero[i].at("y_m").get<double>(), 1e-6)
+          << method;
+    }
+  }
+}
+
 TEST(DiagonalAnchors, AreTheFurthestOutAndAllDifferent) {
   EXPECT_EQ(diagonal_anchors(grid(3, 3)), (std::vector<Eigen::Index>{0, 2, 6, 8}));
   Points line(5, 2);

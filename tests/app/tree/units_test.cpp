@@ -24,7 +24,8 @@ constexpr std::ptrdiff_t kMostFilesOfFolder = 36;
 
 /// Headers whose functions are defined in a file each, which the header names.
 const std::set<std::string> kRegisters = {
-    "app/commands.hpp", "app/help/generated.hpp", "core/records/ranges/range_log_forms.hpp",
+    "app/commands.hpp", "app/help/generated.hpp", "app/python/bindings.hpp",
+    "core/records/ranges/range_log_forms.hpp",
     "core/records/tables/respelling.hpp", "reports/sections/figures/figure_builders.hpp"};
 
 using Texts = std::map<std::string, std::string>;            ///< By path below the project.

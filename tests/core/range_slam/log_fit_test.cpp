@@ -158,6 +158,24 @@ TEST(LogFit, NamesExchangedIds) {
   EXPECT_LT(fit.repaired_cost, fit.cost);
 }
 
+TEST(LogFit, NamesTheScaleOfOdometryThatFourAnchorsFix) {
+  RangeDriveOptions drive = usual_drive();
+  drive.forward_sigma_m = 0.005;
+  drive.range_sigma_m = 0.1;
+  Random random(3);
+  RangeLog log = simulate_drive(drive, {}, random);
+  LogFitOptions options = quick_options();
+  options.known =
+      KnownLandmarks{.rows = {0, 1, 2, 3}, .positions_m = log.true_landmarks->topRows(4)};
+  EXPECT_EQ(cause_in(fit_log(log, {}, options).fit, FitCode::kKnownScale), nullptr);
+  for (Motion& motion : log.odometry) motion.distance_m *= 1.02;
+  const Fit fit = fit_log(log, {}, options).fit;
+  const FitCause* cause = cause_in(fit, FitCode::kKnownScale);
+  ASSERT_NE(cause, nullptr);
+  EXPECT_NEAR(value_in(*cause, "share_percent"), 2.0, 0.5);
+  EXPECT_EQ(fit.verdict, FitVerdict::kDoesNotFit);
+}
+
 TEST(LogFit, NamesAGapInOdometryByItsStamps) {
   const Fit fit = fit_log(drive_with({.gap_s = 30.0}), {}, quick_options()).fit;
   const FitCause* cause = cause_in(fit, FitCode::kOdometryGap);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,6 +113,21 @@ TEST(RangeLogFiles, ColumnsMayBeNamed) {
   EXPECT_THROW(read_range_log(folder.file("usual.csv", ranges_csv_of(log)), slip), IoError);
   EXPECT_THROW(column_names({"bearing=b"}, kRangeLogRoles), InvalidInput);
   EXPECT_THROW(column_names({"heading=b"}), InvalidInput);
+}
+
+TEST(RangeLogFiles, OdometryInDegreesOrAsTheWholeWayIsRemarkedOn) {
+  const test::TemporaryFolder folder;
+  const auto read = [&](double turn, bool is_whole_way) {
+    std::string odometry = "t,ddist,dheading\n";
+    for (int i = 1; i <= 40; ++i)
+      odometry += fmt::format("{},{},{}\n", i, is_whole_way ? 0.5 * i : 0.5, turn);
+    RangeLogOptions options{.odometry_file = folder.file("odometry.csv", odometry)};
+    return read_range_log(folder.file("r.csv", "t,beacon,range\n1,a,1\n2,b,2\n"), options);
+  };
+  EXPECT_FALSE(remarks_hold(read(0.1, false), "degrees"));
+  EXPECT_FALSE(remarks_hold(read(0.1, false), "whole way"));
+  EXPECT_TRUE(remarks_hold(read(5.0, false), "degrees"));
+  EXPECT_TRUE(remarks_hold(read(0.1, true), "whole way"));
 }
 
 TEST(RangeLogFiles, TablesOfRangesMayBeJsonLines) {

@@ -295,10 +295,9 @@ TEST(Timings, NameTheLineThatIsDamaged) {
   const TemporaryFolder folder;
   open_store(folder.path());
   folder.file("timings.jsonl", "{\"kind\": \"nap\"}\n");
-  EXPECT_EQ(
-      error_of([&] { read_timings(folder.path()); }),
-      (folder / "timings.jsonl").string() +
-          ": line 1: /kind: expected map, slam, factorization, method or session, got \"nap\"");
+  EXPECT_EQ(error_of([&] { read_timings(folder.path()); }),
+            (folder / "timings.jsonl").string() +
+                ": line 1: /kind: the kind \"nap\" is unknown: did you mean \"map\"?");
 }
 
 }  // namespace

@@ -45,11 +45,16 @@ TEST(HistoryPages, AreValidReportsAndFigures) {
 TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
   NightlyRun nightly_run{.facts = {.number = 5, .started_utc = "2026-11-22T02:30:07Z"}};
   for (int i = 1; i <= 7; ++i)
-    nightly_run.findings.push_back({.study = "mine", .sentence = fmt::format("worse {}", i)});
-  const Standing stands = study_standing(nightly_run.facts, nightly_run.findings, "mine", true);
+    nightly_run.findings.push_back({.study = "mine",
+                                    .subject = fmt::format("method {}", i),
+                                    .quantity = "mpe_m",
+                                    .since = 5,
+                                    .change = i});
+  const std::vector<FindingGroup> groups = grouped(nightly_run.findings, {}, {});
+  const Standing stands = study_standing(nightly_run.facts, groups, "mine", true);
   EXPECT_EQ(stands.title, "Nightly run 5: 7 things got worse");
   ASSERT_EQ(stands.sentences.size(), 4U);
-  EXPECT_EQ(stands.sentences[2], "worse 3.");
+  EXPECT_EQ(stands.sentences[2], "method 3: mpe_m +3.0\u00a0%, since nightly run 5.");
   EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
 
   const Report index = index_page({.nightly_runs = {nightly_run.facts},
@@ -95,7 +100,7 @@ TEST(HistoryPages, ShowTheSettingThatWasBestAndGotWorseAndMarkTheNightlyRun) {
   for (const Layer& layer : figure.panels.front().layers)
     if (const auto* mark = std::get_if<Scatter>(&layer))
       marked.emplace_back(mark->x.front(), mark->y.front());
-  EXPECT_EQ(marked, (std::vector<std::pair<double, double>>{{4, 0.20}, {4, 0.15}}));
+  EXPECT_EQ(marked, (std::vector<std::pair<double, double>>{{3, 100.0}, {3, 0.0}}));
 }
 
 TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
@@ -107,7 +112,7 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   const std::vector<Figure> figures = trend_figures(trend, {});
   ASSERT_EQ(figures.size(), 3U);  // MPE, what is declared, memory.
   EXPECT_EQ(figures[1].id, "trend-found-percent-size");
-  EXPECT_EQ(figures[1].panels.front().y.label, "Landmarks found [%]");
+  EXPECT_EQ(figures[1].panels.front().y.label, "change of Landmarks found [points]");
   EXPECT_EQ(curves(figures[1]), std::vector<std::string>{"ISOMAP, K = 5, level=30"})
       << "the better level stands for the method";
   const Table table = accuracy_table(trend);
@@ -131,7 +136,8 @@ TEST(HistoryPages, SayOfANightlyRunThatWasNotComparedThatItWasNot) {
   const NightlyFacts nightly_run{.number = 4};
   EXPECT_EQ(verdict_word(nightly_run), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "passed");
-  EXPECT_TRUE(nightly_standing(nightly_run, {}).title.starts_with("Nightly run 4: not compared"));
+  EXPECT_TRUE(nightly_standing({.facts = nightly_run})
+                  .title.starts_with("Nightly run 4: not compared"));
 }
 
 /// The links of a paragraph, by what they say.

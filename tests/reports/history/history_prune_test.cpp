@@ -4,7 +4,7 @@
 #include "core/base/files/files.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,7 +6,7 @@
 #include "core/base/sha256.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/schema.hpp"
+#include "reports/history/store/schema.hpp"
 #include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"

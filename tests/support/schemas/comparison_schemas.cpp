@@ -11,6 +11,7 @@ std::map<std::string, std::string> comparison_schemas() {
   return {{"approvals.schema.json", json_text(json_schema<ApprovalsFile>())},
           {"diff.schema.json", json_text(json_schema<DiffResult>())},
           {"diff_settings.schema.json", json_text(json_schema<DiffSettings>())},
+          {"decisions.schema.json", json_text(json_schema<NightlyDecisions>())},
           {"history.schema.json", json_text(json_schema<ExportedHistory>())},
           {"nightly_run.schema.json", json_text(json_schema<NightlyFile>())}};
 }

@@ -4,6 +4,7 @@
 #include "core/records/experiments/external_methods.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/maps/map_fields.hpp"
+#include "core/records/metrics/metrics_json.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/run_json.hpp"
@@ -28,8 +29,8 @@ nlohmann::ordered_json timing_schema() {
   nlohmann::ordered_json whole = {
       {"title", "A line of timings.jsonl"},
       {"description",
-       "The schema (first line), seconds of a piece of a study, or one start of the "
-       "program."}};
+       "The schema (first line), seconds of a piece of a study, one start of the program, or "
+       "what a task of a shard has written."}};
   whole.update(lines);
   return record_json::file_schema(std::move(whole), definitions);
 }
@@ -57,6 +58,7 @@ std::map<std::string, std::string> file_schemas() {
           {"methods.schema.json", json_text(json_schema<ExternalMethodsFile>())},
           {"observations.schema.json", json_text(json_schema<ObservationsFile>())},
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
+          {"metrics.schema.json", json_text(json_schema<Metrics>())},
           {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
           {"run.schema.json", json_text(json_schema<Run>())},
           {"detections.schema.json", json_text(json_schema<DetectionsFile>())},

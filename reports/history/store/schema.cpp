@@ -1,4 +1,4 @@
-#include "reports/history/schema.hpp"
+#include "reports/history/store/schema.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/results/quantity.hpp"
+#include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
 
 namespace mapproof {
@@ -165,7 +166,39 @@ UPDATE studies SET kind = 'mapproof.topic_study' WHERE kind = 'mapproof.trial_st
 UPDATE nightly_runs SET verdict = 'passed' WHERE verdict = 'good';
 )";
 
-constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4, kVersion5, kVersion6};
+/// Which commit was under test and where it is shown, the local time, by how much findings changed,
+/// and what people said of them. The identifier is random, as UUIDs of version 4 are.
+constexpr const char* kVersion7 = R"(
+ALTER TABLE nightly_runs ADD COLUMN utc_offset_s INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE nightly_runs ADD COLUMN commit_id TEXT NOT NULL DEFAULT '';
+ALTER TABLE nightly_runs ADD COLUMN repository TEXT NOT NULL DEFAULT '';
+ALTER TABLE nightly_runs ADD COLUMN build TEXT NOT NULL DEFAULT '';
+ALTER TABLE findings ADD COLUMN change REAL;
+CREATE TABLE notes (
+  id INTEGER PRIMARY KEY,
+  nightly_run INTEGER NOT NULL,
+  finding INTEGER NOT NULL,
+  kind TEXT NOT NULL,
+  study TEXT NOT NULL,
+  subject TEXT NOT NULL,
+  quantity TEXT NOT NULL,
+  since INTEGER NOT NULL,
+  change REAL,
+  text TEXT NOT NULL,
+  written_utc TEXT NOT NULL
+);
+CREATE TABLE facts (
+  name TEXT PRIMARY KEY,
+  value TEXT NOT NULL
+) WITHOUT ROWID;
+INSERT INTO facts (name, value)
+  SELECT 'identifier', 'urn:uuid:' || substr(h, 1, 8) || '-' || substr(h, 9, 4) || '-4' ||
+         substr(h, 14, 3) || '-a' || substr(h, 18, 3) || '-' || substr(h, 21, 12)
+  FROM (SELECT lower(hex(randomblob(16))) AS h);
+)";
+
+constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4,
+                                  kVersion5, kVersion6, kVersion7};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);
@@ -297,6 +330,11 @@ std::string damage_of_rows(Database& database) {
     if (!rule_named(findings.text(1)))
       return fmt::format("nightly run {} has the unknown finding \"{}\"", findings.integer(0),
                          printable(findings.text(1)));
+  Statement notes(database, "SELECT nightly_run, kind FROM notes");
+  while (notes.step())
+    if (!note_kind_named(notes.text(1)))
+      return fmt::format("nightly run {} has a note of the unknown kind \"{}\"", notes.integer(0),
+                         printable(notes.text(1)));
   return damage_of_quantities(database);
 }
 

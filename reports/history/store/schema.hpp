@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "reports/history/database.hpp"
+#include "reports/history/store/database.hpp"
 
 namespace mapproof {
 

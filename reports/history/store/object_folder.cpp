@@ -1,4 +1,4 @@
-#include "reports/history/object_folder.hpp"
+#include "reports/history/store/object_folder.hpp"
 
 #include <algorithm>
 #include <system_error>

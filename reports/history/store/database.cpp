@@ -1,4 +1,4 @@
-#include "reports/history/database.hpp"
+#include "reports/history/store/database.hpp"
 
 #include <cmath>
 #include <new>

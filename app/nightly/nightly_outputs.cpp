@@ -1,0 +1,72 @@
+#include "app/nightly/nightly_outputs.hpp"
+
+#include <unistd.h>
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/child_process.hpp"
+#include "core/base/files/descriptor.hpp"
+#include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
+#include "reports/diff/folder_diff.hpp"
+#include "reports/html/diff/diff_html.hpp"
+
+namespace mapproof {
+
+void write_summaries(const NightlySummary& summary, const NightlyWishes& wishes,
+                     const Disclosure& disclosure) {
+  if (!wishes.markdown.empty())
+    write_file(wishes.markdown, disclosure.text(nightly_markdown(summary)));
+  if (!wishes.junit.empty()) write_file(wishes.junit, disclosure.text(nightly_junit(summary)));
+}
+
+void run_on_worse(const NightlySummary& summary, const NightlyWishes& wishes,
+                  const std::filesystem::path& index, const Console& console) {
+  if (wishes.on_worse.empty() || summary.new_findings() == 0) return;
+  ProgramCall call{.program = "/usr/bin/env",
+                   .arguments = {fmt::format("MAPPROOF_NIGHTLY_RUN={}", summary.facts.number),
+                                 fmt::format("MAPPROOF_VERDICT={}", name(summary.verdict())),
+                                 "MAPPROOF_TITLE=" + summary.title(),
+                                 "MAPPROOF_PAGE=" + index.string()}};
+  if (const CommitRange& commits = summary.groups.front().commits; commits.has_commits())
+    call.arguments.push_back("MAPPROOF_COMMITS=" + commits.text());
+  for (const char* word : {"/bin/sh", "-c"}) call.arguments.emplace_back(word);
+  call.arguments.push_back(wishes.on_worse);
+  try {
+    const Descriptor input = memory_file("mapproof-on-worse");
+    if (!write_all(input, nightly_markdown(summary)) || ::lseek(input.get(), 0, SEEK_SET) != 0)
+      throw ProcessError("its standard input cannot be written");
+    const ProcessEnd end =
+        ChildProcess(call, {.input = input.get(), .output = STDERR_FILENO}).wait();
+    if (!end.is_success()) console.warning("--on-worse: " + end.text());
+  } catch (const ProcessError& error) {
+    console.warning(fmt::format("--on-worse: {}", error.what()));
+  }
+}
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> write_comparisons(const NightlyPair& pair, const HistoryOutputs& outputs) {
+  std::vector<std::string> written;
+  const auto folder = [&](int number, const std::string& study) {
+    return outputs.store / "nightly_runs" / fmt::format("{:04}", number) / study;
+  };
+  for (const std::string& study : pair.studies) {
+    const fs::path before = folder(pair.before, study), after = folder(pair.after, study);
+    std::error_code error;
+    if (!fs::exists(before / "study.json", error) || !fs::exists(after / "study.json", error))
+      continue;
+    const DiffSettings settings;
+    const DiffResult result = folder_diff(before, after, settings);
+    const std::string file = comparison_file(pair.before, pair.after, study);
+    make_folder((outputs.out / file).parent_path());
+    OutputFolder(outputs.out)
+        .write(file, outputs.disclosure.text(diff_html(result, settings, outputs.page)));
+    written.push_back(file);
+  }
+  return written;
+}
+
+}  // namespace mapproof

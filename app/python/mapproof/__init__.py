@@ -1,0 +1,70 @@
+"""Maps from what a robot observed, without estimating its pose: mapproof from Python.
+
+Histories, distances, all mapping methods, alignment and scores of the program `mapproof`, and its
+studies as pandas frames. Points are rows; units stand in names; NaN is missing. A broken bound is a
+ValueError, trouble with a file an IoError (an OSError). docs/python.md has examples.
+"""
+
+from ._core import (
+    Affine,
+    Embedding,
+    Figure,
+    IoError,
+    LandmarkMap,
+    MethodInfo,
+    ObservationHistory,
+    ParameterInfo,
+    Score,
+    Similarity,
+    Simulation,
+    Status,
+    __version__,
+    aligned_to,
+    distances,
+    embed,
+    embed_distances,
+    features,
+    fit_affine,
+    fit_similarity,
+    map_observations,
+    methods,
+    read_figure,
+    read_observations,
+    read_positions,
+    relative_gap,
+    score_map,
+    simulate,
+)
+from ._study import Study
+
+__all__ = [
+    "Affine",
+    "Embedding",
+    "Figure",
+    "IoError",
+    "LandmarkMap",
+    "MethodInfo",
+    "ObservationHistory",
+    "ParameterInfo",
+    "Score",
+    "Similarity",
+    "Simulation",
+    "Status",
+    "Study",
+    "__version__",
+    "aligned_to",
+    "distances",
+    "embed",
+    "embed_distances",
+    "features",
+    "fit_affine",
+    "fit_similarity",
+    "map_observations",
+    "methods",
+    "read_figure",
+    "read_observations",
+    "read_positions",
+    "relative_gap",
+    "score_map",
+    "simulate",
+]

@@ -1,0 +1,231 @@
+#include "reports/history/finding_groups.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "core/base/text/words.hpp"
+#include "reports/history/shown_names.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kShownDigits = 9;
+constexpr double kMostPercent = 1e6;  ///< More is shown as this.
+
+/// A word of a POSIX shell between single quotes.
+std::string shell_quoted(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The series that a finding is about; null if it is about others, or is not there any more.
+const SeriesId* series_of(const NightlyFinding& finding, const StudyTrend& trend) {
+  for (const auto& [id, values] : trend.medians)
+    if (id.quantity == finding.quantity &&
+        (finding.subject == method_of(id) || finding.subject.starts_with(method_of(id) + ", ")))
+      return &id;
+  return nullptr;
+}
+
+/// The subject of a finding that is about no series that is still there.
+std::string shown_subject_of(const NightlyFinding& finding, const StudyTrend* trend) {
+  return trend == nullptr ? finding.subject : shown_setup(trend->labels, finding.subject);
+}
+
+/// One finding as a group.
+FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
+  FindingGroup group{.study = finding.study,
+                     .rule = finding.rule,
+                     .method = shown_subject_of(finding, trend),
+                     .quantity = finding.quantity == "memory" ? "peak memory" : finding.quantity,
+                     .quantity_id = finding.quantity};
+  if (finding.change) group.changes.push_back(*finding.change);
+  group.sentences.push_back(finding.sentence);
+  if (trend == nullptr) return group;
+  group.commits = commits_of(*trend, finding.since);
+  if (const Quantity* quantity = trend->quantities.find(finding.quantity)) {
+    group.quantity = quantity->label;
+    group.in_points = quantity->nightly == NightlyRule::kPoints;
+  }
+  const SeriesId* series = series_of(finding, *trend);
+  if (series == nullptr) return group;
+  group.setup = shown_setup(trend->labels, series->sensor);
+  const std::string shown = shown_method(trend->labels, series->method);
+  group.lines.push_back(shown);
+  group.method = shown_method(trend->labels, base_method(trend->labels, series->method));
+  if (shown.starts_with(group.method + ", "))
+    group.settings.push_back(shown.substr(group.method.size() + 2));
+  else
+    group.method = shown;
+  return group;
+}
+
+bool is_same(const FindingGroup& a, const FindingGroup& b) {
+  const auto key = [](const FindingGroup& group) {
+    return std::tie(group.study, group.rule, group.setup, group.method, group.quantity_id,
+                    group.commits.since.number);
+  };
+  const bool both_known = a.known.has_value() == b.known.has_value();
+  return both_known && key(a) == key(b) && (!a.known || a.known->text == b.known->text) &&
+         a.settings.empty() == b.settings.empty();
+}
+
+template <typename T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// "K = 6 and 8" of "K = 6" and "K = 8".
+std::string settings_text(const std::vector<std::string>& settings) {
+  constexpr std::size_t kMost = 6;
+  constexpr std::string_view kIs = " = ";
+  std::vector<std::string> values;
+  const std::size_t is = settings.front().find(kIs);
+  const std::string head = settings.front().substr(0, is == std::string::npos ? 0 : is + kIs.size());
+  for (const std::string& setting : settings)
+    if (!head.empty() && setting.starts_with(head) && setting.find(", ") == std::string::npos)
+      values.push_back(setting.substr(head.size()));
+  if (values.size() == settings.size()) return head + listed(values, kMost);
+  // Settings with levels hold commas of their own.
+  std::string text;
+  for (std::size_t i = 0; i < std::min(settings.size(), kMost); ++i)
+    text += (i > 0 ? "; " : "") + settings[i];
+  if (settings.size() > kMost) text += fmt::format("; and {} more", settings.size() - kMost);
+  return text;
+}
+
+std::string amount(double change) {
+  if (std::abs(change) > kMostPercent) return change > 0 ? "over +1,000,000" : "below −1,000,000";
+  return fmt::format("{}{:.{}f}", change < 0 ? "−" : "+", std::abs(change),
+                     std::abs(change) < 0.095 ? 2 : 1);
+}
+
+bool is_address(std::string_view text) {
+  return text.starts_with("https://") || text.starts_with("http://");
+}
+
+}  // namespace
+
+bool CommitRange::has_commits() const {
+  return !before.commit.empty() && !since.commit.empty() && before.commit != since.commit;
+}
+
+std::string CommitRange::text() const {
+  return has_commits() ? short_commit(before.commit) + ".." + short_commit(since.commit) : "";
+}
+
+std::string CommitRange::url() const {
+  if (!has_commits() || !is_address(since.repository)) return "";
+  const bool is_gitlab = since.repository.find("gitlab") != std::string::npos;
+  return fmt::format("{}/{}compare/{}...{}", since.repository, is_gitlab ? "-/" : "", before.commit,
+                     since.commit);
+}
+
+std::string CommitRange::bisect() const {
+  if (!has_commits()) return "";
+  const std::string run = fmt::format("({}) || exit 125; {} --bisect {}",
+                                      since.build.empty() ? "BUILD" : since.build, since.command,
+                                      since.number);
+  return fmt::format("git bisect start {} {} && git bisect run sh -c {}",
+                     short_commit(since.commit), short_commit(before.commit), shell_quoted(run));
+}
+
+CommitRange commits_of(const StudyTrend& trend, int since) {
+  CommitRange range;
+  for (const NightlyFacts& nightly_run : trend.nightly_runs) {
+    if (nightly_run.number < since) range.before = nightly_run;
+    if (nightly_run.number == since) range.since = nightly_run;
+  }
+  return range;
+}
+
+std::string short_commit(const std::string& commit) { return commit.substr(0, kShownDigits); }
+
+std::string commit_url(const std::string& repository, const std::string& commit) {
+  if (commit.empty() || !is_address(repository)) return "";
+  return repository + "/commit/" + commit;
+}
+
+std::string FindingGroup::change_text() const {
+  if (rule == HistoryRule::kLostResults) return quantity + ": results are lost";
+  if (changes.empty()) return quantity + " got worse";
+  const auto [least, most] = std::ranges::minmax(changes);
+  const std::string low = amount(least), high = amount(most);
+  return fmt::format("{} {}\u00a0{}", quantity, low == high ? low : low + " to " + high,
+                     in_points ? "points" : "%");
+}
+
+std::string FindingGroup::headline() const {
+  std::string text = method + ": " + change_text();
+  if (!settings.empty()) text += " (" + settings_text(settings) + ")";
+  return text;
+}
+
+std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
+                                  std::span<const StudyTrend> trends,
+                                  std::span<const NightlyNote> notes) {
+  std::vector<FindingGroup> groups;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const auto trend = std::ranges::find(trends, findings[i].study, &StudyTrend::name);
+    FindingGroup group = group_of(findings[i], trend == trends.end() ? nullptr : &*trend);
+    group.numbers.push_back(static_cast<int>(i) + 1);
+    if (group.commits.since.number == 0) group.commits.since.number = findings[i].since;
+    if (const NightlyNote* known = known_by(notes, findings[i])) group.known = *known;
+    const auto same = std::ranges::find_if(
+        groups, [&](const FindingGroup& other) { return is_same(other, group); });
+    if (same == groups.end()) {
+      groups.push_back(std::move(group));
+      continue;
+    }
+    append(same->settings, group.settings);
+    append(same->changes, group.changes);
+    append(same->numbers, group.numbers);
+    append(same->sentences, group.sentences);
+    append(same->lines, group.lines);
+  }
+  std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
+  return groups;
+}
+
+std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings) {
+  int base = trend.nightly_runs.back().reference.value_or(0);
+  for (const NightlyFinding& finding : findings)
+    if (finding.study == trend.name && finding.since <= base)
+      base = commits_of(trend, finding.since).before.number;
+  const auto found = std::ranges::find(trend.nightly_runs, base, &NightlyFacts::number);
+  return found == trend.nightly_runs.end()
+             ? 0
+             : static_cast<std::size_t>(found - trend.nightly_runs.begin());
+}
+
+std::string local_time(const NightlyFacts& nightly_run) {
+  namespace ch = std::chrono;
+  int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0;
+  char zone = 0;
+  const int read = std::sscanf(nightly_run.started_utc.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d%c", &year,
+                               &month, &day, &hour, &minute, &second, &zone);
+  const ch::year_month_day date{ch::year(year), ch::month(static_cast<unsigned>(month)),
+                                ch::day(static_cast<unsigned>(day))};
+  if (read != 7 || zone != 'Z' || !date.ok()) return nightly_run.started_utc;
+  const auto at = ch::sys_days(date) + ch::hours(hour) + ch::minutes(minute) +
+                  ch::seconds(second + nightly_run.utc_offset_s);
+  const ch::sys_days of_day = ch::floor<ch::days>(at);
+  const ch::year_month_day local(of_day);
+  const auto minutes = ch::duration_cast<ch::minutes>(at - of_day).count();
+  const int offset = std::abs(nightly_run.utc_offset_s) / 60;
+  const std::string place =
+      nightly_run.utc_offset_s == 0
+          ? "UTC"
+          : fmt::format("{}{:02}:{:02}", nightly_run.utc_offset_s < 0 ? "−" : "+", offset / 60,
+                        offset % 60);
+  return fmt::format("{}-{:02}-{:02} {:02}:{:02} {}", int(local.year()), unsigned(local.month()),
+                     unsigned(local.day()), minutes / 60, minutes % 60, place);
+}
+
+}  // namespace mapproof

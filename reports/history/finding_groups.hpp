@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reports/history/nightly_notes.hpp"
+#include "reports/history/nightly_run.hpp"
+
+namespace mapproof {
+
+/// The two nightly runs between which a finding began, and what was under test in them.
+struct CommitRange {
+  NightlyFacts before = {};  ///< Number 0: it began with the first nightly run that is known.
+  NightlyFacts since = {};   ///< Likewise: it is not known any more.
+
+  /// Whether both nightly runs name a commit, and not the same one.
+  bool has_commits() const;
+  /// "1a2b3c4d5..6f7a8b9c0"; empty without both commits.
+  std::string text() const;
+  /// The page that compares them; empty if no address is known.
+  std::string url() const;
+  /// What searches the commit in between; empty without both commits. It builds by `since.build`,
+  /// or BUILD if that is empty.
+  std::string bisect() const;
+};
+
+/// Nightly run `since` of a study and the one of it before.
+CommitRange commits_of(const StudyTrend& trend, int since);
+
+/// The first digits of a commit, enough to distinguish it.
+std::string short_commit(const std::string& commit);
+
+/// The page of a commit: "REPOSITORY/commit/ID", as GitHub, GitLab and Gitea have it; empty if the
+/// address is not known, or not an http or https one.
+std::string commit_url(const std::string& repository, const std::string& commit);
+
+/// Findings of one nightly run on the settings of one method: by the same rule, of the same
+/// quantity, begun in the same nightly run.
+struct FindingGroup {
+  std::string study = {};
+  HistoryRule rule = HistoryRule::kAccuracy;
+  std::string setup = {};                  ///< As shown; may be empty.
+  std::string method = {};                 ///< "ISOMAP", "all methods".
+  std::vector<std::string> settings = {};  ///< "K = 6"; none: the method has none.
+  std::string quantity = {};               ///< Its label.
+  std::string quantity_id = {};
+  std::vector<double> changes = {};  ///< NightlyFinding::change, those that are known.
+  bool in_points = false;            ///< The changes are in points rather than in percent.
+  std::vector<int> numbers = {};     ///< Index of each finding in its nightly run, from 1.
+  std::vector<std::string> sentences = {};
+  std::vector<std::string> lines = {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
+  std::optional<NightlyNote> known = {};  ///< By which all of them are known.
+  CommitRange commits = {};
+
+  /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost".
+  std::string change_text() const;
+  /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
+  std::string headline() const;
+};
+
+/// The findings of a nightly run in groups: those that are new first, else in their order.
+/// @param trends  Of the studies; findings of a study without one have no method and no commits.
+std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
+                                  std::span<const StudyTrend> trends,
+                                  std::span<const NightlyNote> notes);
+
+/// The index of the nightly run that changes of a study are shown against: the one that the last was
+/// compared with, or the one before its findings began if that is earlier; the first where that is
+/// none of these.
+/// @param findings  Of the last nightly run; those of other studies are left out.
+std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings);
+
+/// "2026-11-22 03:30 +01:00": when a nightly run began, by the clock of the place where it ran; in
+/// UTC "2026-11-22 02:30 UTC". What is not a time stays as it is.
+std::string local_time(const NightlyFacts& nightly_run);
+
+}  // namespace mapproof

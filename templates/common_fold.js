@@ -1,0 +1,38 @@
+// What few readers need is folded on the screen, and whole on paper and without a script.
+
+const kMostOnPaper = 12;  // Lists of affected runs; more of them stay folded on paper, too.
+
+// Opens an element and all that is folded around it.
+function unfold(element) {
+  const own = element.querySelector(":scope > details.fold");
+  for (let each = own ?? element; each; each = each.parentElement) {
+    if (each.localName === "details") each.open = true;
+  }
+}
+
+// The target of a link may be folded: it is opened, and then scrolled to.
+function unfoldTarget() {
+  const id = decodeURIComponent(location.hash.slice(1));
+  const target = id ? document.getElementById(id) : null;
+  if (!target) return;
+  unfold(target);
+  target.scrollIntoView();
+}
+
+function foldDetails() {
+  const folds = document.querySelectorAll("details.fold, .folded > details");
+  const affected = document.querySelectorAll(".affected > details");
+  for (const details of folds) details.open = false;
+  document.documentElement.classList.add("folds");
+  addEventListener("hashchange", unfoldTarget);
+  unfoldTarget();
+  let closed = [];
+  addEventListener("beforeprint", () => {
+    closed = [...folds, ...(affected.length <= kMostOnPaper ? affected : [])]
+      .filter((details) => !details.open);
+    for (const details of closed) details.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const details of closed) details.open = false;
+  });
+}

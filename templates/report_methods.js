@@ -1,0 +1,124 @@
+// A method that is chosen, from the list or by a click on its curve, is highlighted in all figures
+// and tables; the curves of a figure can be hidden one by one, by its legend or by a list.
+
+const methods = new Map();  // Key, as in the ids of marks → label, as in tables.
+let chosenMethod = "";
+const kMostRead = 100;  // Figures whose curves name the methods: a page may hold thousands.
+
+// "SMACOF, kNN weights, K = 5" is a curve of "SMACOF, kNN weights".
+function methodOf(label) {
+  return label.replace(/, \S+ = \S+$/, "");
+}
+
+// The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean".
+function readMethods(figure) {
+  const id = figure.dataset.id.replace(/[^a-z0-9-]/g, "");
+  const pattern = new RegExp(` id="${id}-([a-z0-9-]+)-mean" data-curve="([^"]*)"`, "g");
+  for (const [, key, label] of sourceOf(figure).matchAll(pattern)) {
+    methods.set(key, methodOf(decoded(label)));
+  }
+}
+
+function labelOfMark(mark) {
+  const { curve, setting, method } = mark.dataset;
+  if (curve ?? setting) return methodOf(curve ?? setting);
+  if (method === undefined) return "";
+  const key = /^(?:ours|published)-\d+-(.+)$/.exec(mark.id.slice(mark.ownerSVGElement.id.length + 1));
+  return methods.get(key?.[1]) ?? method;
+}
+
+const kOfMethods = "[data-curve], [data-setting], [data-method]";
+
+function highlightIn(svg) {
+  const marks = [...svg.querySelectorAll(kOfMethods)];
+  const isHere = chosenMethod !== "" && marks.some((mark) => labelOfMark(mark) === chosenMethod);
+  for (const mark of marks) mark.classList.toggle("dim", isHere && labelOfMark(mark) !== chosenMethod);
+}
+
+function chooseMethod(label) {
+  chosenMethod = label === chosenMethod ? "" : label;
+  const list = document.querySelector("select.method");
+  if (list) list.value = chosenMethod;
+  for (const svg of document.querySelectorAll(".drawing > svg")) highlightIn(svg);
+  for (const head of document.querySelectorAll("main tbody th[scope=row]")) {
+    const isChosen = chosenMethod !== "" && head.textContent.trim() === chosenMethod;
+    head.parentElement.classList.toggle("chosen", isChosen);
+  }
+  const keys = [...methods].filter(([, name]) => name === chosenMethod).map(([key]) => key);
+  for (const figure of document.querySelectorAll("figure[data-id]")) {
+    figure.classList.toggle("chosen", keys.some((key) => figure.dataset.id.endsWith(`-${key}`)));
+  }
+}
+
+// Puts the list behind an element.
+function addMethodList(before) {
+  const figures = [...document.querySelectorAll("figure[data-id]")];
+  figures.slice(0, kMostRead).forEach(readMethods);
+  const names = [...new Set(methods.values())];
+  if (names.length < 2) return;
+  const list = document.createElement("select");
+  list.className = "method";
+  list.setAttribute("aria-label", "Highlight a method in all figures and tables");
+  list.append(new Option("Highlight a method", ""), ...names.map((name) => new Option(name, name)));
+  list.addEventListener("change", () => {
+    chosenMethod = "";
+    chooseMethod(list.value);
+  });
+  before.after(list);
+}
+
+// The curves of a figure, each with its parts, by label.
+function curvesOf(svg) {
+  const curves = new Map();
+  for (const part of svg.querySelectorAll("[data-curve]")) {
+    curves.set(part.dataset.curve, [...curves.get(part.dataset.curve) ?? [], part]);
+  }
+  return curves;
+}
+
+// A click on words of the legend shows or hides their curve. The drawing captures the pointer, so
+// that the words are found by where they are.
+function followLegend(box, svg, boxes) {
+  const entries = [...svg.querySelectorAll("g.legend-text [data-words]")]
+    .filter((words) => boxes.has(words.dataset.words));
+  for (const words of entries) {
+    const curve = boxes.get(words.dataset.words);
+    words.classList.add("toggle");
+    curve.addEventListener("change", () => words.classList.toggle("dim", !curve.checked));
+  }
+  box.addEventListener("click", ({ clientX, clientY }) => {
+    const hit = entries.find((words) => {
+      const { left, right, top, bottom } = words.getBoundingClientRect();
+      return left <= clientX && clientX <= right && top <= clientY && clientY <= bottom;
+    });
+    if (hit) boxes.get(hit.dataset.words).click();
+  });
+}
+
+function addCurveBoxes(figure, svg) {
+  highlightIn(svg);
+  const curves = curvesOf(svg), boxes = new Map();
+  if (curves.size < 2) return;
+  const details = document.createElement("details"), summary = document.createElement("summary");
+  details.className = "curves";
+  summary.textContent = "Curves";
+  details.append(summary);
+  for (const [name, parts] of curves) {
+    const label = document.createElement("label"), box = document.createElement("input");
+    Object.assign(box, { type: "checkbox", checked: true });
+    box.addEventListener("change", () => {
+      for (const part of parts) part.classList.toggle("off", !box.checked);
+    });
+    boxes.set(name, box);
+    label.append(box, name);
+    details.append(label);
+    for (const part of parts) {
+      const title = document.createElementNS(svg.namespaceURI, "title");
+      title.textContent = name;
+      part.append(title);
+      part.addEventListener("dblclick", () => chooseMethod(methodOf(name)));
+    }
+  }
+  figure.querySelector(".tools").after(details);
+  followLegend(figure.querySelector(".drawing"), svg, boxes);
+}

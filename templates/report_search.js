@@ -1,0 +1,77 @@
+// One field searches the page: headings, tables, and the words of figures that a browser's own
+// search cannot see, since their texts are outlines.
+
+const kMostFound = 12;
+
+function searchable(element, link, name, words) {
+  return { element, link, name, words: `${name} ${words}`.toLocaleLowerCase("en") };
+}
+
+function titleOfSection(section) {
+  const links = [...document.querySelectorAll(".contents a")];
+  return links.find((link) => link.hash === `#${section.id}`)?.textContent ?? section.id;
+}
+
+// All that can be found, in the order of the page.
+function searchables() {
+  const found = [];
+  const kinds = "main > section[id^=section-], .table, figure[data-id]";
+  for (const each of document.querySelectorAll(kinds)) {
+    if (each.localName === "section") {
+      const text = Array.from(each.querySelectorAll(":scope > p, :scope > .bullets, :scope > .facts"),
+        (part) => part.textContent).join(" ");
+      found.push(searchable(each, each.id, titleOfSection(each), text));
+    } else if (each.localName === "figure") {
+      const drawn = sourceOf(each), caption = each.querySelector("figcaption bdi")?.textContent ?? "";
+      const title = /<title[^>]*>([^<]*)/.exec(drawn)?.[1] ?? each.dataset.id;
+      const words = /<desc[^>]*>([^<]*)/.exec(drawn)?.[1] ?? "";
+      found.push(searchable(each, each.id, decoded(title), `${caption} ${decoded(words)}`));
+    } else {
+      const name = each.querySelector("h3").firstChild.textContent.trim();
+      found.push(searchable(each, each.id, name, each.textContent));
+    }
+  }
+  return found;
+}
+
+// The references that our SVG files use.
+function decoded(text) {
+  const characters = { lt: "<", gt: ">", quot: '"', apos: "'", amp: "&" };
+  return text.replace(/&(lt|gt|quot|apos|amp);/g, (all, name) => characters[name]);
+}
+
+function matches(entry, words) {
+  return words.every((word) => entry.words.includes(word));
+}
+
+function addSearch(parent) {
+  const label = document.createElement("label"), field = document.createElement("input");
+  const list = document.createElement("ul"), count = document.createElement("output");
+  label.className = "search";
+  field.type = "search";
+  field.placeholder = "Search this page";
+  field.setAttribute("aria-label", "Search this page");
+  list.className = "found";
+  let all;
+  field.addEventListener("input", () => {
+    all ??= searchables();
+    const words = field.value.toLocaleLowerCase("en").split(/\s+/).filter(Boolean);
+    const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
+    list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
+      const item = document.createElement("li"), link = document.createElement("a");
+      link.href = `#${entry.link}`;
+      link.textContent = entry.name;
+      link.addEventListener("click", () => unfold(entry.element));
+      item.append(link);
+      return item;
+    }));
+    const more = found.length - kMostFound;
+    count.textContent = words.length === 0 ? "" :
+      more > 0 ? `${found.length} found, the first ${kMostFound} are listed` : `${found.length} found`;
+  });
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") list.querySelector("a")?.click();
+  });
+  label.append(field);
+  parent.prepend(label, count, list);
+}
