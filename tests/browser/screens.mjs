@@ -19,6 +19,7 @@ async function take(name, options, prepare = () => {}) {
   const page = await context.newPage();
   await page.goto(report);
   await page.evaluate(() => Promise.all(Array.from(document.images, (image) => image.decode())));
+  await page.locator("select.method").waitFor({ state: "attached" });  // Made when there is time.
   // Its date and commit are those of the run.
   await page.evaluate(() => { document.querySelector(".made").textContent = "Made by mapproof."; });
   await prepare(page);
