@@ -71,7 +71,8 @@ Names names_of(const ComparedItems& items) {
     for (const auto& [id, files] : *side) {
       const std::string& shown = id.empty() ? items.file_name : id;
       names.ids.insert(shown);
-      for (const std::string& format : formats_of(files)) names.files.insert(shown + "." + format);
+      for (const std::string& format : formats_of(files))
+        names.files.insert(fmt::format("{}.{}", shown, format));
     }
   return names;
 }

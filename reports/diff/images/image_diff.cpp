@@ -80,7 +80,7 @@ constexpr const char* kFinerAlone = "the pixels differ only in alpha or below 8 
 
 std::string words(const PixelDiff& found, bool finer_differs) {
   if (found.baseline != found.current) {
-    const std::string sizes =
+    std::string sizes =
         fmt::format("{} x {} pixels became {} x {}", found.baseline.width, found.baseline.height,
                     found.current.width, found.current.height);
     if (!have_common_part(found.baseline, found.current)) return sizes;

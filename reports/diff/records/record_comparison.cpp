@@ -316,7 +316,7 @@ std::string other_text(const OtherDiff& other) {
 }
 
 std::string settings_text(const RecordDiff& diff) {
-  const std::string text = changes_text(diff.settings);
+  std::string text = changes_text(diff.settings);
   if (diff.same_seeds) return text;
   const std::string why = diff.moved_ground_truth.empty() ? "different seeds or true positions"
                                                           : diff.moved_ground_truth;
