@@ -49,6 +49,14 @@ ProgramCall limited(std::vector<std::string> words) {
   return {"/usr/bin/prlimit", std::move(words)};
 }
 
+/// A file in memory with these bytes, to be read from its start. @throws ProcessError.
+Descriptor file_of(std::string_view bytes) {
+  Descriptor file = memory_file("mapproof-image");
+  if (!write_all(file, bytes) || ::lseek(file.get(), 0, SEEK_SET) != 0)
+    throw ProcessError(std::strerror(errno));
+  return file;
+}
+
 /// Whether prlimit did not find the program, or could not run it.
 bool is_missing(const ProcessEnd& end) {
   constexpr int kNotFound = 127, kNotRun = 126;
@@ -164,10 +172,8 @@ ImageReader::ImageReader(std::string_view bytes, DecodedFormat format) : format_
   if (format == DecodedFormat::kGif && !has_gif_trailer(bytes))
     throw InvalidInput("GIF cannot be read: it is cut off or damaged, it has no trailer");
   try {
-    input_ = memory_file("mapproof-image");
+    input_ = file_of(bytes);
     messages_ = memory_file("mapproof-image");
-    if (!write_all(input_, bytes) || ::lseek(input_.get(), 0, SEEK_SET) != 0)
-      throw ProcessError(std::strerror(errno));
     auto [from, to] = new_pipe();
     process_.emplace(
         call,
@@ -277,10 +283,7 @@ std::string drawn_svg(std::string_view bytes) {
   const ProgramCall call =
       limited({"rsvg-convert", "--zoom=2", "--format=png", "--background-color=white"});
   try {
-    const Descriptor input = memory_file("mapproof-image");
-    if (!write_all(input, bytes) || ::lseek(input.get(), 0, SEEK_SET) != 0)
-      throw ProcessError(std::strerror(errno));
-    ProgramAnswer answer = answer_of(call, input);
+    ProgramAnswer answer = answer_of(call, file_of(bytes));
     if (is_missing(answer.end))
       throw InvalidInput("SVG is drawn by rsvg-convert of librsvg2-bin, which is not installed");
     if (!answer.end.is_success())

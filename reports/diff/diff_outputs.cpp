@@ -139,20 +139,11 @@ std::string summary_text(const DiffResult& result) {
   return text;
 }
 
-/// The versions that differ, which are not judged; empty if none does.
+/// The versions that differ; empty if none does.
 std::string versions_text(const DiffResult& result) {
   constexpr std::size_t kMostVersions = 6;
-  std::vector<std::string> versions;
-  for (const DiffItem& item : result.items)
-    if (item.records)
-      for (const SettingChange& change : item.records->provenance)
-        versions.push_back(fmt::format("{} {} \u2192 {}", change.pointer,
-                                       change.baseline.empty() ? "none" : change.baseline,
-                                       change.current.empty() ? "none" : change.current));
-  return versions.empty()
-             ? ""
-             : "Versions that differ:  " + printable(listed(versions, kMostVersions), kLongest) +
-                   "\n";
+  const std::string versions = listed(version_changes(result), kMostVersions);
+  return versions.empty() ? "" : "Versions that differ:  " + printable(versions, kLongest) + "\n";
 }
 
 }  // namespace

@@ -185,6 +185,20 @@ std::vector<int> counts_of(const DiffResult& result) {
   return counts;
 }
 
+std::vector<std::string> version_changes(const DiffResult& result) {
+  std::vector<std::string> changes;
+  for (const DiffItem& item : result.items) {
+    if (!item.records) continue;
+    for (const SettingChange& change : item.records->provenance) {
+      const auto shown = [](const std::string& text) { return text.empty() ? "none" : text; };
+      std::string text = fmt::format("{} {} \u2192 {}", change.pointer, shown(change.baseline),
+                                     shown(change.current));
+      if (std::ranges::find(changes, text) == changes.end()) changes.push_back(std::move(text));
+    }
+  }
+  return changes;
+}
+
 Judgement judge_images(const Judgement& value, bool has_value, const std::vector<ImageFile>& images,
                        const RecordContext& context) {
   if (const auto presence = judge_presence(images)) {

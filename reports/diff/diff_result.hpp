@@ -69,6 +69,10 @@ struct DiffResult {
 /// The number of items of each verdict, in the order of kVerdicts.
 std::vector<int> counts_of(const DiffResult& result);
 
+/// The versions that the records name and that differ, each once: "FreeType 2.12 → 2.13". They are
+/// not judged.
+std::vector<std::string> version_changes(const DiffResult& result);
+
 /// Combines the judgement of a figure's value with what its images show. Without a value the images
 /// alone decide.
 /// @param has_value  Whether the figure's value was compared.

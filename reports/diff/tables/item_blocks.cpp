@@ -346,21 +346,6 @@ std::vector<const Comparison*> tied_scores(const DiffItem& item, const DiffResul
   return scores;
 }
 
-/// "FreeType 2.12 → 2.13", each once.
-std::vector<std::string> version_changes(const DiffResult& result) {
-  std::vector<std::string> changes;
-  for (const DiffItem& item : result.items) {
-    if (!item.records) continue;
-    for (const SettingChange& change : item.records->provenance) {
-      const auto shown = [](const std::string& text) { return text.empty() ? "none" : text; };
-      std::string text = fmt::format("{} {} \u2192 {}", change.pointer, shown(change.baseline),
-                                     shown(change.current));
-      if (std::ranges::find(changes, text) == changes.end()) changes.push_back(std::move(text));
-    }
-  }
-  return changes;
-}
-
 /// The renderers of the images of one side, each once.
 std::vector<std::string> renderers(const DiffResult& result, std::string ImageDiff::*side) {
   std::set<std::string> names;

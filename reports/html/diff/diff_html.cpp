@@ -146,8 +146,10 @@ bool is_repeated(const DiffResult& result, const DiffItem& item) {
          std::ranges::find(shared->ids, item.id) - shared->ids.begin() >= kExamples;
 }
 
-/// The part of a page that images may fill; tables fill the rest.
+/// The parts of a page that images and tables may fill; styles, scripts and the rest of the markup
+/// need what is left.
 constexpr double kImageShare = 0.6;
+constexpr double kTableShare = 0.32;
 
 std::string full_text(const ImageBudget& budget) {
   return fmt::format("Not shown: this page already has its {:.3g} MB (--page-size).",
@@ -361,9 +363,9 @@ void set_blocks(data& out, const DiffItem& item, const DiffResult& all, std::siz
       const std::size_t size = size_of(block);
       if (size > room) continue;
       room -= size;
-      blocks.push_back(
-          block_data(block, {}, {.figure_folder = "", .table_folder = "", .copies_tables = false},
-                     anchor_of(item)));
+      blocks.push_back(block_data(block, {},
+                                  {.figure_folder = "", .table_folder = "", .copies_tables = false},
+                                  anchor_of(item)));
     }
   out.set("blocks", blocks);
 }
@@ -419,8 +421,7 @@ std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
 
 void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown,
                const ImageBudget& budget) {
-  auto room =
-      static_cast<std::size_t>((1.0 - kImageShare) * 0.8 * static_cast<double>(budget.page_bytes));
+  auto room = static_cast<std::size_t>(kTableShare * static_cast<double>(budget.page_bytes));
   const auto refusals = refusals_of(result);
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
