@@ -47,7 +47,7 @@ std::optional<Similarity> align_rigidly(MapRecord& record, const Points& known_m
 }
 
 /// Of a map in metres.
-CertaintyFrame align_metric(MapResult& result, const Reference& known, const FrameFit& fit) {
+UncertaintyFrame align_metric(MapResult& result, const Reference& known, const FrameFit& fit) {
   const bool rigid = fit.is_rigid;
   MapRecord& record = result.record;
   const Points own = record.estimate;
@@ -76,7 +76,7 @@ CertaintyFrame align_metric(MapResult& result, const Reference& known, const Fra
 
 }  // namespace
 
-CertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit) {
+UncertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit) {
   if (fit.is_metric) return align_metric(result, reference, fit);
   MapRecord& record = result.record;
   align_and_score(record, Points(record.estimate), reference, fit.affine);

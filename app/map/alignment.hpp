@@ -5,8 +5,8 @@
 
 #include "app/map/map_result.hpp"
 #include "app/map/reference.hpp"
-#include "core/certainty/history_certainty.hpp"
 #include "core/model/experiment.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 namespace mapproof {
 
@@ -22,7 +22,7 @@ struct FrameFit {
 /// anchors, too; its position and heading are then arbitrary, or those of the ground truth.
 /// @param result  `record.estimate` in a frame of its own; names and statuses.
 /// @return How other maps of the landmarks are brought to the same frame.
-CertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit);
+UncertaintyFrame align(MapResult& result, const Reference& reference, const FrameFit& fit);
 
 /// The same for a map that is not metric, without remarks.
 void align_and_score(MapRecord& record, const Points& coordinates, const Reference& reference,

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/model/fit.hpp"
-#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/sensor.hpp"
 #include "render/plot/figure.hpp"
 #include "reports/model/report.hpp"
@@ -29,7 +29,7 @@ using Facts = std::vector<std::pair<std::string, std::string>>;
 /// A map, what map.json holds of it, and the remarks of the steps that made it.
 struct MapResult {
   MapRecord record;
-  std::optional<MapCertainty> certainty = {};  ///< If ellipses were asked for.
+  std::optional<MapUncertainty> uncertainty = {};  ///< If ellipses were asked for.
   std::optional<MapSensors> sensors = {};      ///< If it is of several sensors.
   Fit fit = {};                                ///< Of the data to the map.
   Facts read = {};                             ///< Of the observations.

@@ -22,7 +22,7 @@ struct MethodChoice {
 /// with anchors, or without.
 /// @param options  Its settings are filled in here.
 MethodChoice choose_method(const ObservationHistory& history, Eigen::Index steps,
-                           const CertaintyFrame& frame, ChoiceOptions options) {
+                           const UncertaintyFrame& frame, ChoiceOptions options) {
   const HistoryEmbedder usual(history, steps, options.embedder, options.rule);
   options.settings = usual_candidates(usual, history.landmarks());
   const MapJudge judge(history, steps, options);

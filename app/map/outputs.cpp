@@ -41,7 +41,7 @@ std::string map_title(const std::string& observations) {
 /// The map first, as drawn with what is known of it, then the others.
 std::vector<Figure> figures_of(const MapResult& map) {
   std::vector<Figure> figures = {map_figure(map.record, "map")};
-  if (map.certainty) add_ellipses(map.record, *map.certainty, figures.front());
+  if (map.uncertainty) add_ellipses(map.record, *map.uncertainty, figures.front());
   if (!map.fit.tests.empty()) figures.push_back(fit_figure(map.fit, kFitSection, {map.record.id}));
   figures.insert(figures.end(), map.figures.begin(), map.figures.end());
   return figures;
@@ -89,9 +89,9 @@ nlohmann::ordered_json landmark_json(const MapResult& map, Eigen::Index i) {
   nlohmann::ordered_json landmark{{"name", record.names[static_cast<std::size_t>(i)]},
                                   {"x" + unit, number_or_null(record.estimate(i, 0))},
                                   {"y" + unit, number_or_null(record.estimate(i, 1))}};
-  if (!map.certainty) return landmark;
+  if (!map.uncertainty) return landmark;
   landmark["ellipse"] = nullptr;
-  if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.certainty, i))
+  if (const std::optional<Ellipse> ellipse = confidence_ellipse(*map.uncertainty, i))
     landmark["ellipse"] = {{"a" + unit, ellipse->a},
                            {"b" + unit, ellipse->b},
                            {"rotation_rad", ellipse->rotation_rad}};
@@ -153,8 +153,8 @@ void write_map(const MapFolder& folder, const MapOutput& location, const MapResu
   const OutputFolder out(folder.path());
   const std::vector<Figure> figures = figures_of(map);
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
-  out.write(kMapFile, map_json(map.record, map.certainty, map.sensors, map.fit));
-  out.write("map.csv", map_csv(map.record, map.certainty));
+  out.write(kMapFile, map_json(map.record, map.uncertainty, map.sensors, map.fit));
+  out.write("map.csv", map_csv(map.record, map.uncertainty));
   remove_stale(out, map);
   for (const auto& [name, text] : map.files) out.write(name, text);
   std::map<std::string, std::string> drawn;

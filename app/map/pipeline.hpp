@@ -12,10 +12,10 @@
 #include "app/map/map_result.hpp"
 #include "app/map/reference.hpp"
 #include "core/association/association_check.hpp"
-#include "core/certainty/history_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/records/detections/detections.hpp"
 #include "core/records/observations/observations.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 namespace mapproof {
 
@@ -64,7 +64,7 @@ struct MapDraft {
   bool is_embedded = false;    ///< The result's record holds an estimate.
   std::optional<AssociationCheck> association =
       {};                     ///< Of the log as it is mapped, if it was made.
-  CertaintyFrame frame = {};  ///< That other maps of the landmarks are brought to.
+  UncertaintyFrame frame = {};  ///< That other maps of the landmarks are brought to.
   MapResult result = {};
 };
 

@@ -294,10 +294,15 @@ JointMapResult compared_maps(const MixedMap& made, const std::vector<Observation
   return mixed;
 }
 
-/// The joint map compared with the map of each sensor: weights, criteria, errors where known.
-Section mixed_section(const JointMapResult& mixed) {
+/// The joint map compared with the map of each sensor: weights, criteria, errors where known, and
+/// which is better, in words.
+Section mixed_section(const JointMapResult& mixed, const std::string& judged) {
   Section section{"mixed", "Several sensors in one map", {}};
-  section.blocks.emplace_back(Paragraph{{{mixed.sensors.why}}});
+  section.blocks.emplace_back(
+      Paragraph{{{"Weights are r / (1 - r) of each sensor's reliability r, the correlation of its "
+                  "distances from both halves of its steps; shares are those of the pairs' inverse "
+                  "variances about the joint map. " +
+                  judged}}});
   Table table{"mixed-maps",
               "The joint map and the map of each sensor",
               {{"Map", "", "", ""},
@@ -339,8 +344,7 @@ Section mixed_section(const JointMapResult& mixed) {
 
 /// The same for --json.
 nlohmann::ordered_json mixed_json(const JointMapResult& mixed) {
-  nlohmann::ordered_json object = {{"why", mixed.sensors.why},
-                                   {"sensors", nlohmann::ordered_json::array()},
+  nlohmann::ordered_json object = {{"sensors", nlohmann::ordered_json::array()},
                                    {"maps", nlohmann::ordered_json::array()}};
   for (const SensorShare& one : mixed.sensors.sensors)
     object["sensors"].push_back({{"sensor", name(one.sensor)},
@@ -389,14 +393,9 @@ MapDraft embed_jointly(MapDraft draft, const MapJob& job) {
   take_embedding(draft, made.joint);
   JointMapResult mixed = compared_maps(made, histories, draft.reference, job.affine_fit());
   const std::string judged = verdict(mixed.maps);
-  mixed.sensors.why =
-      "Weights are r / (1 - r) of each sensor's reliability r, the correlation of its distances "
-      "from both halves of its steps; shares are those of the pairs' inverse variances about the "
-      "joint map. " +
-      judged;
   MapResult& result = draft.result;
   result.remarks.push_back(judged);
-  result.sections.push_back(mixed_section(mixed));
+  result.sections.push_back(mixed_section(mixed, judged));
   result.members.push_back({"mixed", mixed_json(mixed)});
   if (std::optional<Figure> figure = mixed_figure(mixed))
     result.figures.push_back(*std::move(figure));

@@ -62,8 +62,8 @@ Figure figure_of_map(const fs::path& file) {
   const std::string text = read_file(file);
   const MapRecord record = parse_map(text, file.string());
   Figure figure = map_figure(record, "map");
-  if (const auto certainty = parse_map_certainty(text, file.string()))
-    add_ellipses(record, *certainty, figure);
+  if (const auto uncertainty = parse_map_uncertainty(text, file.string()))
+    add_ellipses(record, *uncertainty, figure);
   return figure;
 }
 

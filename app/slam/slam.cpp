@@ -121,8 +121,8 @@ void sort_ground_truths(SlamArguments& arguments) {
 /// A study of this one log.
 SlamStudy study_of(const SlamRun& run) {
   SlamStudy study;
-  study.name = "own";
-  study.title = "Range-only map of " + run.log.name;
+  study.experiment.name = "own";
+  study.experiment.title = "Range-only map of " + run.log.name;
   study.provenance = build_provenance();
   study.runs = {run};
   study.runs[0].upgrade.reset();  // Its scene would make a person wait for VTK.

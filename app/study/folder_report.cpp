@@ -22,6 +22,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
 #include "reports/sections/slam/slam_report.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/wording.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -220,7 +221,7 @@ FolderReport slam_folder_report(const fs::path& folder, const SlamStudy& study,
                       .report = slam_report(input),
                       .group = "Range-only SLAM",
                       .runs = study.runs.size(),
-                      .missing = study.missing};
+                      .missing = missing_logs(study)};
   result.in_company = result.report.sections;
   add_images(figures, result);
   return result;

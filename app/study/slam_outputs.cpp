@@ -6,6 +6,7 @@
 #include "app/study/folder_report.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/records/studies/study_store.hpp"
+#include "reports/sections/slam/slam_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,10 +19,10 @@ FolderReport range_report(const fs::path& folder, const std::string& command) {
 }
 
 nlohmann::ordered_json range_object(const SlamStudy& study) {
-  nlohmann::ordered_json object{{"experiment", study.name},
-                                {"seed", study.seed},
+  nlohmann::ordered_json object{{"experiment", study.experiment.name},
+                                {"seed", study.experiment.seed},
                                 {"runs", study.runs.size()},
-                                {"missing", study.missing},
+                                {"missing", missing_logs(study)},
                                 {"results", nlohmann::ordered_json::array()}};
   for (const SlamRun& run : study.runs)
     for (const SlamRecord& record : run.records) {
@@ -42,7 +43,7 @@ std::string range_text(const SlamStudy& study) {
 
 StudyNumbers range_numbers(const fs::path& folder) {
   const SlamStudy study = read_slam_study(folder);
-  return {.text = range_text(study), .object = range_object(study), .missing = study.missing};
+  return {.text = range_text(study), .object = range_object(study), .missing = missing_logs(study)};
 }
 
 }  // namespace

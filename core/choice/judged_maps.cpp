@@ -6,14 +6,14 @@
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/certainty/block_length.hpp"
-#include "core/certainty/map_bootstrap.hpp"
-#include "core/certainty/resampled_maps.hpp"
 #include "core/choice/map_quality.hpp"
 #include "core/embed/connected_graph.hpp"
 #include "core/graph/shortest_paths.hpp"
 #include "core/score/map_score.hpp"
 #include "core/statistics/block_bootstrap.hpp"
+#include "core/uncertainty/block_length.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
+#include "core/uncertainty/resampled_maps.hpp"
 
 namespace mapproof {
 namespace {
@@ -152,7 +152,7 @@ void MapJudge::judge_stability(const ObservationHistory& history, Eigen::Index s
 }
 
 /// Fills in the criteria that need the one map alone.
-void MapJudge::judge(JudgedMap& map, const CertaintyFrame& frame) const {
+void MapJudge::judge(JudgedMap& map, const UncertaintyFrame& frame) const {
   const Points positions = map.positions(seen_, Eigen::all);
   const auto n = static_cast<int>(positions.rows());
   value_of(map.values, Criterion::kStress) = normalised_stress(distances_, positions);
@@ -168,7 +168,7 @@ void MapJudge::judge(JudgedMap& map, const CertaintyFrame& frame) const {
         anchors_left_out(map.embedding.coordinates, frame.positions_m, frame.anchors, fit_);
 }
 
-std::vector<JudgedMap> MapJudge::in(const CertaintyFrame& frame) const {
+std::vector<JudgedMap> MapJudge::in(const UncertaintyFrame& frame) const {
   std::vector<JudgedMap> maps = maps_;
   for (JudgedMap& map : maps) {
     map.positions = map.embedding.coordinates;

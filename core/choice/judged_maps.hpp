@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/certainty/history_certainty.hpp"
 #include "core/embed/embedder.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 namespace mapproof {
 
@@ -86,7 +86,7 @@ class MapJudge {
   /// @return In the order of the settings. kCombined is the mean of the ranks by all criteria that
   ///         have a value for every map.
   /// @throws InvalidInput for a frame of other landmarks.
-  std::vector<JudgedMap> in(const CertaintyFrame& frame) const;
+  std::vector<JudgedMap> in(const UncertaintyFrame& frame) const;
 
  private:
   AffineFit fit_;
@@ -98,7 +98,7 @@ class MapJudge {
   void observe(const ObservationHistory& history, Eigen::Index steps, const ChoiceOptions& options);
   void judge_stability(const ObservationHistory& history, Eigen::Index steps,
                        const ChoiceOptions& options);
-  void judge(JudgedMap& map, const CertaintyFrame& frame) const;
+  void judge(JudgedMap& map, const UncertaintyFrame& frame) const;
 };
 
 /// Methods and parameters that a choice is among, of landmarks and parameters that fit them:

@@ -35,9 +35,8 @@ struct SensorShare {
 /// The sensors of a joint map.
 struct MapSensors {
   std::vector<SensorShare> sensors;
-  double continuity =
-      0.0;          ///< Of the joint map against all sensors' distances; NaN: not determined.
-  std::string why;  ///< Where the weights come from, and for which map they hold.
+  double continuity = 0.0;  ///< Of the joint map against all sensors' distances; NaN: not
+                            ///< determined.
 };
 
 /// Unit of the bearings of a file. They are relative to the heading, counter-clockwise.

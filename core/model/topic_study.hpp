@@ -11,8 +11,8 @@
 #include <Eigen/Core>
 
 #include "core/model/experiment.hpp"
-#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/sensor.hpp"
 #include "core/model/study.hpp"
 #include "core/results/results.hpp"
@@ -124,7 +124,7 @@ struct TopicMap {
   std::string method;  ///< That made it.
   MapRecord map;
   std::vector<MeasuredPair> pairs;        ///< Drawn thin under the map; may be empty.
-  std::optional<MapCertainty> certainty;  ///< The ellipses of its landmarks.
+  std::optional<MapUncertainty> uncertainty;  ///< The ellipses of its landmarks.
 };
 
 /// Seconds that one method took on one part.

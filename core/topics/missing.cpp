@@ -185,7 +185,7 @@ class IncompleteHistory {
                                              .anchors = context_.anchors},
                                             map),
                           .pairs = {},
-                          .certainty = {}});
+                          .uncertainty = {}});
   }
 
   Eigen::Index steps() const { return history_.steps(); }

@@ -25,7 +25,6 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
-#include "core/certainty/pair_certainty.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/planarity.hpp"
@@ -37,6 +36,7 @@
 #include "core/statistics/intervals.hpp"
 #include "core/topics/topic.hpp"
 #include "core/topics/topics.hpp"
+#include "core/uncertainty/pair_uncertainty.hpp"
 
 namespace mapproof {
 namespace {
@@ -365,7 +365,7 @@ void add_entry(const MrclamMethod& entry, const RealSet& set, const TopicTask& c
                  .method = entry.id,
                  .map = record_of(entry, set, made),
                  .pairs = made.pairs,
-                 .certainty = {}};
+                 .uncertainty = {}};
   part.outcomes.push_back(
       scored_outcome({.at = condition(kSetup), .method = entry.id, .values = {}, .statuses = {}},
                      entry, set, made, shown.map));
@@ -374,7 +374,7 @@ void add_entry(const MrclamMethod& entry, const RealSet& set, const TopicTask& c
   if (!is_last) shown.pairs.clear();
   const int replicates = static_cast<int>(number_option(context.experiment, "replicates"));
   if (is_last && replicates > 0)
-    shown.certainty = pair_certainty(
+    shown.uncertainty = pair_uncertainty(
         set.source.log,
         {set.anchors.empty() ? shown.map.estimate : *set.source.ground_truth_m, set.anchors,
          set.anchors.empty()},

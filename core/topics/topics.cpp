@@ -7,7 +7,7 @@ namespace mapproof {
 
 std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
-      &kCertaintyTopic,   &kChoiceTopic,  &kAssociationTopic, &kDoubtTopic,
+      &kUncertaintyTopic, &kChoiceTopic,  &kAssociationTopic, &kDoubtTopic,
       &kMissingTopic,     &kMixedTopic,   &kMovedTopic,       &kMrclamTopic,
       &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,
   };

@@ -10,7 +10,7 @@ namespace mapproof {
 /// How often the confidence ellipses of a map hold the mean of the maps of many walks in the same
 /// world, and how often the ground truth: by sensor, method and number of steps, and by the length
 /// of the blocks.
-extern const Topic kCertaintyTopic;
+extern const Topic kUncertaintyTopic;
 
 /// How well the criteria that need no ground truth pick among methods and parameters.
 extern const Topic kChoiceTopic;

@@ -307,17 +307,17 @@ void require_sizes(const MapRecord& record) {
 
 }  // namespace
 
-Section certainty_section(const MapRecord& record, const MapCertainty& certainty) {
-  if (std::ssize(certainty.covariances) != record.estimate.rows())
+Section uncertainty_section(const MapRecord& record, const MapUncertainty& uncertainty) {
+  if (std::ssize(uncertainty.covariances) != record.estimate.rows())
     throw InvalidInput("the ellipses of a map need one covariance per landmark");
   std::vector<std::optional<Ellipse>> ellipses;
   std::vector<double> axes;
   for (Index i = 0; i < record.estimate.rows(); ++i) {
-    ellipses.push_back(confidence_ellipse(certainty, i));
+    ellipses.push_back(confidence_ellipse(uncertainty, i));
     if (ellipses.back() && !is_anchor(record, i)) axes.push_back(ellipses.back()->a);
   }
-  Section section{"certainty", "Uncertainty of each landmark", {}};
-  section.blocks.emplace_back(plain(ellipse_words(certainty)));
+  Section section{"uncertainty", "Uncertainty of each landmark", {}};
+  section.blocks.emplace_back(plain(ellipse_words(uncertainty)));
   if (!axes.empty())
     section.blocks.emplace_back(plain(
         fmt::format("Half the longer axis is {}{} in the median, and {}{} at most.",

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/study.hpp"
 #include "reports/model/report.hpp"
 
@@ -35,7 +35,7 @@ Report map_report(const MapReportInput& input);
 
 /// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.
 /// @throws InvalidInput unless there is a covariance a landmark.
-Section certainty_section(const MapRecord& record, const MapCertainty& certainty);
+Section uncertainty_section(const MapRecord& record, const MapUncertainty& uncertainty);
 
 /// Over which landmarks the MPE of a map is: "26 landmarks, without the 4 anchors"; empty without
 /// an MPE.

@@ -18,8 +18,9 @@ endif()
 # What the solver's digest is made of (docs/decisions/0004): every folder of core is in one of two
 # lists. Of those that compute, some sources hold words or start programs; of those that do not, two folders read
 # measurements, of which records know the file and not what was read.
-set(computing align base certainty choice embed experiment external incremental graph association linalg map_fit missing mixed
-  model observe pairs range_slam score simulate statistics submaps studies topics)
+set(computing align association base choice embed experiment external graph incremental linalg
+  map_fit missing mixed model observe pairs range_slam score simulate statistics studies submaps
+  topics uncertainty)
 set(not_computing evaluate json records results)
 set(words base/child_process base/spelling base/version base/words)
 set(readers records/observations/ records/ranges/)

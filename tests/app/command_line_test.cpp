@@ -196,8 +196,9 @@ TEST(CommandLine, HelpIsWrappedAtTheWidthOfTheTerminalInGroupsOfPlainSentences) 
       // Commands stand as they are, to be copied; so do the schemas of JSON.
       std::istringstream lines(help);
       for (std::string line; std::getline(lines, line);)
-        if (line.find("mapproof ") == std::string::npos && line.find('{') == std::string::npos)
+        if (line.find("mapproof ") == std::string::npos && line.find('{') == std::string::npos) {
           EXPECT_LE(line.size(), width + 8) << line;
+        }
     }
   }
 }

@@ -45,7 +45,9 @@ TEST(RetiredNames, OfOptionsAreReplacedByOnesThatACommandTakes) {
       return std::regex_search(help, std::regex("(^|[ ,\n])" + std::string(name) + "([ ,\n]|$)"));
     };
     EXPECT_TRUE(is_listed(option.now)) << option.now;
-    if (option.name.starts_with("--")) EXPECT_FALSE(is_listed(option.name)) << option.name;
+    if (option.name.starts_with("--")) {
+      EXPECT_FALSE(is_listed(option.name)) << option.name;
+    }
   }
 }
 

@@ -43,12 +43,12 @@ TEST(MapFigure, JoinsEachEstimateToItsGroundTruth) {
 
 TEST(MeasuredMap, DrawsTheSameEllipsesAsTheMapOfOneCommand) {
   const MapRecord map = sample_map(5, 0.1, 1);
-  MapCertainty certainty{.squared_radius = 9.5, .replicates = 20, .maps = 20, .block_steps = 4};
-  certainty.covariances.assign(5, Eigen::Matrix2d::Identity() * 1e-4);
+  MapUncertainty uncertainty{.squared_radius = 9.5, .replicates = 20, .maps = 20, .block_steps = 4};
+  uncertainty.covariances.assign(5, Eigen::Matrix2d::Identity() * 1e-4);
   Figure of_command = map_figure(map, "map");
-  add_ellipses(map, certainty, of_command);
+  add_ellipses(map, uncertainty, of_command);
   const Figure of_study = measured_map_figure(
-      {.id = "map", .title = "", .map = map, .pairs = {}, .certainty = certainty});
+      {.id = "map", .title = "", .map = map, .pairs = {}, .uncertainty = uncertainty});
   const auto drawn = layer_of<Ellipses>(of_study, "95 % ellipse");
   ASSERT_EQ(drawn.a.size(), 5u);
   EXPECT_NEAR(drawn.a[0], std::sqrt(9.5) * 1e-2, 1e-15);

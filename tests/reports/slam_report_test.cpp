@@ -134,12 +134,16 @@ TEST(SlamSections, StandInOrderAndBesideThoseOfTheOtherPaper) {
 
 TEST(SlamSummary, BeginsWithWhatIsMissingAndHowToGetIt) {
   SlamStudy study = sample_slam_study();
-  study.missing = {"The Plaza data sets: give their folder with --plaza."};
+  study.experiment.data = {{.id = "plaza-1"},
+                           {.id = "plaza-3",
+                            .title = "Plaza 3",
+                            .source = "Give the folder of the Plaza data with --plaza."}};
   const Section section = slam_summary_section(study);
   const auto* callout = std::get_if<Callout>(&section.blocks.front());
   ASSERT_NE(callout, nullptr);
   EXPECT_EQ(callout->tone, Callout::Tone::kWarning);
-  EXPECT_TRUE(contains_text(section, "give their folder with --plaza"));
+  EXPECT_TRUE(contains_text(section,
+                            "Plaza 3 is missing. Give the folder of the Plaza data with --plaza."));
   EXPECT_EQ(std::get_if<Callout>(&slam_summary_section(sample_slam_study()).blocks.front()),
             nullptr);
 }
@@ -184,7 +188,7 @@ TEST(SlamOpening, OfNothingSaysNothing) { EXPECT_EQ(words(slam_opening({}, {})),
 
 TEST(SlamSummary, ClaimsNoErrorWithoutAGroundTruthAndNothingOfAPaperThatIsNot) {
   SlamStudy study;
-  study.name = "slam";
+  study.experiment.name = "slam";
   study.runs = {test::sample_drive("mine", 100, 1)};
   SlamRun& run = study.runs[0];
   run.log.ground_truth.reset();

@@ -42,6 +42,7 @@ constexpr std::array kRetired = {
     RetiredName{kKey, "series", "methods"},
     RetiredName{kKey, "series", "method"},
     RetiredName{kKey, "order_digest", "experiment_digest"},
+    RetiredName{kKey, "certainty", "uncertainty"},
     RetiredName{kColumn, "ellipse_turn_deg", "ellipse_rotation_deg"},
     RetiredName{kFormat, "mapproof.trial_experiment", "mapproof.topic_experiment"},
     RetiredName{kFormat, "mapproof.trial_study", "mapproof.topic_study"},
@@ -49,6 +50,7 @@ constexpr std::array kRetired = {
     RetiredName{kFormat, "mapproof.sightings", "mapproof.detections"},
     RetiredName{kExperiment, "labels", "association"},
     RetiredName{kExperiment, "online", "incremental"},
+    RetiredName{kExperiment, "certainty", "uncertainty"},
 };
 
 }  // namespace

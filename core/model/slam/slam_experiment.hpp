@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/model/method.hpp"
-#include "core/model/slam/slam_study.hpp"
+#include "core/model/slam/slam_method.hpp"
 
 namespace mapproof {
 
@@ -46,6 +45,13 @@ struct ConvergenceOptions {
   double most_condition = 1e6;
   std::vector<int> steps;  ///< Ascending.
   std::vector<RangeNoiseModel> noises;
+};
+
+/// What a paper prints of the drive it used.
+struct PublishedDrive {
+  double length_km = 0.0;
+  long poses = 0;
+  long measurements = 0;
 };
 
 /// A robot's log that is not part of the program.
@@ -100,11 +106,5 @@ struct SlamExperiment {
   std::optional<SpaceFlightOptions> space;
   FactorizationGrid factorization;
 };
-
-/// The sentence on a data set that is missing: its name and how to get it.
-std::string missing_sentence(const SlamDataSet& data);
-
-/// What an experiment asks for, in words: {"Area", "20 m x 20 m"}.
-std::vector<std::pair<std::string, std::string>> facts_of(const SlamExperiment& experiment);
 
 }  // namespace mapproof

@@ -1,11 +1,7 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,6 +9,7 @@
 #include "core/model/fit.hpp"
 #include "core/model/points.hpp"
 #include "core/model/slam/slam.hpp"
+#include "core/model/slam/slam_experiment.hpp"
 #include "core/model/study.hpp"
 #include "core/statistics/intervals.hpp"
 
@@ -30,37 +27,6 @@ struct UpgradeClouds {
   QuadricPoints before;             ///< Whitened, in their plane of scale 1; no unit.
   QuadricPoints after;  ///< (x, y, (x^2 + y^2)/2) about the mean position, m, m and m^2.
 };
-
-/// The ways to a path and a map from odometry and ranges that are compared with each other.
-enum class SlamMethod {
-  kDeadReckoning,        ///< Odometry alone; baseline.
-  kEkf,                  ///< Extended Kalman filter; baseline.
-  kSpectralKnown,        ///< Algorithm 1, rank 4, known landmarks [boots2013].
-  kSpectralKnown7,       ///< With heading, rank 7 [boots2013, eq. 4], known landmarks.
-  kSpectral,             ///< Rank 4, no landmark known: metric upgrade.
-  kSpectral7,            ///< Rank 7, no landmark known.
-  kBatchFixedScale,      ///< Nonlinear least squares, range scale held at 1; baseline.
-  kRefined,              ///< Nonlinear least squares, scale free, started from kSpectral.
-  kRefinedFromOdometry,  ///< The same, started from dead reckoning.
-  kRefinedFromRandom,    ///< The same, landmarks started at random positions.
-  kRepaired,             ///< Under the cause for which the data do not fit the map.
-};
-
-/// Everything about a method that needs no solver.
-struct SlamMethodInfo {
-  SlamMethod method;
-  std::string_view name;   ///< In files and on the command line: "spectral-known".
-  std::string_view label;  ///< In figures and tables.
-  std::string_view summary;
-  bool baseline = false;
-  bool knows_landmarks = false;             ///< Needs four or more landmarks' true positions.
-  Alignment alignment = Alignment::kRigid;  ///< Under which its error is reported first.
-};
-
-/// All of them in the order of the tables.
-std::span<const SlamMethodInfo> all_slam_methods();
-const SlamMethodInfo& info(SlamMethod method);
-std::optional<SlamMethod> slam_method_named(std::string_view name);
 
 /// What one method made of one log.
 struct SlamRecord {
@@ -89,13 +55,6 @@ struct RefinementStart {
       mean_m;  ///< Error of the path under the method's alignment, with ground truth.
   int iterations = 0;
   bool converged = true;
-};
-
-/// What a paper prints of the drive it used.
-struct PublishedDrive {
-  double length_km = 0.0;
-  long poses = 0;
-  long measurements = 0;
 };
 
 /// Everything made of one log: what figures and tables need.
@@ -171,17 +130,14 @@ struct SlamTimings {
 
 /// A range-only study: a simulated example, convergence over many, and logs of real robots.
 struct SlamStudy {
-  std::string name;  ///< "boots2013".
-  std::string title;
-  std::uint64_t seed = 0;
+  SlamExperiment experiment;  ///< Of a log of one's own: its name and title alone.
   Provenance provenance;
-  std::vector<std::pair<std::string, std::string>> facts;  ///< What was asked for, in words:
-                                                           ///< {"Area", "20 m x 20 m"}.
-  std::vector<SlamRun> runs;  ///< The simulated example first, if there is one.
+  /// The simulated example first, if there is one, then the logs of `experiment.data` that are
+  /// there.
+  std::vector<SlamRun> runs;
   std::vector<ConvergenceCurve> convergence;
   std::optional<RangeHistoryStudy> histories;
   std::optional<SpaceRun> space;
-  std::vector<std::string> missing;  ///< Data asked for that are not there, with how to get them.
 };
 
 }  // namespace mapproof

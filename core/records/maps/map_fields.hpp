@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/model/map_certainty.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/sensor.hpp"
 #include "core/records/fit_fields.hpp"
 #include "core/records/value_fields.hpp"
@@ -166,27 +166,27 @@ void fields(Visitor& v, MapRecord& map) {
 }
 
 template <typename Visitor>
-void fields(Visitor& v, MapCertainty& certainty) {
-  v.type("certainty");
+void fields(Visitor& v, MapUncertainty& uncertainty) {
+  v.type("uncertainty");
   v.about("Ellipses of a map: (x - position)' C^-1 (x - position) up to squared_radius.");
-  v.field("confidence", certainty.confidence, {.minimum = 0.0, .maximum = 1.0});
-  v.field("squared_radius", certainty.squared_radius, {.minimum = 0.0, .maximum = 1e300});
-  v.field("replicates", certainty.replicates, {.minimum = 0, .maximum = 1e6});
-  v.field("maps", certainty.maps, {.minimum = 0, .maximum = 1e6});
-  if (certainty.maps > certainty.replicates)
-    v.refuse("maps", fmt::format("expected an integer from 0 to {}, got {}", certainty.replicates,
-                                 certainty.maps));
-  v.field("block_steps", certainty.block_steps, {.minimum = 1, .maximum = kMostSteps});
+  v.field("confidence", uncertainty.confidence, {.minimum = 0.0, .maximum = 1.0});
+  v.field("squared_radius", uncertainty.squared_radius, {.minimum = 0.0, .maximum = 1e300});
+  v.field("replicates", uncertainty.replicates, {.minimum = 0, .maximum = 1e6});
+  v.field("maps", uncertainty.maps, {.minimum = 0, .maximum = 1e6});
+  if (uncertainty.maps > uncertainty.replicates)
+    v.refuse("maps", fmt::format("expected an integer from 0 to {}, got {}", uncertainty.replicates,
+                                 uncertainty.maps));
+  v.field("block_steps", uncertainty.block_steps, {.minimum = 1, .maximum = kMostSteps});
   v.field(
-      "covariances", certainty.covariances,
+      "covariances", uncertainty.covariances,
       {.description = "[xx, xy, yy] of each landmark, in the map's unit squared; null: not known.",
        .minimum = -1e300,
        .maximum = 1e300,
        .nullable = true,
        .upper_triangle = true,
        .max_items = kMostLandmarks});
-  for (std::size_t i = 0; i < certainty.covariances.size(); ++i) {
-    const Eigen::Matrix2d& C = certainty.covariances[i];
+  for (std::size_t i = 0; i < uncertainty.covariances.size(); ++i) {
+    const Eigen::Matrix2d& C = uncertainty.covariances[i];
     // Rounding leaves a covariance on one line a little less than singular.
     if (std::min(C(0, 0), C(1, 1)) < 0.0 ||
         std::abs(C(0, 1)) > std::sqrt(C(0, 0)) * std::sqrt(C(1, 1)) * (1.0 + 1e-9))
@@ -212,13 +212,12 @@ void fields(Visitor& v, MapSensors& sensors) {
       "one (continuity) keep the neighbourhoods of all sensors; null: not known.");
   v.field("sensors", sensors.sensors, {.min_items = 1, .max_items = 3});
   v.field("continuity", sensors.continuity, {.minimum = -1e300, .maximum = 1.0, .nullable = true});
-  v.field("why", sensors.why);
 }
 
 /// map.json.
 struct MapFile {
   MapRecord map;
-  std::optional<MapCertainty> certainty;
+  std::optional<MapUncertainty> uncertainty;
   std::optional<MapSensors> sensors;
   std::optional<Fit> fit;
 };
@@ -227,11 +226,11 @@ template <typename Visitor>
 void fields(Visitor& v, MapFile& file) {
   v.file("mapproof.map", "One map, of a study or of a user's observations.");
   map_fields(v, file.map, nullptr);
-  v.field("certainty", file.certainty, {.key = Key::kIfAny});
-  if (file.certainty && file.certainty->covariances.size() != file.map.names.size())
-    v.refuse("certainty/covariances",
+  v.field("uncertainty", file.uncertainty, {.key = Key::kIfAny});
+  if (file.uncertainty && file.uncertainty->covariances.size() != file.map.names.size())
+    v.refuse("uncertainty/covariances",
              fmt::format("expected {} covariances, one a name, got {}", file.map.names.size(),
-                         file.certainty->covariances.size()));
+                         file.uncertainty->covariances.size()));
   v.field("mixed", file.sensors, {.key = Key::kIfAny});
   v.field("fit", file.fit, {.key = Key::kIfAny});
 }

@@ -11,8 +11,8 @@
 namespace mapproof {
 namespace {
 
-std::string ellipse_fields(const MapCertainty& certainty, Eigen::Index i) {
-  const std::optional<Ellipse> ellipse = confidence_ellipse(certainty, i);
+std::string ellipse_fields(const MapUncertainty& uncertainty, Eigen::Index i) {
+  const std::optional<Ellipse> ellipse = confidence_ellipse(uncertainty, i);
   if (!ellipse) return ",,,";
   return ',' + csv_number(ellipse->a) + ',' + csv_number(ellipse->b) + ',' +
          csv_number(ellipse->rotation_rad * 180.0 / std::numbers::pi);
@@ -35,33 +35,34 @@ std::string csv_row(const MapRecord& map, Eigen::Index i) {
 
 }  // namespace
 
-std::string map_json(const MapRecord& map, const std::optional<MapCertainty>& certainty,
+std::string map_json(const MapRecord& map, const std::optional<MapUncertainty>& uncertainty,
                      const std::optional<MapSensors>& sensors, const std::optional<Fit>& fit) {
-  return to_json_text(MapFile{map, certainty, sensors, fit});
+  return to_json_text(MapFile{map, uncertainty, sensors, fit});
 }
 
 MapRecord parse_map(std::string_view text, const std::string& source) {
   return from_json_text<MapFile>(text, source).map;
 }
 
-std::optional<MapCertainty> parse_map_certainty(std::string_view text, const std::string& source) {
-  return from_json_text<MapFile>(text, source).certainty;
+std::optional<MapUncertainty> parse_map_uncertainty(std::string_view text,
+                                                    const std::string& source) {
+  return from_json_text<MapFile>(text, source).uncertainty;
 }
 
 std::optional<Fit> parse_map_fit(std::string_view text, const std::string& source) {
   return from_json_text<MapFile>(text, source).fit;
 }
 
-std::string map_csv(const MapRecord& map, const std::optional<MapCertainty>& certainty) {
+std::string map_csv(const MapRecord& map, const std::optional<MapUncertainty>& uncertainty) {
   const bool metric = map.frame == Frame::kGroundTruth;
   std::string csv = metric ? "name,x_m,y_m,true_x_m,true_y_m,error_m,anchor"
                            : "name,x,y,true_x_m,true_y_m,anchor";
-  if (certainty)
+  if (uncertainty)
     csv += metric ? ",ellipse_a_m,ellipse_b_m,ellipse_rotation_deg"
                   : ",ellipse_a,ellipse_b,ellipse_rotation_deg";
   csv += "\r\n";
   for (Eigen::Index i = 0; i < map.estimate.rows(); ++i)
-    csv += csv_row(map, i) + (certainty ? ellipse_fields(*certainty, i) : "") + "\r\n";
+    csv += csv_row(map, i) + (uncertainty ? ellipse_fields(*uncertainty, i) : "") + "\r\n";
   return csv;
 }
 

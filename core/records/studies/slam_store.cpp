@@ -70,21 +70,17 @@ std::optional<SlamRun> read_slam_run(const SlamFiles& files, const std::string& 
   return run;
 }
 
-void read_runs(const SlamFiles& files, const SlamExperiment& experiment, SlamStudy& study) {
-  if (experiment.example)
-    if (auto run = read_slam_run(files, experiment.example->noise.id))
-      study.runs.push_back(*std::move(run));
-  for (const SlamDataSet& set : experiment.data) {
-    if (auto run = read_slam_run(files, set.id))
-      study.runs.push_back(*std::move(run));
-    else
-      study.missing.push_back(missing_sentence(set));
-  }
+void read_runs(const SlamFiles& files, SlamStudy& study) {
+  if (const auto& example = study.experiment.example)
+    if (auto run = read_slam_run(files, example->noise.id)) study.runs.push_back(*std::move(run));
+  for (const SlamDataSet& set : study.experiment.data)
+    if (auto run = read_slam_run(files, set.id)) study.runs.push_back(*std::move(run));
 }
 
-void read_convergence(const SlamFiles& files, const SlamExperiment& experiment, SlamStudy& study) {
-  if (!experiment.convergence) return;
-  for (const RangeNoiseModel& noise : experiment.convergence->noises) {
+void read_convergence(const SlamFiles& files, SlamStudy& study) {
+  const auto& convergence = study.experiment.convergence;
+  if (!convergence) return;
+  for (const RangeNoiseModel& noise : convergence->noises) {
     const fs::path path = files.curve(noise.id);
     if (!is_there(path)) continue;
     study.convergence.push_back(parse_convergence(read_file(path), path.string()));
@@ -194,17 +190,14 @@ SlamStudy read_slam_study(const fs::path& folder) {
   require_study(folder);
   SlamStudyStart start = parse_slam_study(read_file(files.study()), files.study().string());
   SlamStudy study;
-  study.name = start.experiment.name;
-  study.title = start.experiment.title;
-  study.facts = facts_of(start.experiment);
-  study.seed = start.experiment.seed;
+  study.experiment = std::move(start.experiment);
   study.provenance = std::move(start.provenance);
-  read_runs(files, start.experiment, study);
-  read_convergence(files, start.experiment, study);
-  if (start.experiment.histories && is_there(files.histories()))
+  read_runs(files, study);
+  read_convergence(files, study);
+  if (study.experiment.histories && is_there(files.histories()))
     study.histories =
         parse_range_histories(read_file(files.histories()), files.histories().string());
-  if (start.experiment.space && is_there(files.space()))
+  if (study.experiment.space && is_there(files.space()))
     study.space = parse_space_run(read_file(files.space()), files.space().string());
   return study;
 }

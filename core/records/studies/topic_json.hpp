@@ -265,7 +265,7 @@ void fields(Visitor& v, TopicMap& map) {
   tried_fields(v, map.at, map.method);
   v.field("map", map.map);
   v.field("pairs", map.pairs);
-  v.field("certainty", map.certainty,
+  v.field("uncertainty", map.uncertainty,
           {.description = "The ellipses of its landmarks; null: none."});
   const std::size_t landmarks = map.map.names.size();
   for (std::size_t i = 0; i < map.pairs.size(); ++i)
@@ -274,8 +274,8 @@ void fields(Visitor& v, TopicMap& map) {
   if (map.pairs.size() > landmarks * landmarks)
     v.refuse("pairs", fmt::format("expected at most {} elements, got {}", landmarks * landmarks,
                                   map.pairs.size()));
-  if (map.certainty && map.certainty->covariances.size() != landmarks)
-    v.refuse("certainty/covariances", "expected one per landmark");
+  if (map.uncertainty && map.uncertainty->covariances.size() != landmarks)
+    v.refuse("uncertainty/covariances", "expected one per landmark");
 }
 
 /// parts/ID.json.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/model/map_certainty.hpp"
+#include "core/model/map_uncertainty.hpp"
 
 namespace mapproof {
 

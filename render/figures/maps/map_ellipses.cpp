@@ -22,12 +22,13 @@ bool shown(const Panel& panel, double x, double y) {
   return within(panel.x.limits, x) && within(panel.y.limits, y);
 }
 
-Ellipses ellipses_of(const MapRecord& record, const MapCertainty& certainty, const Panel& panel) {
+Ellipses ellipses_of(const MapRecord& record, const MapUncertainty& uncertainty,
+                     const Panel& panel) {
   Ellipses shapes{
       .label = "95 % ellipse", .colour = ThemeColour::kSeries1, .fill = Fill::kTint, .width = 0.6};
   for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
     const double x = record.estimate(i, 0), y = record.estimate(i, 1);
-    const auto ellipse = confidence_ellipse(certainty, i);
+    const auto ellipse = confidence_ellipse(uncertainty, i);
     if (!ellipse || !std::isfinite(x + y) || !shown(panel, x, y)) continue;
     shapes.x.push_back(x), shapes.y.push_back(y);
     shapes.a.push_back(ellipse->a), shapes.b.push_back(ellipse->b);
@@ -60,26 +61,26 @@ void limit(const MapRecord& record, const Ellipses& shapes, Panel& panel) {
 
 }  // namespace
 
-void add_ellipses(const MapRecord& record, const MapCertainty& certainty, Figure& figure) {
-  if (std::ssize(certainty.covariances) != record.estimate.rows())
+void add_ellipses(const MapRecord& record, const MapUncertainty& uncertainty, Figure& figure) {
+  if (std::ssize(uncertainty.covariances) != record.estimate.rows())
     throw InvalidInput("a map's ellipses need a covariance a landmark");
   Panel& panel = figure.panels.at(0);
-  Ellipses shapes = ellipses_of(record, certainty, panel);
+  Ellipses shapes = ellipses_of(record, uncertainty, panel);
   if (shapes.x.empty()) return;
   limit(record, shapes, panel);
   panel.layers.insert(panel.layers.begin(), std::move(shapes));
-  figure.caption += " " + ellipse_words(certainty);
+  figure.caption += " " + ellipse_words(uncertainty);
 }
 
-std::string ellipse_words(const MapCertainty& certainty) {
+std::string ellipse_words(const MapUncertainty& uncertainty) {
   std::string words = fmt::format(
       "Ellipses ({:g} %): where the mean of the maps of other such walks would lie, by {} of "
       "blocks of {}, as bootstrap resamples; a bias that all these maps share is not included.",
-      100.0 * certainty.confidence, counted(certainty.maps, "map"),
-      counted(certainty.block_steps, "step"));
-  if (certainty.maps < certainty.replicates)
-    words += fmt::format(" {} of {} draws gave no map.", certainty.replicates - certainty.maps,
-                         certainty.replicates);
+      100.0 * uncertainty.confidence, counted(uncertainty.maps, "map"),
+      counted(uncertainty.block_steps, "step"));
+  if (uncertainty.maps < uncertainty.replicates)
+    words += fmt::format(" {} of {} draws gave no map.", uncertainty.replicates - uncertainty.maps,
+                         uncertainty.replicates);
   return words;
 }
 

@@ -102,7 +102,7 @@ Figure measured_map_figure(const MeasuredMapSpec& spec) {
   require_consistent(spec);
   Figure figure = map_figure(spec.map, spec.id, spec.title);
   std::vector<Layer>& layers = figure.panels.front().layers;
-  if (spec.certainty) add_ellipses(spec.map, *spec.certainty, figure);
+  if (spec.uncertainty) add_ellipses(spec.map, *spec.uncertainty, figure);
   const Segments lines = pair_lines(spec);
   if (!lines.x0.empty()) {
     layers.insert(layers.begin(), lines);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/model/map_certainty.hpp"
 #include "core/model/map_record.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/topic_study.hpp"
 #include "render/plot/figure.hpp"
 
@@ -16,7 +16,7 @@ struct MeasuredMapSpec {
   std::string title;  ///< Empty: as map_figure.
   const MapRecord& map;
   const std::vector<MeasuredPair>& pairs;        ///< May be empty.
-  const std::optional<MapCertainty>& certainty;  ///< Of the map, in its frame.
+  const std::optional<MapUncertainty>& uncertainty;  ///< Of the map, in its frame.
 };
 
 /// A map as map_figure draws it, over thin lines between the landmarks whose distances were

@@ -59,7 +59,7 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
   if (setup != study.design.setups.end() && !setup->factors.empty())
     title += ", " + level_words(*setup, map.at);
   title += ": " + series_label(study.design, map.method);
-  if (map.certainty) title += ", 95\u00a0% ellipses by the bootstrap";
+  if (map.uncertainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
 
@@ -212,7 +212,7 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
     for (const TopicMap& map : part.maps) {
       const std::string title = title_of(study, part, map);
       maps.figures.push_back(measured_map_figure(
-          {prefix + "-map-" + slug_of(map.id), title, map.map, map.pairs, map.certainty}));
+          {prefix + "-map-" + slug_of(map.id), title, map.map, map.pairs, map.uncertainty}));
       if (!map.pairs.empty())
         maps.figures.push_back(
             pair_distances_figure({prefix + "-pairs-" + slug_of(map.id), title + ", measured pairs",

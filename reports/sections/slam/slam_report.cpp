@@ -220,9 +220,9 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
 
 std::string subtitle(const SlamStudy& study) {
   const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
-  std::string text = fmt::format("{}, {}", study.name, counted(real, "recorded drive"));
+  std::string text = fmt::format("{}, {}", study.experiment.name, counted(real, "recorded drive"));
   if (std::ssize(study.runs) > real || !study.convergence.empty())
-    text += fmt::format(", simulation with seed {}", study.seed);
+    text += fmt::format(", simulation with seed {}", study.experiment.seed);
   return text;
 }
 
@@ -351,7 +351,7 @@ Paragraph what_was_done(const SlamStudy& study) {
 
 Section slam_summary_section(const SlamStudy& study) {
   Section section{"slam-summary", "Range-only SLAM: summary", {}};
-  for (const std::string& missing : study.missing)
+  for (const std::string& missing : missing_logs(study))
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Data missing", Paragraph{{{missing, Emphasis::kData}}}});
   BulletList findings;
@@ -437,9 +437,10 @@ Section slam_provenance_section(const SlamReportInput& input) {
             "this report again, to the byte (seconds aside):"));
   section.blocks.emplace_back(KeyValues{{{"Command", {input.command, Emphasis::kCode}}}});
   KeyValues facts;
-  facts.items.push_back({"Study", {input.study.name, Emphasis::kData}});
-  facts.items.push_back({"Seed", {fmt::format("{}", input.study.seed), Emphasis::kData}});
-  for (const auto& [key, value] : input.study.facts)
+  const SlamExperiment& experiment = input.study.experiment;
+  facts.items.push_back({"Study", {experiment.name, Emphasis::kData}});
+  facts.items.push_back({"Seed", {fmt::format("{}", experiment.seed), Emphasis::kData}});
+  for (const auto& [key, value] : simulation_facts(experiment))
     facts.items.push_back({key, {value, Emphasis::kData}});
   section.blocks.emplace_back(std::move(facts));
   section.blocks.emplace_back(provenance_items(input.study.provenance));
@@ -449,7 +450,8 @@ Section slam_provenance_section(const SlamReportInput& input) {
 
 Report slam_report(const SlamReportInput& input) {
   Report report;
-  report.title = input.study.title.empty() ? input.study.name : input.study.title;
+  const SlamExperiment& experiment = input.study.experiment;
+  report.title = experiment.title.empty() ? experiment.name : experiment.title;
   report.subtitle = subtitle(input.study);
   report.sections = slam_sections(input);
   for (Section& section : report.sections) section.title = alone(section.title);

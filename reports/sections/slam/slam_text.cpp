@@ -9,6 +9,16 @@
 #include "render/figures/curves/log_log.hpp"
 
 namespace mapproof {
+namespace {
+
+std::string redrawn_words(const ConvergenceOptions& convergence) {
+  return fmt::format(
+      "worlds whose known landmarks lie nearly on a line or circle (condition number above {:g}) "
+      "are drawn again",
+      convergence.most_condition);
+}
+
+}  // namespace
 
 std::string record_id(const SlamRun& run, const SlamRecord& record) {
   return fmt::format("{}/{}", run.id, info(record.method).name);
@@ -35,7 +45,48 @@ const SlamRecord* mapped_record(const SlamRun& run) {
   return found == run.records.end() ? nullptr : &*found;
 }
 
-bool is_of_paper(const SlamStudy& study) { return study.name == "boots2013"; }
+bool is_of_paper(const SlamStudy& study) { return study.experiment.name == "boots2013"; }
+
+std::vector<std::pair<std::string, std::string>> simulation_facts(
+    const SlamExperiment& experiment) {
+  std::vector<std::pair<std::string, std::string>> facts;
+  const SlamWorldOptions& world = experiment.world;
+  if (experiment.example || experiment.convergence || experiment.histories)
+    facts = {
+        {"Simulated area", fmt::format("{0:g} m \u00D7 {0:g} m", 2.0 * world.half_width_m)},
+        {"Simulated landmarks", fmt::format("{}, {} of them known", world.landmarks, world.known)},
+        {"Simulated walk",
+         fmt::format("steps of {:g} m, the heading changes by {:g} rad (1 \u03C3) per step",
+                     world.step_m, world.heading_change_sigma_rad)}};
+  if (const auto& example = experiment.example)
+    facts.emplace_back("Example",
+                       fmt::format("{} steps, {}", example->steps, example->noise.title));
+  if (const auto& convergence = experiment.convergence)
+    facts.emplace_back("Convergence", fmt::format("{} pairs of world and path, up to {} steps; {}",
+                                                  convergence->pairs, convergence->steps.back(),
+                                                  redrawn_words(*convergence)));
+  if (const auto& histories = experiment.histories)
+    facts.emplace_back(
+        "Mapping methods on ranges",
+        fmt::format("{} landmarks, {} steps, {}, K = {}", histories->landmarks, histories->steps,
+                    histories->noise.title, histories->neighbours));
+  if (const auto& space = experiment.space)
+    facts.emplace_back(
+        "Flight in space",
+        fmt::format("{0:g} m \u00D7 {0:g} m \u00D7 {1:g} m, {2} landmarks, {3} of them known, {4} "
+                    "steps of {5:g} m, {6}",
+                    2.0 * space->half_width_m, space->height_m, space->landmarks, space->known,
+                    space->steps, space->step_m, space->noise.title));
+  return facts;
+}
+
+std::vector<std::string> missing_logs(const SlamStudy& study) {
+  std::vector<std::string> missing;
+  for (const SlamDataSet& data : study.experiment.data)
+    if (std::ranges::find(study.runs, data.id, &SlamRun::id) == study.runs.end())
+      missing.push_back(data.title + " is missing. " + data.source);
+  return missing;
+}
 
 std::string title_of(const SlamRun& run) { return run.log.name.empty() ? run.id : run.log.name; }
 
@@ -79,11 +130,8 @@ std::string variant_words(const SlamStudy& study) {
     text +=
         fmt::format("; its plain singular value decomposition gives {} here", slope_words(slope));
   text += ".";
-  const auto fact =
-      std::ranges::find(study.facts, "Convergence", &std::pair<std::string, std::string>::first);
-  if (fact != study.facts.end())
-    if (const std::size_t at = fact->second.find("worlds whose"); at != std::string::npos)
-      text += " Not all worlds count: " + fact->second.substr(at) + ".";
+  if (const auto& convergence = study.experiment.convergence)
+    text += " Not all worlds count: " + redrawn_words(*convergence) + ".";
   return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/model/slam/slam_study.hpp"
 #include "reports/model/report.hpp"
@@ -23,6 +25,12 @@ const SlamRecord* mapped_record(const SlamRun& run);
 
 /// Whether the study is the paper's, so that it can be compared with the paper.
 bool is_of_paper(const SlamStudy& study);
+
+/// What the experiment simulates, {"Simulated area", "20 m x 20 m"}; empty if it simulates nothing.
+std::vector<std::pair<std::string, std::string>> simulation_facts(const SlamExperiment& experiment);
+
+/// A sentence on each log of the experiment that is not there: its name and how to get it.
+std::vector<std::string> missing_logs(const SlamStudy& study);
 
 /// "Plaza 1", or the id where the log has no name.
 std::string title_of(const SlamRun& run);

@@ -14,10 +14,10 @@ const TopicWords* words_of(std::string_view topic) {
 }  // namespace
 
 std::span<const TopicWords* const> all_topic_words() {
-  static constexpr const TopicWords* kAll[] = {&kCertaintyWords, &kChoiceWords,  &kAssociationWords,
-                                               &kDoubtWords,     &kMissingWords, &kMixedWords,
-                                               &kMovedWords,     &kMrclamWords,  &kIncrementalWords,
-                                               &kSubmapsWords,   &kSweepWords};
+  static constexpr const TopicWords* kAll[] = {
+      &kUncertaintyWords, &kChoiceWords,  &kAssociationWords, &kDoubtWords,
+      &kMissingWords,     &kMixedWords,   &kMovedWords,       &kMrclamWords,
+      &kIncrementalWords, &kSubmapsWords, &kSweepWords};
   return kAll;
 }
 

@@ -18,7 +18,7 @@ struct TopicWords {
   std::vector<std::string> (*conclusions)(const TopicStudy& study) = nullptr;
 };
 
-extern const TopicWords kCertaintyWords, kChoiceWords, kAssociationWords, kDoubtWords,
+extern const TopicWords kUncertaintyWords, kChoiceWords, kAssociationWords, kDoubtWords,
     kMissingWords, kMixedWords, kMovedWords, kMrclamWords, kIncrementalWords, kSubmapsWords,
     kSweepWords;
 

@@ -66,7 +66,7 @@ TEST(MapEllipses, AreInEveryOutputAndTheSameAgain) {
     EXPECT_LT(landmark["ellipse"]["a_m"], 1.0);
   }
   const std::string text = read_file(folder.path() / "one" / "map.json");
-  EXPECT_EQ(parse_map_certainty(text, "map.json")->replicates, 30);
+  EXPECT_EQ(parse_map_uncertainty(text, "map.json")->replicates, 30);
   EXPECT_NE(read_file(folder.path() / "one" / "map.csv").find(",ellipse_a_m,"), std::string::npos);
   EXPECT_NE(read_file(folder.path() / "one/figures/map.svg").find("ellipse-5"), std::string::npos);
   EXPECT_NE(read_file(folder.path() / "one/report.html").find("Uncertainty of each landmark"),
@@ -87,7 +87,7 @@ TEST(MapEllipses, NeedTenDrawsAndTakeTwoHundredIfNoneAreGiven) {
                                   folder.path() / "usual", "--ellipses"});
   ASSERT_EQ(usual.exit_code, 0) << usual.error;
   const std::string text = read_file(folder.path() / "usual" / "map.json");
-  EXPECT_EQ(parse_map_certainty(text, "map.json")->replicates, 200);
+  EXPECT_EQ(parse_map_uncertainty(text, "map.json")->replicates, 200);
 }
 
 TEST(MapAuto, SaysWhatItComparedAndTakesTheFirst) {

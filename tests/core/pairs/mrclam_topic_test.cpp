@@ -87,8 +87,8 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   EXPECT_EQ(pairs.values.at("mapped"), 9.0);
   // Scans with wrong landmark IDs have scores and no maps of their own.
   ASSERT_EQ(part.maps.size() + 4, design.methods.size());
-  ASSERT_TRUE(part.maps.back().certainty);
-  EXPECT_EQ(part.maps.back().certainty->covariances.size(), 9U);
+  ASSERT_TRUE(part.maps.back().uncertainty);
+  EXPECT_EQ(part.maps.back().uncertainty->covariances.size(), 9U);
   EXPECT_GT(outcome(part, "swapped").values.at("rigid_m"), 0.1);
   EXPECT_LT(outcome(part, "swapped-corrected").values.at("rigid_m"), 1e-6);
   EXPECT_GE(outcome(part, "swapped-corrected").values.at("faults"), 1.0);

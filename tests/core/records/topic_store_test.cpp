@@ -52,12 +52,12 @@ TopicPart made_up_part(const RunId& run) {
                .method = "ppca",
                .map = test::made_up_result({1, 1}).maps[0],
                .pairs = {},
-               .certainty = {}};
+               .uncertainty = {}};
   map.pairs = {{.first = 0, .second = 1, .distance_m = 2.0, .precision = 4.0, .scans = 9}};
-  map.certainty = MapCertainty{
+  map.uncertainty = MapUncertainty{
       .covariances = {}, .squared_radius = 6.5, .replicates = 9, .maps = 8, .block_steps = 3};
-  map.certainty->covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
-  map.certainty->covariances.back().setConstant(kNaN);
+  map.uncertainty->covariances.assign(map.map.names.size(), Eigen::Matrix2d::Identity());
+  map.uncertainty->covariances.back().setConstant(kNaN);
   part.maps = {map};
   part.seconds = {{.part = part.id, .method = "ppca", .seconds = 1.0},
                   {.part = part.id, .method = "ppca", .seconds = 0.5}};
@@ -100,10 +100,10 @@ TEST(TopicStudy, IsReadBackAsItWasWritten) {
   EXPECT_EQ(study.parts[0].id, "layout-1-pose-1");
   EXPECT_EQ(topic_part_json(study.parts[1], ""), topic_part_json(made_up_part({2, 1}), ""));
   EXPECT_TRUE(std::isnan(study.parts[0].outcomes[1].values.at("mpe_m")));
-  const auto& certainty = study.parts[0].maps[0].certainty;
-  ASSERT_TRUE(certainty);
-  EXPECT_FALSE(certainty->covariances.back().allFinite());
-  EXPECT_EQ(certainty->squared_radius, 6.5);
+  const auto& uncertainty = study.parts[0].maps[0].uncertainty;
+  ASSERT_TRUE(uncertainty);
+  EXPECT_FALSE(uncertainty->covariances.back().allFinite());
+  EXPECT_EQ(uncertainty->squared_radius, 6.5);
   ASSERT_EQ(study.parts[0].seconds.size(), 1U);
   EXPECT_EQ(study.parts[0].seconds[0].seconds, 0.5) << "the later of two";
   EXPECT_EQ(study_schema(folder.path()), "mapproof.topic_study");

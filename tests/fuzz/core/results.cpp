@@ -27,10 +27,10 @@ const Added kResultsCsv({.name = "results-csv",
 const Added kResultsHead({.name = "results-study",
                           .run = [](auto bytes) { parse_results_study(bytes, kSource); }});
 
-/// A map with its certainty.
+/// A map with its uncertainty.
 struct CertainMap {
   MapRecord map;
-  std::optional<MapCertainty> certainty;
+  std::optional<MapUncertainty> uncertainty;
 };
 
 const Added kMap(
@@ -40,9 +40,9 @@ const Added kMap(
            round_trip(
                bytes,
                [](auto text, auto& source) {
-                 return CertainMap{parse_map(text, source), parse_map_certainty(text, source)};
+                 return CertainMap{parse_map(text, source), parse_map_uncertainty(text, source)};
                },
-               [](const CertainMap& read) { return map_json(read.map, read.certainty); });
+               [](const CertainMap& read) { return map_json(read.map, read.uncertainty); });
          },
      .seeds = {"maps"}});
 const Added kMapCsv({.name = "map-csv", .run = [](auto bytes) {

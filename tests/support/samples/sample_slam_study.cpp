@@ -256,11 +256,10 @@ SlamTimings sample_slam_timings() {
 
 SlamStudy sample_slam_study() {
   SlamStudy study;
-  study.name = "boots2013";
-  study.title = "Range-only SLAM by factorisation";
-  study.seed = 2013;
+  study.experiment.name = "boots2013";
+  study.experiment.title = "Range-only SLAM by factorisation";
+  study.experiment.seed = 2013;
   study.provenance = {"0.1.0", "abc", "0123", {{"Eigen", "3.4.0"}}};
-  study.facts = {{"Area", "20 m \u00D7 20 m"}, {"Noise", "1 % of the range"}};
   study.runs = {sample_walk(), sample_drive("plaza-1", 2000, 1), sample_drive("plaza-2", 1500, 2)};
   study.runs[1].figure = "fig-2b";
   study.runs[2].figure = "fig-2c";

@@ -1,4 +1,4 @@
-#include "core/certainty/resampled_maps.hpp"
+#include "core/uncertainty/resampled_maps.hpp"
 
 #include <utility>
 

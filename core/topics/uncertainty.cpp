@@ -1,4 +1,4 @@
-#include "core/topics/certainty.hpp"
+#include "core/topics/uncertainty.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -8,26 +8,26 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
-#include "core/certainty/block_length.hpp"
-#include "core/certainty/map_bootstrap.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/topics/topics.hpp"
+#include "core/uncertainty/block_length.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
 
 /// Whether a point is in the ellipse about a position.
-bool covers(const MapCertainty& certainty, Eigen::Index i, const Eigen::RowVector2d& position,
+bool covers(const MapUncertainty& uncertainty, Eigen::Index i, const Eigen::RowVector2d& position,
             const Eigen::RowVector2d& point) {
-  const Eigen::Matrix2d& C = certainty.covariances[static_cast<std::size_t>(i)];
+  const Eigen::Matrix2d& C = uncertainty.covariances[static_cast<std::size_t>(i)];
   const Eigen::RowVector2d off = point - position;
   const Eigen::Matrix2d adjugate =
       (Eigen::Matrix2d() << C(1, 1), -C(0, 1), -C(1, 0), C(0, 0)).finished();
   return C.allFinite() &&
-         off * adjugate * off.transpose() <= certainty.squared_radius * C.determinant();
+         off * adjugate * off.transpose() <= uncertainty.squared_radius * C.determinant();
 }
 
 /// Where a landmark lies on average over the maps that have it; NaN if none has.
@@ -57,7 +57,7 @@ constexpr std::pair<const char*, Sensor> kSensors[] = {{"bearing", Sensor::kBear
 constexpr const char* kBlocks = "blocks";
 constexpr const char* kBlockLength = "block_length";
 
-TopicDesign certainty_design(const TopicExperiment& experiment) {
+TopicDesign uncertainty_design(const TopicExperiment& experiment) {
   TopicDesign design;
   for (const auto& [id, sensor] : kSensors)
     design.setups.push_back({id,
@@ -100,19 +100,19 @@ class WalkedWorld {
   TopicOutcome tried(const MethodSetting& setting, Eigen::Index steps, double blocks,
                      TopicPart& part) const {
     const Clock::time_point start = Clock::now();
-    HistoryCertaintyOptions options{.setting = setting, .embedder = {}};
+    HistoryUncertaintyOptions options{.setting = setting, .embedder = {}};
     options.replicates = static_cast<int>(number_option(context_.experiment, "replicates"));
     const auto tried = static_cast<std::size_t>(number_option(context_.experiment, "tried"));
     const std::vector<Points> maps = walked_maps(histories_, steps, frame_, options);
-    std::vector<MapCertainty> certainties;
+    std::vector<MapUncertainty> uncertainties;
     for (std::size_t w = 0; w < std::min(tried, histories_.size()); ++w) {
       const double usual = static_cast<double>(map_block_length(histories_[w], steps));
       options.block = std::clamp<Eigen::Index>(std::llround(blocks * usual), 1, steps);
       options.seed = derive_seed(context_.seed, {w});
-      certainties.push_back(history_certainty(histories_[w], steps, frame_, options));
+      uncertainties.push_back(history_uncertainty(histories_[w], steps, frame_, options));
     }
     add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
-    const Coverage found = coverage(maps, certainties, frame_);
+    const Coverage found = coverage(maps, uncertainties, frame_);
     return {.at = {},
             .method = slug(setting),
             .values = {{"mean_covered_percent", found.mean_percent},
@@ -144,14 +144,14 @@ class WalkedWorld {
                             .statuses = embedding.statuses,
                             .score = std::nullopt});
     if (!placed) return shown;
-    shown.certainty =
-        history_certainty(history, history.steps(), frame_, {.setting = setting, .embedder = {}});
+    shown.uncertainty =
+        history_uncertainty(history, history.steps(), frame_, {.setting = setting, .embedder = {}});
     return shown;
   }
 
  private:
   const TopicTask& context_;
-  CertaintyFrame frame_;
+  UncertaintyFrame frame_;
   std::vector<ObservationHistory> histories_;
 };
 
@@ -161,7 +161,7 @@ void add(TopicPart& part, TopicOutcome outcome, const char* setup, const std::st
   part.outcomes.push_back(std::move(outcome));
 }
 
-TopicPart make_certainty(const TopicTask& context) {
+TopicPart make_uncertainty(const TopicTask& context) {
   TopicPart part;
   for (const auto& [id, sensor] : kSensors) {
     const WalkedWorld walked(context, sensor);
@@ -199,8 +199,8 @@ std::vector<ObservationHistory> walked_histories(const World& world, const WalkO
 }
 
 std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories,
-                                Eigen::Index steps, const CertaintyFrame& frame,
-                                const HistoryCertaintyOptions& options) {
+                                Eigen::Index steps, const UncertaintyFrame& frame,
+                                const HistoryUncertaintyOptions& options) {
   std::vector<Points> maps;
   for (const ObservationHistory& history : histories) {
     HistoryEmbedder embedder(history, steps, options.embedder);
@@ -211,8 +211,8 @@ std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories
   return maps;
 }
 
-Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertainty>& certainties,
-                  const CertaintyFrame& frame) {
+Coverage coverage(const std::vector<Points>& maps, const std::vector<MapUncertainty>& uncertainties,
+                  const UncertaintyFrame& frame) {
   const Eigen::Index M = frame.positions_m.rows();
   const Points mean = mean_map(maps, M);
   double judged = 0.0, positions = 0.0, landmarks = 0.0;
@@ -228,13 +228,14 @@ Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertaint
         sum.spread_m += (map.row(i) - mean.row(i)).squaredNorm();
         positions += 1.0;
       }
-    for (std::size_t w = 0; w < certainties.size(); ++w) {
-      const MapCertainty& certainty = certainties[w];
-      if (!certainty.covariances[static_cast<std::size_t>(i)].allFinite()) continue;
+    for (std::size_t w = 0; w < uncertainties.size(); ++w) {
+      const MapUncertainty& uncertainty = uncertainties[w];
+      if (!uncertainty.covariances[static_cast<std::size_t>(i)].allFinite()) continue;
       if (!maps[w].row(i).allFinite()) continue;
-      sum.predicted_m += certainty.covariances[static_cast<std::size_t>(i)].trace();
-      sum.mean_percent += covers(certainty, i, maps[w].row(i), mean.row(i)) ? 100.0 : 0.0;
-      sum.ground_truth_percent += covers(certainty, i, maps[w].row(i), ground_truth) ? 100.0 : 0.0;
+      sum.predicted_m += uncertainty.covariances[static_cast<std::size_t>(i)].trace();
+      sum.mean_percent += covers(uncertainty, i, maps[w].row(i), mean.row(i)) ? 100.0 : 0.0;
+      sum.ground_truth_percent +=
+          covers(uncertainty, i, maps[w].row(i), ground_truth) ? 100.0 : 0.0;
       judged += 1.0;
     }
   }
@@ -246,14 +247,14 @@ Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertaint
           .predicted_m = std::sqrt(sum.predicted_m / judged)};
 }
 
-const Topic kCertaintyTopic = {.name = "certainty",
-                               .of_data = false,
-                               .options = {{"walks", {60}, 2, 1000, true, false},
-                                           {"tried", {8}, 1, 1000, true, false},
-                                           {"replicates", {100}, 10, 10000, true, false},
-                                           {"observations", {500, 2000}, 10, 100000, true, true},
-                                           {"blocks", {0.5, 1, 2, 4}, 0.01, 100, false, true}},
-                               .design = certainty_design,
-                               .make = make_certainty};
+const Topic kUncertaintyTopic = {.name = "uncertainty",
+                                 .of_data = false,
+                                 .options = {{"walks", {60}, 2, 1000, true, false},
+                                             {"tried", {8}, 1, 1000, true, false},
+                                             {"replicates", {100}, 10, 10000, true, false},
+                                             {"observations", {500, 2000}, 10, 100000, true, true},
+                                             {"blocks", {0.5, 1, 2, 4}, 0.01, 100, false, true}},
+                                 .design = uncertainty_design,
+                                 .make = make_uncertainty};
 
 }  // namespace mapproof

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "core/certainty/history_certainty.hpp"
 #include "core/model/experiment.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/world.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 namespace mapproof {
 
@@ -33,14 +33,14 @@ struct Coverage {
 /// left out.
 /// @param steps  How many observations of each.
 std::vector<Points> walked_maps(const std::vector<ObservationHistory>& histories,
-                                Eigen::Index steps, const CertaintyFrame& frame,
-                                const HistoryCertaintyOptions& options);
+                                Eigen::Index steps, const UncertaintyFrame& frame,
+                                const HistoryUncertaintyOptions& options);
 
 /// The coverage of the ellipses over all landmarks that are not anchors.
 /// @param maps         Of all walks, the first of them those that ellipses were drawn for.
-/// @param certainties  Of the first maps, as many or fewer.
+/// @param uncertainties  Of the first maps, as many or fewer.
 /// @return NaN without maps or ellipses.
-Coverage coverage(const std::vector<Points>& maps, const std::vector<MapCertainty>& certainties,
-                  const CertaintyFrame& frame);
+Coverage coverage(const std::vector<Points>& maps, const std::vector<MapUncertainty>& uncertainties,
+                  const UncertaintyFrame& frame);
 
 }  // namespace mapproof

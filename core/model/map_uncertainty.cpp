@@ -1,4 +1,4 @@
-#include "core/model/map_certainty.hpp"
+#include "core/model/map_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,10 +14,11 @@ Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius) {
           .rotation_rad = 0.5 * std::atan2(2.0 * C(0, 1), C(0, 0) - C(1, 1))};
 }
 
-std::optional<Ellipse> confidence_ellipse(const MapCertainty& certainty, Eigen::Index landmark) {
-  const Eigen::Matrix2d& C = certainty.covariances.at(static_cast<std::size_t>(landmark));
+std::optional<Ellipse> confidence_ellipse(const MapUncertainty& uncertainty,
+                                          Eigen::Index landmark) {
+  const Eigen::Matrix2d& C = uncertainty.covariances.at(static_cast<std::size_t>(landmark));
   if (!C.allFinite()) return std::nullopt;
-  return ellipse_of(C, std::sqrt(certainty.squared_radius));
+  return ellipse_of(C, std::sqrt(uncertainty.squared_radius));
 }
 
 }  // namespace mapproof

@@ -1,4 +1,4 @@
-#include "core/certainty/map_bootstrap.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ TEST(BootstrapMap, EstimatesTheVarianceOfAMean) {
   Random random(3);
   Eigen::MatrixXd values(400, 2);
   for (Eigen::Index t = 0; t < 400; ++t) values.row(t) << random.normal(), 2.0 * random.normal();
-  const MapCertainty found = bootstrap_map(1, 400, mean_of(values), {.replicates = 4000});
+  const MapUncertainty found = bootstrap_map(1, 400, mean_of(values), {.replicates = 4000});
   const Eigen::MatrixXd centred = values.rowwise() - values.colwise().mean();
   const Eigen::Matrix2d exact = centred.transpose() * centred / (400.0 * 400.0);
   EXPECT_LT((found.covariances[0] - exact).norm(), 0.1 * exact.norm());
@@ -42,7 +42,7 @@ TEST(BootstrapMap, HasItsNominalCoverageForMeansOfCorrelatedSeries) {
       values.row(t) = x;
       x = 0.6 * x + 0.8 * Eigen::RowVector2d(random.normal(), random.normal());
     }
-    const MapCertainty found =
+    const MapUncertainty found =
         bootstrap_map(1, 500, mean_of(values), {.replicates = 100, .block = 20});
     const Eigen::Vector2d off = values.colwise().mean().transpose();
     held += off.dot(found.covariances[0].ldlt().solve(off)) <= found.squared_radius;
@@ -65,7 +65,7 @@ TEST(BootstrapMap, HasNoCovarianceForALandmarkThatMostMapsMiss) {
     if (call % 10 == 0) return std::nullopt;
     return map;
   };
-  const MapCertainty found = bootstrap_map(2, 20, sometimes, {.replicates = 40});
+  const MapUncertainty found = bootstrap_map(2, 20, sometimes, {.replicates = 40});
   EXPECT_EQ(found.replicates, 40);
   EXPECT_EQ(found.maps, 36);
   EXPECT_TRUE(found.covariances[0].allFinite());
@@ -82,17 +82,17 @@ TEST(SquaredRadius, IsThatOfHotelling) {
 }
 
 TEST(ConfidenceEllipse, HasTheAxesOfItsCovariance) {
-  MapCertainty certainty;
-  certainty.squared_radius = 4.0;
+  MapUncertainty uncertainty;
+  uncertainty.squared_radius = 4.0;
   Eigen::Matrix2d C;
   C << 2.5, 1.5, 1.5, 2.5;  // Variances 4 and 1 along the diagonals.
-  certainty.covariances = {C, Eigen::Matrix2d::Constant(NAN)};
-  const auto ellipse = confidence_ellipse(certainty, 0);
+  uncertainty.covariances = {C, Eigen::Matrix2d::Constant(NAN)};
+  const auto ellipse = confidence_ellipse(uncertainty, 0);
   ASSERT_TRUE(ellipse);
   EXPECT_NEAR(ellipse->a, 4.0, 1e-12);
   EXPECT_NEAR(ellipse->b, 2.0, 1e-12);
   EXPECT_NEAR(ellipse->rotation_rad, std::atan(1.0), 1e-12);
-  EXPECT_FALSE(confidence_ellipse(certainty, 1));
+  EXPECT_FALSE(confidence_ellipse(uncertainty, 1));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/certainty/pair_certainty.hpp"
+#include "core/uncertainty/pair_uncertainty.hpp"
 
 #include <cmath>
 
@@ -30,7 +30,7 @@ DetectionLog erring_scans(std::uint64_t seed, int together) {
 }
 
 /// Mean squared distance of a landmark from its mean position, over maps of many logs.
-double spread(int together, const CertaintyFrame& frame) {
+double spread(int together, const UncertaintyFrame& frame) {
   constexpr int kMaps = 240;
   std::vector<Points> maps;
   Points mean = Points::Zero(9, 2);
@@ -46,41 +46,43 @@ double spread(int together, const CertaintyFrame& frame) {
 }
 
 /// The same by the covariances of several logs.
-double reported(int together, const CertaintyFrame& frame, const PairCertaintyOptions& options) {
+double reported(int together, const UncertaintyFrame& frame,
+                const PairUncertaintyOptions& options) {
   constexpr int kLogs = 8;
   double sum = 0.0;
   for (std::uint64_t k = 1; k <= kLogs; ++k)
     for (const Eigen::Matrix2d& C :
-         pair_certainty(erring_scans(k, together), frame, options).covariances)
+         pair_uncertainty(erring_scans(k, together), frame, options).covariances)
       sum += C.trace();
   return sum / (9.0 * kLogs);
 }
 
-class CertaintyOfPairs : public ::testing::TestWithParam<std::pair<const char*, CertaintyFrame>> {};
+class UncertaintyOfPairs
+    : public ::testing::TestWithParam<std::pair<const char*, UncertaintyFrame>> {};
 
-TEST_P(CertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
-  const CertaintyFrame& frame = GetParam().second;
+TEST_P(UncertaintyOfPairs, IsHowFarMapsOfOtherScansLieApart) {
+  const UncertaintyFrame& frame = GetParam().second;
   const double ratio = reported(1, frame, {.replicates = 60}) / spread(1, frame);
   EXPECT_GT(ratio, 0.7);
   EXPECT_LT(ratio, 1.6);
 }
 
-TEST_P(CertaintyOfPairs, IsZeroWhereScansHaveNoErrors) {
+TEST_P(UncertaintyOfPairs, IsZeroWhereScansHaveNoErrors) {
   for (const Eigen::Matrix2d& C :
-       pair_certainty(scans_at(hall(), kScans, 4, 1), GetParam().second, {.replicates = 20})
+       pair_uncertainty(scans_at(hall(), kScans, 4, 1), GetParam().second, {.replicates = 20})
            .covariances)
     EXPECT_LT(C.norm(), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Certainty, CertaintyOfPairs,
-    ::testing::Values(std::pair("rigid", CertaintyFrame{hall(), {}, true}),
-                      std::pair("anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, false}),
-                      std::pair("rigid_on_anchors", CertaintyFrame{hall(), {0, 3, 5, 8}, true})),
+    Uncertainty, UncertaintyOfPairs,
+    ::testing::Values(std::pair("rigid", UncertaintyFrame{hall(), {}, true}),
+                      std::pair("anchors", UncertaintyFrame{hall(), {0, 3, 5, 8}, false}),
+                      std::pair("rigid_on_anchors", UncertaintyFrame{hall(), {0, 3, 5, 8}, true})),
     [](const auto& one) { return std::string(one.param.first); });
 
-TEST(PairCertainty, DrawsScansWithCorrelatedErrorsTogether) {
-  const CertaintyFrame frame{hall(), {}, true};
+TEST(PairUncertainty, DrawsScansWithCorrelatedErrorsTogether) {
+  const UncertaintyFrame frame{hall(), {}, true};
   EXPECT_LE(pair_block_length(erring_scans(1, 1)), 4);
   EXPECT_GE(pair_block_length(erring_scans(1, 40)), 7);
   const double apart = spread(40, frame);
@@ -89,24 +91,24 @@ TEST(PairCertainty, DrawsScansWithCorrelatedErrorsTogether) {
   EXPECT_NEAR(by_blocks, apart, 0.4 * apart);
 }
 
-TEST(PairCertainty, DependsOnItsSeedAlone) {
+TEST(PairUncertainty, DependsOnItsSeedAlone) {
   const DetectionLog log = erring_scans(3, 1);
-  const CertaintyFrame frame{hall(), {}, true};
-  const PairCertaintyOptions options{.replicates = 10, .block = 5, .seed = 4};
-  EXPECT_EQ(pair_certainty(log, frame, options), pair_certainty(log, frame, options));
-  PairCertaintyOptions other = options;
+  const UncertaintyFrame frame{hall(), {}, true};
+  const PairUncertaintyOptions options{.replicates = 10, .block = 5, .seed = 4};
+  EXPECT_EQ(pair_uncertainty(log, frame, options), pair_uncertainty(log, frame, options));
+  PairUncertaintyOptions other = options;
   other.seed = 5;
-  EXPECT_NE(pair_certainty(log, frame, options), pair_certainty(log, frame, other));
-  EXPECT_EQ(pair_certainty(log, frame, options).block_steps, 5);
+  EXPECT_NE(pair_uncertainty(log, frame, options), pair_uncertainty(log, frame, other));
+  EXPECT_EQ(pair_uncertainty(log, frame, options).block_steps, 5);
 }
 
-TEST(PairCertainty, RefusesOtherFramesAndEmptyLogs) {
+TEST(PairUncertainty, RefusesOtherFramesAndEmptyLogs) {
   const DetectionLog log = erring_scans(3, 1);
-  EXPECT_THROW(pair_certainty(log, {Points::Zero(3, 2), {}}), InvalidInput);
+  EXPECT_THROW(pair_uncertainty(log, {Points::Zero(3, 2), {}}), InvalidInput);
   EXPECT_THROW(
-      pair_certainty({.names = {"a"}, .detections = {}, .times_s = {}}, {Points::Zero(1, 2), {}}),
+      pair_uncertainty({.names = {"a"}, .detections = {}, .times_s = {}}, {Points::Zero(1, 2), {}}),
       InvalidInput);
-  EXPECT_THROW(pair_certainty(log, {hall(), {}}, {.block = kScans + 1}), InvalidInput);
+  EXPECT_THROW(pair_uncertainty(log, {hall(), {}}, {.block = kScans + 1}), InvalidInput);
   EXPECT_EQ(pair_block_length({}), 1);
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/random.hpp"
-#include "core/model/map_certainty.hpp"
+#include "core/model/map_uncertainty.hpp"
 #include "core/model/points.hpp"
 
 namespace mapproof {
@@ -31,8 +31,8 @@ using MapOfSteps = std::function<std::optional<Points>(const std::vector<Eigen::
 /// @param steps      N, >= 1.
 /// @throws InvalidInput if a bound is broken or a map has other rows.
 /// @note Each replicate draws from a seed of its own.
-MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
-                           const MapBootstrapOptions& options);
+MapUncertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
+                             const MapBootstrapOptions& options);
 
 /// Squared radius of the ellipse that holds the mean of a normal distribution in the plane with
 /// `confidence`, if its covariance was estimated with `freedom` degrees of freedom.

@@ -3,8 +3,8 @@
 #include "core/base/random.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/world.hpp"
-#include "core/topics/certainty.hpp"
 #include "core/topics/topics.hpp"
+#include "core/topics/uncertainty.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {
@@ -12,12 +12,12 @@ namespace {
 
 TopicExperiment small_study() {
   TopicExperiment experiment;
-  experiment.name = "certainty";
-  experiment.topic = "certainty";
+  experiment.name = "uncertainty";
+  experiment.topic = "uncertainty";
   experiment.steps = 200;
   experiment.world.landmarks = 15;
   experiment.world.side_m = 1.4;
-  for (const TopicOption& option : kCertaintyTopic.options)
+  for (const TopicOption& option : kUncertaintyTopic.options)
     experiment.options[std::string(option.name)] = option.usual;
   experiment.options["walks"] = {6};
   experiment.options["tried"] = {2};
@@ -31,24 +31,24 @@ TopicPart made(const TopicExperiment& experiment) {
   Random random(9);
   const World world = scatter_landmarks(experiment.world, random);
   const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TopicPart part = kCertaintyTopic.make({.experiment = experiment,
-                                         .part = "layout-1-pose-1",
-                                         .run = {},
-                                         .world = &world,
-                                         .path = &path,
-                                         .anchors = {0, 4, 9, 14},
-                                         .seed = 5,
-                                         .data = {},
-                                         .with_maps = true});
+  TopicPart part = kUncertaintyTopic.make({.experiment = experiment,
+                                           .part = "layout-1-pose-1",
+                                           .run = {},
+                                           .world = &world,
+                                           .path = &path,
+                                           .anchors = {0, 4, 9, 14},
+                                           .seed = 5,
+                                           .data = {},
+                                           .with_maps = true});
   part.run = RunId{};
   return part;
 }
 
-TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
+TEST(UncertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
   const TopicExperiment experiment = small_study();
   TopicStudy study;
   study.experiment = experiment;
-  study.design = kCertaintyTopic.design(experiment);
+  study.design = kUncertaintyTopic.design(experiment);
   study.parts = {made(experiment)};
   // 2 sensors x 2 levels x 4 methods, and 2 lengths of blocks x 2 methods.
   EXPECT_EQ(study.parts[0].outcomes.size(), 20U);
@@ -62,12 +62,12 @@ TEST(CertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
   for (const StudiedMethod& method : study.design.methods) methods.push_back(method.id);
   EXPECT_EQ(methods, (std::vector<std::string>{"lpca", "smacof", "smacof-knn-K8", "isomap-K8"}));
   ASSERT_EQ(study.parts[0].maps.size(), 2U);
-  ASSERT_TRUE(study.parts[0].maps[0].certainty);
-  EXPECT_EQ(study.parts[0].maps[0].certainty->covariances.size(), 15U);
+  ASSERT_TRUE(study.parts[0].maps[0].uncertainty);
+  EXPECT_EQ(study.parts[0].maps[0].uncertainty->covariances.size(), 15U);
   EXPECT_EQ(conclusions_of(study).size(), 6U);
 }
 
-TEST(CertaintyTopic, MakesTheSameAgain) {
+TEST(UncertaintyTopic, MakesTheSameAgain) {
   const TopicExperiment experiment = small_study();
   const TopicPart once = made(experiment), again = made(experiment);
   for (std::size_t i = 0; i < once.outcomes.size(); ++i)
@@ -80,7 +80,7 @@ TEST(Coverage, CountsByHand) {
   ground_truth << 0, 0, 4, 3, 9, 9;
   first << 1, 0, 4, 1, 9, 9;
   second << -1, 0, 4, -1, 9, 9;
-  MapCertainty wide;
+  MapUncertainty wide;
   wide.squared_radius = 4.0;
   wide.covariances.assign(3, Eigen::Matrix2d::Identity());  // Circles of radius 2.
   wide.covariances[1] *= 0.2;                               // Of radius 0.89.

@@ -8,7 +8,7 @@
 namespace mapproof {
 
 /// How far the landmarks' positions would move if the same steps were walked and observed again.
-struct MapCertainty {
+struct MapUncertainty {
   /// M, of the map's unit squared; NaN where too few replicates placed the landmark.
   std::vector<Eigen::Matrix2d> covariances;
   /// Of the ellipse: (x - position)' C^-1 (x - position) up to this.
@@ -18,7 +18,7 @@ struct MapCertainty {
   int maps = 0;              ///< Of them, those that gave a map that could be aligned.
   int block_steps = 0;       ///< Consecutive steps that were drawn together.
 
-  bool operator==(const MapCertainty&) const = default;
+  bool operator==(const MapUncertainty&) const = default;
 };
 
 /// An ellipse about a landmark's position, in the map's unit.
@@ -33,6 +33,6 @@ struct Ellipse {
 Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius);
 
 /// The confidence ellipse of a landmark; empty where its covariance is not known.
-std::optional<Ellipse> confidence_ellipse(const MapCertainty& certainty, Eigen::Index landmark);
+std::optional<Ellipse> confidence_ellipse(const MapUncertainty& uncertainty, Eigen::Index landmark);
 
 }  // namespace mapproof

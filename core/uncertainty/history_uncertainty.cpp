@@ -1,15 +1,15 @@
-#include "core/certainty/history_certainty.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/certainty/block_length.hpp"
-#include "core/certainty/map_bootstrap.hpp"
-#include "core/certainty/resampled_maps.hpp"
 #include "core/score/map_score.hpp"
+#include "core/uncertainty/block_length.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
+#include "core/uncertainty/resampled_maps.hpp"
 
 namespace mapproof {
-std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& frame,
+std::optional<Points> in_frame(const Points& coordinates, const UncertaintyFrame& frame,
                                AffineFit fit) {
   if (frame.keeps_scale) {
     if (frame.anchors.empty()) return aligned_rigidly_to(coordinates, frame.positions_m);
@@ -25,9 +25,9 @@ std::optional<Points> in_frame(const Points& coordinates, const CertaintyFrame& 
   return aligned_to(coordinates, frame.positions_m);
 }
 
-MapCertainty history_certainty(const ObservationHistory& history, Eigen::Index steps,
-                               const CertaintyFrame& frame,
-                               const HistoryCertaintyOptions& options) {
+MapUncertainty history_uncertainty(const ObservationHistory& history, Eigen::Index steps,
+                                   const UncertaintyFrame& frame,
+                                   const HistoryUncertaintyOptions& options) {
   if (frame.positions_m.rows() != history.landmarks())
     throw InvalidInput("confidence ellipses need a frame of all landmarks");
   const Eigen::Index block = options.block > 0 ? options.block : map_block_length(history, steps);

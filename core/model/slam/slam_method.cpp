@@ -1,4 +1,4 @@
-#include "core/model/slam/slam_study.hpp"
+#include "core/model/slam/slam_method.hpp"
 
 #include <array>
 

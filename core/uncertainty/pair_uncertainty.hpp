@@ -2,15 +2,15 @@
 
 #include <cstdint>
 
-#include "core/certainty/history_certainty.hpp"
 #include "core/model/detection_log.hpp"
 #include "core/model/experiment.hpp"
-#include "core/model/map_certainty.hpp"
+#include "core/model/map_uncertainty.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 namespace mapproof {
 
 /// How the confidence ellipses of a map of measured pairs are computed.
-struct PairCertaintyOptions {
+struct PairUncertaintyOptions {
   int replicates = 200;    ///< 10 to 10,000.
   Eigen::Index block = 0;  ///< Consecutive scans drawn together; 0: pair_block_length().
   std::uint64_t seed = 1;
@@ -29,7 +29,7 @@ Eigen::Index pair_block_length(const DetectionLog& log);
 /// Which pairs are trusted is decided on the original scans: drawn twice, a wrong one would pass.
 /// @throws InvalidInput if a bound is broken, the log has no scan or the frame other landmarks.
 /// @note As costly as `replicates` maps.
-MapCertainty pair_certainty(const DetectionLog& log, const CertaintyFrame& frame,
-                            const PairCertaintyOptions& options = {});
+MapUncertainty pair_uncertainty(const DetectionLog& log, const UncertaintyFrame& frame,
+                                const PairUncertaintyOptions& options = {});
 
 }  // namespace mapproof

@@ -1,4 +1,4 @@
-#include "core/certainty/map_bootstrap.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +34,8 @@ Eigen::Matrix2d covariance(const std::vector<Points>& maps, Eigen::Index landmar
 
 }  // namespace
 
-MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
-                           const MapBootstrapOptions& options) {
+MapUncertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const MapOfSteps& map_of,
+                             const MapBootstrapOptions& options) {
   if (options.replicates < 10 || options.replicates > 10000)
     throw InvalidInput("the bootstrap needs 10 to 10,000 replicates");
   std::vector<Points> maps;
@@ -47,7 +47,7 @@ MapCertainty bootstrap_map(Eigen::Index landmarks, Eigen::Index steps, const Map
     if (map->rows() != landmarks) throw InvalidInput("a bootstrap's maps need all landmarks");
     maps.push_back(std::move(*map));
   }
-  MapCertainty result;
+  MapUncertainty result;
   result.replicates = options.replicates;
   result.maps = static_cast<int>(maps.size());
   result.block_steps = static_cast<int>(options.block);

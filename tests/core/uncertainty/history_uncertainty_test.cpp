@@ -1,4 +1,4 @@
-#include "core/certainty/history_certainty.hpp"
+#include "core/uncertainty/history_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
-#include "core/certainty/block_length.hpp"
-#include "core/certainty/resampled_maps.hpp"
 #include "core/simulate/robot_walk.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/simulate/world.hpp"
+#include "core/uncertainty/block_length.hpp"
+#include "core/uncertainty/resampled_maps.hpp"
 
 namespace mapproof {
 namespace {
@@ -63,9 +63,9 @@ TEST_P(EverySensor, EveryLandmarkThatIsSeenHasAnEllipse) {
   const auto [sensor, dropout] = GetParam();
   const Walked made = walked(sensor, dropout);
   Random random(1);
-  const CertaintyFrame frame{made.world.landmarks_m,
-                             place_anchors(made.world, 4, AnchorPlacement::kWalls, random)};
-  const MapCertainty found = history_certainty(
+  const UncertaintyFrame frame{made.world.landmarks_m,
+                               place_anchors(made.world, 4, AnchorPlacement::kWalls, random)};
+  const MapUncertainty found = history_uncertainty(
       made.history, 300, frame, {.setting = {Method::kLpca, std::nullopt}, .replicates = 20});
   ASSERT_EQ(found.covariances.size(), 16U);
   EXPECT_EQ(found.maps, 20);
@@ -84,40 +84,41 @@ TEST_P(EverySensor, EveryLandmarkThatIsSeenHasAnEllipse) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Certainty, EverySensor,
+    Uncertainty, EverySensor,
     ::testing::Values(std::pair{Sensor::kVisibility, 0.0}, std::pair{Sensor::kVisibility, 0.3},
                       std::pair{Sensor::kBearing, 0.0}, std::pair{Sensor::kBearing, 0.3},
                       std::pair{Sensor::kRange, 0.0}, std::pair{Sensor::kRange, 0.3}));
 
-TEST(HistoryCertainty, IsZeroWhereTheMapIsTheSameForAllSteps) {
+TEST(HistoryUncertainty, IsZeroWhereTheMapIsTheSameForAllSteps) {
   // Ranges without noise give LPCA the same map up to an affine one, whatever the steps.
   const Walked made = walked(Sensor::kRange, 0.0);
-  const MapCertainty found =
-      history_certainty(made.history, 300, {made.world.landmarks_m, {0, 5, 10, 15}},
-                        {.setting = {Method::kLpca, std::nullopt}, .replicates = 20});
+  const MapUncertainty found =
+      history_uncertainty(made.history, 300, {made.world.landmarks_m, {0, 5, 10, 15}},
+                          {.setting = {Method::kLpca, std::nullopt}, .replicates = 20});
   for (const Eigen::Matrix2d& C : found.covariances) EXPECT_LT(C.norm(), 1e-18);
 }
 
-TEST(HistoryCertainty, ScalesWithAFrameWithoutAnchors) {
+TEST(HistoryUncertainty, ScalesWithAFrameWithoutAnchors) {
   const Walked made = walked(Sensor::kBearing, 0.0);
-  const HistoryCertaintyOptions options{.setting = {Method::kSmacof, std::nullopt},
-                                        .replicates = 20};
+  const HistoryUncertaintyOptions options{.setting = {Method::kSmacof, std::nullopt},
+                                          .replicates = 20};
   HistoryEmbedder embedder(made.history, 300);
   const Points map = embedder.embed(options.setting).coordinates;
-  const MapCertainty once = history_certainty(made.history, 300, {map, {}}, options);
-  const MapCertainty twice = history_certainty(made.history, 300, {2.0 * map, {}}, options);
+  const MapUncertainty once = history_uncertainty(made.history, 300, {map, {}}, options);
+  const MapUncertainty twice = history_uncertainty(made.history, 300, {2.0 * map, {}}, options);
   for (std::size_t i = 0; i < once.covariances.size(); ++i)
     EXPECT_LT((4.0 * once.covariances[i] - twice.covariances[i]).norm(),
               1e-9 * twice.covariances[i].norm());
 }
 
-TEST(HistoryCertainty, ShrinksWithTheSteps) {
+TEST(HistoryUncertainty, ShrinksWithTheSteps) {
   const Walked made = walked(Sensor::kBearing, 0.0, 2000);
-  const HistoryCertaintyOptions options{.setting = {Method::kLpca, std::nullopt}, .replicates = 60};
+  const HistoryUncertaintyOptions options{.setting = {Method::kLpca, std::nullopt},
+                                          .replicates = 60};
   const auto sum = [&](Eigen::Index steps) {
     double total = 0.0;
     for (const Eigen::Matrix2d& C :
-         history_certainty(made.history, steps, {made.world.landmarks_m, {0, 5, 10, 15}}, options)
+         history_uncertainty(made.history, steps, {made.world.landmarks_m, {0, 5, 10, 15}}, options)
              .covariances)
       total += C.trace();
     return total;
@@ -128,10 +129,10 @@ TEST(HistoryCertainty, ShrinksWithTheSteps) {
   EXPECT_LT(share, 1.0 / 4.0);
 }
 
-TEST(HistoryCertainty, RefusesFramesOfOtherLandmarks) {
+TEST(HistoryUncertainty, RefusesFramesOfOtherLandmarks) {
   const Walked made = walked(Sensor::kBearing, 0.0);
-  EXPECT_THROW(history_certainty(made.history, 300, {Points::Zero(3, 2), {}},
-                                 {.setting = {Method::kLpca, std::nullopt}}),
+  EXPECT_THROW(history_uncertainty(made.history, 300, {Points::Zero(3, 2), {}},
+                                   {.setting = {Method::kLpca, std::nullopt}}),
                InvalidInput);
 }
 
@@ -154,8 +155,8 @@ TEST(InFrame, AlignsMapsToAnEstimateByAReflectedSimilarity) {
 TEST(InFrame, KeepsTheScaleOfMetricMaps) {
   Points place(4, 2);
   place << 0.0, 0.0, 3.0, 0.0, 3.0, 1.0, 0.0, 2.0;
-  for (const CertaintyFrame& frame :
-       {CertaintyFrame{place, {}, true}, CertaintyFrame{place, {0, 1, 3}, true}}) {
+  for (const UncertaintyFrame& frame :
+       {UncertaintyFrame{place, {}, true}, UncertaintyFrame{place, {0, 1, 3}, true}}) {
     const auto laid = in_frame(2.0 * place, frame, AffineFit::kLeastSquares);
     ASSERT_TRUE(laid);
     EXPECT_NEAR((laid->row(1) - laid->row(0)).norm(), 6.0, 1e-12);

@@ -1,4 +1,4 @@
-#include "core/certainty/block_length.hpp"
+#include "core/uncertainty/block_length.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "core/certainty/pair_certainty.hpp"
+#include "core/uncertainty/pair_uncertainty.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/base/errors.hpp"
-#include "core/certainty/block_length.hpp"
-#include "core/certainty/map_bootstrap.hpp"
 #include "core/pairs/pair_map.hpp"
+#include "core/uncertainty/block_length.hpp"
+#include "core/uncertainty/map_bootstrap.hpp"
 
 namespace mapproof {
 namespace {
@@ -82,8 +82,8 @@ Eigen::Index pair_block_length(const DetectionLog& log) {
   return block_length_of(log, measured_pairs(log));
 }
 
-MapCertainty pair_certainty(const DetectionLog& log, const CertaintyFrame& frame,
-                            const PairCertaintyOptions& options) {
+MapUncertainty pair_uncertainty(const DetectionLog& log, const UncertaintyFrame& frame,
+                                const PairUncertaintyOptions& options) {
   if (log.steps < 1) throw InvalidInput("a bootstrap needs a scan or more");
   if (frame.positions_m.rows() != std::ssize(log.names))
     throw InvalidInput("confidence ellipses need a frame of all landmarks");

@@ -12,7 +12,7 @@
 namespace mapproof {
 namespace {
 
-std::string certainty_question(const TopicExperiment& experiment) {
+std::string uncertainty_question(const TopicExperiment& experiment) {
   return fmt::format(
       "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. Of "
       "{:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
@@ -35,7 +35,7 @@ std::pair<double, double> range_of(const TopicStudy& study, const TopicSetup& se
   return {low, high};
 }
 
-std::vector<std::string> certainty_conclusions(const TopicStudy& study) {
+std::vector<std::string> uncertainty_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   for (const TopicSetup& setup : study.design.setups) {
     const auto [low, high] = range_of(study, setup, "mean_covered_percent");
@@ -57,7 +57,8 @@ std::vector<std::string> certainty_conclusions(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kCertaintyWords = {
-    .topic = "certainty", .question = certainty_question, .conclusions = certainty_conclusions};
+const TopicWords kUncertaintyWords = {.topic = "uncertainty",
+                                      .question = uncertainty_question,
+                                      .conclusions = uncertainty_conclusions};
 
 }  // namespace mapproof
