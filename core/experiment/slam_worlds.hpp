@@ -8,6 +8,7 @@
 
 #include "core/model/points.hpp"
 #include "core/model/slam/slam_experiment.hpp"
+#include "core/model/slam/slam_study.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "core/simulate/range_world.hpp"
 

@@ -35,7 +35,7 @@ TEST(SlamStudy, IsReadBackAsItWasWritten) {
   const test::TemporaryFolder folder;
   { filled(folder.path(), test::made_up_provenance()); }
   const SlamStudy study = read_slam_study(folder.path());
-  EXPECT_EQ(study.name, "small");
+  EXPECT_EQ(study.experiment.name, "small");
   ASSERT_EQ(study.runs.size(), 1U);
   EXPECT_EQ(slam_run_json(study.runs[0]), slam_run_json(test::made_up_slam_run("drive")));
   EXPECT_EQ(study.runs[0].records[0].error_m[1], 0.2);
@@ -51,7 +51,6 @@ TEST(SlamStudy, IsReadBackAsItWasWritten) {
   ASSERT_TRUE(study.space);
   EXPECT_EQ(space_run_json(*study.space), space_run_json(test::made_up_space_run()));
   EXPECT_TRUE(study.space->records[1].estimate.empty());
-  EXPECT_TRUE(study.missing.empty());
   EXPECT_EQ(study_schema(folder.path()), "mapproof.slam_study");
 }
 
@@ -65,14 +64,17 @@ TEST(SlamStudy, TakesTheLaterOfTwoTimings) {
   EXPECT_EQ(timings.factorization[0].steps, 20);
 }
 
-TEST(SlamStudy, NamesTheDataThatAreMissingAndHowToGetThem) {
+TEST(SlamStudy, OfDataThatAreMissingHasTheirSourceAndNoRun) {
   const test::TemporaryFolder folder;
   {
     StudyWriter(folder.path(),
                 study_start(test::small_slam_experiment(), test::made_up_provenance()));
   }
-  EXPECT_EQ(read_slam_study(folder.path()).missing,
-            std::vector<std::string>{"A drive is missing. Ask for it."});
+  const SlamStudy study = read_slam_study(folder.path());
+  EXPECT_TRUE(study.runs.empty());
+  ASSERT_EQ(study.experiment.data.size(), 1U);
+  EXPECT_EQ(study.experiment.data[0].title, "A drive");
+  EXPECT_EQ(study.experiment.data[0].source, "Ask for it.");
 }
 
 TEST(SlamStudy, KnowsWhatItHoldsAndWhatIsDamagedOrOfAnotherLog) {
