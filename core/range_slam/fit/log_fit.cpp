@@ -151,10 +151,16 @@ class LogTester {
   LogState joined(const LogProblem& problem, const std::vector<LogProblem::Fit>& parts,
                   double time_s) const;
   void update_times(LogHypothesis& hypothesis, const LogProblem::Fit& fit) const;
+  /// The shifts of a clock at which the ranges cost least, the path held: lowest first, at most
+  /// kMostTried, among multiples of `step_s` that grow apart.
+  std::vector<double> likely_shifts(const LogHypothesis& hypothesis, LogProblem::Fit fit,
+                                    double step_s) const;
   void try_offsets();
   void try_times();
   void try_moves();
   void try_exchanges();
+  /// Adds a fit to those that were tried, unless one of the same code and landmarks costs less.
+  void keep_better(TriedHypothesis one);
   void try_frozen();
   void add_limits(const LogProblem::Scores& scores, std::vector<FitTest>& tests) const;
   FitCause cause_of(const TriedHypothesis& tried) const;
@@ -183,7 +189,8 @@ class LogTester {
   std::optional<LogProblem> problem_;
   LogProblem::Fit plain_;
   double inflation_ = 1.0;
-  double speed_ = 0.0;  ///< m/s, of the odometry.
+  double speed_ = 0.0;                   ///< m/s, of the odometry.
+  std::vector<LogProblem::Fit> halves_;  ///< Of the ranges of each half of the log alone; or none.
   std::vector<TriedHypothesis> tried_;
 };
 
@@ -428,6 +435,24 @@ LogState LogTester::joined(const LogProblem& problem, const std::vector<LogProbl
   return state;
 }
 
+std::vector<double> LogTester::likely_shifts(const LogHypothesis& hypothesis, LogProblem::Fit fit,
+                                             double step_s) const {
+  std::vector<double> shifts_s, costs;
+  for (int k = -25; k <= 25; ++k) {
+    fit.state.shift_s = step_s * k * (1.0 + 0.08 * std::abs(k));
+    shifts_s.push_back(fit.state.shift_s);
+    costs.push_back(problem_->range_costs(hypothesis, fit).sum());
+  }
+  std::vector<std::size_t> lowest;
+  for (std::size_t i = 1; i + 1 < costs.size(); ++i)
+    if (costs[i] <= costs[i - 1] && costs[i] <= costs[i + 1]) lowest.push_back(i);
+  std::ranges::stable_sort(lowest, {}, [&](std::size_t i) { return costs[i]; });
+  if (lowest.size() > kMostTried) lowest.resize(kMostTried);
+  std::vector<double> likely_s;
+  for (const std::size_t i : lowest) likely_s.push_back(shifts_s[i]);
+  return likely_s;
+}
+
 void LogTester::try_times() {
   const double length_s = odometry_.time_s(odometry_.size() - 1) - odometry_.time_s(0);
   // From no shift, and from some that are so large that slopes do not lead there.
@@ -447,17 +472,13 @@ void LogTester::try_times() {
       {.code = FitCode::kClockJump, .from_s = times[static_cast<std::size_t>(best)]}, starts);
   // A clock that is right in one half shows how far it is off in the other.
   const double middle_s = odometry_.time_s(0) + 0.5 * length_s;
-  for (LogProblem::Fit guess : fits_of_parts(middle_s, middle_s)) {
-    std::vector<std::pair<double, double>> costs;
-    const LogHypothesis hypothesis{.code = FitCode::kClockJump, .from_s = middle_s};
-    for (int k = -24; k <= 24; ++k) {
-      guess.state.shift_s = 0.25 * reach_s * k * (1.0 + 0.08 * std::abs(k));
-      costs.emplace_back(problem_->range_costs(hypothesis, guess).sum(), guess.state.shift_s);
+  const LogHypothesis half_way{.code = FitCode::kClockJump, .from_s = middle_s};
+  for (LogProblem::Fit guess : halves_)
+    for (const double shift_s : likely_shifts(half_way, guess, 0.25 * reach_s)) {
+      guess.state.shift_s = shift_s;
+      TriedHypothesis one = tried(half_way, guess.state, guess.noise);
+      if (one.fit.cost < jump.fit.cost) jump = std::move(one);
     }
-    guess.state.shift_s = std::ranges::min(costs).second;
-    TriedHypothesis one = tried(hypothesis, guess.state, guess.noise);
-    if (one.fit.cost < jump.fit.cost) jump = std::move(one);
-  }
   // A jump near one end is a late clock.
   double after = 0.0, count = 0.0;
   for (const LogProblem::Range& range : problem_->ranges()) {
@@ -523,22 +544,51 @@ void LogTester::try_exchanges() {
     double gain = 0.0;
     LogHypothesis hypothesis;
   };
-  std::vector<Candidate> candidates;
-  for (Index a = 0; a < problem_->landmarks(); ++a)
-    for (Index b = a + 1; b < problem_->landmarks(); ++b) {
-      if (!is_placed_[static_cast<std::size_t>(a)] || !is_placed_[static_cast<std::size_t>(b)])
-        continue;
-      LogHypothesis hypothesis{.code = FitCode::kIdsExchanged, .landmarks = {a, b}};
-      update_times(hypothesis, plain_);
-      if (hypothesis.from_s == -kInfinity) continue;
-      const double gain =
-          (problem_->range_costs({}, plain_) - problem_->range_costs(hypothesis, plain_)).sum();
-      if (gain > 8.0) candidates.push_back({gain, hypothesis});
+  // Exchanged IDs bend the plain fit; that of the half without them is not bent.
+  std::vector<const LogProblem::Fit*> starts = {&plain_};
+  for (const LogProblem::Fit& half : halves_) starts.push_back(&half);
+  for (const LogProblem::Fit* start : starts) {
+    std::vector<Candidate> candidates;
+    const double cost = problem_->range_costs({}, *start).sum();
+    for (Index a = 0; a < problem_->landmarks(); ++a)
+      for (Index b = a + 1; b < problem_->landmarks(); ++b) {
+        if (!is_placed_[static_cast<std::size_t>(a)] || !is_placed_[static_cast<std::size_t>(b)])
+          continue;
+        LogHypothesis hypothesis{.code = FitCode::kIdsExchanged, .landmarks = {a, b}};
+        update_times(hypothesis, *start);
+        if (hypothesis.from_s == -kInfinity) continue;
+        const double gain = cost - problem_->range_costs(hypothesis, *start).sum();
+        if (gain > 8.0) candidates.push_back({gain, hypothesis});
+      }
+    std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::gain);
+    if (candidates.size() > kMostTried) candidates.resize(kMostTried);
+    for (const Candidate& candidate : candidates) {
+      LogHypothesis hypothesis = candidate.hypothesis;
+      LogState state = start->state;
+      // IDs exchanged up to a time are those exchanged from it on, with the landmarks exchanged.
+      const auto before = std::ranges::count_if(
+          problem_->ranges(), [&](const auto& range) { return range.time_s < hypothesis.from_s; });
+      if (std::isfinite(hypothesis.to_s) &&
+          static_cast<double>(before) <
+              kLeastSide * static_cast<double>(problem_->ranges().size())) {
+        hypothesis.from_s = std::exchange(hypothesis.to_s, kInfinity);
+        std::swap(state.landmarks[static_cast<std::size_t>(hypothesis.landmarks[0])],
+                  state.landmarks[static_cast<std::size_t>(hypothesis.landmarks[1])]);
+      }
+      keep_better(tried(hypothesis, std::move(state), start->noise));
     }
-  std::ranges::stable_sort(candidates, std::greater<>(), &Candidate::gain);
-  if (candidates.size() > kMostTried) candidates.resize(kMostTried);
-  for (const Candidate& candidate : candidates)
-    tried_.push_back(tried(candidate.hypothesis, plain_.state, plain_.noise));
+  }
+}
+
+void LogTester::keep_better(TriedHypothesis one) {
+  const auto same = std::ranges::find_if(tried_, [&](const TriedHypothesis& other) {
+    return other.hypothesis.code == one.hypothesis.code &&
+           other.hypothesis.landmarks == one.hypothesis.landmarks;
+  });
+  if (same == tried_.end())
+    tried_.push_back(std::move(one));
+  else if (one.fit.cost < same->fit.cost)
+    *same = std::move(one);
 }
 
 void LogTester::try_frozen() {
@@ -770,6 +820,8 @@ void LogTester::find_open_parts(Fit& fit) const {
 
 void LogTester::judge(LogFit& result) {
   Fit& fit = result.fit;
+  const double middle_s = 0.5 * (odometry_.time_s(0) + odometry_.time_s(odometry_.size() - 1));
+  halves_ = fits_of_parts(middle_s, middle_s);
   try_offsets();
   try_times();
   try_moves();

@@ -27,6 +27,13 @@ constexpr double kMostShare = 0.6;
 /// heading.
 constexpr double kFirstWayError = 0.005;
 constexpr double kFirstTurnError = 0.3;
+/// What is known of the offsets of landmarks before the log is: their standard deviation as a share
+/// of a range's, and the number of landmarks for which it counts. From a few landmarks alone the
+/// estimate is often 0. Over 100 simulated drives each (docs/methods/measurements.md), 95 %
+/// ellipses hold 95.7, 94.5 and 91.4 % with offsets of 0, 0.1 and 0.2 m; without this 93.2, 90.8
+/// and 84.7 %.
+constexpr double kOffsetPrior = 0.5;
+constexpr double kOffsetPriorWeight = 1.0;
 constexpr double kNoDirection = 1e-9;
 constexpr double kTwoPi = 6.283185307179586;
 
@@ -498,9 +505,11 @@ bool LogProblem::update_noise(const LogHypothesis& hypothesis, const Columns& co
   if (columns.offsets >= 0) {
     const double trace = covariance->shared.diagonal().segment(columns.offsets, landmarks_).sum();
     const double free = static_cast<double>(landmarks_) - trace / (noise.offset_m * noise.offset_m);
-    if (free > 1e-3)
-      noise.offset_m = grown(
-          noise.offset_m, state.offsets_m.squaredNorm() / free / (noise.offset_m * noise.offset_m));
+    const double prior_m = kOffsetPrior * noise.range_m;
+    const double variance =
+        (state.offsets_m.squaredNorm() + kOffsetPriorWeight * prior_m * prior_m) /
+        (std::max(free, 0.0) + kOffsetPriorWeight);
+    noise.offset_m = grown(noise.offset_m, variance / (noise.offset_m * noise.offset_m));
   }
   return true;
 }

@@ -12,6 +12,7 @@
 #include "core/experiment/slam_run.hpp"
 #include "core/range_slam/fit/chain_system.hpp"
 #include "core/simulate/range_world.hpp"
+#include "tests/support/plaza.hpp"
 
 namespace mapproof {
 namespace {
@@ -138,6 +139,18 @@ TEST(LogFit, NamesALateClock) {
 TEST(LogFit, NamesAJumpOfTheClock) {
   const Fit fit = fit_log(drive_with({.jump_s = 20.0}), {}, quick_options()).fit;
   EXPECT_NE(cause_in(fit, FitCode::kClockJump), nullptr);
+}
+
+TEST(LogFit, FindsTheSizeOfAJumpInARecordedDrive) {
+  std::optional<RangeLog> log = test::plaza("plaza2");
+  if (!log) GTEST_SKIP() << test::kNoPlaza;
+  const double middle_s = 0.5 * (log->ranges.front().time_s + log->ranges.back().time_s);
+  for (RangeMeasurement& range : log->ranges)
+    if (range.time_s >= middle_s) range.time_s += 5.0;
+  const Fit fit = fit_log(*log, {}, {.only_tests = true}).fit;
+  const FitCause* cause = cause_in(fit, FitCode::kClockJump);
+  ASSERT_NE(cause, nullptr);
+  EXPECT_NEAR(value_in(*cause, "offset_s"), 5.0, 0.2);
 }
 
 TEST(LogFit, NamesAMovedLandmarkAndWhen) {
