@@ -306,6 +306,9 @@ std::string finding_text(const Finding& finding) {
     text = problems_text(finding);
   } else if (finding.input) {
     text = fmt::format("{} ({})\n", understood_line(finding.path, *finding.input), finding.kind);
+  } else if (finding.companion) {
+    text =
+        fmt::format("{} ({})\n", understood_line(finding.path, *finding.companion), finding.kind);
   } else {
     text = fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind);
   }
@@ -321,6 +324,7 @@ nlohmann::ordered_json finding_json(const Finding& finding) {
                                 {"further_problems", finding.further},
                                 {"remarks", finding.remarks}};
   if (finding.input) object["input"] = understood_json(*finding.input);
+  if (finding.companion) object["input"] = understood_json(*finding.companion);
   return object;
 }
 
