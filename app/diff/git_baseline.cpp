@@ -1,5 +1,8 @@
 #include "app/diff/git_baseline.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +15,9 @@
 #include <span>
 #include <string_view>
 #include <system_error>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -125,10 +131,40 @@ void extract(const GitFolder& source, std::span<const GitFile> files, const Outp
   }
 }
 
-fs::path new_temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "mapproof-baseline-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw IoError(name, std::strerror(errno));
-  return name;
+constexpr std::string_view kTemporaryName = "mapproof-baseline-";
+
+/// Locks a folder of this user. @return None if it is another's, or is locked already.
+Descriptor locked(const fs::path& folder) {
+  Descriptor lock(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  struct stat facts {};
+  if (lock.get() < 0 || ::fstat(lock.get(), &facts) != 0 || facts.st_uid != ::geteuid() ||
+      ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0)
+    return Descriptor(-1);
+  return lock;
+}
+
+/// Removes the folders of runs that were killed: those that nobody holds locked.
+void remove_abandoned(const fs::path& parent) {
+  std::error_code error;
+  std::vector<fs::path> folders;
+  for (fs::directory_iterator it(parent, error), end; !error && it != end; it.increment(error))
+    if (it->path().filename().string().starts_with(kTemporaryName)) folders.push_back(it->path());
+  for (const fs::path& folder : folders)
+    if (const Descriptor lock = locked(folder); lock.get() >= 0) fs::remove_all(folder, error);
+}
+
+/// A new folder, locked as long as it is used, where the file system has locks. One that another
+/// run took for abandoned before it was locked is made again.
+std::pair<fs::path, Descriptor> new_temporary_folder() {
+  const fs::path parent = fs::temp_directory_path();
+  remove_abandoned(parent);
+  while (true) {
+    std::string name = (parent / (std::string(kTemporaryName) + "XXXXXX")).string();
+    if (::mkdtemp(name.data()) == nullptr) throw IoError(name, std::strerror(errno));
+    Descriptor lock = locked(name);
+    const bool is_taken = lock.get() < 0 && errno == EWOULDBLOCK;
+    if (std::error_code error; !is_taken && fs::exists(name, error)) return {name, std::move(lock)};
+  }
 }
 
 }  // namespace
@@ -165,7 +201,7 @@ GitBaseline::GitBaseline(const GitFolder& source) {
   if (required(source, {"cat-file", "-t", tree.line()}).line() != "tree")
     refuse(source.text(), "is a file; name the folder that holds it");
   const std::vector<GitFile> files = listed_files(source, tree.line(), left_out_);
-  folder_ = new_temporary_folder();
+  std::tie(folder_, lock_) = new_temporary_folder();
   try {
     for (std::size_t first = 0; first < files.size();) {
       std::uint64_t bytes = 0;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/files/descriptor.hpp"
+
 namespace mapproof {
 
 /// A folder in a commit of the git repository around the current folder: "origin/main:plots".
@@ -20,7 +22,8 @@ struct GitFolder {
 GitFolder parse_git_folder(const std::string& text);
 
 /// The files of a folder in a commit, in a temporary folder as long as this object lives. They are
-/// the bytes that git stores: no filter and no hook runs. Links and submodules are left out.
+/// the bytes that git stores: no filter and no hook runs. Links and submodules are left out. The
+/// folder of a process that was killed is removed by the next one.
 class GitBaseline {
  public:
   /// @throws InvalidInput with git's reason if git is missing, there is no repository, it has no
@@ -42,6 +45,7 @@ class GitBaseline {
 
  private:
   std::filesystem::path folder_;
+  Descriptor lock_{-1};  ///< Of the folder, as long as it is used.
   std::string working_folder_;
   std::string commit_;
   std::vector<std::string> left_out_;
