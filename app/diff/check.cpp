@@ -280,15 +280,11 @@ Baseline baseline_of(const CheckArguments& arguments, const std::optional<GitBas
 /// commit in a remark.
 void name_baseline(DiffResult& result, const Baseline& baseline, const GitBaseline& git) {
   constexpr std::size_t kShortHash = 10;
-  const auto rename = [&](std::string& text) {
+  rename_files(result, [&](std::string text) {
     for (std::size_t at = 0; (at = text.find(baseline.folder, at)) != std::string::npos;)
       text.replace(at, baseline.folder.size(), baseline.text);
-  };
-  rename(result.judgement.cause);
-  for (DiffItem& item : result.items) {
-    rename(item.judgement.cause);
-    for (ImageFile& image : item.images) rename(image.diff.reason);
-  }
+    return text;
+  });
   result.baseline = baseline.target;
   result.remarks.push_back(fmt::format("The baseline is {}, commit {}.", printable(baseline.text),
                                        git.commit().substr(0, kShortHash)));
