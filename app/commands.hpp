@@ -12,6 +12,7 @@ Action run_command(CLI::App& app);
 Action merge_command(CLI::App& app);
 Action render_command(CLI::App& app);
 Action report_command(CLI::App& app);
+Action results_command(CLI::App& app);
 Action map_command(CLI::App& app);
 Action slam_command(CLI::App& app);
 Action evaluate_command(CLI::App& app);

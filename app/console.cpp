@@ -152,6 +152,10 @@ void ProgressLine::show(const std::string& text) {
   terminal_has_line = terminal_;
 }
 
+std::function<void(const std::string&)> note_to(const Console& console) {
+  return [&console](const std::string& text) { console.info(text); };
+}
+
 CountProgress count_progress(const Console& console, std::string doing) {
   auto line = std::make_shared<ProgressLine>(console, doing);
   return [line, doing = std::move(doing)](std::size_t done, std::size_t total) {

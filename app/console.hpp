@@ -84,6 +84,9 @@ class ProgressLine {
 /// any thread.
 void wipe_progress_line();
 
+/// Says what it is called with, see Console::info(). The console has to outlive it.
+std::function<void(const std::string&)> note_to(const Console& console);
+
 /// Called with how many of how many are done.
 using CountProgress = std::function<void(std::size_t done, std::size_t total)>;
 

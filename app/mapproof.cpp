@@ -144,8 +144,8 @@ constexpr std::pair<const char*, AddCommand> kCommands[] = {
     {"slam", slam_command},           {"evaluate", evaluate_command}, {"export", export_command},
     {"import", import_command},       {"diff", diff_command},         {"approve", approve_command},
     {"check", check_command},         {"example", example_command},   {"methods", methods_command},
-    {"validate", validate_command},   {"nightly", nightly_command},   {"history", history_command},
-    {"generate", generate_command},
+    {"results", results_command},     {"validate", validate_command}, {"nightly", nightly_command},
+    {"history", history_command},     {"generate", generate_command},
 };
 
 /// Does a command's work. @param typed  The words of the command line.

@@ -57,7 +57,7 @@ struct OptionTable {
     for (auto pair = apart.rbegin(); pair != apart.rend(); ++pair)
       if (pair->other == option) {
         const char* separator = text.empty() ? "" : text.find(" or ") == text.npos ? " or " : ", ";
-        text = std::string(pair->option) + separator + text;
+        text.insert(0, separator).insert(0, pair->option);
       }
     return "Not with " + text;
   }

@@ -53,7 +53,8 @@ void add_table_options(CLI::App& app, TableOptions& options) {
       ->capture_default_str();
   app.add_option("--columns", options.columns,
                  "Headers or numbers of the columns of a table, as in time=Zeit,landmark=Objekt,"
-                 "bearing=3; also step, nanoseconds, robot, range, value, x, y, right")
+                 "bearing=3; also step, nanoseconds, robot, range, value, x, y, right. A second "
+                 "header of a role is that of another file: landmark=Objekt,landmark=Bake")
       ->type_name("NAME=COLUMN")
       ->allow_extra_args(false)
       ->delimiter(',');

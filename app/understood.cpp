@@ -1,5 +1,6 @@
 #include "app/understood.hpp"
 
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,6 +24,8 @@ const char* separator_words(char separator) {
       return "separated by semicolons";
     case '\t':
       return "separated by tabs";
+    case '|':
+      return "separated by bars";
     case TableReader::kBlanks:
       return "separated by blanks";
     default:
@@ -53,16 +56,70 @@ std::string unit_words(const InputSummary& summary) {
 }
 
 /// "time = Zeit, landmark = Objekt"; a column without a header by its role alone.
-std::string column_words(const TableReading& reading) {
+std::string column_words(const std::vector<std::pair<std::string, std::string>>& columns) {
   std::vector<std::string> words;
-  for (const auto& [role, header] : reading.columns)
+  for (const auto& [role, header] : columns)
     words.push_back(header.empty() || lower_case(header) == role
                         ? role
                         : fmt::format("{} = {}", role, printable(header, 40)));
   return words.empty() ? "" : fmt::format("columns {}", fmt::join(words, ", "));
 }
 
+/// Odometry, a path or positions in numbers.
+std::vector<std::string> companion_facts(const CompanionSummary& summary) {
+  const std::string duration =
+      summary.duration_s > 0.0 ? fmt::format("{:.4g} s", summary.duration_s) : "";
+  const std::string extent =
+      fmt::format("{:.4g} m x {:.4g} m", summary.extent_m.x(), summary.extent_m.y());
+  std::vector<std::string> facts;
+  switch (summary.companion) {
+    case Companion::kOdometry:
+      facts = {counted(summary.rows, "motion"), duration,
+               fmt::format("a way of {:.4g} m", summary.way_m),
+               fmt::format("heading changes of {:.4g} rad in all", summary.turned_rad)};
+      break;
+    case Companion::kPath:
+      facts = {counted(summary.rows, "pose"), duration};
+      if (summary.way_m > 0.0)
+        facts.push_back(fmt::format("a way of {:.4g} m within {}", summary.way_m, extent));
+      facts.emplace_back(summary.has_headings ? "with headings" : "");
+      break;
+    case Companion::kLandmarks:
+      facts = {counted(summary.rows, "landmark"), "within " + extent};
+      break;
+  }
+  std::erase(facts, "");
+  return facts;
+}
+
+nlohmann::ordered_json columns_json(
+    const std::vector<std::pair<std::string, std::string>>& columns) {
+  nlohmann::ordered_json object = nlohmann::ordered_json::object();
+  for (const auto& [role, header] : columns) object[role] = header;
+  return object;
+}
+
 }  // namespace
+
+std::string understood_line(const std::string& name, const CompanionSummary& summary) {
+  const std::string columns = column_words(summary.columns);
+  return fmt::format("{}: {}{}{}", printable(name, 300), fmt::join(companion_facts(summary), ", "),
+                     columns.empty() ? "" : "; ", columns);
+}
+
+nlohmann::ordered_json understood_json(const CompanionSummary& summary) {
+  nlohmann::ordered_json object{{"rows", summary.rows}};
+  if (summary.companion != Companion::kLandmarks) {
+    object["duration_s"] = summary.duration_s;
+    object["way_m"] = summary.way_m;
+  }
+  if (summary.companion == Companion::kOdometry)
+    object["turned_rad"] = summary.turned_rad;
+  else
+    object["extent_m"] = {summary.extent_m.x(), summary.extent_m.y()};
+  object["columns"] = columns_json(summary.columns);
+  return object;
+}
 
 std::string understood_line(const std::string& name, const InputSummary& summary) {
   const TableReading& reading = summary.reading;
@@ -75,7 +132,8 @@ std::string understood_line(const std::string& name, const InputSummary& summary
     facts.push_back(fmt::format("{:.1f} % missing", 100.0 * summary.missing_share));
   std::vector<std::string> form;
   if (!reading.form.empty()) form.push_back(reading.form);
-  if (const std::string words = column_words(reading); !words.empty()) form.push_back(words);
+  if (const std::string words = column_words(reading.columns); !words.empty())
+    form.push_back(words);
   if (const std::string words = separator_words(reading.separator); !words.empty())
     form.push_back(words);
   if (!reading.packing.empty()) form.push_back(reading.packing);
@@ -87,8 +145,6 @@ std::string understood_line(const std::string& name, const InputSummary& summary
 
 nlohmann::ordered_json understood_json(const InputSummary& summary) {
   const TableReading& reading = summary.reading;
-  nlohmann::ordered_json columns = nlohmann::ordered_json::object();
-  for (const auto& [role, header] : reading.columns) columns[role] = header;
   nlohmann::ordered_json object{
       {"landmarks", summary.landmarks},
       {"steps", summary.steps},
@@ -97,7 +153,7 @@ nlohmann::ordered_json understood_json(const InputSummary& summary) {
       {"bearing_convention", name(reading.convention)},
       {"missing_share", summary.missing_share},
       {"form", reading.form},
-      {"columns", std::move(columns)},
+      {"columns", columns_json(reading.columns)},
       {"separator", reading.separator == '\0' ? "" : std::string(1, reading.separator)},
       {"decimal_commas", reading.has_decimal_commas},
       {"times", reading.times}};

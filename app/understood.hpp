@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/records/observations/input_summary.hpp"
+#include "core/records/ranges/range_companions.hpp"
 
 namespace mapproof {
 
@@ -12,7 +13,11 @@ namespace mapproof {
 /// share that is missing, columns and separator.
 std::string understood_line(const std::string& name, const InputSummary& summary);
 
+/// Of odometry, a path or positions: how many, how long, how far, and the columns.
+std::string understood_line(const std::string& name, const CompanionSummary& summary);
+
 /// The same for --json.
 nlohmann::ordered_json understood_json(const InputSummary& summary);
+nlohmann::ordered_json understood_json(const CompanionSummary& summary);
 
 }  // namespace mapproof

@@ -276,19 +276,21 @@ Baseline baseline_of(const CheckArguments& arguments, const std::optional<GitBas
   return {folder, folder, folder, fs::exists(folder, error) && holds_items(folder)};
 }
 
+/// Names the baseline as the user did.
+FileNaming naming_of(const Baseline& baseline) {
+  if (baseline.folder == baseline.text) return {};
+  return [&baseline](std::string text) {
+    for (std::size_t at = 0; (at = text.find(baseline.folder, at)) != std::string::npos;)
+      text.replace(at, baseline.folder.size(), baseline.text);
+    return text;
+  };
+}
+
 /// Names the baseline of a result by the folder in the working tree, which `approve` takes, and its
 /// commit in a remark.
 void name_baseline(DiffResult& result, const Baseline& baseline, const GitBaseline& git) {
   constexpr std::size_t kShortHash = 10;
-  const auto rename = [&](std::string& text) {
-    for (std::size_t at = 0; (at = text.find(baseline.folder, at)) != std::string::npos;)
-      text.replace(at, baseline.folder.size(), baseline.text);
-  };
-  rename(result.judgement.cause);
-  for (DiffItem& item : result.items) {
-    rename(item.judgement.cause);
-    for (ImageFile& image : item.images) rename(image.diff.reason);
-  }
+  rename_files(result, naming_of(baseline));
   result.baseline = baseline.target;
   result.remarks.push_back(fmt::format("The baseline is {}, commit {}.", printable(baseline.text),
                                        git.commit().substr(0, kShortHash)));
@@ -325,7 +327,7 @@ int check(CheckArguments arguments, const CLI::App& app, const Invocation& invoc
   if (!baseline.exists) return hand_out_without_baseline(arguments, baseline, settings, invocation);
   DiffResult result = folder_diff(baseline.folder, arguments.out, settings);
   if (git) name_baseline(result, baseline, *git);
-  return hand_out(result, settings, arguments.options, invocation);
+  return hand_out(result, settings, arguments.options, invocation, naming_of(baseline));
 }
 
 void add_check_options(CLI::App& app, CheckArguments& arguments) {

@@ -172,8 +172,22 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
   return settings;
 }
 
+namespace {
+
+/// The paths of its images as the user knows them.
+DiffResult with_files_named(DiffResult result, const FileNaming& naming) {
+  if (!naming) return result;
+  for (DiffItem& item : result.items)
+    for (ImageFile& image : item.images)
+      for (std::filesystem::path* path : {&image.baseline, &image.current})
+        *path = naming(path->string());
+  return result;
+}
+
+}  // namespace
+
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
-             const Invocation& invocation) {
+             const Invocation& invocation, const FileNaming& naming) {
   const Console& console = invocation.console;
   std::string text;
   const auto hand = [&](const std::string& location, const auto& make) {
@@ -198,7 +212,8 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
     if (!options.images.empty()) links.prefix = markdown_prefix(options);
     return diff_markdown(result, links);
   });
-  if (console.is_json()) text = invocation.disclosure.text(json_text(diff_json(result)));
+  if (console.is_json())
+    text = invocation.disclosure.text(json_text(diff_json(with_files_named(result, naming))));
   if (wants_github_lines(options))
     std::cerr << invocation.disclosure.text(github_lines(
         result, path_in_repository(options.folder.empty() ? result.baseline : options.folder)));

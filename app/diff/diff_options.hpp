@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,11 +38,14 @@ bool asks_for_outputs(const DiffOptions& options, const Console& console);
 DiffSettings diff_settings(const DiffOptions& options, const std::string& baseline,
                            const Console& console);
 
+/// What a text names instead of a temporary folder; empty: nothing is temporary.
+using FileNaming = std::function<std::string(const std::string& text)>;
+
 /// Writes the files asked for, disclosed, and the verdicts to standard output, with --json as the
 /// object of diff_json(), with the lines that CTest takes where it runs the program. Lines for
 /// GitHub Actions go to standard error, where it reads them as well.
 /// @return kDone or kNo. @throws IoError.
 int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffOptions& options,
-             const Invocation& invocation);
+             const Invocation& invocation, const FileNaming& naming = {});
 
 }  // namespace mapproof

@@ -1,17 +1,11 @@
 #include "app/diff/git_baseline.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
 #include <span>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -125,12 +119,6 @@ void extract(const GitFolder& source, std::span<const GitFile> files, const Outp
   }
 }
 
-fs::path new_temporary_folder() {
-  std::string name = (fs::temp_directory_path() / "mapproof-baseline-XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw IoError(name, std::strerror(errno));
-  return name;
-}
-
 }  // namespace
 
 GitFolder parse_git_folder(const std::string& text) {
@@ -165,26 +153,14 @@ GitBaseline::GitBaseline(const GitFolder& source) {
   if (required(source, {"cat-file", "-t", tree.line()}).line() != "tree")
     refuse(source.text(), "is a file; name the folder that holds it");
   const std::vector<GitFile> files = listed_files(source, tree.line(), left_out_);
-  folder_ = new_temporary_folder();
-  try {
-    for (std::size_t first = 0; first < files.size();) {
-      std::uint64_t bytes = 0;
-      std::size_t last = first;
-      while (last < files.size() && (last == first || bytes + files[last].bytes <= kBytesPerCall))
-        bytes += files[last++].bytes;
-      extract(source, std::span(files).subspan(first, last - first), folder_);
-      first = last;
-    }
-  } catch (...) {
-    std::error_code error;
-    fs::remove_all(folder_, error);
-    throw;
+  for (std::size_t first = 0; first < files.size();) {
+    std::uint64_t bytes = 0;
+    std::size_t last = first;
+    while (last < files.size() && (last == first || bytes + files[last].bytes <= kBytesPerCall))
+      bytes += files[last++].bytes;
+    extract(source, std::span(files).subspan(first, last - first), folder_.path());
+    first = last;
   }
-}
-
-GitBaseline::~GitBaseline() {
-  std::error_code error;
-  if (!folder_.empty()) fs::remove_all(folder_, error);
 }
 
 }  // namespace mapproof

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/files/temporary_folder.hpp"
+
 namespace mapproof {
 
 /// A folder in a commit of the git repository around the current folder: "origin/main:plots".
@@ -27,13 +29,10 @@ class GitBaseline {
   ///         such commit, or the path is a file; IoError for more than 100,000 files or 4 GiB, and
   ///         for names that cannot be written safely.
   explicit GitBaseline(const GitFolder& source);
-  ~GitBaseline();
-  GitBaseline(const GitBaseline&) = delete;
-  GitBaseline& operator=(const GitBaseline&) = delete;
 
   /// Whether the commit has such a folder.
   bool exists() const { return exists_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   /// The folder of that name in the working tree, from the current folder; it need not exist.
   const std::string& working_folder() const { return working_folder_; }
   const std::string& commit() const { return commit_; }  ///< Its hash.
@@ -41,7 +40,7 @@ class GitBaseline {
   const std::vector<std::string>& left_out() const { return left_out_; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_{"baseline"};
   std::string working_folder_;
   std::string commit_;
   std::vector<std::string> left_out_;

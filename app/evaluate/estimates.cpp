@@ -7,13 +7,16 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/evaluations/space_path_text.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
+#include "core/records/ranges/range_companions.hpp"
 #include "core/records/ranges/range_log_g2o.hpp"
+#include "core/records/tables/column_names.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/records/tables/table_stream.hpp"
 
@@ -59,6 +62,38 @@ EvaluatedFile read_graph(const std::string& text, const std::string& name) {
   if (!result.path && !result.landmarks)
     throw IoError(name, "has no vertex of a pose or of a landmark");
   return result;
+}
+
+/// Whether a header is that of a path in the plane, `t, x, y` and perhaps `heading`: it names times
+/// and no landmarks.
+bool names_times(const TableRow& row) {
+  const auto has = [&](ColumnRole role) {
+    for (std::size_t i = 0; i < row.cells.size(); ++i)
+      if (column_heading(row.cells[i], i, {}).role == role) return true;
+    return false;
+  };
+  return !row.cells.front().starts_with('#') && has(ColumnRole::kTime) &&
+         !has(ColumnRole::kLandmark);
+}
+
+/// A path of the ground in space, at a height of 0.
+SpacePath in_space(const Trajectory& path) {
+  SpacePath result{
+      .time_s = path.time_s, .positions_m = SpacePoints::Zero(path.size(), 3), .orientations = {}};
+  result.positions_m.leftCols<2>() = path.positions_m;
+  for (const double heading_rad : path.heading_rad)
+    result.orientations.push_back(
+        Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+  return result;
+}
+
+/// Rows without a position or a heading are refused. @throws IoError.
+SpacePath read_plane_path(ByteSource& source) {
+  ColumnNames columns;
+  const Trajectory path = read_true_path(source, {}, columns);
+  if (const std::string problem = path_problem(path); !problem.empty())
+    throw IoError(source.name(), problem);
+  return in_space(path);
 }
 
 /// A file's name without its last extension, and without what says that it is the ground truth.
@@ -224,7 +259,9 @@ EvaluatedFile read_evaluated_file(const fs::path& file) {
              return !number_in(cell).has_value();
            });
   });
-  if (is_table)
+  if (is_table && first_row_is(source, names_times))
+    result.path = read_plane_path(source);
+  else if (is_table)
     result.landmarks = positions_of(read_landmarks(source));
   else
     result.path = read_space_path(source);

@@ -16,8 +16,8 @@ struct EvaluatedFile {
   std::optional<LandmarkPositions> landmarks = {};
 };
 
-/// Reads a trajectory (TUM, KITTI, EuRoC), a map of landmarks (CSV with name, x, y) or a g2o file,
-/// which may hold both. @throws IoError with the line.
+/// Reads a trajectory (TUM, KITTI, EuRoC, CSV with t, x, y and perhaps heading), a map of landmarks
+/// (CSV with name, x, y) or a g2o file, which may hold both. @throws IoError with the line.
 EvaluatedFile read_evaluated_file(const std::filesystem::path& file);
 
 /// An estimate, and the ground truth that it belongs to.

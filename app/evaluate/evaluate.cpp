@@ -45,6 +45,8 @@ struct EvaluateArguments {
   double offset_s = 0.0;
   double largest_gap_s = 0.01;
   std::vector<std::string> spacings;
+  bool all_pairs = false;
+  std::string plane;  ///< Empty: errors are in space.
   std::string landmarks = "id";
   std::optional<double> gate_m;
   std::optional<std::string> templates;
@@ -101,7 +103,9 @@ class Comparison {
     paths_ = {
         .association = {.offset_s = arguments.offset_s, .largest_gap_s = arguments.largest_gap_s},
         .alignment = *frame_alignment_named(arguments.alignment),
-        .spacings = spacings};
+        .spacings = spacings,
+        .pairs = arguments.all_pairs ? PairChoice::kAll : PairChoice::kConsecutive,
+        .plane = plane_named(arguments.plane)};
   }
 
   EvaluatedRun run(const EstimateFile& estimate, const EvaluatedFile& ground_truth,
@@ -189,12 +193,16 @@ std::string question_of(const EvaluateArguments& arguments, const std::vector<Ev
   if (std::ranges::any_of(runs, &EvaluatedRun::has_path))
     text += fmt::format(
         " Poses are associated with the nearest in time within {:g} s{}. ATE: the distance between "
-        "associated positions. RPE: the translation that the motions between two poses differ by; "
-        "pairs of poses follow each other along the estimate. Drift: RPE in percent of the way.",
+        "associated positions{}. RPE: the translation that the motions between two poses differ "
+        "by; {}. Drift: RPE in percent of the way.",
         arguments.largest_gap_s,
         arguments.offset_s == 0.0
             ? ""
-            : fmt::format(", {:g} s added to times of estimates", arguments.offset_s));
+            : fmt::format(", {:g} s added to times of estimates", arguments.offset_s),
+        arguments.plane.empty() ? "" : ", in the plane " + arguments.plane + " alone",
+        arguments.all_pairs ? "every pose begins a pair, if another one along the estimate is that "
+                              "far away within 10 %"
+                            : "pairs of poses follow each other along the estimate");
   if (std::ranges::any_of(runs, &EvaluatedRun::has_landmarks))
     text += fmt::format(" Landmarks are associated by {}.",
                         arguments.landmarks == "nearest" ? "position" : "ID");
@@ -380,6 +388,13 @@ void add_comparison_options(CLI::App& app, EvaluateArguments& arguments) {
                  "(poses); without: 1, 2 and 5 times powers of 10 m, as the ground truth allows")
       ->allow_extra_args(false)
       ->delimiter(',');
+  app.add_flag("--all-pairs", arguments.all_pairs,
+               "Relative errors from every pose, to the one that lies the length away within "
+               "10 %; without: of pairs that follow each other");
+  app.add_option("--plane", arguments.plane,
+                 "Errors of trajectories in one plane alone: xy, xz or yz of the ground truth; the "
+                 "alignment is in space")
+      ->transform(one_of({"xy", "xz", "yz"}));
   app.add_option("--landmarks", arguments.landmarks,
                  "id: landmarks are associated by ID; nearest: by position alone")
       ->transform(one_of({"id", "nearest"}))
@@ -401,10 +416,11 @@ Action evaluate_command(CLI::App& app) {
       "  mapproof evaluate --ground-truth gt/ orb/ vins/ --align similarity --out out\n"
       "  mapproof evaluate --ground-truth gt.csv ours=run1.txt ours=run2.txt --relative 1m,10m,5s "
       "--out out\n"
+      "  mapproof evaluate --ground-truth gt.txt orb.txt --plane xy --all-pairs --out out\n"
       "  mapproof evaluate --ground-truth landmarks.csv map.csv --landmarks nearest --out out\n\n"
-      "Trajectories are TUM, KITTI, EuRoC (CSV) or g2o, in space; maps are CSV with name, x [m],\n"
-      "y [m], or g2o. Several files of one system are its runs. With a folder of ground truths,\n"
-      "estimates belong to the file whose name theirs begins with.\n"
+      "Trajectories are TUM, KITTI, EuRoC (CSV) or g2o, in space, or CSV with t, x, y, heading;\n"
+      "maps are CSV with name, x [m], y [m], or g2o. Several files of one system are its runs.\n"
+      "With a folder of ground truths, estimates belong to the file whose name theirs begins with.\n"
       "The folder is a study: report, diff and nightly take it. The exit code is 1 if nothing\n"
       "could be compared.\n");
   app.add_option("ESTIMATE", arguments->estimates,
@@ -427,7 +443,8 @@ Action evaluate_command(CLI::App& app) {
   group_options(app,
                 {{"Input", {"ESTIMATE", "--ground-truth"}},
                  {"Comparison",
-                  {"--align", "--offset", "--largest-gap", "--relative", "--landmarks", "--gate"}},
+                  {"--align", "--offset", "--largest-gap", "--relative", "--all-pairs", "--plane",
+                   "--landmarks", "--gate"}},
                  {"Output", {"--name", "--title", "--templates"}}});
   return [arguments](const Invocation& invocation) { return evaluate(*arguments, invocation); };
 }

@@ -39,9 +39,8 @@ std::optional<Similarity> align_rigidly(MapRecord& record, const Points& known_m
     record.statuses.push_back(status_of<StatusReason::kFewKnownMapped>(both.size()));
     return std::nullopt;
   }
-  const Similarity motion =
-      fit_similarity(record.estimate(both, Eigen::all), known_m(both, Eigen::all),
-                     Alignment::kRigidWithReflection);
+  Similarity motion = fit_similarity(record.estimate(both, Eigen::all), known_m(both, Eigen::all),
+                                     Alignment::kRigidWithReflection);
   record.estimate = motion(record.estimate);
   return motion;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include "app/build_facts.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
+#include "app/study/page_content.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
@@ -146,6 +149,18 @@ std::string map_text(const MapResult& map, const fs::path& out) {
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
+/// What the page carries: the map and its figures, all of which it shows.
+PageData page_data(const fs::path& folder, const std::vector<Figure>& figures,
+                   const Disclosure& disclosure) {
+  Images images;
+  std::set<std::string> shown;
+  for (const Figure& figure : figures) {
+    images.figures.push_back(&figure);
+    shown.insert(figure.id);
+  }
+  return page_content(folder, images, shown, disclosure).data;
+}
+
 }  // namespace
 
 void write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
@@ -167,7 +182,9 @@ void write_map(const MapFolder& folder, const MapOutput& location, const MapResu
     const auto found = drawn.find(id);
     return found == drawn.end() ? std::string() : found->second;
   };
-  out.write("report.html", location.disclosure.text(report_html(report, location.page, drawing)));
+  const std::string html = location.disclosure.text(report_html(report, location.page, drawing));
+  out.write("report.html",
+            with_page_data(html, page_data(out.path(), figures, location.disclosure)));
 }
 
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation) {

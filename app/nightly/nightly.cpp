@@ -393,6 +393,7 @@ Action nightly_command(CLI::App& app) {
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n"
       "  mapproof nightly --metrics bench.json --better lower --store history --markdown nightly.md\n"
+      "  mapproof nightly bench/results.csv --better lower --store history\n"
       "  mapproof nightly --metrics bench.json --store history --on-worse 'mail -s worse me'\n\n"
       "Exit codes:\n"
       "  0  nothing got worse, or there was no run to compare with\n"
@@ -404,7 +405,7 @@ Action nightly_command(CLI::App& app) {
       "docs/nightly.md has the rules, and shows how to run it by a timer.\n");
   app.add_option(
          "EXPERIMENT", arguments->experiments,
-         fmt::format("Experiments' JSON files, folders with a results.csv of your own, or {}",
+         fmt::format("Experiments' JSON files, a results.csv of any program or folders with one, or {}",
                      fmt::join(experiment_names(), ", ")));
   app.add_option("--metrics", arguments->metrics,
                  "Numbers of another program: JSON of mapproof.metrics, github-action-benchmark, "
@@ -412,7 +413,8 @@ Action nightly_command(CLI::App& app) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   app.add_option("--better", arguments->better,
-                 "Which way metrics improve whose file does not say it")
+                 "Which way metrics improve whose file does not say it, and quantities of a "
+                 "results.csv without study.json")
       ->transform(one_of({"lower", "higher"}));
   add_commit_options(app, *arguments);
   add_wish_options(app, arguments->wishes);

@@ -1,11 +1,7 @@
 #include "app/nightly/nightly_study.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -18,6 +14,8 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/files/paths.hpp"
+#include "core/base/files/temporary_folder.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/records/metrics/metrics_json.hpp"
@@ -47,6 +45,62 @@ namespace {
       may_be_left_out ? ", which is that of a study.json without one" : ""));
 }
 
+/// A table of results without a study.json: the file that is given, or that of the folder. Empty if
+/// there is none.
+fs::path lone_table(const fs::path& given) {
+  std::error_code error;
+  if (!fs::is_directory(given, error)) return given.extension() == ".csv" ? given : fs::path();
+  const fs::path table = given / kResultsFile;
+  return !is_study(given) && fs::exists(table, error) ? table : fs::path();
+}
+
+/// Of a file's name what a study's name may hold; `other` in front if it begins with no letter.
+std::string name_from(const std::string& stem, const std::string& other) {
+  std::string name = slug_of(stem);
+  if (name.empty() || name.front() < 'a') name = other + (name.empty() ? "" : "-" + name);
+  return name;
+}
+
+/// Declares the quantities of a table that the dictionary lacks: without a unit, under their ids.
+/// @throws IoError where it is not known which way they improve, or an id cannot be one.
+void declare_quantities(const std::string& text, const std::string& file,
+                        std::optional<Better> better, ResultsStudy& study) {
+  for (const std::string& id : quantities_in(text, file)) {
+    if (find_quantity(id) != nullptr || id.empty()) continue;
+    const Quantity quantity{.id = id, .label = id, .better = better.value_or(Better::kNeither)};
+    if (const std::string problem = problem_of(quantity); !problem.empty())
+      throw IoError(file, problem);
+    if (!better)
+      throw IoError(file, fmt::format("the quantity \"{}\" is not one of mapproof's: add --better "
+                                      "lower or higher, or a study.json that declares it",
+                                      printable(id, 40)));
+    study.results.quantities.declare(study_quantity(id, id, "", *better));
+    study.quantities.push_back(id);
+  }
+}
+
+/// The request to take a table of results as a study. It is named by its file, or by its folder if
+/// it is called results.csv, and is the same study whatever rows come and go. @throws IoError.
+StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
+  const std::string text = read_file(file), source = file.string();
+  const fs::path path = real_path(file);
+  ResultsStudy study;
+  declare_quantities(text, source, better, study);
+  study.results.rows = parse_results_csv(text, source, study.results.quantities);
+  if (study.results.rows.empty()) throw IoError(source, "has no row");
+  const bool is_plain = file.filename() == kResultsFile;
+  study.name = name_from(is_plain ? path.parent_path().filename().string() : path.stem().string(),
+                         std::string(kNamelessResults));
+  study.title = study.name;
+  study.question = "Numbers of another program.";
+  study.results.are_repeats = true;
+  return {.name = study.name,
+          .digest = sha256_hex(text),
+          .texts = {{kStudyFile, results_study_json(study)},
+                    {kResultsFile, results_csv(study.results.rows)}},
+          .compared_by = sha256_hex("table\n" + study.name)};
+}
+
 }  // namespace
 
 NightlyRequests read_nightly_requests(const NightlyInput& input) {
@@ -64,7 +118,10 @@ NightlyRequests read_nightly_requests(const NightlyInput& input) {
     refuse_links_out(experiment);  // Of the folder of a study of results.
     StudyRequest request;
     std::string file = (fs::path(experiment) / kStudyFile).string();
-    if (is_results_study(experiment)) {
+    if (const fs::path table = lone_table(experiment); !table.empty()) {
+      file = table.string();
+      request = table_request(table, input.better);
+    } else if (is_results_study(experiment)) {
       request = given_study_request(experiment);
     } else {
       const ExperimentText text = experiment_of(experiment);
@@ -88,11 +145,11 @@ NightlyRequests read_nightly_requests(const NightlyInput& input) {
 std::vector<NightlyStudy> planned_studies(const std::vector<StudyRequest>& requests) {
   std::vector<NightlyStudy> studies;
   for (const StudyRequest& request : requests)
-    studies.push_back({.name = request.name,
-                       .experiment_digest =
-                           request.compared_by.empty()
-                               ? experiment_digest(study_json(request), request.name)
-                               : request.compared_by});
+    studies.push_back(
+        {.name = request.name,
+         .experiment_digest = request.compared_by.empty()
+                                  ? experiment_digest(study_json(request), request.name)
+                                  : request.compared_by});
   return studies;
 }
 
@@ -123,14 +180,6 @@ int make_apart(const StudyRequest& request, const fs::path& folder, int jobs,
 
 namespace {
 
-/// A study's name: of the file's, what ids may hold.
-std::string study_name(const Metrics& metrics, const std::string& file) {
-  std::string name =
-      metrics.name.empty() ? slug_of(std::filesystem::path(file).stem().string()) : metrics.name;
-  if (name.empty() || name.front() < 'a') name = "metrics" + (name.empty() ? "" : "-" + name);
-  return name;
-}
-
 ResultsStudy study_of(const Metrics& metrics, const std::string& name) {
   ResultsStudy study;
   study.name = study.title = name;
@@ -155,13 +204,15 @@ MetricsRequest read_metrics_request(const std::string& file, std::optional<Bette
   MetricsRequest request{.commit = {metrics.commit, ""}};
   if (const std::string page = page_of_remote(metrics.repository); !page.empty())
     request.commit.repository = page;
-  const ResultsStudy study = study_of(metrics, study_name(metrics, file));
+  const ResultsStudy study =
+      study_of(metrics, metrics.name.empty() ? name_from(fs::path(file).stem().string(), "metrics")
+                                             : metrics.name);
   request.study.name = study.name;
   request.study.texts = {{kStudyFile, results_study_json(study)},
                          {"results.csv", results_csv(study.results.rows)}};
   request.study.compared_by = sha256_hex("metrics\n" + study.name);
-  request.study.digest = sha256_hex(request.study.texts.at(kStudyFile) + "\n" +
-                                    request.study.texts.at("results.csv"));
+  request.study.digest =
+      sha256_hex(request.study.texts.at(kStudyFile) + "\n" + request.study.texts.at("results.csv"));
   const auto negative = std::ranges::find_if(metrics.metrics, [](const Metric& metric) {
     return metric.value < 0.0 && metric.better != Better::kNeither && metric.unit != "%";
   });
@@ -174,26 +225,6 @@ MetricsRequest read_metrics_request(const std::string& file, std::optional<Bette
 }
 
 namespace {
-
-/// A folder that is removed with all that is in it.
-class PassingFolder {
- public:
-  PassingFolder() {
-    std::string name = (fs::temp_directory_path() / "mapproof-bisect-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw IoError(name, std::strerror(errno));
-    path_ = name;
-  }
-  ~PassingFolder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  PassingFolder(const PassingFolder&) = delete;
-  PassingFolder& operator=(const PassingFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// What began in a nightly run, in whichever nightly run it was found.
 std::vector<NightlyFinding> begun_in(HistoryStore& history, int since) {
@@ -250,9 +281,10 @@ int bisect(const NightlyRequests& requests, const BisectTask& task, const Consol
   const std::vector<NightlyFinding> findings = begun_in(history, task.since);
   if (findings.empty())
     throw InvalidInput(fmt::format("--bisect: nothing got worse in nightly run {}", task.since));
-  const PassingFolder folder;
+  const TemporaryFolder folder("bisect");
   for (const StudyRequest& request : requests.studies)
-    if (make_apart(request, folder.path() / request.name, task.jobs, task.names, console) != kDone) {
+    if (make_apart(request, folder.path() / request.name, task.jobs, task.names, console) !=
+        kDone) {
       console.warning(request.name + ": was not finished: this commit cannot be tested");
       return kCannotTest;
     }
@@ -260,9 +292,10 @@ int bisect(const NightlyRequests& requests, const BisectTask& task, const Consol
   for (const NightlyStudy& study : read_nightly_studies(requests.studies, folder.path()))
     std::ranges::move(triples_of(history, study, task.since, findings), std::back_inserter(all));
   if (all.empty()) {
-    console.warning(fmt::format("--bisect: no value of what got worse in nightly run {} is here: "
-                                "this commit cannot be tested",
-                                task.since));
+    console.warning(
+        fmt::format("--bisect: no value of what got worse in nightly run {} is here: "
+                    "this commit cannot be tested",
+                    task.since));
     return kCannotTest;
   }
   const auto worse = std::ranges::count_if(all, &Triple::is_worse);

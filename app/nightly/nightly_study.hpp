@@ -16,10 +16,12 @@ namespace mapproof {
 
 /// What a nightly run is asked to make.
 struct NightlyInput {
-  std::vector<std::string> experiments = {};  ///< Names of embedded ones, files or folders.
+  /// Names of embedded ones, files, folders of results, or a results.csv.
+  std::vector<std::string> experiments = {};
   std::vector<std::string> metrics = {};      ///< Files of metrics.
-  std::optional<Better> better = {};  ///< Of metrics whose file does not say which way they improve.
-  StudyOptions options = {};          ///< Its profile is taken of the experiments that have it.
+  /// Of metrics and tables that do not say which way they improve.
+  std::optional<Better> better = {};
+  StudyOptions options = {};  ///< Its profile is taken of the experiments that have it.
 };
 
 /// What is to be made, and what was measured.

@@ -47,7 +47,7 @@ std::string without_end(std::string text, std::string_view end) {
 }
 
 std::string asked_repository(const std::string& text) {
-  const std::string address = without_end(text, "/");
+  std::string address = without_end(text, "/");
   if (text == kNone) return "";
   if (!is_plain_address(address))
     throw InvalidInput(fmt::format(

@@ -8,11 +8,13 @@
 
 #include "app/map/map_folder.hpp"
 #include "app/slam/range_map.hpp"
+#include "app/study/embedded_experiments.hpp"
 #include "app/study/folder_report.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/records/maps/map_json.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
@@ -88,10 +90,26 @@ Drawables from_folder(const fs::path& folder) {
   return drawables;
 }
 
+/// The figures that a page carries. They are drawn next to it.
+Drawables from_page(const fs::path& file) {
+  const StudyPage page(file);
+  Drawables drawables{.root = file.has_parent_path() ? file.parent_path() : fs::path("."),
+                      .figures = {},
+                      .scenes = {},
+                      .films = {}};
+  page.with_names([&] {
+    for (const fs::path& figure : value_files(page.folder() / "figures"))
+      add_file(figure, drawables);
+  });
+  if (ids_of(drawables).empty()) throw IoError(file.string(), "carries no figures");
+  return drawables;
+}
+
 }  // namespace
 
 Drawables read_drawables(const fs::path& input) {
   if (is_folder(input)) return from_folder(input);
+  if (is_page(input)) return from_page(input);
   const std::string name = input.filename().string();
   const fs::path folder = input.has_parent_path() ? input.parent_path() : fs::path(".");
   Drawables drawables{.root = root_of(folder), .figures = {}, .scenes = {}, .films = {}};
@@ -106,7 +124,8 @@ Drawables read_drawables(const fs::path& input) {
   else
     throw IoError(
         input.string(),
-        "is not a figure: a figure is a folder of mapproof, ID.figure.json or ID.scene.json");
+        "is not a figure: a figure is a folder of mapproof, the page of a report, ID.figure.json or "
+        "ID.scene.json");
   return drawables;
 }
 

@@ -20,7 +20,8 @@ struct Drawables {
 };
 
 /// Reads what can be drawn: the folder of a study, of a map or of a range-only map, any folder that
-/// holds ID.figure.json or ID.scene.json or has them in its folder figures/, or one such file.
+/// holds ID.figure.json or ID.scene.json or has them in its folder figures/, the page of a report,
+/// which carries them, or one such file.
 /// @throws IoError.
 Drawables read_drawables(const std::filesystem::path& input);
 

@@ -411,12 +411,14 @@ Action render_command(CLI::App& app) {
       "  mapproof render out/map --theme paper --width 3.25\n"
       "  mapproof render out/map --figure map --landmarks all --title \"Hall\" --as png --dpi 600\n"
       "  mapproof render out/map/figures/map.figure.json --style style.json\n"
+      "  mapproof render report.html --figure map-bearing-isomap --out figures\n"
       "  mapproof render --panel out/map1 out/map2 --out out/both\n"
       "  mapproof render out --figure map-bearing-isomap --as pdf,latex\n"
       "  mapproof render out --figure map-bearing-isomap --as csv,matplotlib\n"
       "  mapproof render out --animate scene-forming-bearing --as mp4\n");
   app.add_option("INPUT", arguments->input,
-                 "Folder of a study, a map or a range-only map, ID.figure.json or ID.scene.json")
+                 "Folder of a study, a map or a range-only map, the page of its report, ID.figure.json "
+                 "or ID.scene.json")
       ->check(names_folder())
       ->group("Input");
   app.add_option("--figure", arguments->ids, "Only the figures of these ids, see --list")

@@ -12,6 +12,7 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/retired_names.hpp"
 #include "core/base/text/spelling.hpp"
+#include "core/records/studies/study_folder.hpp"
 
 namespace mapproof {
 namespace {
@@ -77,6 +78,13 @@ ExperimentText experiment_of(const std::string& file_or_name) {
             .folder = handed_in(file_or_name) ? std::filesystem::path()
                                               : std::filesystem::path(file_or_name).parent_path()};
   return experiment_text(file_or_name, std::nullopt);
+}
+
+std::vector<std::filesystem::path> study_folders(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const std::string& name : experiment_names())
+    if (is_study(folder / name)) found.push_back(folder / name);
+  return found;
 }
 
 }  // namespace mapproof

@@ -41,4 +41,8 @@ bool is_experiment_file(const std::string& file_or_name);
 /// @throws InvalidInput, IoError as experiment_text().
 ExperimentText experiment_of(const std::string& file_or_name);
 
+/// The studies right below a folder that holds none itself, in the order of the experiments that
+/// `reproduce` knows. @throws IoError if it cannot be listed.
+std::vector<std::filesystem::path> study_folders(const std::filesystem::path& folder);
+
 }  // namespace mapproof

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <set>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "core/records/studies/study_store.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
+#include "reports/html/block_data.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
@@ -78,13 +80,6 @@ void add_opening(const Report& part, std::size_t parts, Opening& all) {
 }
 
 }  // namespace
-
-std::vector<fs::path> study_folders(const fs::path& folder) {
-  std::vector<fs::path> found;
-  for (const std::string& name : experiment_names())
-    if (is_study(folder / name)) found.push_back(folder / name);
-  return found;
-}
 
 FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
                                 const std::string& fallback) {
@@ -183,6 +178,20 @@ Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& cli
   return drawn;
 }
 
+namespace {
+
+/// The ids of the figures whose drawings the page holds.
+std::set<std::string> shown_figures(const Report& report, const SvgLookup& drawing,
+                                    const HtmlOptions& options) {
+  const std::set<std::string> linked = linked_figures(report, drawing, options.drawing_bytes);
+  std::set<std::string> shown;
+  for (const FigureBlock* figure : figures(report))
+    if (!linked.contains(figure->id)) shown.insert(figure->id);
+  return shown;
+}
+
+}  // namespace
+
 fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
                       const FolderLock& /*of_folder*/) {
   const OutputFolder folder(report.folder);
@@ -202,8 +211,13 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   };
   HtmlOptions options;
   options.link_words = report.link_words;
-  folder.write(kReportFile,
-               outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)));
+  const PageContent content = page_content(
+      report.folder, images_of(report), shown_figures(shown, drawing, options), outputs.disclosure);
+  const std::string html =
+      outputs.disclosure.text(report_html(shown, outputs.page, drawing, options));
+  folder.write(kReportFile, with_page_data(html, content.data));
+  if (const std::string left = left_out_text(content); outputs.note && !left.empty())
+    outputs.note(left);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   return report.folder / kReportFile;
 }

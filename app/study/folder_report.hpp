@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -9,6 +10,7 @@
 
 #include "app/console.hpp"
 #include "app/disclosure.hpp"
+#include "app/study/page_content.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/model/slam/slam_study.hpp"
@@ -34,10 +36,6 @@ FolderReport read_folder_report(const std::filesystem::path& folder,
                                 const std::optional<std::string>& command,
                                 const std::string& fallback);
 
-/// The studies right below a folder that holds none itself, in the order of the experiments that
-/// `reproduce` knows. @throws IoError if it cannot be listed.
-std::vector<std::filesystem::path> study_folders(const std::filesystem::path& folder);
-
 /// Reports of several studies in one, with what is missing at its head.
 /// @throws InvalidInput if an id stands in two of them.
 FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
@@ -50,12 +48,6 @@ FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamS
 
 /// Adds all figures, scenes and films of a study.
 void add_images(const StudyFigures& figures, FolderReport& report);
-
-/// What is drawn: no two have one id.
-struct Images {
-  std::vector<const Figure*> figures;
-  std::vector<const Scene*> scenes;
-};
 
 /// All of a report's.
 Images images_of(const FolderReport& report);
@@ -86,10 +78,12 @@ struct ReportOutputs {
   int jobs = 1;
   const Disclosure& disclosure;
   CountProgress progress = {};  ///< Called for each image that is drawn.
+  /// Called with what the page does not carry, if there is such.
+  std::function<void(const std::string&)> note = {};
 };
 
-/// Writes figures/, tables/ and report.html, which names what drew the scenes, into the report's
-/// folder.
+/// Writes figures/, tables/ and report.html, which names what drew the scenes and carries the
+/// records of the report's folder (see page_content()), into that folder.
 /// @param of_folder  The lock of that folder.
 /// @return The path of the report.
 /// @throws IoError.

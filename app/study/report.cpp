@@ -29,7 +29,8 @@ int report(const ReportArguments& arguments, const Invocation& invocation) {
                    {.page = page,
                     .jobs = arguments.jobs,
                     .disclosure = invocation.disclosure,
-                    .progress = count_progress(invocation.console, "drawing")},
+                    .progress = count_progress(invocation.console, "drawing"),
+                    .note = note_to(invocation.console)},
                    lock);
   invocation.console.detail(fmt::format("{}: {} runs, {} figures, {} 3-D figures", arguments.study,
                                         view.runs, view.figures.size(), view.scenes.size()));

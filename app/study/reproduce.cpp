@@ -137,7 +137,8 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
                                      {.page = page,
                                       .jobs = arguments.jobs,
                                       .disclosure = invocation.disclosure,
-                                      .progress = count_progress(invocation.console, "drawing")},
+                                      .progress = count_progress(invocation.console, "drawing"),
+                                      .note = note_to(invocation.console)},
                                      lock);
   object["figures"] = report.figures.size();
   object["scenes"] = report.scenes.size();

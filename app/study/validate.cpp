@@ -17,6 +17,9 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/text/words.hpp"
+#include "core/json/json_cursor.hpp"
+#include "core/json/json_document.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "core/studies/validate.hpp"
@@ -60,9 +63,23 @@ void check_pdf(const std::string& bytes, const std::string& source) {
   check_ends(bytes, source, "%PDF-", "%%EOF");
 }
 
+/// What a page carries: figures are read, of records that they are JSON.
+void check_page_data(const std::string& bytes, const std::string& source) {
+  for (const PageFile& file : parse_page(bytes, source).files) {
+    const std::string name = source + ": " + file.name;
+    if (file.name.ends_with(".figure.json"))
+      figure_from_json(file.text, name);
+    else if (file.name.ends_with(".scene.json"))
+      scene_from_json(file.text, name);
+    else if (file.name.ends_with(".json"))
+      schema_of(parse_json(file.text, name).cursor());
+  }
+}
+
 void check_page(const std::string& bytes, const std::string& source) {
   if (bytes.find("content=\"mapproof\"") == std::string::npos) refuse_other_kind(bytes, source);
   check_ends(bytes, source, "<!DOCTYPE html>", "</html>");
+  if (carries_data(bytes)) check_page_data(bytes, source);
 }
 
 /// A table, or the snippet that includes a figure.
@@ -306,6 +323,9 @@ std::string finding_text(const Finding& finding) {
     text = problems_text(finding);
   } else if (finding.input) {
     text = fmt::format("{} ({})\n", understood_line(finding.path, *finding.input), finding.kind);
+  } else if (finding.companion) {
+    text =
+        fmt::format("{} ({})\n", understood_line(finding.path, *finding.companion), finding.kind);
   } else {
     text = fmt::format("{}: {}\n", printable(finding.path, 300), finding.kind);
   }
@@ -321,6 +341,7 @@ nlohmann::ordered_json finding_json(const Finding& finding) {
                                 {"further_problems", finding.further},
                                 {"remarks", finding.remarks}};
   if (finding.input) object["input"] = understood_json(*finding.input);
+  if (finding.companion) object["input"] = understood_json(*finding.companion);
   return object;
 }
 

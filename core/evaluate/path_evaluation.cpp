@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
@@ -18,6 +21,24 @@ constexpr std::array kAlignmentNames = {std::pair(FrameAlignment::kNone, "none")
                                         std::pair(FrameAlignment::kRigid, "rigid"),
                                         std::pair(FrameAlignment::kSimilarity, "similarity"),
                                         std::pair(FrameAlignment::kFirstPose, "first-pose")};
+
+constexpr std::array kPlaneNames = {std::pair(Plane::kXy, "xy"), std::pair(Plane::kXz, "xz"),
+                                    std::pair(Plane::kYz, "yz")};
+
+/// The coordinate that a plane lacks.
+Eigen::Index normal_of(Plane plane) {
+  constexpr std::array<Eigen::Index, 3> kNormals = {2, 1, 0};
+  return kNormals[static_cast<std::size_t>(plane)];
+}
+
+/// The angle about one of the fixed axes x, y, z, about which R turns in that order.
+double angle_about(Eigen::Index axis, const Eigen::Matrix3d& R) {
+  const double cosine = std::hypot(R(0, 0), R(1, 0));
+  constexpr double kSingular = 4.0 * std::numeric_limits<double>::epsilon();
+  if (axis == 1) return std::atan2(-R(2, 0), cosine);
+  if (cosine <= kSingular) return axis == 0 ? std::atan2(-R(1, 2), R(1, 1)) : 0.0;
+  return axis == 0 ? std::atan2(R(2, 1), R(2, 2)) : std::atan2(R(1, 0), R(0, 0));
+}
 
 /// A pose as the rigid motion from its own frame.
 struct Pose {
@@ -127,7 +148,7 @@ PoseErrors pose_errors(const CommonPoses& poses) {
 }
 
 /// The poses at which a pair ends and the next begins.
-std::vector<Eigen::Index> pair_ends(const SpacePath& path, const PairSpacing& spacing) {
+std::vector<Eigen::Index> consecutive_ends(const SpacePath& path, const PairSpacing& spacing) {
   std::vector<Eigen::Index> ends;
   switch (spacing.unit) {
     case PairUnit::kPoses:
@@ -154,6 +175,48 @@ std::vector<Eigen::Index> pair_ends(const SpacePath& path, const PairSpacing& sp
   return ends;
 }
 
+/// Two poses, in order.
+using Pair = std::pair<Eigen::Index, Eigen::Index>;
+
+std::vector<Pair> consecutive_pairs(const SpacePath& path, const PairSpacing& spacing) {
+  const std::vector<Eigen::Index> ends = consecutive_ends(path, spacing);
+  std::vector<Pair> pairs;
+  for (std::size_t k = 1; k < ends.size(); ++k) pairs.emplace_back(ends[k - 1], ends[k]);
+  return pairs;
+}
+
+/// From each pose to the first of the later ones whose `along`, which does not descend, is nearest
+/// to that of the pose and `length`, within `tolerance`.
+std::vector<Pair> all_pairs(const Eigen::VectorXd& along, double length, double tolerance) {
+  std::vector<Pair> pairs;
+  for (Eigen::Index i = 0; i + 1 < along.size(); ++i) {
+    const auto first = along.begin() + i + 1;
+    const auto gap = [&](auto at) { return std::abs(*at - along(i) - length); };
+    auto nearest = std::lower_bound(first, along.end(), along(i) + length);
+    if (nearest == along.end() || (nearest != first && gap(nearest - 1) <= gap(nearest)))
+      nearest = std::lower_bound(first, nearest, *(nearest - 1));
+    if (gap(nearest) <= tolerance) pairs.emplace_back(i, nearest - along.begin());
+  }
+  return pairs;
+}
+
+std::vector<Pair> pairs_of(const SpacePath& path, const PairSpacing& spacing, PairChoice choice) {
+  if (choice == PairChoice::kConsecutive) return consecutive_pairs(path, spacing);
+  constexpr double kTolerance = 0.1;  // Of the spacing, as evo's default.
+  switch (spacing.unit) {
+    case PairUnit::kPoses: {
+      const Eigen::VectorXd numbers =
+          Eigen::VectorXd::LinSpaced(path.size(), 0.0, static_cast<double>(path.size() - 1));
+      return all_pairs(numbers, spacing.length, 0.0);
+    }
+    case PairUnit::kSeconds:
+      return all_pairs(path.time_s, spacing.length, kTolerance * spacing.length);
+    case PairUnit::kMetres:
+      return all_pairs(way_along(path.positions_m), spacing.length, kTolerance * spacing.length);
+  }
+  return {};
+}
+
 void check(const PairSpacing& spacing) {
   const bool is_whole =
       spacing.unit != PairUnit::kPoses || spacing.length == std::floor(spacing.length);
@@ -165,16 +228,15 @@ void check(const PairSpacing& spacing) {
 }
 
 RelativeErrors relative_errors(const CommonPoses& poses, const Eigen::VectorXd& way_m,
-                               const PairSpacing& spacing) {
-  const std::vector<Eigen::Index> ends = pair_ends(poses.estimate, spacing);
-  const Eigen::Index pairs = std::max<Eigen::Index>(std::ssize(ends) - 1, 0);
+                               const PairSpacing& spacing, PairChoice choice) {
+  const std::vector<Pair> chosen = pairs_of(poses.estimate, spacing, choice);
+  const Eigen::Index pairs = std::ssize(chosen);
   RelativeErrors errors{.spacing = spacing,
                         .error_m = Eigen::VectorXd(pairs),
                         .error_deg = Eigen::VectorXd(pairs),
                         .percent = Eigen::VectorXd(pairs)};
   for (Eigen::Index k = 0; k < pairs; ++k) {
-    const Eigen::Index i = ends[static_cast<std::size_t>(k)];
-    const Eigen::Index j = ends[static_cast<std::size_t>(k) + 1];
+    const auto [i, j] = chosen[static_cast<std::size_t>(k)];
     const Pose error =
         relative(relative(pose_of(poses.ground_truth, i), pose_of(poses.ground_truth, j)),
                  relative(pose_of(poses.estimate, i), pose_of(poses.estimate, j)));
@@ -232,6 +294,23 @@ std::optional<FrameAlignment> frame_alignment_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::string_view name(Plane plane) { return kPlaneNames[static_cast<std::size_t>(plane)].second; }
+
+std::optional<Plane> plane_named(std::string_view name) {
+  for (const auto& [plane, text] : kPlaneNames)
+    if (name == text) return plane;
+  return std::nullopt;
+}
+
+SpacePath projected(SpacePath path, Plane plane) {
+  const Eigen::Index normal = normal_of(plane);
+  path.positions_m.col(normal).setZero();
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(normal);
+  for (Eigen::Matrix3d& R : path.orientations)
+    R = Eigen::AngleAxisd(angle_about(normal, R), axis).toRotationMatrix();
+  return path;
+}
+
 ErrorStatistics error_statistics(const Eigen::VectorXd& errors) {
   if (errors.size() == 0) throw InvalidInput("statistics need an error");
   return {.rmse = std::sqrt(errors.squaredNorm() / static_cast<double>(errors.size())),
@@ -255,11 +334,15 @@ PathEvaluation evaluate_path(const SpacePath& ground_truth, const SpacePath& est
                               static_cast<double>(std::min(ground_truth.size(), estimate.size()));
   result.alignment = alignment_of(poses, options.alignment);
   poses.estimate = aligned(std::move(poses.estimate), result.alignment);
+  if (options.plane) {
+    poses.ground_truth = projected(std::move(poses.ground_truth), *options.plane);
+    poses.estimate = projected(std::move(poses.estimate), *options.plane);
+  }
   result.poses = pose_errors(poses);
   if (result.poses.error_deg.size() == 0) return result;
   for (const PairSpacing& spacing : options.spacings) {
     if (spacing.unit == PairUnit::kSeconds && !result.poses.has_times) continue;
-    RelativeErrors errors = relative_errors(poses, result.poses.distance_m, spacing);
+    RelativeErrors errors = relative_errors(poses, result.poses.distance_m, spacing, options.pairs);
     if (errors.error_m.size() > 0) result.relative.push_back(std::move(errors));
   }
   return result;

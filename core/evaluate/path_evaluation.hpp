@@ -52,7 +52,7 @@ std::optional<FrameAlignment> frame_alignment_named(std::string_view name);
 /// What the two poses of a relative error lie apart.
 enum class PairUnit { kMetres, kSeconds, kPoses };
 
-/// Pairs of poses at least so far apart, each beginning where the one before ends.
+/// How far apart the two poses of a relative error lie.
 struct PairSpacing {
   double length = 1.0;  ///< > 0, finite; whole poses.
   PairUnit unit = PairUnit::kMetres;
@@ -60,10 +60,32 @@ struct PairSpacing {
   auto operator<=>(const PairSpacing&) const = default;
 };
 
+/// Which pairs of poses have a relative error.
+enum class PairChoice {
+  kConsecutive,  ///< At least the spacing apart, each beginning where the one before ends.
+  /// From every pose to the first of the later ones that are nearest to the spacing away, if they
+  /// are within a tenth of it; of poses exactly the spacing.
+  kAll,
+};
+
+/// A plane of the frame of the ground truth.
+enum class Plane { kXy, kXz, kYz };
+
+/// "xy", "xz", "yz".
+std::string_view name(Plane plane);
+std::optional<Plane> plane_named(std::string_view name);
+
+/// The path in the plane, as evo projects it [grupp2017]: the third coordinate is 0, and an
+/// orientation keeps its angle about that axis alone (of the angles about the fixed axes x, y and
+/// z, in that order; that about y lies within 90 degrees).
+SpacePath projected(SpacePath path, Plane plane);
+
 struct PathEvaluationOptions {
   TimeAssociation association = {};
   FrameAlignment alignment = FrameAlignment::kRigid;
   std::vector<PairSpacing> spacings = {};
+  PairChoice pairs = PairChoice::kConsecutive;
+  std::optional<Plane> plane = {};  ///< Errors in this plane alone; the alignment is in space.
 };
 
 /// Of a sample of errors.
@@ -74,8 +96,8 @@ struct ErrorStatistics {
 /// @param errors  At least one. @throws InvalidInput without.
 ErrorStatistics error_statistics(const Eigen::VectorXd& errors);
 
-/// Relative errors [sturm2012] at one spacing. Pairs are chosen along the estimate, as evo does by
-/// default: its own metres, or associated poses.
+/// Relative errors [sturm2012] at one spacing. Pairs are chosen along the estimate, as evo does:
+/// its own metres, or associated poses.
 struct RelativeErrors {
   PairSpacing spacing;
   Eigen::VectorXd error_m;    ///< Per pair: length of the translation part.

@@ -61,6 +61,19 @@ std::vector<fs::path> files_of_run(const fs::path& folder, const std::string& ru
   return found;
 }
 
+namespace {
+
+/// The rows of a study's results.csv; of what its records hold besides, nothing is known.
+void add_table(const fs::path& folder, StudyContents& contents) {
+  const std::string table = (folder / kResultsFile).string();
+  Results& results = contents.results;
+  results.rows = parse_results_csv(read_file(table), table, results.quantities);
+  for (const Result& row : results.rows)
+    if (!row.run.empty()) contents.runs[row.run] = row.group;
+}
+
+}  // namespace
+
 StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& asked) {
   const std::string source = (folder / kStudyFile).string();
   const std::string text = read_file(source);
@@ -71,6 +84,10 @@ StudyContents read_study_contents(const fs::path& folder, const ContentsAsked& a
   if (kind == kinds.end())
     throw IoError(source, "/schema/name", "is not a study: \"" + printable(contents.kind) + "\"");
   (*kind)->read(folder, text, asked, contents);
+  std::error_code error;
+  if (contents.results.rows.empty() && contents.problems.empty() &&
+      fs::exists(folder / kResultsFile, error))
+    try_file(contents, folder, folder / kResultsFile, asked, [&] { add_table(folder, contents); });
   return contents;
 }
 

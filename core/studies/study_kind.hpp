@@ -71,7 +71,8 @@ const StudyKind* kind_of_study(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> files_of_run(const std::filesystem::path& folder,
                                                 const std::string& run);
 
-/// Reads the study in a folder, of any kind.
+/// Reads the study in a folder, of any kind. Where it has no records but a results.csv, as a
+/// report's page carries them, the rows come from that table.
 /// @throws IoError if there is no study.json or it cannot be read.
 StudyContents read_study_contents(const std::filesystem::path& folder, const ContentsAsked& asked);
 

@@ -185,6 +185,12 @@ void check_observations(const std::string& bytes, const std::string& name,
   finding.kind = form.substr(0, form.find(' ')) + " CSV observations";
 }
 
+void take_companion(CompanionSummary summary, Finding& finding) {
+  finding.kind = summary.kind;
+  finding.remarks = summary.remarks;
+  finding.companion = std::move(summary);
+}
+
 void check_detections(ByteSource& source, const ValidateOptions& options, Finding& finding) {
   finding.kind = "detections";
   DetectionSource read = read_detections(source, options.format);
@@ -235,8 +241,8 @@ void check_table_once(const std::string& bytes, const std::string& name,
     parse_map_csv(text, name);
   } else if (!is_stated && is_landmarks_table(text, name, columns) &&
              !has_long_header(text, name, columns) && !starts_as_long(text, name)) {
-    finding.kind = "landmarks with positions";
-    parse_landmarks(text, name, columns);
+    ByteSource positions = memory_source(name, bytes);
+    take_companion(read_companion(positions, Companion::kLandmarks, columns), finding);
   } else {
     check_observations(bytes, name, options, finding);
   }
@@ -290,6 +296,7 @@ void check_table(ByteSource& input, const ValidateOptions& options, Finding& fin
   }
   if (problems.empty()) return;
   finding.input.reset();
+  finding.companion.reset();
   finding.remarks.clear();
   finding.problem = problems.front();
   finding.further.assign(problems.begin() + 1, problems.end());
@@ -364,7 +371,11 @@ void check_role(ByteSource& source, const ValidateOptions& options, Finding& fin
                               : options.role == InputRole::kAnchors ? Companion::kLandmarks
                               : holds_landmarks(source, columns)    ? Companion::kLandmarks
                                                                     : Companion::kPath;
-  finding.kind = check_range_companion(source, companion, columns);
+  take_companion(read_companion(source, companion, columns), finding);
+  constexpr int kFewestAnchors = 3;
+  if (options.role == InputRole::kAnchors && finding.companion->rows < kFewestAnchors)
+    finding.remarks.push_back(
+        fmt::format("A map is aligned to {} or more anchors", kFewestAnchors));
 }
 
 /// A table that detections' reader refuses may be one of ranges, which `slam` reads: a landmark may
@@ -415,9 +426,10 @@ void check_source(ByteSource& source, const ForeignReader& foreign, const Valida
     if (kind != nullptr && !kind->experiment.empty() && study.problems.empty() &&
         text != results_csv(study.results.rows))
       throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
-  } else if (const std::string companion = is_stated ? "" : check_range_companion(source, columns);
-             !companion.empty()) {
-    finding.kind = companion;
+  } else if (CompanionSummary companion =
+                 is_stated ? CompanionSummary{} : read_companion(source, columns);
+             !companion.kind.empty()) {
+    take_companion(std::move(companion), finding);
   } else {
     const bool is_unstated_json = is_json(source) && json_schema(source).empty();
     respell(source);

@@ -9,6 +9,7 @@
 
 #include "core/base/files/byte_source.hpp"
 #include "core/records/observations/input_summary.hpp"
+#include "core/records/ranges/range_companions.hpp"
 
 namespace mapproof {
 
@@ -20,6 +21,8 @@ struct Finding {
   std::vector<std::string> remarks = {};   ///< What looks unusual in a fine one, a line each.
   std::vector<std::string> further = {};   ///< Of a table: problems after the first one, at most 9.
   std::optional<InputSummary> input = {};  ///< Of observations: what was understood.
+  /// Of odometry, paths and positions: the same.
+  std::optional<CompanionSummary> companion = {};
 };
 
 /// What a file is stated to be.

@@ -399,6 +399,18 @@ bool holds_items(const fs::path& folder) {
   return !record_locations(folder).empty() || !list_items(folder).empty();
 }
 
+void rename_files(DiffResult& result,
+                  const std::function<std::string(const std::string& text)>& renamed) {
+  const auto rename = [&](std::string& text) { text = renamed(text); };
+  rename(result.judgement.cause);
+  std::ranges::for_each(result.remarks, rename);
+  for (SharedCause& shared : result.shared) rename(shared.cause);
+  for (DiffItem& item : result.items) {
+    rename(item.judgement.cause);
+    for (ImageFile& image : item.images) rename(image.diff.reason);
+  }
+}
+
 DiffResult no_baseline(const fs::path& baseline, const fs::path& current,
                        const DiffSettings& settings) {
   DiffResult result;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
@@ -18,6 +20,10 @@ DiffResult folder_diff(const std::filesystem::path& baseline, const std::filesys
 /// Whether a folder holds records, figures, images, tables or reports.
 /// @throws IoError if it cannot be listed.
 bool holds_items(const std::filesystem::path& folder);
+
+/// Changes every text of the result that can name a file: a side may be in a temporary folder.
+void rename_files(DiffResult& result,
+                  const std::function<std::string(const std::string& text)>& renamed);
 
 /// The result for a current folder without a baseline: all items are new, the baseline is missing.
 /// It never passes, whatever is allowed.

@@ -14,14 +14,14 @@ namespace mapproof {
 
 // The sentences on data association. Names of landmarks are made printable.
 
-/// A sentence: "7 and 12 look swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
+/// A sentence: "IDs of 7 and 12 swapped from step 1200 on (310 detections): loss 0.410 -> 0.130 m".
 std::string described(const AssociationFinding& finding, const DetectionLog& log);
 
 /// A sentence: "7 moved by 0.21 m between step 1198 and step 1204 (p = 0.015)".
 std::string described(const MovedLandmark& moved, const DetectionLog& log);
 
-/// A sentence: "3 and 10 look swapped in all detections: known positions missed by 1.930 m, then by
-/// 0.120 m".
+/// A sentence: "IDs of 3 and 10 swapped in all detections: known positions missed by 1.930 m, then
+/// by 0.120 m".
 std::string described(const AnchorExchange& exchange, const DetectionLog& log);
 
 /// A sentence: "7 stands at two positions 2.10 m apart (80 and 31 detections): another landmark has

@@ -31,6 +31,21 @@ constexpr std::size_t kManyPanels = 5;
 /// How the ids of film strips begin (docs/figures.md).
 constexpr std::string_view kForming = "forming-";
 
+FigureGroup scene_group(FigureSource& source) {
+  FigureGroup group{
+      "scenes",
+      "In space",
+      "What a scan takes in; the room with the map of least mean MPE, the median run; where its "
+      "landmarks lie in the space of their observations; how the map forms; and the error of each "
+      "method over the floor. Drawn by VTK without a screen.",
+      {},
+      study_scenes(source),
+      {},
+      2};
+  if (!group.scenes.empty()) group.films = study_films(source);
+  return group;
+}
+
 }  // namespace
 
 StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
@@ -66,17 +81,8 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
       "scatter over the runs of that layout.",
       forming_figures(source));
-  if (std::vector<Scene> scenes = study_scenes(source); !scenes.empty())
-    figures.groups.push_back(
-        {"scenes",
-         "In space",
-         "What a scan takes in; the room with the map of least mean MPE, the median run; where its "
-         "landmarks lie in the space of their observations; how the map forms; and the error of "
-         "each method over the floor. Drawn by VTK without a screen.",
-         {},
-         std::move(scenes),
-         study_films(source),
-         2});
+  if (FigureGroup scenes = scene_group(source); !scenes.scenes.empty())
+    figures.groups.push_back(std::move(scenes));
   add("parameters", "Error over parameters",
       "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source),
       0);

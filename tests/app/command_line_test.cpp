@@ -90,6 +90,7 @@ TEST(CommandLine, JsonIsOneObjectOnStandardOutputForEveryCommand) {
       {"merge", folder / "shard", "--out", folder / "merged"},
       {"render", study},
       {"report", study},
+      {"results", study},
       {"reproduce", "yairi2007", "--profile", "quick", "--out", folder / "paper"},
       {"map", data + "/mrclam", "--method", "lpca", "--out", folder / "map"},
       {"slam", folder / "log", "--out", folder / "slam"},

@@ -133,6 +133,42 @@ TEST_F(Trajectories, BadInputIsOneLineAndLeavesNoFolder) {
   EXPECT_TRUE(fs::exists(at("stretched") + "/line.txt"));
 }
 
+/// Along x at 1 m/s; the estimate is 3 m to the left and 4 m up.
+TEST(EvaluatedPaths, InThePlaneAreReadByTheirHeader) {
+  const TemporaryFolder folder;
+  std::string ground_truth = "t,x,y,heading\n", estimate;
+  for (int i = 0; i < 30; ++i) {
+    ground_truth += fmt::format("{0},{0},0,0\n", i);
+    estimate += fmt::format("{0} {0} 3 4 0 0 0 1\n", i);
+  }
+  const std::string ground_truth_file = folder.file("groundtruth.csv", ground_truth);
+  const std::string estimate_file = folder.file("est.txt", estimate);
+  const auto rmse_m = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"evaluate", "--ground-truth", ground_truth_file, estimate_file,
+                                      "--align", "none", "--json", "--out", folder / "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome outcome = mapproof(words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+    return json::parse(outcome.out).at("runs").at(0).at("path");
+  };
+  expect_close(rmse_m({}).at("ate").at("rmse_m"), 5.0, "in space");
+  expect_close(rmse_m({"--plane", "xy"}).at("ate").at("rmse_m"), 3.0, "xy");
+  expect_close(rmse_m({"--plane", "xz"}).at("ate").at("rmse_m"), 4.0, "xz");
+  const json all = rmse_m({"--relative", "5m", "--all-pairs"}).at("relative").at(0);
+  EXPECT_EQ(all.at("pairs"), 25);
+  EXPECT_EQ(rmse_m({"--relative", "5m"}).at("relative").at(0).at("pairs"), 4);
+}
+
+TEST(EvaluatedPaths, OfThePlaneAreRefusedWithoutAPosition) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("groundtruth.csv", "t,x,y\n0,0,0\n1,,0\n2,2,0\n");
+  const Outcome outcome =
+      mapproof({"evaluate", "--ground-truth", file, file, "--out", folder / "out"});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.error.find(file), std::string::npos) << outcome.error;
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST(EvaluatedMaps, AreComparedByIdAndByPosition) {
   const TemporaryFolder folder;
   write_file(folder / "real.csv", "name,x,y\na,0,0\nb,4,0\nc,0,3\nd,9,7\n");

@@ -107,6 +107,11 @@ TEST(NightlyExamples, OfCiAreYamlWithAJobThatKeepsTheHistoryOfAFailedNightlyRun)
       "saved = [s for s in steps if s.get('uses', '').startswith('actions/cache/save@')]\n"
       "assert saved[0]['if'] == 'always()' and saved[0]['with']['path'] == 'history'\n"
       "assert lab['nightly']['cache']['when'] == 'always'\n"
+      "runs = [s['run'] for s in steps if 'run' in s]\n"
+      "assert 'MAPPROOF_PACKAGE' in runs[0] and 'apt-get install' in runs[0], runs\n"
+      "assert runs[1].startswith('mapproof nightly')\n"
+      "before = ' '.join(lab['nightly']['before_script'])\n"
+      "assert 'MAPPROOF_PACKAGE' in before and 'install -y -qq /tmp/mapproof.deb' in before\n"
       "assert lab['nightly']['allow_failure'] == {'exit_codes': 4}\n";
   const Outcome outcome =
       run_program({"python3", "-c", script, kExamples / "github.yml", kExamples / "gitlab-ci.yml"});

@@ -24,8 +24,9 @@ std::string metrics(double solve_ms) {
 class Project {
  public:
   Project() {
-    shell("git init -q -b main . && git config user.email a@b.example && git config user.name a && "
-          "git remote add origin https://name:secret@github.com/me/solver.git");
+    shell(
+        "git init -q -b main . && git config user.email a@b.example && git config user.name a && "
+        "git remote add origin https://name:secret@github.com/me/solver.git");
   }
 
   fs::path store() const { return folder_ / "history"; }
@@ -40,10 +41,11 @@ class Project {
   /// Commits a program that measures that, and makes a nightly run of it.
   Outcome nightly(double solve_ms, const std::string& more = "") const {
     write_file(path() / "speed.json", metrics(solve_ms));
-    return shell(fmt::format("git add speed.json && git commit -q --allow-empty -m step && mapproof "
-                             "nightly --metrics speed.json --better lower --store history --json "
-                             "--build true {}",
-                             more));
+    return shell(
+        fmt::format("git add speed.json && git commit -q --allow-empty -m step && mapproof "
+                    "nightly --metrics speed.json --better lower --store history --json "
+                    "--build true {}",
+                    more));
   }
 
   /// Six nightly runs, the last two of which are slower: the second of these is found.
@@ -60,16 +62,16 @@ class Project {
 TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
   const Project project;
   const Outcome outcome = project.regress(
-      "--markdown n.md --junit n.xml --on-worse 'cat > sent.md; echo $MAPPROOF_COMMITS >> sent.md'");
+      "--markdown n.md --junit n.xml --on-worse 'cat > sent.md; echo $MAPPROOF_COMMITS >> "
+      "sent.md'");
   ASSERT_EQ(outcome.exit_code, 1) << outcome.error << outcome.out;
   const json result = json::parse(outcome.out);
   ASSERT_EQ(result["findings"].size(), 1U) << outcome.out;
   EXPECT_EQ(result["findings"][0]["since"], 5);
   EXPECT_NEAR(result["findings"][0]["change"].get<double>(), 30.0, 1e-6);
   EXPECT_EQ(result["repository"], "https://github.com/me/solver") << "and no secret";
-  const std::string range =
-      project.shell("git rev-parse --short=9 HEAD~2").out.substr(0, 9) + ".." +
-      project.shell("git rev-parse --short=9 HEAD~1").out.substr(0, 9);
+  const std::string range = project.shell("git rev-parse --short=9 HEAD~2").out.substr(0, 9) +
+                            ".." + project.shell("git rev-parse --short=9 HEAD~1").out.substr(0, 9);
   for (const char* file : {"n.md", "n.xml", "sent.md", "history/index.html", "history/feed.xml"}) {
     const std::string text = read_file(project.path() / file);
     EXPECT_NE(text.find(range), std::string::npos) << file;
@@ -85,13 +87,59 @@ TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
 TEST(NightlyMetrics, ThatComeAndGoStayOneStudy) {
   const Project project;
   ASSERT_EQ(project.nightly(10.0).exit_code, 0);
-  write_file(project.path() / "speed.json",
-             R"([{"name": "load", "unit": "ms", "value": 5}, {"name": "new", "unit": "MB", "value": 1},
+  write_file(
+      project.path() / "speed.json",
+      R"([{"name": "load", "unit": "ms", "value": 5}, {"name": "new", "unit": "MB", "value": 1},
                  {"name": "solve <script>alert(1)</script>", "unit": "ms", "value": 10}])");
-  const Outcome outcome = project.shell(
-      "mapproof nightly --metrics speed.json --better lower --store history --json");
+  const Outcome outcome =
+      project.shell("mapproof nightly --metrics speed.json --better lower --store history --json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(json::parse(outcome.out)["reference"], 1) << "it is compared";
+}
+
+/// Eight runs of two methods; the solve takes so long.
+std::string plain_table(double solve_ms) {
+  std::string text = "setup,method,quantity,run,value\n";
+  for (int run = 1; run <= 8; ++run)
+    text += fmt::format(",solve,duration_ms,{0},{1}\n,load,duration_ms,{0},5.{0}\n", run,
+                        solve_ms + 0.01 * run);
+  return text;
+}
+
+TEST(NightlyTables, WithoutAStudyJsonAreJudgedByTheGivenDirection) {
+  const Project project;
+  fs::create_directory(project.path() / "bench");
+  const auto nightly = [&](double solve_ms, const std::string& given) {
+    write_file(project.path() / "bench/results.csv", plain_table(solve_ms));
+    return project.shell("mapproof nightly " + given + " --better lower --store history --json");
+  };
+  EXPECT_EQ(nightly(10.0, "bench/results.csv").exit_code, 0);
+  EXPECT_EQ(nightly(10.0, "bench").exit_code, 0);
+  const Outcome worse = nightly(13.0, "./bench/results.csv");
+  ASSERT_EQ(worse.exit_code, 1) << worse.error << worse.out;
+  const json result = json::parse(worse.out);
+  ASSERT_EQ(result["findings"].size(), 1U) << worse.out;
+  EXPECT_EQ(result["findings"][0]["quantity"], "duration_ms");
+  EXPECT_NE(worse.out.find("bench"), std::string::npos) << "named after its folder";
+}
+
+TEST(NightlyTables, ThatCannotBeUsedAreRefusedInALine) {
+  const Project project;
+  const auto refusal = [&](const std::string& table, const std::string& more) {
+    write_file(project.path() / "speed.csv", table);
+    const Outcome outcome = project.shell("mapproof nightly speed.csv --store history" + more);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.out;
+    EXPECT_FALSE(fs::exists(project.store())) << table;
+    return outcome.error;
+  };
+  EXPECT_NE(refusal(plain_table(1.0), "").find("speed.csv: the quantity \"duration_ms\""),
+            std::string::npos);
+  EXPECT_NE(refusal("setup,method,quantity\n,a,b\n", " --better lower").find("speed.csv"),
+            std::string::npos);
+  EXPECT_NE(refusal("setup,method,quantity,value\n", " --better lower").find("has no row"),
+            std::string::npos);
+  EXPECT_NE(refusal("setup,method,quantity,value\n,a,No Id,1\n", " --better lower").find("No Id"),
+            std::string::npos);
 }
 
 TEST(NightlyMetrics, AreBisectedByTheValueThatIsNearer) {
@@ -106,11 +154,12 @@ TEST(NightlyMetrics, AreBisectedByTheValueThatIsNearer) {
   EXPECT_EQ(bisect(metrics(12.6)).exit_code, 1);
   EXPECT_EQ(bisect(R"([{"name": "load", "unit": "ms", "value": 5}])").exit_code, 125);
   EXPECT_EQ(bisect(metrics(10.0), 2).exit_code, 2) << "nothing got worse then";
-  EXPECT_EQ(json::parse(mapproof({"history", project.store(), "--json"}).out)["nightly_runs"].size(),
-            6U)
+  EXPECT_EQ(
+      json::parse(mapproof({"history", project.store(), "--json"}).out)["nightly_runs"].size(), 6U)
       << "nothing is recorded";
   const Outcome run = project.shell(
-      "git checkout -q . && git bisect start HEAD~1 HEAD~2 && git bisect run sh -c '(true) || exit 125; mapproof "
+      "git checkout -q . && git bisect start HEAD~1 HEAD~2 && git bisect run sh -c '(true) || exit "
+      "125; mapproof "
       "nightly --metrics speed.json --better lower --store history --bisect 5'");
   EXPECT_NE(run.out.find("is the first bad commit"), std::string::npos) << run.out << run.error;
 }
@@ -118,9 +167,9 @@ TEST(NightlyMetrics, AreBisectedByTheValueThatIsNearer) {
 TEST(NightlyMetrics, ThatAreKnownFailNoNightlyRunUntilTheyGetWorse) {
   const Project project;
   ASSERT_EQ(project.regress().exit_code, 1);
-  ASSERT_EQ(mapproof({"history", project.store(), "--known", "6.1", "bigger input, <b>12</b>"})
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      mapproof({"history", project.store(), "--known", "6.1", "bigger input, <b>12</b>"}).exit_code,
+      0);
   EXPECT_EQ(read_file(project.store() / "index.html").find("<b>12"), std::string::npos);
   EXPECT_NE(read_file(project.store() / "index.html").find("bigger input"), std::string::npos);
   const Outcome same = project.nightly(13.0, "--on-worse 'touch called'");

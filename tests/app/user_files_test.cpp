@@ -228,5 +228,218 @@ TEST_F(UserFiles, MisspeltWordsAreAnsweredWithTheOneThatWasMeant) {
   EXPECT_FALSE(fs::exists("hal"));
 }
 
+TEST_F(UserFiles, OneRoleHasAHeaderForEachFile) {
+  const std::string observed =
+      file("o.csv", with_header(kHall / "range_bearing.csv", "Uhr,Kennung,Weite,Richtung"));
+  const std::string anchors =
+      file("a.csv", with_header(kHall / "anchors.csv", "Punktnummer,Lage1,Lage2"));
+  std::vector<std::string> words = {"map",
+                                    observed,
+                                    "--anchors",
+                                    anchors,
+                                    "--out",
+                                    at("out"),
+                                    "--columns",
+                                    "time=Uhr,landmark=Kennung,landmark=Punktnummer,range=Weite,"
+                                    "bearing=Richtung,x=Lage1,y=Lage2"};
+  const Outcome outcome = mapproof(words);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("landmark = Kennung"), std::string::npos) << outcome.error;
+  words.back() =
+      "time=Uhr,landmark=Kennung,landmark=Nummer,range=Weite,bearing=Richtung,x=Lage1,y=Lage2";
+  EXPECT_NE(mapproof(words).error.find("names for landmark; there are \"Punktnummer\""),
+            std::string::npos);
+  words.back() = "landmark=Kennung,landmark=kennung";
+  EXPECT_NE(mapproof(words).error.find("landmark is given twice"), std::string::npos);
+  words.back() = "landmark=1,landmark=2";
+  EXPECT_NE(mapproof(words).error.find("landmark is given twice"), std::string::npos);
+}
+
+TEST_F(UserFiles, OneRoleHasAHeaderForEachFileOfARangeLog) {
+  const std::string ranges = file("r.csv", with_header(kDrive / "ranges.csv", "Zeit,Bake,Entf"));
+  const std::string wheels =
+      file("w.csv", with_header(kDrive / "odometry.csv", "Uhr,Gefahren,Gedreht"));
+  const std::vector<std::string> words = {
+      ranges, "--odometry", wheels, "--columns",
+      "time=Zeit,time=Uhr,range=Entf,distance=Gefahren,heading_change=Gedreht"};
+  for (const json& one : validated(words)) EXPECT_EQ(one.at("problem"), "") << one;
+  const std::string both = file("b.csv", with_header(kDrive / "ranges.csv", "Zeit,Bake,Uhr"));
+  const json one = validated({both, "--columns", "time=Zeit,time=Uhr,range=Entf"})[0];
+  EXPECT_FALSE(one.at("valid"));
+}
+
+TEST_F(UserFiles, DetectionsOfRosAreReadAsLinesOfJson) {
+  // As apriltag_ros writes them: a list for the ID, and lists that are empty.
+  std::string lines;
+  for (int k = 0; k < 3; ++k)
+    lines += R"({"header": {"stamp": {"sec": )" + std::to_string(k) +
+             R"(, "nanosec": 0}}, "detections": [{"id": [7], "results": [], "pose": {"position": )"
+             R"({"x": 1.5, "y": 0.5}}}, {"id": [9], "results": [], "pose": {"position": )"
+             R"({"x": 2.5, "y": -0.5}}}]})" +
+             "\n";
+  const std::string path = file("d.jsonl", lines);
+  const Outcome unnamed = mapproof({"map", path, "--sensor", "range-bearing", "--out", at("o")});
+  EXPECT_NE(unnamed.error.find("there is \"pose.position.x\""), std::string::npos) << unnamed.error;
+  const json one = validated({path, "--columns", "x=pose.position.x,y=pose.position.y"})[0];
+  EXPECT_EQ(one.at("problem"), "");
+  EXPECT_EQ(one.at("input").at("sensor"), "range-bearing");
+  EXPECT_EQ(one.at("input").at("landmarks"), 2);
+}
+
+TEST_F(UserFiles, TheIdOfWhatWasNotIdentifiedIsRemarkedOn) {
+  const json one = validated(
+      {file("d.csv", "step,tag_id,range,bearing\n0,3,1,0\n0,-1,2,0\n1,4,2,1\n1,-1,1,1\n")})[0];
+  EXPECT_NE(one.at("remarks").dump().find("2 detections of a landmark"), std::string::npos) << one;
+  const json none = validated({file("d.csv", "step,tag_id,range,bearing\n0,3,1,0\n0,4,2,0\n")})[0];
+  EXPECT_EQ(none.at("remarks").size(), 0U) << none;
+}
+
+TEST_F(UserFiles, TablesAsOtherProgramsPrintThemAreRead) {
+  const std::vector<std::pair<std::string, std::string>> tables = {
+      {"time,variable,value\n0,a,0.5\n0,b,1\n1,a,0.2\n", "long table"},  // pandas melts
+      {"time,,0\n0,a,0.5\n0,b,1\n1,a,0.2\n", "long table"},              // and stacks.
+      {R"({"9": {"a": 0.5, "b": 1}, "10": {"a": 0.2, "b": null}})", "transposed table"},
+      {R"({"schema": {"fields": [{"name": "index"}]}, "data": [{"index": 0, "a": 0.5, "b": 1},)"
+       R"( {"index": 1, "a": 0.2, "b": null}]})",
+       "transposed table"}};
+  for (const auto& [text, form] : tables) {
+    const json one = validated({file("t", text), "--sensor", "bearing"})[0];
+    EXPECT_EQ(one.at("problem"), "") << text;
+    EXPECT_EQ(one.at("input").at("form"), form) << text;
+    EXPECT_EQ(one.at("input").at("landmarks"), 2) << text;
+    EXPECT_EQ(one.at("input").at("steps"), 2) << text;
+  }
+  const std::vector<std::string> lists = {
+      "step|landmark|range|bearing\n0|a|1.5|0.5\n1|b|2|1\n",  // sqlite3
+      "step  landmark  range  bearing\n----  --------  -----  -------\n0     a         1.5    0.5\n"
+      "1     b         2      1\n",
+      "0,a,1.5,0.5\n1,b,2,1\n", "0.0 a 1.5 0.5\n0.1 b 2 1\n"};
+  for (const std::string& text : lists) {
+    const json one = validated({file("t", text)})[0];
+    EXPECT_EQ(one.at("problem"), "") << text;
+    EXPECT_EQ(one.at("input").at("sensor"), "range-bearing") << text;
+    EXPECT_EQ(one.at("input").at("form"), "detections") << text;
+  }
+  const json graph = validated({file("g",
+                                     "EDGE_BEARING_SE2_XY 0 9 0.5 100\n"
+                                     "EDGE_BEARING_SE2_XY 1 8 0.5 100\n")})[0];
+  EXPECT_EQ(graph.at("input").at("sensor"), "bearing") << graph;
+}
+
+TEST_F(UserFiles, BearingsAreNotTakenForRanges) {
+  std::string degrees = "name", radians = "name";
+  for (int j = 0; j < 72; ++j)
+    degrees += "," + std::to_string(j), radians += "," + std::to_string(j);
+  for (int i = 0; i < 5; ++i) {
+    degrees += "\nL" + std::to_string(i);
+    radians += "\nL" + std::to_string(i);
+    for (int j = 0; j < 72; ++j) {
+      const int angle = (i * 72 + j * 31) % 360;
+      degrees += "," + std::to_string(angle);
+      radians += "," + std::to_string(angle * 0.0174532925);
+    }
+  }
+  const std::string in_degrees = file("d.csv", degrees + "\n");
+  for (const auto& [path, remedy] :
+       {std::pair(in_degrees, "If they are bearings: map --sensor bearing --degrees"),
+        {file("r.csv", radians + "\n"), "If they are bearings: map --sensor bearing"}})
+    for (const char* command : {"map", "validate"}) {
+      std::vector<std::string> words = {command, path, "--sensor", "range"};
+      if (command != std::string("validate")) words.insert(words.end(), {"--out", at("o")});
+      const Outcome outcome = mapproof(words);
+      EXPECT_NE((outcome.out + outcome.error).find(remedy), std::string::npos)
+          << outcome.out << outcome.error;
+      fs::remove_all(at("o"));
+    }
+  const Outcome ranges =
+      mapproof({"validate", (kHall / "ranges.csv").string(), "--sensor", "range"});
+  EXPECT_EQ(ranges.out.find("If they are bearings"), std::string::npos) << ranges.out;
+  const Outcome negative =
+      mapproof({"validate", (kHall / "bearings.csv").string(), "--sensor", "range"});
+  EXPECT_NE(negative.out.find("bearings can: map --sensor bearing"), std::string::npos)
+      << negative.out;
+}
+
+TEST_F(UserFiles, AColumnOfAnglesIsNoColumnOfRanges) {
+  for (const char* header : {"Winkel", "Wert_deg", "Wert [rad]", "bearing"}) {
+    const std::string path =
+        file("t.csv", std::string("time,landmark,") + header + "\n0,a,0.5\n1,b,1\n");
+    for (const char* command : {"map", "slam"}) {
+      const Outcome outcome =
+          mapproof({command, path, "--columns", std::string("range=") + header, "--out", at("o")});
+      EXPECT_EQ(outcome.exit_code, 2) << header;
+      EXPECT_NE(outcome.error.find("in that unit"), std::string::npos) << outcome.error;
+    }
+  }
+}
+
+TEST_F(UserFiles, FeetAndHeadersInFrenchAndSpanishAreRead) {
+  const json feet = validated({file("f.csv",
+                                    "horodatage;balise;distance (ft)\n0,5;A1;10\n"
+                                    "0,5;A2;20\n1,5;A1;11\n")})[0];
+  EXPECT_EQ(feet.at("problem"), "");
+  EXPECT_EQ(feet.at("input").at("sensor"), "range");
+  const json anchors = validated({"--anchors", file("a.csv",
+                                                    "ancre,x_ft,y_ft\nA1,0,0\nA2,10,0\n"
+                                                    "A3,10,20\n")})[0];
+  EXPECT_NEAR(anchors.at("input").at("extent_m")[1], 6.096, 1e-9) << anchors;
+  EXPECT_EQ(validated({file("s.csv", "tiempo,baliza,distancia\n0,a,1\n0,b,2\n")})[0].at("problem"),
+            "");
+}
+
+TEST_F(UserFiles, ValidateSaysWhatOdometryPathsAndPositionsHold) {
+  const std::string wheels = file("w.csv", "t,ddist,dheading\n0,0.5,0.1\n1,0.5,-0.1\n2,1,0\n");
+  const Outcome odometry = mapproof({"validate", "--odometry", wheels});
+  EXPECT_NE(odometry.out.find("3 motions, 2 s, a way of 2 m, heading changes of 0.2 rad in all; "
+                              "columns time = t, distance = ddist, heading_change = dheading"),
+            std::string::npos)
+      << odometry.out;
+  const Outcome path = mapproof({"validate", file("p.csv", "t,x,y\n0,0,0\n1,3,4\n")});
+  EXPECT_NE(path.out.find("2 poses, 1 s, a way of 5 m within 3 m x 4 m"), std::string::npos)
+      << path.out;
+  const Outcome anchors =
+      mapproof({"validate", "--anchors", file("a.csv", "name,x,y\na,0,0\nb,3,1\n")});
+  EXPECT_NE(anchors.out.find("2 landmarks, within 3 m x 1 m"), std::string::npos) << anchors.out;
+  EXPECT_NE(anchors.out.find("aligned to 3 or more anchors"), std::string::npos) << anchors.out;
+  std::string degrees = "t,ddist,dheading\n";
+  for (int i = 0; i < 30; ++i) degrees += std::to_string(i) + ",0.1,20\n";
+  EXPECT_NE(mapproof({"validate", file("d.csv", degrees)}).out.find("dheading_deg"),
+            std::string::npos);
+}
+
+TEST_F(UserFiles, AMapThatIsReflectedOntoItsGroundTruthSaysSo) {
+  std::string mirrored = "name,x,y\n";
+  const std::string text = read_file(kHall / "ground_truth.csv");
+  for (std::size_t at = text.find('\n') + 1; at < text.size(); at = text.find('\n', at) + 1) {
+    const std::size_t second = text.find(',', text.find(',', at) + 1);
+    mirrored +=
+        text.substr(at, second - at) + ",-" + text.substr(second + 1, text.find('\n', at) - second);
+  }
+  const std::string observed = (kHall / "range_bearing.csv").string();
+  const auto said = [&](const std::string& positions) {
+    return mapproof({"map", observed, "--ground-truth", positions, "--force", "--out", at("o")})
+        .error;
+  };
+  EXPECT_NE(said(file("m.csv", mirrored)).find("the map was reflected, rotated and translated"),
+            std::string::npos);
+  EXPECT_NE(said((kHall / "ground_truth.csv").string()).find("the map was rotated and translated"),
+            std::string::npos);
+}
+
+TEST_F(UserFiles, TheChoiceOfAMethodNamesCandidatesThatAreEquallyGood) {
+  // Four landmarks in two groups: all methods order the neighbours alike.
+  std::string table = "name";
+  for (int j = 0; j < 40; ++j) table += "," + std::to_string(j);
+  for (int i = 0; i < 4; ++i) {
+    table += std::string("\n") + static_cast<char>('a' + i);
+    for (int j = 0; j < 40; ++j) table += (j / 4 + i) % 2 == 0 ? ",1" : ",0";
+  }
+  const Outcome outcome = mapproof({"map", file("t.csv", table + "\n"), "--sensor", "visibility",
+                                    "--method", "auto", "--out", at("o")});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  EXPECT_NE(outcome.error.find("candidates are equally good by"), std::string::npos)
+      << outcome.error;
+}
+
 }  // namespace
 }  // namespace mapproof::test

@@ -1,7 +1,9 @@
 """Errors and coverage of the maps of range_gtsam and of `mapproof slam`.
 
-    range_gtsam.py NAME FOLDER TRUTH: FOLDER is what `mapproof slam --out` wrote, with own.txt and
-    odometry.txt of range_gtsam; TRUTH a folder with groundtruth.csv and landmarks.csv, or a g2o file
+    range_gtsam.py NAME FOLDER REFERENCE
+
+FOLDER is what `mapproof slam --out` wrote, with own.txt and odometry.txt of range_gtsam; REFERENCE a
+folder with groundtruth.csv and landmarks.csv, or a g2o file.
 """
 
 import csv
@@ -26,7 +28,7 @@ def rigid(source, target):
     return rotation, goal - rotation @ mean
 
 
-def truth_of(path, times):
+def true_positions(path, times):
     """True positions at the times, rows that have one, and the landmarks by name."""
     if path.is_dir():
         drive = np.array([[float(x) for x in row[:3]] for row in rows(path / "groundtruth.csv")])
@@ -40,9 +42,9 @@ def truth_of(path, times):
     return at, np.ones(len(at), bool), {}
 
 
-def coverage(landmarks, covariances, truth):
-    rotation, shift = rigid(truth, landmarks)
-    errors = landmarks - (truth @ rotation.T + shift)
+def coverage(landmarks, covariances, reference):
+    rotation, shift = rigid(reference, landmarks)
+    errors = landmarks - (reference @ rotation.T + shift)
     nees = [e @ np.linalg.solve(c, e) for e, c in zip(errors, covariances)]
     return sum(n <= 5.991 for n in nees), float(np.mean(nees))
 
@@ -59,8 +61,8 @@ def free_of_frame(landmarks, joint):
     return [free[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] for i in range(count)]
 
 
-def print_row(name, method, seconds, path, landmarks, covariances, truth):
-    at, known, true_landmarks = truth
+def print_row(name, method, seconds, path, landmarks, covariances, reference):
+    at, known, true_landmarks = reference
     rotation, shift = rigid(path[known], at[known])
     mean = np.linalg.norm(path[known] @ rotation.T + shift - at[known], axis=1).mean()
     text = f"{name:10} {method:24} {seconds:>8} {mean:8.3f} m"
@@ -71,18 +73,18 @@ def print_row(name, method, seconds, path, landmarks, covariances, truth):
     print(text)
 
 
-def main(name, folder, truth_path):
+def main(name, folder, reference):
     path = np.array([[float(x) for x in row[:3]] for row in rows(folder / "path.csv")])
     names = [row[0] for row in rows(folder / "landmarks.csv")]
-    at, known, by_name = truth_of(truth_path, path[:, 0])
-    truth = at, known, np.array([by_name[n] for n in names]) if by_name else []
+    at, known, by_name = true_positions(reference, path[:, 0])
+    reference = at, known, np.array([by_name[n] for n in names]) if by_name else []
     records = json.loads((folder / "slam.json").read_text())["records"]
     refined = next(r for r in records if r["method"] == "refined")
     ours, blocks = [], []
     if by_name:
         ours = np.array(refined["landmarks_m"], dtype=float)
         blocks = [np.array([[c[0], c[1]], [c[1], c[2]]]) for c in refined["landmark_cov_m2"]]
-    print_row(name, "mapproof, refined", "", path[:, 1:], ours, blocks, truth)
+    print_row(name, "mapproof, refined", "", path[:, 1:], ours, blocks, reference)
     for start in ("own", "odometry"):
         fields = [line.split() for line in (folder / f"{start}.txt").read_text().splitlines()]
         poses = np.array([[float(x) for x in f[2:4]] for f in fields if f[0] == "pose"])
@@ -92,7 +94,7 @@ def main(name, folder, truth_path):
         joint = np.array([[float(x) for x in f[4:]] for f in found]).reshape(count, count, 2, 2)
         joint = joint.transpose(0, 2, 1, 3).reshape(2 * count, 2 * count)
         print_row(name, f"GTSAM, from {start}", f"{float(fields[0][1]):.2f} s", poses, landmarks,
-                  free_of_frame(landmarks, joint), truth)
+                  free_of_frame(landmarks, joint), reference)
 
 
 main(sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -10,5 +11,8 @@ void append_base64(std::string& out, std::string_view bytes);
 
 /// The same alone.
 std::string base64(std::string_view bytes);
+
+/// The bytes of such a text, in which white space is passed over; empty if it is not one.
+std::optional<std::string> from_base64(std::string_view text);
 
 }  // namespace mapproof

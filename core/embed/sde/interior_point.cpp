@@ -54,6 +54,12 @@ Eigen::MatrixXd pairs_matrix(const Problem& problem, const Eigen::MatrixXd& G,
 
 constexpr double kOfTheWay = 0.95;  // To the boundary.
 constexpr double kGapToPolish = 1e-7;
+/// The map has fewer digits than the variance: it stops at so much less gap than requested, where
+/// that is cheap.
+constexpr double kMoreDigits = 0.01;
+constexpr Index kMostPairsForMoreDigits = 2500;
+/// Elsewhere enough that the certificate, computed separately, still meets what was requested.
+constexpr double kSomeDigits = 0.5;
 constexpr Index kMostPolishedRank = 3;
 constexpr int kMostPolishingSteps = 5;
 constexpr double kPolished = 1e-9;
@@ -386,7 +392,11 @@ std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
 }
 
 CertifiedSolution solve_by_interior_point(const Problem& problem, const MatrixXd& gram,
-                                          const InteriorPointOptions& options) {
+                                          const InteriorPointOptions& requested) {
+  const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : kSomeDigits;
+  InteriorPointOptions options = requested;
+  options.relative_gap *= part;
+  options.constraint_residual *= part;
   InteriorPoint method(problem, gram, options);
   method.run(kGapToPolish);
   method.forget_schur();  // Refining makes a matrix of that size.

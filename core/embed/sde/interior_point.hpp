@@ -77,6 +77,7 @@ std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
 inline constexpr Eigen::Index kMostInteriorPairs = 5000;
 
 /// When to stop.
+/// What is requested; the steps stop at a part of it (see interior_point.cpp).
 struct InteriorPointOptions {
   double relative_gap;
   double constraint_residual;
@@ -94,6 +95,6 @@ struct InteriorPointOptions {
 /// @return The last iterate, whether or not it meets the options.
 /// @note O(m^3 / 3 + n^3) time an iteration, O(m^2) memory for m pairs. Deterministic.
 CertifiedSolution solve_by_interior_point(const Problem& problem, const Eigen::MatrixXd& gram,
-                                          const InteriorPointOptions& options);
+                                          const InteriorPointOptions& requested);
 
 }  // namespace mapproof::unfolding

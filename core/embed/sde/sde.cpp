@@ -19,12 +19,6 @@ namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kMostPairsToAskAgain = 2000;
-/// The map has fewer digits than the variance: so much less gap than requested, where that is
-/// cheap.
-constexpr double kMoreDigits = 0.01;
-constexpr Eigen::Index kMostPairsForMoreDigits = 2500;
-/// Elsewhere enough that the certificate, computed separately, still meets what was requested.
-constexpr double kSomeDigits = 0.5;
 
 void check(const Eigen::MatrixXd& distances, const SdeOptions& options) {
   if (distances.rows() < 3 || distances.cols() != distances.rows())
@@ -76,11 +70,9 @@ unfolding::CertifiedSolution solve(const unfolding::Problem& problem,
     return unfolding::solve_low_rank(
         problem, low_rank_start(problem, gram),
         {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
-  const double part = problem.squared.size() <= kMostPairsForMoreDigits ? kMoreDigits : kSomeDigits;
   unfolding::CertifiedSolution own = unfolding::solve_by_interior_point(
       problem, gram,
-      {.relative_gap = part * options.relative_gap,
-       .constraint_residual = part * options.constraint_residual});
+      {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
   if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain) return own;
   unfolding::CertifiedSolution other =
       certified(problem, unfolding::solve_with_csdp(problem).solution);

@@ -13,6 +13,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 #include "core/records/detections/detection_rows.hpp"
 #include "core/records/detections/mrclam.hpp"
@@ -54,6 +55,7 @@ class LongDetections {
     require_stamps(rows_.scans(), scan_window_s_);
     order();
     log_.names = rows_.names().names();
+    unknown_ = remark_on_unknown();
     return {.log = std::move(log_),
             .ground_truth_m = std::nullopt,
             .remarks = remarks(),
@@ -179,9 +181,26 @@ class LongDetections {
                               in_quotes(rows_.names().names()[landmark]), first));
   }
 
+  /// On the number by which detectors mark what they could not identify; empty: it does not occur,
+  /// or the IDs are no numbers.
+  std::string remark_on_unknown() const {
+    const std::vector<std::string>& names = rows_.names().names();
+    const auto unknown = std::ranges::find(names, "-1");
+    const auto negative = std::ranges::count_if(
+        names, [](const std::string& name) { return !number_in(name) || name.starts_with('-'); });
+    if (unknown == names.end() || negative != 1) return "";
+    const auto rows = std::ranges::count(log_.detections, static_cast<int>(unknown - names.begin()),
+                                         &Detection::landmark);
+    return fmt::format(
+        "{} of a landmark \"-1\", which is mapped like any other. Detectors mark by it what they "
+        "could not identify: leave such rows out",
+        counted(rows, "detection"));
+  }
+
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks = rows_.scans().remarks();
     if (!grouping_.empty()) remarks.push_back(grouping_);
+    if (!unknown_.empty()) remarks.push_back(unknown_);
     if (stream_.is_cut()) remarks.emplace_back(kCutRemark);
     return remarks;
   }
@@ -190,6 +209,7 @@ class LongDetections {
   DetectionRows rows_;
   std::optional<double> scan_window_s_;
   std::string grouping_;  ///< A remark.
+  std::string unknown_;   ///< Another one.
   DetectionLog log_;
   TimeScale scale_;
   std::vector<RowRun> runs_;

@@ -99,6 +99,12 @@ bool names_detection_columns(const TableRow& row, const ColumnNames& names) {
   return (roles(ColumnRole::kLandmark) && roles.has_measurement()) || roles.is_list();
 }
 
+bool is_stacked_header(const TableRow& row) {
+  return row.cells.size() == 3 && (row.cells[0].empty() || names_steps(row.cells[0])) &&
+         (row.cells[1].empty() || row.cells[1] == "level_1") &&
+         (row.cells[2].empty() || row.cells[2] == "0");
+}
+
 bool names_value_columns(const TableRow& row, const ColumnNames& names) {
   const NamedRoles roles(row, names);
   return roles(ColumnRole::kLandmark) && roles(ColumnRole::kValue);
@@ -115,11 +121,20 @@ bool is_long_header(const TableRow& row, const ColumnNames& names) {
 }
 
 bool starts_detection_list(const TableRow& row) {
-  return row.cells.size() == 2 && is_time_cell(row.cells[0]) && !row.cells[1].empty() &&
-         !is_missing(row.cells[1]) && !number_in(row.cells[1]);
+  const auto is_measured = [](std::string_view cell) {
+    return is_missing(cell) || number_in(cell);
+  };
+  const std::size_t width = row.cells.size();
+  return (width == 2 || (width == 4 && is_measured(row.cells[2]) && is_measured(row.cells[3]))) &&
+         is_time_cell(row.cells[0]) && !row.cells[1].empty() && !is_missing(row.cells[1]) &&
+         !number_in(row.cells[1]);
 }
 
 MeasuredColumns measured_columns(const TableRow& row, const ColumnNames& names) {
+  if (starts_detection_list(row)) {
+    const bool is_measured = row.cells.size() > 2;
+    return {.range = is_measured, .bearing = is_measured};
+  }
   const NamedRoles roles(row, names);
   return {.range = roles(ColumnRole::kRange) || roles.has_position(),
           .bearing = roles(ColumnRole::kBearing) || roles.has_position()};
@@ -144,8 +159,8 @@ DetectionColumns detection_columns(const TableRow& header, const std::string& so
                                 name(*heading.role), name(*heading.role)));
     if (!heading.unknown_unit.empty())
       throw IoError(source, location,
-                    fmt::format("{}: a {} in that unit is not known; m, cm, mm, km, s, ms, us, ns, "
-                                "min, h, d, rad or deg",
+                    fmt::format("{}: a {} in that unit is not known; m, cm, mm, km, ft, inch, s, "
+                                "ms, us, ns, min, h, d, rad or deg",
                                 in_quotes(header.cells[i]), name(*heading.role)));
     set_column(columns, *heading.role, i, std::string(header.cells[i]));
     columns.factor[static_cast<std::size_t>(*heading.role)] = heading.factor;

@@ -40,10 +40,15 @@ bool names_detection_columns(const TableRow& row, const ColumnNames& names = {})
 /// Whether a row names columns of a long table of observations: a landmark and a value.
 bool names_value_columns(const TableRow& row, const ColumnNames& names = {});
 
+/// Whether the header names at most the steps of a long table, as Series.to_csv() of a frame that
+/// pandas stacked: "time,,0".
+bool is_stacked_header(const TableRow& row);
+
 /// Whether a table's first row is its header: no cell is a number or a date.
 bool is_long_header(const TableRow& row, const ColumnNames& names = {});
 
-/// Whether a table without a header lists detections: a number or date, then a landmark.
+/// Whether a table without a header lists detections: a number or date, then the name of a landmark,
+/// which must be other than a number; and nothing else, or range and bearing.
 bool starts_detection_list(const TableRow& row);
 
 /// What the columns of detections measure: range, bearing, both, or nothing, visibility.

@@ -99,9 +99,10 @@ Columns columns_of(const TableRow& header, const std::string& source, const Colu
                                 "{}=HEADER names the one to read",
                                 in_quotes(header.cells[i]), name(kRoles[*heading.column])));
     if (!heading.unknown_unit.empty())
-      throw IoError(source, location,
-                    fmt::format("{}: coordinates in that unit are not known; m, cm, mm or km",
-                                in_quotes(header.cells[i])));
+      throw IoError(
+          source, location,
+          fmt::format("{}: coordinates in that unit are not known; m, cm, mm, km, ft or inch",
+                      in_quotes(header.cells[i])));
     columns.cell[*heading.column] = i;
     columns.factor[*heading.column] = heading.factor;
     is_found[*heading.column] = true;

@@ -293,7 +293,7 @@ bool has_long_header(std::string_view text, const std::string& source, const Col
   TableReader reader(text, source);
   TableRow row;
   if (!reader.next(row)) return false;
-  return names_value_columns(row, names);
+  return names_value_columns(row, names) || is_stacked_header(row);
 }
 
 bool starts_as_long(std::string_view text, const std::string& source) {
@@ -336,6 +336,7 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
   result.reading.packing = source.form();
   if (!source.original().empty()) result.reading.separator = '\0';
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);
+  if (*kind == Sensor::kRange) remark_on_angles(result.history, result.remarks);
   return result;
 }
 

@@ -13,6 +13,7 @@ ObservationSource observations_of(DetectionSource source, Sensor sensor) {
   ObservationHistory history = history_of(source.log, sensor);
   if (history.values.array().isNaN().all())
     throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
+  if (sensor == Sensor::kRange) remark_on_angles(history, source.remarks);
   return {.history = std::move(history),
           .ground_truth_m = std::move(source.ground_truth_m),
           .remarks = std::move(source.remarks),

@@ -29,4 +29,7 @@ struct RangeLogParts {
 /// The times of the poses of the odometry: its start, then the end of each motion.
 Eigen::VectorXd pose_times(const RangeLogParts& parts);
 
+/// On odometry that seems to be in degrees, or the whole way since the start.
+std::vector<std::string> odometry_remarks(const std::vector<Motion>& motions);
+
 }  // namespace mapproof

@@ -58,8 +58,9 @@ struct Cell {
 
 std::optional<std::size_t> named_cell(ColumnRole role, const TableRow& header,
                                       const ColumnNames& names) {
-  const auto named = std::ranges::find(names, role, &NamedColumn::role);
-  for (std::size_t i = 0; named != names.end() && i < header.cells.size(); ++i)
+  const ColumnNames found = columns_in(header.cells, names);
+  const auto named = std::ranges::find(found, role, &NamedColumn::role);
+  for (std::size_t i = 0; named != found.end() && i < header.cells.size(); ++i)
     if (is_named(*named, header.cells[i], i)) return i;
   return std::nullopt;
 }
@@ -100,7 +101,14 @@ std::optional<Cell> cell_of(const RangeColumn& column, const TableRow& header,
                             const std::string& source, const ColumnNames& names) {
   const std::string location = fmt::format("line {}", header.line);
   if (const auto named = named_cell(column.role, header, names)) {
+    if (std::ranges::count(columns_in(header.cells, names), column.role, &NamedColumn::role) > 1)
+      throw IoError(source, location,
+                    fmt::format("--columns names two of its columns for {}", name(column.role)));
     if (is_of_motion(column.role)) require_increment(header.cells[*named], source, location);
+    if (!column_heading(header.cells[*named], *named, names).unknown_unit.empty())
+      throw IoError(source, location,
+                    fmt::format("{}: {} in that unit are not known",
+                                in_quotes(header.cells[*named]), column.label));
     const double factor = named_column_factor(header.cells[*named], column.role);
     return Cell{column.role, *named, factor, factor != 1.0};
   }
@@ -200,6 +208,8 @@ NumberTable read_range_columns(ByteSource& input, const std::vector<RangeColumn>
   const auto name_cell = landmarks ? cell_of(kLandmark, row, source, names) : std::optional<Cell>();
 
   NumberTable table{.source = source};
+  for (const Cell& cell : cells) table.columns.emplace_back(name(cell.role), row.cells[cell.index]);
+  if (name_cell) table.columns.emplace_back(name(name_cell->role), row.cells[name_cell->index]);
   std::vector<double> values;
   while (reader.next(row)) {
     if (row.cells.size() != width)

@@ -1,6 +1,10 @@
 #include "core/records/ranges/range_companions.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -80,6 +84,72 @@ std::string companion_form(ByteSource& source, const ColumnNames& columns) {
   return "";
 }
 
+/// Along x and y.
+Eigen::Vector2d extent(const Points& positions_m) {
+  if (positions_m.rows() == 0) return {0.0, 0.0};
+  return (positions_m.colwise().maxCoeff() - positions_m.colwise().minCoeff()).transpose();
+}
+
+/// Role and header of each column of positions; none without a header.
+std::vector<std::pair<std::string, std::string>> position_columns(
+    const std::vector<std::string>& first, const ColumnNames& columns) {
+  const std::vector<std::string_view> header(first.begin(), first.end());
+  const ColumnNames named = columns_in(header, columns);
+  std::vector<std::pair<std::string, std::string>> found;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    std::optional<ColumnRole> role = column_heading(header[i], i, named).role;
+    if (column_factor(header[i], ColumnRole::kX, kEastWords)) role = ColumnRole::kX;
+    if (column_factor(header[i], ColumnRole::kY, kNorthWords)) role = ColumnRole::kY;
+    if (role == ColumnRole::kLandmark || role == ColumnRole::kX || role == ColumnRole::kY)
+      found.emplace_back(name(*role), first[i]);
+  }
+  return found;
+}
+
+CompanionSummary read_positions(ByteSource& source, const ColumnNames& columns) {
+  CompanionSummary summary{.kind = "landmarks with positions", .companion = Companion::kLandmarks};
+  ColumnNames named = columns;
+  if (!is_graph(source)) {
+    mark_columns(source, named);
+    summary.columns = position_columns(first_row(source), columns);
+  }
+  const NamedPoints points = read_true_landmarks(source, named);
+  summary.rows = points.positions_m.rows();
+  summary.extent_m = extent(points.positions_m);
+  if (!points.heights.empty()) summary.remarks.push_back(points.heights);
+  return summary;
+}
+
+CompanionSummary path_summary(const Trajectory& path) {
+  CompanionSummary summary{.kind = "path",
+                           .companion = Companion::kPath,
+                           .rows = path.size(),
+                           .extent_m = extent(path.positions_m),
+                           .has_headings = path.heading_rad.size() > 0};
+  if (path.size() < 2) return summary;
+  const Eigen::Index steps = path.size() - 1;
+  summary.duration_s = path.time_s(steps) - path.time_s(0);
+  summary.way_m =
+      (path.positions_m.bottomRows(steps) - path.positions_m.topRows(steps)).rowwise().norm().sum();
+  return summary;
+}
+
+CompanionSummary odometry_summary(const NumberTable& table) {
+  const std::vector<Motion> motions = motions_in(table);
+  CompanionSummary summary{.kind = "odometry of a range log, CSV",
+                           .companion = Companion::kOdometry,
+                           .rows = std::ssize(motions),
+                           .columns = table.columns,
+                           .remarks = odometry_remarks(motions)};
+  if (motions.empty()) return summary;
+  summary.duration_s = motions.back().time_s - motions.front().time_s;
+  for (const Motion& motion : motions) {
+    summary.way_m += std::hypot(motion.distance_m, motion.sideways_m);
+    summary.turned_rad += std::abs(motion.heading_change_rad);
+  }
+  return summary;
+}
+
 }  // namespace
 
 std::vector<Motion> read_motions(const fs::path& path, ColumnNames& columns) {
@@ -141,30 +211,34 @@ bool holds_landmarks(ByteSource& source, const ColumnNames& columns) {
   return !has(ColumnRole::kTime) && header.size() == 3;
 }
 
-std::string check_range_companion(ByteSource& source, Companion companion,
-                                  const ColumnNames& columns) {
+CompanionSummary read_companion(ByteSource& source, Companion companion,
+                                const ColumnNames& columns) {
   ColumnNames named = columns;
-  if (companion == Companion::kLandmarks) {
-    read_true_landmarks(source, named);
-    return "landmarks with positions";
-  }
-  if (companion == Companion::kOdometry) {
-    motions_in(read_table(source, motion_columns(), named));
-    return "odometry of a range log, CSV";
-  }
+  if (companion == Companion::kLandmarks) return read_positions(source, columns);
+  if (companion == Companion::kOdometry)
+    return odometry_summary(read_table(source, motion_columns(), named));
   const std::string form(path_form(source));
-  if (form == "KITTI")
-    read_number_table(source, 12);  // Its times are those of the odometry.
-  else
-    read_true_path(source, {}, named);
-  return "path, " + (form.empty() ? "CSV" : form);
+  CompanionSummary summary;
+  if (form == "KITTI") {
+    // Its times are those of the odometry.
+    summary.companion = Companion::kPath;
+    summary.rows = read_number_table(source, 12).values.rows();
+  } else if (is_path_text(source) || is_graph(source)) {
+    summary = path_summary(read_true_path(source, {}, named));
+  } else {
+    const NumberTable table = read_table(source, pose_columns(false), named);
+    summary = path_summary(trajectory_in(table));
+    summary.columns = table.columns;
+  }
+  summary.kind = "path, " + (form.empty() ? "CSV" : form);
+  return summary;
 }
 
-std::string check_range_companion(ByteSource& source, const ColumnNames& columns) {
+CompanionSummary read_companion(ByteSource& source, const ColumnNames& columns) {
   const std::string form = companion_form(source, columns);
-  if (form.empty()) return "";
-  return check_range_companion(source, form == "odometry" ? Companion::kOdometry : Companion::kPath,
-                               columns);
+  if (form.empty()) return {};
+  return read_companion(source, form == "odometry" ? Companion::kOdometry : Companion::kPath,
+                        columns);
 }
 
 }  // namespace mapproof

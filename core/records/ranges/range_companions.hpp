@@ -2,6 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "core/base/files/byte_source.hpp"
 #include "core/records/ranges/gathered_range_log.hpp"
@@ -30,12 +34,26 @@ bool holds_landmarks(ByteSource& source, const ColumnNames& columns = {});
 /// What goes with ranges.
 enum class Companion { kOdometry, kPath, kLandmarks };
 
-/// Reads a file as what it is stated to be. @return Its kind: "odometry", "path, TUM".
-std::string check_range_companion(ByteSource& source, Companion companion,
-                                  const ColumnNames& columns);
+/// What was understood of such a file, in numbers.
+struct CompanionSummary {
+  std::string kind;  ///< "path, TUM"; empty: it is none of them, and unread.
+  Companion companion = Companion::kLandmarks;
+  Eigen::Index rows = 0;                  ///< Motions, poses or landmarks.
+  double duration_s = 0.0;                ///< From the first motion or pose to the last.
+  double way_m = 0.0;                     ///< That motions or poses go.
+  double turned_rad = 0.0;                ///< Sum of the motions' heading changes, as they are.
+  Eigen::Vector2d extent_m = {0.0, 0.0};  ///< Of poses or landmarks along x and y.
+  bool has_headings = false;              ///< Of poses.
+  /// Role and header of each column that was read.
+  std::vector<std::pair<std::string, std::string>> columns = {};
+  std::vector<std::string> remarks = {};  ///< What looks unusual, a sentence each.
+};
+
+/// Reads a file as what it is stated to be.
+CompanionSummary read_companion(ByteSource& source, Companion companion,
+                                const ColumnNames& columns);
 
 /// Reads a file that its first row shows to be odometry or a path, as TUM and KITTI have it too.
-/// @return What it is. Empty: it is none of them, and unread.
-std::string check_range_companion(ByteSource& source, const ColumnNames& columns = {});
+CompanionSummary read_companion(ByteSource& source, const ColumnNames& columns = {});
 
 }  // namespace mapproof

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -16,6 +17,7 @@
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/ranges/range_companions.hpp"
+#include "core/records/tables/cells.hpp"
 
 namespace mapproof {
 namespace {
@@ -185,41 +187,16 @@ void take_start(const RangeLogParts& parts, RangeLog& log) {
                   step_s, has_second ? ", as the second" : ""));
 }
 
-/// Odometry that seems to be in degrees, or the whole way since the start.
-void check_odometry(RangeLog& log) {
-  constexpr std::size_t kFewest = 20;
-  constexpr double kFastTurn = 3.0;     // rad/s in the mean: a robot turns slower.
-  constexpr double kSharpTurn = 6.0;    // rad per metre in the mean.
-  constexpr double kGrowth = 1.5;       // Of the last distance, over the median one.
-  constexpr double kMostlyGrows = 0.8;  // Share of the rows.
-  if (log.odometry.size() < kFewest) return;
-  double turned = 0.0, way_m = 0.0, sharpest = 0.0;
-  std::size_t grows = 0, shrinks = 0;
-  std::vector<double> distances;
-  for (std::size_t i = 0; i < log.odometry.size(); ++i) {
-    const Motion& motion = log.odometry[i];
-    turned += std::abs(motion.heading_change_rad);
-    sharpest = std::max(sharpest, std::abs(motion.heading_change_rad));
-    way_m += std::hypot(motion.distance_m, motion.sideways_m);
-    distances.push_back(motion.distance_m);
-    if (i == 0) continue;
-    const double growth_m = motion.distance_m - log.odometry[i - 1].distance_m;
-    grows += growth_m > 0.0 ? 1 : 0;
-    shrinks += growth_m < 0.0 ? 1 : 0;
+/// Ranges that are bearings by mistake.
+void check_angles(const std::vector<NamedMeasurement>& measurements, RangeLog& log) {
+  std::map<std::string_view, double> last;
+  FullTurn turn;
+  for (const NamedMeasurement& measured : measurements) {
+    const auto [before, is_new] = last.emplace(measured.landmark, kNaN);
+    turn.add(measured.range_m, before->second);
+    before->second = measured.range_m;
   }
-  const double seconds = log.odometry.back().time_s - log.odometry.front().time_s;
-  if (sharpest > std::numbers::pi || turned > kFastTurn * seconds || turned > kSharpTurn * way_m)
-    log.remarks.push_back(fmt::format(
-        "In radians, the odometry turns by {:.3g} rad/s in the mean and by up to {:.3g} rad at "
-        "once. If its headings are in degrees, name the unit in the header (dheading_deg); if they "
-        "are headings, give their changes.",
-        turned / seconds, sharpest));
-  const double last_m = log.odometry.back().distance_m;
-  if (shrinks == 0 && static_cast<double>(grows) > kMostlyGrows * double(distances.size()) &&
-      last_m > kGrowth * median(distances))
-    log.remarks.push_back(
-        "The distances of the odometry grow from row to row. If they are the whole way since the "
-        "start, give the way since the row before.");
+  if (std::string remark = turn.remark(); !remark.empty()) log.remarks.push_back(std::move(remark));
 }
 
 void count_outside(RangeLog& log) {
@@ -270,8 +247,9 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
   take_true_landmarks(parts, log);
   if (!parts.true_landmarks.heights.empty()) log.remarks.push_back(parts.true_landmarks.heights);
   take_start(parts, log);
-  check_odometry(log);
+  std::ranges::copy(odometry_remarks(log.odometry), std::back_inserter(log.remarks));
   count_outside(log);
+  check_angles(parts.measurements, log);
   if (log.ground_truth && turns_are_the_ground_truths(log.odometry, *log.ground_truth))
     log.remarks.push_back(
         "The heading changes of the odometry are those of the true heading: a result "

@@ -45,9 +45,9 @@ std::string numbered_name(const NumberTable& table, Eigen::Index row, double num
 
 }  // namespace
 
-void NumberTable::set_values(const std::vector<double>& by_row, Eigen::Index columns) {
+void NumberTable::set_values(const std::vector<double>& by_row, Eigen::Index width) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  values = Eigen::Map<const RowMajor>(by_row.data(), std::ssize(rows), columns);
+  values = Eigen::Map<const RowMajor>(by_row.data(), std::ssize(rows), width);
 }
 
 std::string NumberTable::location(Eigen::Index row) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,9 +20,11 @@ struct NumberTable {
   std::vector<std::string> names = {};  ///< n, of landmarks; or empty.
   Eigen::MatrixXd values = {};          ///< n x k, finite.
   std::size_t left_out = 0;             ///< Rows that were, since their range is missing.
+  /// Role and header of each column: {"distance", "Weg [m]"}; empty without a header.
+  std::vector<std::pair<std::string, std::string>> columns = {};
 
   /// Takes `values` row by row, as many rows as `rows`.
-  void set_values(const std::vector<double>& by_row, Eigen::Index columns);
+  void set_values(const std::vector<double>& by_row, Eigen::Index width);
 
   std::string location(Eigen::Index row) const;
   /// @throws IoError at that row.

@@ -238,4 +238,16 @@ std::vector<Result> parse_results_csv(std::string_view text, const std::string& 
   return ResultsReader(checked_text(text, source), source, quantities).read();
 }
 
+std::vector<std::string> quantities_in(std::string_view text, const std::string& source) {
+  TableReader table(text, source, ',');
+  TableRow row;
+  std::set<std::string> found;
+  if (!table.next(row)) return {};
+  const auto column =
+      static_cast<std::size_t>(std::ranges::find(row.cells, "quantity") - row.cells.begin());
+  while (table.next(row))
+    if (column < row.cells.size()) found.emplace(row.cells[column]);
+  return {found.begin(), found.end()};
+}
+
 }  // namespace mapproof

@@ -24,4 +24,8 @@ std::string results_csv(const std::vector<Result>& rows);
 std::vector<Result> parse_results_csv(std::string_view text, const std::string& source,
                                       const Quantities& quantities);
 
+/// The texts in the column `quantity` of such a table, each once, ascending; none without the
+/// column. @throws IoError for a table that cannot be read as one.
+std::vector<std::string> quantities_in(std::string_view text, const std::string& source);
+
 }  // namespace mapproof

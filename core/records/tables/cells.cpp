@@ -1,7 +1,9 @@
 #include "core/records/tables/cells.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -43,10 +45,47 @@ std::string observation_problem(Sensor sensor, double value) {
           value);
     case Sensor::kRange:
       return value < 0.0
-                 ? fmt::format("a range cannot be negative, got {}", value)
+                 ? fmt::format(
+                       "a range cannot be negative, got {}; bearings can: map --sensor bearing",
+                       value)
                  : fmt::format("ranges are in metres, at most {}, got {}", kLongestRange_m, value);
   }
   return {};
+}
+
+void FullTurn::add(double value, double before) {
+  if (std::isnan(value)) return;
+  smallest_ = std::min(smallest_, value);
+  largest_ = std::max(largest_, value);
+  // A robot that turns by less than an eighth of a turn between two steps.
+  constexpr double kJump = 0.75;
+  const double jump = std::abs(value - before);  // NaN: no jump.
+  degree_jumps_ += jump > kJump * 360.0 ? 1 : 0;
+  radian_jumps_ += jump > kJump * 2.0 * std::numbers::pi ? 1 : 0;
+}
+
+std::string FullTurn::remark() const {
+  constexpr double kEnd = 0.05;  // Share of the turn within which both ends are reached.
+  constexpr std::size_t kFewestJumps = 3;
+  const auto fills = [&](double turn, std::size_t jumps) {
+    return jumps >= kFewestJumps && smallest_ < kEnd * turn && largest_ > (1.0 - kEnd) * turn &&
+           largest_ < turn + 1e-3;
+  };
+  const bool is_degrees = fills(360.0, degree_jumps_);
+  if (!is_degrees && !fills(2.0 * std::numbers::pi, radian_jumps_)) return {};
+  return fmt::format(
+      "The ranges fill {:.4g} to {:.4g} and jump between these ends, as angles of a full turn do. "
+      "If "
+      "they are bearings: map --sensor bearing{}",
+      smallest_, largest_, is_degrees ? " --degrees" : "");
+}
+
+void remark_on_angles(const ObservationHistory& ranges, std::vector<std::string>& remarks) {
+  FullTurn turn;
+  for (Eigen::Index j = 0; j < ranges.steps(); ++j)
+    for (Eigen::Index i = 0; i < ranges.landmarks(); ++i)
+      turn.add(ranges.values(i, j), j == 0 ? kNaN : ranges.values(i, j - 1));
+  if (std::string remark = turn.remark(); !remark.empty()) remarks.push_back(std::move(remark));
 }
 
 std::optional<double> observation_in(std::string_view cell, Sensor sensor) {

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "core/model/observation_history.hpp"
 #include "core/model/sensor.hpp"
 
 namespace mapproof {
@@ -19,6 +23,24 @@ inline double in_radians(double degrees) { return degrees * std::numbers::pi / 1
 /// reason.
 std::optional<double> observation_in(std::string_view cell, Sensor sensor);
 std::string cell_problem(std::string_view cell, Sensor sensor);
+
+/// Finds ranges that are angles by mistake: values that fill a full turn, in degrees or radians,
+/// and jump from one of its ends to the other as no distance does.
+class FullTurn {
+ public:
+  /// @param before  That of the same landmark one step before; NaN: none.
+  void add(double value, double before);
+  /// A remark with the way out; empty: they are no angles.
+  std::string remark() const;
+
+ private:
+  double smallest_ = std::numeric_limits<double>::infinity();
+  double largest_ = 0.0;
+  std::size_t degree_jumps_ = 0, radian_jumps_ = 0;
+};
+
+/// Adds the remark of FullTurn on the ranges of a history, if it has one.
+void remark_on_angles(const ObservationHistory& ranges, std::vector<std::string>& remarks);
 
 /// @param place  For the error: "line 7". @throws IoError if the history grows beyond its bounds.
 void check_size(const std::string& source, const std::string& location, std::size_t landmarks,

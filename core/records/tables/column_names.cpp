@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -35,6 +36,12 @@ constexpr Word kWords[] = {
     {"%time", ColumnRole::kTime},
     {"zeit", ColumnRole::kTime},
     {"zeitstempel", ColumnRole::kTime},
+    {"temps", ColumnRole::kTime},
+    {"horodatage", ColumnRole::kTime},
+    {"heure", ColumnRole::kTime},
+    {"tiempo", ColumnRole::kTime},
+    {"fecha", ColumnRole::kTime},
+    {"hora", ColumnRole::kTime},
     {"sec", ColumnRole::kTime},
     {"stampsec", ColumnRole::kTime},
     {"stampsecs", ColumnRole::kTime},
@@ -61,6 +68,17 @@ constexpr Word kWords[] = {
     {"landmarke", ColumnRole::kLandmark},
     {"anchor", ColumnRole::kLandmark},
     {"node", ColumnRole::kLandmark},
+    {"variable", ColumnRole::kLandmark},  // As pandas melts a table of landmarks and times.
+    {"balise", ColumnRole::kLandmark},
+    {"ancre", ColumnRole::kLandmark},
+    {"amer", ColumnRole::kLandmark},
+    {"repère", ColumnRole::kLandmark},
+    {"étiquette", ColumnRole::kLandmark},
+    {"Étiquette", ColumnRole::kLandmark},  // Capitals beyond ASCII stay as they are.
+    {"objet", ColumnRole::kLandmark},
+    {"nom", ColumnRole::kLandmark},
+    {"baliza", ColumnRole::kLandmark},
+    {"objeto", ColumnRole::kLandmark},
     {"tree", ColumnRole::kLandmark},
     {"baum", ColumnRole::kLandmark},
     {"range", ColumnRole::kRange},
@@ -70,12 +88,17 @@ constexpr Word kWords[] = {
     {"entfernung", ColumnRole::kRange},
     {"abstand", ColumnRole::kRange},
     {"distanz", ColumnRole::kRange},
+    {"distancia", ColumnRole::kRange},
     {"bearing", ColumnRole::kBearing},
     {"angle", ColumnRole::kBearing},
     {"theta", ColumnRole::kBearing},
     {"azimuth", ColumnRole::kBearing},
     {"peilung", ColumnRole::kBearing},
     {"winkel", ColumnRole::kBearing},
+    {"gisement", ColumnRole::kBearing},
+    {"azimut", ColumnRole::kBearing},
+    {"ángulo", ColumnRole::kBearing},
+    {"Ángulo", ColumnRole::kBearing},
     {"value", ColumnRole::kValue},
     {"x", ColumnRole::kX},
     {"y", ColumnRole::kY},
@@ -116,6 +139,11 @@ constexpr Unit kUnits[] = {
     {"cm", Kind::kLength, 1e-2},
     {"mm", Kind::kLength, 1e-3},
     {"km", Kind::kLength, 1e3},
+    {"ft", Kind::kLength, 0.3048},
+    {"feet", Kind::kLength, 0.3048},
+    {"pieds", Kind::kLength, 0.3048},
+    {"inch", Kind::kLength, 0.0254},
+    {"inches", Kind::kLength, 0.0254},
     {"rad", Kind::kAngle},
     {"radians", Kind::kAngle},
     {"deg", Kind::kAngle, 1.0, AngleUnit::kDegrees},
@@ -201,8 +229,20 @@ ColumnHeading understood(std::string_view cell) {
   return heading;
 }
 
+/// Whether a header ends in a unit of angles: "winkel_deg".
+bool has_angle_unit(std::string_view text) {
+  const std::size_t open = text.find_first_of("[({_ ");
+  ColumnHeading heading{.role = ColumnRole::kBearing};
+  return open != std::string_view::npos && take_unit(joined(text.substr(open)), heading);
+}
+
 double factor_of(const ColumnHeading& heading) {
   return heading.unit == AngleUnit::kDegrees ? std::numbers::pi / 180.0 : heading.factor;
+}
+
+/// Whether a column is named by its number.
+bool is_column_number(const NamedColumn& column) {
+  return std::ranges::all_of(column.header, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 bool is_number(std::string_view text, std::size_t number) {
@@ -231,21 +271,35 @@ ColumnNames column_names(const std::vector<std::string>& parts, std::span<const 
       throw InvalidInput(fmt::format("--columns: {:?} is not ROLE=HEADER; the roles are {}",
                                      printable(part), fmt::join(known, ", ")));
     }
-    if (std::ranges::find(columns, *found, &NamedColumn::role) != columns.end())
-      throw InvalidInput(fmt::format("--columns: {} is given twice", role));
-    columns.push_back({*found, part.substr(sign + 1)});
+    const NamedColumn column{*found, part.substr(sign + 1)};
+    const auto is_repeated = [&](const NamedColumn& other) {
+      return other.role == column.role && (lower_case(other.header) == lower_case(column.header) ||
+                                           (is_column_number(other) && is_column_number(column)));
+    };
+    if (std::ranges::any_of(columns, is_repeated))
+      throw InvalidInput(fmt::format(
+          "--columns: {} is given twice; a second header is for another file, and a number counts "
+          "in every file",
+          role));
+    columns.push_back(column);
   }
   return columns;
 }
 
 ColumnNames columns_in(HeaderCells header, const ColumnNames& names) {
   ColumnNames columns;
-  for (const NamedColumn& column : names)
+  const auto is_in_header = [&](const NamedColumn& column) {
     for (std::size_t i = 0; i < header.size(); ++i)
-      if (is_named(column, header[i], i)) {
-        columns.push_back(column);
-        break;
-      }
+      if (is_named(column, header[i], i)) return true;
+    return false;
+  };
+  std::ranges::copy_if(names, std::back_inserter(columns), is_in_header);
+  // A number counts in the tables that have no header of that role.
+  const ColumnNames found = columns;
+  std::erase_if(columns, [&](const NamedColumn& column) {
+    return is_column_number(column) &&
+           std::ranges::count(found, column.role, &NamedColumn::role) > 1;
+  });
   return columns;
 }
 
@@ -274,9 +328,12 @@ ColumnHeading column_heading(std::string_view cell, std::size_t number,
       columns, [&](const NamedColumn& column) { return is_named(column, cell, number); });
   ColumnHeading heading = understood(cell);
   if (asked != columns.end()) {
+    const bool is_length = unit_kind(asked->role) == Kind::kLength;
+    const bool is_angle = heading.role == ColumnRole::kBearing;
     heading = {.role = asked->role};
     const std::size_t open = text.find_first_of("[({_ ");
     if (open != std::string::npos) take_unit(joined(text.substr(open)), heading);
+    if (is_length && (is_angle || has_angle_unit(text))) heading.unknown_unit = "angle";
     return heading;
   }
   // A column that the user names otherwise is not sought by its usual words.

@@ -65,8 +65,8 @@ inline constexpr std::array kAllRoles = {
     ColumnRole::kY,        ColumnRole::kRight,         ColumnRole::kHeading,
     ColumnRole::kDistance, ColumnRole::kHeadingChange, ColumnRole::kSideways};
 
-/// "time=Zeit,landmark=Objekt" in parts, "landmark=Objekt" each.
-/// @throws InvalidInput for what names none of the roles, or one twice.
+/// "time=Zeit,landmark=Objekt" in parts. A role may have several headers, each of another file.
+/// @throws InvalidInput for what names none of the roles, or one twice alike.
 ColumnNames column_names(const std::vector<std::string>& parts,
                          std::span<const ColumnRole> roles = kTableRoles);
 
@@ -89,7 +89,7 @@ bool is_named(const NamedColumn& column, std::string_view cell, std::size_t numb
 /// The cells of a header, or of the first row of a table without one.
 using HeaderCells = std::span<const std::string_view>;
 
-/// Those of the named columns that a table has. The others go by their usual words there.
+/// Those of the named columns that a table has, by header, else by number. The others: their words.
 ColumnNames columns_in(HeaderCells header, const ColumnNames& names);
 
 /// @param header  Empty: of a file that is not a table.

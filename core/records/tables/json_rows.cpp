@@ -15,6 +15,7 @@
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/tables/column_names.hpp"
 #include "core/records/tables/respelling.hpp"
+#include "core/records/tables/time_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -49,7 +50,7 @@ class JsonTable {
     if (list == nullptr) return add_row(members);
     for (const Json& one : *list) {
       Members row = members;
-      if (flatten(one, "", row) != nullptr)
+      if (const Json* nested = flatten(one, "", row); nested != nullptr && !nested->empty())
         throw IoError(source_, "its lists of objects are nested: a table has rows alone");
       add_row(row);
     }
@@ -65,7 +66,8 @@ class JsonTable {
   std::string csv() const {
     std::vector<std::size_t> order(keys_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_partition(order, [&](std::size_t i) { return names_steps(keys_[i]); });
+    std::ranges::stable_partition(
+        order, [&](std::size_t i) { return names_steps(keys_[i]) || keys_[i] == "index"; });
     std::string text;
     for (const std::size_t i : order) text += (text.empty() ? "" : ",") + csv_field(keys_[i]);
     text += '\n';
@@ -98,6 +100,8 @@ class JsonTable {
       const std::string name = prefix + key;
       if (is_scalar(value)) {
         members.emplace_back(name, cell_of(value));
+      } else if (value.is_array() && value.size() == 1 && is_scalar(value[0])) {
+        members.emplace_back(name, cell_of(value[0]));  // As the ID of a tag that ROS detected.
       } else if (lists_objects(value) || (value.is_array() && value.empty())) {
         if (list != nullptr && lists_objects(*list) && lists_objects(value))
           throw IoError(source_, "its rows hold several lists of objects: " + printable(name));
@@ -166,14 +170,50 @@ void add_columns(const Json& object, JsonTable& table, const std::string& source
   }
 }
 
+/// Whether all keys are numbers or times.
+bool are_keys_steps(const Json& object) {
+  for (const auto& [key, value] : object.items())
+    if (!time_in(key)) return false;
+  return true;
+}
+
+/// Whether {"0": {"door": 0.5}, ...} holds rows with their names, as orient="index" of pandas; else
+/// it holds columns.
+bool are_rows(const Json& object) {
+  return are_keys_steps(object) && !object.front().empty() && !are_keys_steps(object.front());
+}
+
+/// The order of rows by their names: numbers by size, others as texts.
+std::pair<long long, std::string> row_order(const std::string& row) {
+  long long number = 0;
+  std::from_chars(row.data(), row.data() + row.size(), number);
+  return {number, row};
+}
+
+/// {"0": {"door": 0.5}, ...}: rows with their names.
+void add_named_rows(const Json& object, JsonTable& table) {
+  std::map<std::pair<long long, std::string>, const Json*> rows;
+  for (const auto& [key, row] : object.items()) rows[row_order(key)] = &row;
+  for (const auto& [order, row] : rows) {
+    Members members = {{"index", csv_field(order.second)}};
+    for (const auto& [column, value] : row->items()) members.emplace_back(column, cell_of(value));
+    table.add_row(members);
+  }
+}
+
+/// Rows in the "data" of a table with its fields, as orient="table" of pandas.
+bool is_data_with_fields(const Json& root) {
+  const auto schema = root.find("schema");
+  return schema != root.end() && schema->is_object() && schema->contains("fields") &&
+         root.contains("data") && lists_objects(root.at("data"));
+}
+
 /// {"time": {"0": 0, "1": 1}, ...}: columns with the names of rows.
 void add_indexed(const Json& object, JsonTable& table) {
   std::map<std::pair<long long, std::string>, Members> rows;
   for (const auto& [key, column] : object.items())
     for (const auto& [row, value] : column.items()) {
-      long long number = 0;
-      std::from_chars(row.data(), row.data() + row.size(), number);
-      Members& members = rows[{number, row}];
+      Members& members = rows[row_order(row)];
       if (members.empty()) members.emplace_back("index", csv_field(row));
       members.emplace_back(key, cell_of(value));
     }
@@ -209,10 +249,15 @@ bool holds_json_lines(std::string_view bytes) {
 }
 
 bool holds_json_rows(ByteSource& source) {
+  constexpr std::size_t kSchemaStart = 60;  // A table's schema begins with its fields.
   const std::string_view start = source.peek();
   const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == std::string_view::npos) return false;
-  if (start[first] == '{') return start.find("\"schema\"") == std::string_view::npos;
+  if (start[first] == '{') {
+    const std::size_t schema = start.find("\"schema\"");
+    return schema == std::string_view::npos ||
+           start.substr(schema, kSchemaStart).find("\"fields\"") != std::string_view::npos;
+  }
   const std::size_t next = start.find_first_not_of(kWhiteSpace, first + 1);
   return start[first] == '[' && next != std::string_view::npos &&
          (start[next] == '{' || start[next] == '[');
@@ -225,12 +270,14 @@ std::string json_rows_csv(std::string_view text, const std::string& source) {
   if (root.is_array()) {
     if (!lists_objects(root)) return matrix_csv(root, source);
     for (const Json& row : root) table.add(row);
+  } else if (is_data_with_fields(root)) {
+    for (const Json& row : root.at("data")) table.add(row);
   } else if (root.contains("columns") && root.contains("data")) {
     return split_csv(root, source);
   } else if (are_all(root, lists_scalars)) {
     add_columns(root, table, source);
   } else if (are_all(root, maps_scalars)) {
-    add_indexed(root, table);
+    are_rows(root) ? add_named_rows(root, table) : add_indexed(root, table);
   } else if (!root.empty()) {
     table.add(root);
   }

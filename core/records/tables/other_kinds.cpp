@@ -23,6 +23,8 @@ struct OtherKind {
 constexpr std::string_view kSaveAs = "File > Save As, then CSV UTF-8";
 constexpr std::string_view kRosbag = "examples/ros2/mcap_to_csv.py makes tables of MCAP";
 
+constexpr std::string_view kStata =
+    "in Stata, export delimited; in Python, pandas.read_stata(\"FILE\").to_csv(\"table.csv\")";
 constexpr std::string_view kYaml =
     "python3 -c 'import json, yaml; json.dump(yaml.safe_load(open(\"FILE\")), open(\"table.json\", "
     "\"w\"))'";
@@ -58,6 +60,11 @@ constexpr OtherKind kOtherKinds[] = {
     {"SQLite format 3", "topics", "a bag of ROS 2 (.db3)",
      "ros2 bag convert makes MCAP, and examples/ros2/mcap_to_csv.py tables of it"},
     {"SQLite format 3", "", "an SQLite database", "sqlite3 -csv -header FILE \"SELECT ...\""},
+    {"<stata_dta>", "", "a file of Stata", kStata},
+    {"r\x01\x01", "", "a file of Stata", kStata},
+    {"r\x02\x01", "", "a file of Stata", kStata},
+    {"s\x01\x01", "", "a file of Stata", kStata},
+    {"s\x02\x01", "", "a file of Stata", kStata},
     {"RDX2\n", "", "a file of R", "in R, write.csv(x, \"table.csv\", row.names = FALSE)"},
     {"RDX3\n", "", "a file of R", "in R, write.csv(x, \"table.csv\", row.names = FALSE)"},
     {"X\n", "", "a file of R (.rds)", "in R, write.csv(readRDS(\"FILE\"), \"table.csv\")"},

@@ -66,8 +66,9 @@ double graph_number(const TableRow& row, std::size_t cell, const std::string& so
 std::string graph_csv(std::string_view text, const std::string& source) {
   TableReader reader(text, source, TableReader::kBlanks);
   TableRow row;
-  std::string csv = "step,landmark,range,bearing\n";
+  std::string csv = "step,landmark,bearing,range\n", bearings = "step,landmark,bearing\n";
   std::size_t edges = 0;
+  bool has_range = false;
   while (reader.next(row)) {
     const auto* edge = std::ranges::find(kGraphEdges, row.cells[0], &GraphEdge::tag);
     if (edge == std::end(kGraphEdges)) continue;
@@ -76,16 +77,20 @@ std::string graph_csv(std::string_view text, const std::string& source) {
     const double a = graph_number(row, 3, source);
     const double b = edge->has_range ? graph_number(row, 4, source) : 0.0;
     const double range = edge->is_position ? std::hypot(a, b) : b;
-    csv += fmt::format("{},{},{},{}\n", row.cells[1], csv_field(std::string(row.cells[2])),
-                       edge->has_range ? fmt::format("{}", range) : "",
-                       edge->is_position ? std::atan2(b, a) : a);
+    has_range = has_range || edge->has_range;
+    const std::string seen =
+        fmt::format("{},{},{}", row.cells[1], csv_field(std::string(row.cells[2])),
+                    edge->is_position ? std::atan2(b, a) : a);
+    csv += fmt::format("{},{}\n", seen, edge->has_range ? fmt::format("{}", range) : "");
+    bearings += seen + "\n";
     ++edges;
   }
   if (edges == 0)
     throw IoError(source,
                   "is a graph without edges of bearing and range (EDGE_SE2_XY, "
                   "EDGE_BEARING_SE2_XY, BR, LANDMARK); `mapproof slam` reads edges of ranges");
-  return csv;
+  // A column of ranges, all of them missing, would be taken for what the sensor measures.
+  return has_range ? csv : bearings;
 }
 
 void respell(ByteSource& source) {

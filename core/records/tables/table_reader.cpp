@@ -34,7 +34,7 @@ std::optional<char> stated_separator(std::string_view row) {
 char separator_of(std::string_view row) {
   if (const std::optional<char> stated = stated_separator(row)) return *stated;
   bool is_quoted = false;
-  bool has_semicolon = false, has_comma = false, has_blank = false;
+  bool has_semicolon = false, has_comma = false, has_blank = false, has_bar = false;
   for (const char c : row) {
     if (c == '"') is_quoted = !is_quoted;
     if (is_quoted) continue;
@@ -42,8 +42,10 @@ char separator_of(std::string_view row) {
     has_semicolon = has_semicolon || c == ';';
     has_comma = has_comma || c == ',';
     has_blank = has_blank || c == ' ';
+    has_bar = has_bar || c == '|';
   }
   if (has_semicolon) return ';';
+  if (has_bar && !has_comma) return '|';  // As sqlite3 and psql print tables.
   return has_blank && !has_comma ? TableReader::kBlanks : ',';
 }
 
@@ -65,6 +67,17 @@ std::string with_decimal_point(std::string_view cell) {
       return {};
   }
   return number;
+}
+
+/// Whether a row underlines a header: "----  --------".
+bool is_rule(const TableRow& row) {
+  constexpr std::size_t kShortest = 3;  // "--" is a missing value.
+  bool is_long = false;
+  for (const std::string_view cell : row.cells) {
+    if (cell.empty() || cell.find_first_not_of('-') != std::string_view::npos) return false;
+    is_long = is_long || cell.size() >= kShortest;
+  }
+  return is_long;
 }
 
 /// As trimmed(), but a tab that separates is not a blank.
@@ -129,11 +142,13 @@ void TableReader::check_line_ends() const {
 
 bool TableReader::next(TableRow& row) {
   if (at_ == 0) check_line_ends();
-  row.cells.clear();
-  unescaped_.clear();
-  if (!skip_to_row()) return false;
-  row.line = line_;
-  split(row);
+  do {
+    row.cells.clear();
+    unescaped_.clear();
+    if (!skip_to_row()) return false;
+    row.line = line_;
+    split(row);
+  } while (is_rule(row));
   if (separator_ != ',') take_decimal_commas(row);
   return true;
 }

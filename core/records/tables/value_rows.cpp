@@ -22,6 +22,7 @@ ValueRows::ValueRows(const std::string& source, Sensor sensor, const TableFormat
 }
 
 bool ValueRows::begin(const TableRow& first) {
+  if (columns_.empty() && is_stacked_header(first)) return true;  // In the usual order.
   const bool is_header = is_long_header(first, columns_);
   require_columns(first.cells, columns_, scans_.source());
   if (!is_header && columns_in(first.cells, columns_).empty()) return false;

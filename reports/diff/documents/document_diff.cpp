@@ -19,6 +19,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/text/words.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/tables/table_reader.hpp"
 #include "reports/diff/documents/excerpts.hpp"
 #include "reports/diff/records/numbers_in_text.hpp"
@@ -399,8 +400,9 @@ OtherDiff words_diff(const std::string& a, const std::string& b) {
 
 void compare_pages(DiffItem& item, const fs::path& baseline, const fs::path& current,
                    const std::vector<DiffItem>& reported, const DiffSettings& settings) {
-  const std::string before = read_input(baseline, kLargestPage);
-  const std::string after = read_input(current, kLargestPage);
+  // What a page carries are records and figures, which are items of their own.
+  const std::string before = without_page_data(read_input(baseline, kLargestPage));
+  const std::string after = without_page_data(read_input(current, kLargestPage));
   if (before == after) return;
   for (const auto& [text, path] : {std::pair(&before, &baseline), std::pair(&after, &current)})
     if (text->find("</html>") == std::string::npos)

@@ -1,9 +1,14 @@
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/files/descriptor.hpp"
 #include "core/base/files/files.hpp"
 #include "tests/app/ci/plot_scripts.hpp"
 #include "tests/support/environment.hpp"
@@ -273,9 +278,11 @@ struct Repository {
   }
   /// Runs the program in the repository.
   Outcome check(const std::string& ref, const std::string& script,
-                const std::vector<std::string>& options = {}) const {
+                const std::vector<std::string>& options = {},
+                const std::string& temporary = "/tmp") const {
     std::vector<std::string> words = {
-        "env", "-C", root, program(), "check", "--baseline-ref", ref, "--out", plots.out};
+        "env", "-C",    root,     "TMPDIR=" + temporary, program(), "check", "--baseline-ref",
+        ref,   "--out", plots.out};
     words.insert(words.end(), options.begin(), options.end());
     words.insert(words.end(), {"--", "sh", "-c", script});
     return run_program(words);
@@ -292,6 +299,24 @@ TEST(CheckWithGit, ComparesWithTheFolderOfACommit) {
   EXPECT_EQ(changed.exit_code, 1) << changed.error;
   EXPECT_NE(changed.out.find("map-usual: png, by its pixels alone"), std::string::npos);
   EXPECT_EQ(changed.out.find("/tmp/mapproof-baseline"), std::string::npos) << changed.out;
+}
+
+TEST(CheckWithGit, RemovesTheFolderOfARunThatWasKilledButNoneInUse) {
+  const Repository repository;
+  const std::string temporary = repository.plots.folder / "temporary";
+  const fs::path used = fs::path(temporary) / "mapproof-baseline-in-use";
+  fs::create_directories(used);
+  const Descriptor lock(::open(used.c_str(), O_RDONLY | O_DIRECTORY));
+  ASSERT_EQ(::flock(lock.get(), LOCK_EX | LOCK_NB), 0);
+  const auto folders = [&] {
+    return std::distance(fs::directory_iterator(temporary), fs::directory_iterator());
+  };
+  repository.check("main:plots", "kill -9 $PPID; sleep 1", {}, temporary);
+  EXPECT_EQ(folders(), 2) << "the run was killed while it had its baseline";
+  const Outcome next = repository.check("main:plots", Plots::draw_all(), {}, temporary);
+  EXPECT_EQ(next.exit_code, 0) << next.error;
+  EXPECT_EQ(folders(), 1);
+  EXPECT_TRUE(fs::exists(used));
 }
 
 TEST(CheckWithGit, TakesTheSettingsOfThatCommit) {

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -160,6 +163,94 @@ TEST(PathEvaluation, TheBestAlignmentIsNoWorseThanManyOthers) {
                                 .offset = ground_truth.positions_m.colwise().mean()};
     EXPECT_LE(best, ate(ground_truth, moved(estimate, other), FrameAlignment::kNone).rmse);
   }
+}
+
+/// Every pair within a tenth of the length, by a search through all.
+std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs_by_search(const Eigen::VectorXd& along,
+                                                                   double length) {
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> pairs;
+  for (Eigen::Index i = 0; i + 1 < along.size(); ++i) {
+    Eigen::Index best = i + 1;
+    for (Eigen::Index k = i + 2; k < along.size(); ++k)
+      if (std::abs(along(k) - along(i) - length) < std::abs(along(best) - along(i) - length))
+        best = k;
+    if (std::abs(along(best) - along(i) - length) <= 0.1 * length) pairs.emplace_back(i, best);
+  }
+  return pairs;
+}
+
+TEST(PathEvaluation, AllPairsAreThoseOfASearchThroughAll) {
+  const Eigen::Index n = 60;
+  SpacePath ground_truth = straight_line(n), estimate = straight_line(n);
+  Random random(11);
+  for (Eigen::Index i = 1; i < n; ++i) {  // Some poses stand still.
+    const double step_m = random.uniform() < 0.2 ? 0.0 : random.uniform();
+    estimate.positions_m(i, 0) = estimate.positions_m(i - 1, 0) + step_m;
+    estimate.time_s(i) = ground_truth.time_s(i) = estimate.time_s(i - 1) + random.uniform();
+  }
+  for (const PairSpacing spacing :
+       {PairSpacing{2.0, PairUnit::kMetres}, PairSpacing{2.0, PairUnit::kSeconds}}) {
+    const Eigen::VectorXd along =
+        spacing.unit == PairUnit::kMetres ? estimate.positions_m.col(0) : estimate.time_s;
+    const auto pairs = pairs_by_search(along, spacing.length);
+    const PathEvaluation result = evaluate_path(
+        ground_truth, estimate,
+        {.alignment = FrameAlignment::kNone, .spacings = {spacing}, .pairs = PairChoice::kAll});
+    ASSERT_EQ(result.relative.at(0).error_m.size(), std::ssize(pairs));
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [i, j] = pairs[k];
+      const double way_m = estimate.positions_m(j, 0) - estimate.positions_m(i, 0);
+      EXPECT_NEAR(result.relative[0].error_m(static_cast<Eigen::Index>(k)),
+                  std::abs(way_m - static_cast<double>(j - i)), 1e-12);
+    }
+  }
+}
+
+TEST(PathEvaluation, AllPairsOfPosesBeginAtEveryPose) {
+  const PathEvaluation result =
+      evaluate_path(straight_line(30), straight_line(30, 1.5),
+                    {.alignment = FrameAlignment::kNone,
+                     .spacings = {{7.0, PairUnit::kPoses}, {30.0, PairUnit::kPoses}},
+                     .pairs = PairChoice::kAll});
+  ASSERT_EQ(result.relative.size(), 1U);
+  ASSERT_EQ(result.relative[0].error_m.size(), 23);
+  EXPECT_NEAR(result.relative[0].error_m.maxCoeff(), 3.5, 1e-12);
+  EXPECT_NEAR(result.relative[0].error_m.minCoeff(), 3.5, 1e-12);
+}
+
+/// A line whose poses are off by these metres in each axis and turned by these angles.
+SpacePath shifted_line(const Eigen::RowVector3d& by_m, double yaw) {
+  SpacePath path = straight_line(20);
+  path.positions_m.rowwise() += by_m;
+  for (Eigen::Matrix3d& R : path.orientations)
+    R = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return path;
+}
+
+TEST(PathEvaluation, InAPlaneTheThirdAxisDoesNotCount) {
+  const SpacePath estimate = shifted_line({3.0, 4.0, 12.0}, 0.5);
+  const auto error_m = [&](std::optional<Plane> plane) {
+    return evaluate_path(straight_line(20), estimate,
+                         {.alignment = FrameAlignment::kNone, .plane = plane});
+  };
+  EXPECT_NEAR(error_m(std::nullopt).poses.error_m(7), 13.0, 1e-12);
+  EXPECT_NEAR(error_m(Plane::kXy).poses.error_m(7), 5.0, 1e-12);
+  EXPECT_NEAR(error_m(Plane::kXz).poses.error_m(7), std::hypot(3.0, 12.0), 1e-12);
+  EXPECT_NEAR(error_m(Plane::kYz).poses.error_m(7), std::hypot(4.0, 12.0), 1e-12);
+  EXPECT_NEAR(error_m(Plane::kXy).poses.error_deg(7), 0.5 * 180.0 / kPi, 1e-10);
+  EXPECT_NEAR(error_m(Plane::kXz).poses.error_deg(7), 0.0, 1e-10);
+}
+
+TEST(PathEvaluation, AProjectedPathStaysAsItIs) {
+  const SpacePath path = random_path(20, 3);
+  for (const Plane plane : {Plane::kXy, Plane::kXz, Plane::kYz}) {
+    const SpacePath once = projected(path, plane), twice = projected(once, plane);
+    EXPECT_EQ(once.positions_m, twice.positions_m);
+    for (std::size_t i = 0; i < once.orientations.size(); ++i)
+      EXPECT_LT((once.orientations[i] - twice.orientations[i]).norm(), 1e-12);
+    EXPECT_EQ(plane_named(name(plane)), plane);
+  }
+  EXPECT_EQ(plane_named("zx"), std::nullopt);
 }
 
 TEST(PathEvaluation, PathsWithoutTimesNeedAsManyPoses) {

@@ -116,7 +116,7 @@ TEST(Detections, NameTheLineThatIsWrong) {
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3\n"),
             "line 2: has 3 cells, expected 4");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,-3,0\n"),
-            "line 2: a range cannot be negative, got -3");
+            "line 2: a range cannot be negative, got -3; bearings can: map --sensor bearing");
   EXPECT_EQ(error_with("step,landmark,range,bearing\nx,oak,3,0\n"),
             "line 2: step: \"x\" is not a number");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,90\n"),
@@ -135,9 +135,9 @@ TEST(Detections, NameTheLineThatIsWrong) {
       "leave such rows out");
   EXPECT_EQ(error_with("landmark,range,bearing\noak,3,0\n"),
             "line 1: no column is named step or time: which rows are one scan?");
-  EXPECT_EQ(error_with("step,landmark,range [ft],bearing\n0,oak,3,0\n"),
-            "line 1: \"range [ft]\": a range in that unit is not known; m, cm, mm, km, s, ms, us, "
-            "ns, min, h, d, rad or deg");
+  EXPECT_EQ(error_with("step,landmark,range [furlong],bearing\n0,oak,3,0\n"),
+            "line 1: \"range [furlong]\": a range in that unit is not known; m, cm, mm, km, ft, "
+            "inch, s, ms, us, ns, min, h, d, rad or deg");
   EXPECT_EQ(error_with("step,landmark,range,distance\n0,oak,3,0\n"),
             "line 1: two columns hold a range: --columns range=HEADER names the one to read");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n"), "holds a header and no rows");

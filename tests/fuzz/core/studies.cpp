@@ -4,6 +4,7 @@
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/slam_store.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/records/studies/topic_json.hpp"
 #include "tests/fuzz/properties.hpp"
@@ -70,6 +71,17 @@ const Added kTopicPart(of_records(
       return parse_topic_part(text, source, nullptr);
     },
     [](const ReadTopicPart& read) { return topic_part_json(read.part, read.digest); }));
+
+/// A small page may unpack to 64 MB (Unpacker), a larger one to 300 times its size.
+const Added kPage({.name = "page",
+                   .run =
+                       [](std::string_view bytes) {
+                         round_trip(bytes, parse_page, [](const PageData& data) {
+                           return with_page_data("<!DOCTYPE html>", data);
+                         });
+                       },
+                   .memory = std::size_t{512} << 20,
+                   .memory_per_byte = 2000});
 
 std::string lines_of(const Timings& timings) {
   std::string text = timings_header();

@@ -9,6 +9,7 @@
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/run_json.hpp"
 #include "core/records/studies/slam_fields.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/records/studies/topic_json.hpp"
 #include "tests/support/schemas/record_schema.hpp"
@@ -59,6 +60,7 @@ std::map<std::string, std::string> file_schemas() {
           {"observations.schema.json", json_text(json_schema<ObservationsFile>())},
           {"range_histories.schema.json", json_text(json_schema<RangeHistoryStudy>())},
           {"metrics.schema.json", json_text(json_schema<Metrics>())},
+          {"page.schema.json", json_text(json_schema<PageData>())},
           {"results_study.schema.json", json_text(json_schema<ResultsHead>())},
           {"run.schema.json", json_text(json_schema<Run>())},
           {"detections.schema.json", json_text(json_schema<DetectionsFile>())},

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/disclosure.hpp"
+#include "core/records/studies/study_page.hpp"
+#include "render/plot/figure.hpp"
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+/// What is drawn: no two have one id.
+struct Images {
+  std::vector<const Figure*> figures;
+  std::vector<const Scene*> scenes;
+};
+
+/// The most bytes that figures take of a page's data.
+inline constexpr std::size_t kMostFigureData = 1'800'000;
+
+/// What a report's page carries, and what it does not.
+struct PageContent {
+  PageData data;
+  std::size_t figures_kept = 0;  ///< Figures and 3-D figures that it carries.
+  std::size_t figures_left = 0;  ///< Those that are in the folder alone.
+};
+
+/// The records of a folder — of a study, of studies below it, of a map or a range-only map — and
+/// the figures that its page shows: of a study study.json and results.csv, of a map map.json, of a
+/// range-only map slam.json. Figures that need more than kMostFigureData are left out, 3-D figures
+/// first.
+/// @param shown  Ids of the figures in the page. @throws IoError if records cannot be read.
+PageContent page_content(const std::filesystem::path& folder, const Images& images,
+                         const std::set<std::string>& shown, const Disclosure& disclosure);
+
+/// "report.html carries … 30 figures; those of 4 more … are in figures/ alone"; empty if it carries
+/// all.
+std::string left_out_text(const PageContent& content);
+
+}  // namespace mapproof
