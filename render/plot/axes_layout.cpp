@@ -236,12 +236,17 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   }
 }
 
-/// One step for both axes, so that the grid is of squares.
+/// One step for both axes, so that the grid is of squares; but no axis is left with a single tick.
 void AxesLayout::choose_equal_ticks(Axes& axes, int most_x, int most_y) const {
   const double step = std::max(tick_step(limits_.x.low, limits_.x.high, most_x),
                                tick_step(limits_.y.low, limits_.y.high, most_y));
-  axes.x = shaped(linear_ticks(limits_.x.low, limits_.x.high, step), theme_);
-  axes.y = shaped(linear_ticks(limits_.y.low, limits_.y.high, step), theme_);
+  const auto ticks = [&](const Range& limits, int most) {
+    Ticks shared = linear_ticks(limits.low, limits.high, step);
+    if (shared.at.size() > 1) return shared;
+    return linear_ticks(limits.low, limits.high, tick_step(limits.low, limits.high, most));
+  };
+  axes.x = shaped(ticks(limits_.x, most_x), theme_);
+  axes.y = shaped(ticks(limits_.y, most_y), theme_);
 }
 
 bool AxesLayout::labels_touch(const Axes& axes) const {
@@ -280,7 +285,8 @@ double AxesLayout::label_lines(const Axes& axes) const {
   const double height = axes.frame.height(), em = theme_.font_pt;
   const double of_bar = colour_bar_label_room(panel_, height, theme_);
   if (!has_y_label()) return of_bar;
-  return of_bar + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, theme_), em);
+  return of_bar +
+         further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, theme_), em);
 }
 
 /// How far texts at points reach over the sides of the frame.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -149,6 +150,16 @@ TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
     for (const TextLine& line : lines) EXPECT_EQ(line.whole, label);
     EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
   }
+}
+
+TEST(Layout, NoAxisOfAMapHasASingleTick) {
+  Figure figure = with_panels(1);
+  figure.panels[0].equal_aspect = true;
+  figure.panels[0].layers.push_back(Polyline{.x = {0.4, 13.8}, .y = {1.5, 8.6}});
+  std::set<double> baselines;  // One for all ticks of x, one for each of y.
+  for (const TextLine& line : texts_of(lay_out(figure, paper_theme(3.4)), ItemClass::kTickLabel))
+    baselines.insert(line.at.y);
+  EXPECT_GE(baselines.size(), 3U);
 }
 
 TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
