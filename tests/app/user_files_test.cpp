@@ -109,6 +109,11 @@ TEST_F(UserFiles, ValidateNamesWhatMapproofWrote) {
                       at("drawn")})
                 .exit_code,
             0);
+  const Outcome report = mapproof({"report", map});
+  EXPECT_EQ(report.exit_code, 2);
+  EXPECT_NE(report.error.find("is the folder of a map: its report is " + map + "/report.html"),
+            std::string::npos)
+      << report.error;
   file("drawn/style.json",
        R"({"schema": {"name": "mapproof.style", "version": 1}, "words": {"estimate": "Karte"}})");
   std::vector<std::string> words = {map + "/map.csv"};
@@ -439,6 +444,27 @@ TEST_F(UserFiles, TheChoiceOfAMethodNamesCandidatesThatAreEquallyGood) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_NE(outcome.error.find("candidates are equally good by"), std::string::npos)
       << outcome.error;
+}
+
+TEST_F(UserFiles, AMisfitThatIdsMayExplainNamesTheirCheck) {
+  std::string swapped = "time,landmark,range,bearing\n";
+  const std::string text = read_file(kHall / "range_bearing.csv");
+  std::size_t row = 0;
+  for (std::size_t at = text.find('\n') + 1; at < text.size(); at = text.find('\n', at) + 1) {
+    std::string line = text.substr(at, text.find('\n', at) + 1 - at);
+    ++row;
+    const bool is_wrong = row > 600 && row < 1200;
+    for (const auto& [one, other] : {std::pair(",L3,", ",L14,"), {",L14,", ",L3,"}})
+      if (const std::size_t id = line.find(one); is_wrong && id != std::string::npos) {
+        line.replace(id, std::string(one).size(), other);
+        break;
+      }
+    swapped += line;
+  }
+  std::vector<std::string> words = {"map", file("s.csv", swapped), "--out", at("o")};
+  EXPECT_NE(mapproof(words).error.find("--check-ids looks for landmark IDs"), std::string::npos);
+  words.insert(words.end(), {"--repair-ids", "--force"});
+  EXPECT_EQ(mapproof(words).error.find("--check-ids looks"), std::string::npos);
 }
 
 }  // namespace
