@@ -6,8 +6,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::uint32_t kRed = 0xD00000, kYellow = 0xF0C000;
-
 /// Luma [BT.601] of a pixel, at a quarter of its distance from white.
 std::uint32_t pale(std::uint32_t pixel) {
   const std::uint32_t luma =
@@ -27,8 +25,8 @@ Image heat_map(Image baseline, const ChangeMap& marks) {
     for (int y = y0; y < std::min(y0 + kTile, map.height); ++y)
       for (int x = x0; x < std::min(x0 + kTile, map.width); ++x) {
         const PixelMark mark = (*tile)[(y - y0) * kTile + x - x0];
-        if (mark == PixelMark::kChanged) map.row(y)[x] = kRed;
-        if (mark == PixelMark::kNoise || mark == PixelMark::kSmoothed) map.row(y)[x] = kYellow;
+        if (mark == PixelMark::kChanged) map.row(y)[x] = kChangedColour;
+        if (mark == PixelMark::kNoise || mark == PixelMark::kSmoothed) map.row(y)[x] = kNoiseColour;
       }
   }
   return map;

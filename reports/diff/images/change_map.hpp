@@ -58,6 +58,9 @@ class ChangeMap {
   std::vector<TileMarks> marks_;
 };
 
+// Of heat maps, whose other pixels are grey.
+inline constexpr std::uint32_t kChangedColour = 0xD00000, kNoiseColour = 0xF0C000;
+
 /// The image in pale grey, changes in red, differences explained by noise or anti-aliasing in
 /// yellow.
 /// @param baseline  Consumed.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/parallel.hpp"
 #include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/changed_clusters.hpp"
 #include "reports/diff/images/flat_ground.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
@@ -118,42 +118,6 @@ void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
   pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
 }
 
-/// The changed pixels of a group of tiles.
-struct Cluster {
-  std::int64_t pixels = 0;
-  int left = INT_MAX, top = INT_MAX, right = 0, bottom = 0;
-
-  PixelBox box() const { return {left, top, right - left, bottom - top}; }
-};
-
-Cluster cluster_of(const std::vector<int>& group, const ChangeMap& marks) {
-  Cluster found;
-  for (const int tile : group)
-    for (int i = 0; i < kTile * kTile; ++i) {
-      if ((*marks.tile(tile))[i] != PixelMark::kChanged) continue;
-      const int x = tile % marks.across() * kTile + i % kTile;
-      const int y = tile / marks.across() * kTile + i / kTile;
-      found.left = std::min(found.left, x), found.right = std::max(found.right, x + 1);
-      found.top = std::min(found.top, y), found.bottom = std::max(found.bottom, y + 1);
-      ++found.pixels;
-    }
-  return found;
-}
-
-void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff& pixels) {
-  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
-  for (const int tile : tiles)
-    is_changed[tile] =
-        std::ranges::find(*marks.tile(tile), PixelMark::kChanged) != marks.tile(tile)->end();
-  for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
-    ++pixels.clusters;
-    const Cluster cluster = cluster_of(group, marks);
-    if (cluster.pixels <= pixels.largest_cluster_pixels) continue;
-    pixels.largest_cluster_pixels = cluster.pixels;
-    pixels.largest_cluster = cluster.box();
-  }
-}
-
 // The tolerances at which a judgement is made, from the defaults on.
 constexpr std::array kNoiseSteps{
     ImageTolerances::kNoise, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0};
@@ -253,7 +217,9 @@ void judge_pixels(const Image& baseline, const Image& current, const ImageOption
     });
   mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);
-  find_clusters(tiles, diff.marks, diff.pixels);
+  ChangedClusters clusters(diff.pixels.baseline);
+  clusters.add(diff.marks, 0, diff.marks.down(), 0);
+  clusters.sum_up(diff.pixels);
 }
 
 }  // namespace
