@@ -59,13 +59,25 @@ TEST(DiffPage, ListsIdenticalImagesButDoesNotHoldThem) {
   EXPECT_LT(many.size(), page.size() + 300 * 300);
 }
 
-TEST(DiffPage, MakesAHeatMapOnlyOfPngsOfOneSizeThatDiffer) {
+TEST(DiffPage, MakesAHeatMapOfPngsAndSvgsThatDifferUnlessTheirSizesDo) {
   const test::TemporaryFolder folder;
   const std::string page = page_of(test::compared_folders(folder.path()));
-  EXPECT_EQ(count_of(page, "class=\"pane heat\""), 1);
+  const bool draws_svg = std::filesystem::exists("/usr/bin/rsvg-convert");
+  EXPECT_EQ(count_of(page, "class=\"pane heat\""), draws_svg ? 2 : 1);
   EXPECT_NE(page.find("alt=\"Heat map of moved\""), std::string::npos);
-  EXPECT_EQ(count_of(page, "No heat map: SVGs have none."), 1);
+  EXPECT_EQ(page.find("alt=\"Heat map of drawn\"") != std::string::npos, draws_svg);
   EXPECT_EQ(count_of(page, "No heat map: the sizes differ."), 1);
+}
+
+TEST(DiffPage, NamesBothSidesInItsTitleAndAboveEachImage) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  result.baseline = "origin/main:plots";
+  result.current = "plots";
+  const std::string page = page_of(result);
+  EXPECT_NE(page.find(": origin/main:plots &rarr; plots</title>"), std::string::npos);
+  EXPECT_NE(page.find("<strong>Baseline <bdi>origin/main:plots</bdi></strong>"), std::string::npos);
+  EXPECT_NE(page.find("<strong>Current <bdi>plots</bdi></strong>"), std::string::npos);
 }
 
 TEST(DiffPage, MakesAHeatMapWithinToleranceToo) {
@@ -74,7 +86,7 @@ TEST(DiffPage, MakesAHeatMapWithinToleranceToo) {
   for (DiffItem& item : result.items)
     for (ImageFile& file : item.images)
       if (file.diff.state == ImageState::kDifferent) file.diff.state = ImageState::kWithinTolerance;
-  EXPECT_EQ(count_of(page_of(result), "class=\"pane heat\""), 1);
+  EXPECT_NE(page_of(result).find("alt=\"Heat map of moved\""), std::string::npos);
 }
 
 TEST(DiffPage, StatesThatSizesDifferAndWhyAnImageIsNotShown) {
