@@ -117,7 +117,8 @@ constexpr double kLeftShare = 0.3;        // Of a group's difference, beyond a s
 constexpr double kLostShare = 0.1;        // Of the pixels beyond noise.
 constexpr double kMovedShare = 0.61;      // Of the difference, in one direction.
 constexpr double kCopiedShare =
-    0.6;  // Of the pixels beyond noise: half without anti-aliasing, .7 with layers.
+    0.6;  // Of the clear pixels: half without anti-aliasing, .7 with layers.
+constexpr double kClearShare = 0.25;      // Of the pixels beyond noise; of noise, one in a hundred.
 constexpr double kMovedTouched = 0.63;    // Of the tiles with anything in them.
 constexpr double kFarMoved = 1.6;         // Pixels; hinting moves letters by less.
 constexpr double kRecolouredShare = 0.2;  // Of the difference.
@@ -210,7 +211,7 @@ void judge_locally(const std::vector<std::vector<int>>& groups,
 
 /// Judges differences everywhere.
 struct OverallEvidence {
-  double energy = 0.0, recoloured = 0.0, beyond = 0.0, lost = 0.0;
+  double energy = 0.0, recoloured = 0.0, beyond = 0.0, clear = 0.0, lost = 0.0;
   double sided = 0.0,
          one_sided = 0.0;          ///< Energies of tiles that can be so, and of those that are.
   double right = 0.0, down = 0.0;  ///< Sums of the directions of movements, weighted by energy.
@@ -224,11 +225,13 @@ struct OverallEvidence {
     if (is_moved(tile, options)) add_movement(tile);
     if (is_recoloured(tile)) recoloured += tile.fit.energy;
     beyond += tile.beyond_noise;
+    clear += tile.clear;
     filter.add(tile.filter);
     lost += tile.lost;
     for (std::size_t step = 0; step < copied.size(); ++step) copied[step] += tile.copied[step];
     if (tile.beyond_noise < kFewPixels) return;
-    ++tiles;
+    ++tiles;  // Noise on white paper is always darker.
+    if (tile.sided < kFewPixels) return;
     sided += tile.fit.energy;
     if (!tile.is_one_sided()) return;
     ++one_sided_tiles;
@@ -244,7 +247,7 @@ struct OverallEvidence {
   /// The origin of the pixels, as one of kNeighbourSteps, if most are copies of a neighbour.
   std::optional<std::size_t> copied_from() const {
     const auto most = std::ranges::max_element(copied);
-    if (*most <= kCopiedShare * beyond) return std::nullopt;
+    if (*most <= kCopiedShare * clear || clear < kClearShare * beyond) return std::nullopt;
     return most - copied.begin();
   }
   /// Different hinting also moves letters, all in one direction, but not far, and other shapes

@@ -441,7 +441,10 @@ TileEvidence tile_evidence(const Image& baseline, const Image& current, const Pi
       ++found.beyond_noise;
       found.bold += is_bold(pair, i);
       found.lost += is_lost(pair, i, bounds.noise);
-      count_copies(pair, i, bounds.noise, found.copied);
+      if (pair.is_beyond(i, 2.0 * bounds.noise)) {
+        ++found.clear;
+        count_copies(pair, i, bounds.noise, found.copied);
+      }
       for (int c = 0; c < 3; ++c) {
         const int difference = pair.after.raw[c][i] - pair.before.raw[c][i];
         found.sum[c] += difference, found.absolute_sum[c] += std::abs(difference);
@@ -449,6 +452,7 @@ TileEvidence tile_evidence(const Image& baseline, const Image& current, const Pi
       found.largest_colour_difference =
           std::max(found.largest_colour_difference, colour_difference(pair, i));
     }
+  found.sided = bounds.is_noisy ? found.clear : found.beyond_noise;
   const FlatSums flat = flat_sums(pair, bounds.noise, width, height);
   found.flat_shift = flat_shift(flat, bounds, bounds.is_noisy);
   found.flat_shift_in_noise = flat_shift(flat, bounds, true);

@@ -55,8 +55,11 @@ struct TileEvidence {
   /// columns, less the part that noise explains; at most 0 if noise explains all.
   double flat_shift = -1.0;
   double flat_shift_in_noise = -1.0;  ///< The same, assuming noise everywhere.
-  /// Of the pixels beyond noise: those with the former colour of the neighbour at each of
-  /// kNeighbourSteps.
+  /// Of the pixels beyond noise: those beyond it twice. A colour that differs less is within noise
+  /// of that of a neighbour, too.
+  int clear = 0;
+  int sided = 0;  ///< Pixels that may show a direction: where there is noise, the clear ones.
+  /// Of the clear pixels: those with the former colour of the neighbour at each of kNeighbourSteps.
   std::array<int, 8> copied{};
   std::array<double, 3> sum{};           ///< Of the differences beyond noise, per channel.
   std::array<double, 3> absolute_sum{};  ///< Of their absolute values.

@@ -112,6 +112,29 @@ TEST(ForeignImages, BlurOfAllOrOfAPartAndSharpeningAreFound) {
   }
 }
 
+/// Normal noise in each channel, rounded to levels.
+Image noisy(Image image, double sigma, Random& random) {
+  for (std::uint32_t& pixel : image.pixels) {
+    std::uint32_t colour = 0;
+    for (int c = 0; c < 3; ++c)
+      colour |=
+          static_cast<std::uint32_t>(std::clamp(
+              channel(pixel, c) + static_cast<int>(std::lround(sigma * random.normal())), 0, 255))
+          << (8 * c);
+    pixel = colour;
+  }
+  return image;
+}
+
+TEST(ForeignImages, NoiseOfLessThanOneLevelPasses) {
+  Random random(9);
+  for (const HarmlessPair& pair : harmless_pairs())
+    for (const double sigma : {0.3, 0.6, 0.9}) {
+      const Image other = noisy(pair.baseline, sigma, random);
+      EXPECT_EQ(pixel_diff(pair.baseline, other).pixels.changed, 0) << pair.plot << " " << sigma;
+    }
+}
+
 /// Two sets of tolerances, the second at least as large as the first in each.
 std::pair<ImageOptions, ImageOptions> widened_options(Random& random) {
   const auto pair = [&](double largest) {
