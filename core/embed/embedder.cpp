@@ -272,7 +272,10 @@ HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {
-    const ObservationHistory seen = unseen.empty() ? history : with_rows(history, seen_);
+    // A history of which nothing is left out is not copied: it may be most of the memory.
+    const ObservationHistory subset =
+        unseen.empty() ? ObservationHistory{} : with_rows(history, seen_);
+    const ObservationHistory& seen = unseen.empty() ? history : subset;
     embedder_.emplace(rule ? rule(seen, steps) : proximities(seen, steps), options);
   }
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -90,13 +92,94 @@ std::optional<ObservationManifold> observation_manifold(const Eigen::MatrixXd& s
   return found;
 }
 
+/// To the bit: values that were not observed are NaN, and equal.
+bool begins_with(const Eigen::MatrixXd& values, const Eigen::MatrixXd& beginning) {
+  return values.rows() == beginning.rows() && values.cols() >= beginning.cols() &&
+         std::memcmp(values.data(), beginning.data(),
+                     static_cast<std::size_t>(beginning.size()) * sizeof(double)) == 0;
+}
+
+/// All options: one that is added does not compile before it is here.
+std::tuple<double, double, bool> all_of(const SolverOptions& solver) {
+  const auto& [smacof_relative_fall, smacof_knn_relative_fall, only_seen_together] = solver;
+  return {smacof_relative_fall, smacof_knn_relative_fall, only_seen_together};
+}
+
+/// Whether both make the same embeddings.
+bool are_equal(const SolverOptions& a, const SolverOptions& b) { return all_of(a) == all_of(b); }
+
+/// Maps that the sensors' studies of a run have made, for its variations: their first level often
+/// observes the same, and an embedding depends on nothing but the observations and its options.
+class RememberedMaps {
+ public:
+  /// @param variations  Only maps at steps that they use are kept.
+  explicit RememberedMaps(const std::vector<Variation>& variations) : variations_(variations) {}
+
+  /// Keeps the map of the first `steps` observations of a history.
+  void add(const ObservationHistory& history, int steps, const MethodSetting& setting,
+           const Embedding& map);
+
+  /// The map of the first `steps` observations, if those of an equal history were kept.
+  const Embedding* find(const ObservationHistory& history, int steps,
+                        const MethodSetting& setting) const;
+
+ private:
+  struct Observed {
+    ObservationHistory history;  ///< Of those steps alone.
+    std::vector<std::pair<MethodSetting, Embedding>> maps;
+  };
+
+  const Observed* equal(const ObservationHistory& history, int steps) const;
+
+  const std::vector<Variation>& variations_;
+  std::vector<Observed> observed_;
+};
+
+const RememberedMaps::Observed* RememberedMaps::equal(const ObservationHistory& history,
+                                                      int steps) const {
+  for (const Observed& observed : observed_)
+    if (observed.history.sensor == history.sensor && observed.history.steps() == steps &&
+        observed.history.names == history.names &&
+        begins_with(history.values, observed.history.values))
+      return &observed;
+  return nullptr;
+}
+
+void RememberedMaps::add(const ObservationHistory& history, int steps, const MethodSetting& setting,
+                         const Embedding& map) {
+  if (std::ranges::none_of(variations_, [&](const Variation& variation) {
+        return variation.sensor == history.sensor && variation.step == steps &&
+               std::ranges::count(variation.settings, setting) > 0;
+      }))
+    return;
+  if (observed_.empty() || equal(history, steps) != &observed_.back())
+    observed_.push_back({.history = {.sensor = history.sensor,
+                                     .names = history.names,
+                                     .values = history.values.leftCols(steps)},
+                         .maps = {}});
+  observed_.back().maps.emplace_back(setting, map);
+}
+
+const Embedding* RememberedMaps::find(const ObservationHistory& history, int steps,
+                                      const MethodSetting& setting) const {
+  const Observed* const observed = equal(history, steps);
+  if (observed == nullptr) return nullptr;
+  const auto known =
+      std::ranges::find(observed->maps, setting, &std::pair<MethodSetting, Embedding>::first);
+  return known == observed->maps.end() ? nullptr : &known->second;
+}
+
 /// One variation in one run; keeps what its levels share.
 class Varying {
  public:
-  Varying(const Experiment& experiment, const Variation& variation, const Run& run,
-          const Path& path)
-      : experiment_(experiment), variation_(variation), run_(run), path_(path) {
-    if (variation.step < 1 || variation.step > path.positions_m.rows())
+  Varying(const Experiment& experiment, const Variation& variation, const RunResult& result,
+          const RememberedMaps& remembered)
+      : experiment_(experiment),
+        variation_(variation),
+        run_(result.run),
+        path_(result.details.path),
+        remembered_(remembered) {
+    if (variation.step < 1 || variation.step > path_.positions_m.rows())
       throw InvalidInput("a variation names a step that the path does not have");
   }
 
@@ -132,10 +215,20 @@ class Varying {
                               variation_.factor != Factor::kDropoutShare;
     if (!same_history) history_ = observed(find_sensor(varied, variation_.sensor)->sensor);
     if (same_history && variation_.factor == Factor::kAnchors) return;
-    HistoryEmbedder embedder(*history_, variation_.step, embedder_options(varied.solver));
+    embed(varied.solver);
+  }
+
+  void embed(const SolverOptions& solver) {
     embeddings_.clear();
-    for (const MethodSetting& setting : variation_.settings)
-      embeddings_.push_back(embedder.embed(setting));
+    std::optional<HistoryEmbedder> embedder;
+    for (const MethodSetting& setting : variation_.settings) {
+      const Embedding* const known = are_equal(solver, experiment_.solver)
+                                         ? remembered_.find(*history_, variation_.step, setting)
+                                         : nullptr;
+      if (known == nullptr && !embedder)
+        embedder.emplace(*history_, variation_.step, embedder_options(solver));
+      embeddings_.push_back(known != nullptr ? *known : embedder->embed(setting));
+    }
   }
 
   ObservationHistory observed(const SensorOptions& sensor) const {
@@ -150,6 +243,7 @@ class Varying {
   const Variation& variation_;
   const Run& run_;
   const Path& path_;
+  const RememberedMaps& remembered_;
   std::optional<ObservationHistory> history_;
   std::vector<Embedding> embeddings_;
 };
@@ -158,13 +252,15 @@ class Varying {
 ///
 /// The levels of a variation share their random numbers: a higher noise level is the same noise,
 /// larger. Variations of the anchors and of the solver share one history over all levels.
-/// @param run   Its world and anchors are read.
-/// @param path  As long as the latest step of any variation, or longer.
+/// @param result      Its world, anchors and path are read; the path is as long as the latest step
+///                    of any variation, or longer.
+/// @param remembered  Maps of the run that need not be made again.
 /// @return In order of variation, level, setting.
-std::vector<VariationRecord> vary(const Experiment& experiment, const Run& run, const Path& path) {
+std::vector<VariationRecord> vary(const Experiment& experiment, const RunResult& result,
+                                  const RememberedMaps& remembered) {
   std::vector<VariationRecord> records;
   for (const Variation& variation : experiment.variations) {
-    Varying varying(experiment, variation, run, path);
+    Varying varying(experiment, variation, result, remembered);
     for (const double level : variation.levels) varying.add_level(level, records);
   }
   return records;
@@ -301,9 +397,16 @@ class ExternalEmbedder {
   MethodProcesses* others_;
 };
 
+/// What a run gave, and what its variations need not make again.
+struct RunMaps {
+  RunResult& result;
+  RememberedMaps& remembered;
+};
+
 /// Builds, scores and keeps the maps of one sensor after external.step() observations.
 void map_at(const Experiment& experiment, const ObservationHistory& history,
-            const SensorStudy& study, ExternalEmbedder external, RunResult& result) {
+            const SensorStudy& study, ExternalEmbedder external, const RunMaps& maps) {
+  RunResult& result = maps.result;
   const Run& run = result.run;
   const int step = external.step();
   HistoryEmbedder embedder(history, step, embedder_options(experiment.solver));
@@ -313,6 +416,7 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
     const Embedding embedding =
         method == nullptr ? embedder.embed(setting) : external.embed(*method, setting);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (method == nullptr) maps.remembered.add(history, step, setting, embedding);
     ScoredMap map =
         scored_map(embedding, run.world.landmarks_m, run.anchors, experiment.affine_fit);
     result.timings.push_back({run.id, history.sensor, setting, step, seconds});
@@ -388,6 +492,7 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id, MethodProc
   run.anchors = made.anchors;
   result.details.path = made.path;
   const Path& path = result.details.path;
+  RememberedMaps remembered(experiment.variations);
 
   for (const SensorStudy& study : experiment.sensors) {
     const ObservationHistory history = observed_in(experiment, id, made, study.sensor);
@@ -396,9 +501,9 @@ RunResult simulate_run(const Experiment& experiment, const RunId& id, MethodProc
     result.details.sensors.push_back(sensor_details(study, run.world, path, history));
     for (const int step : study.checkpoints)
       map_at(experiment, history, study, {experiment, result.run.id, history, step, others},
-             result);
+             {result, remembered});
   }
-  run.variations = vary(experiment, run, path);
+  run.variations = vary(experiment, result, remembered);
   return result;
 }
 

@@ -42,7 +42,7 @@ def work_of(what, X, iterations):
                               max_iter=iterations, eps=0.0)
     return {
         "gram": lambda: euclidean_distances(X),
-        "lpca": lambda: PCA(2, svd_solver="full").fit_transform(X),
+        "lpca": lambda: PCA(2, svd_solver="arpack").fit_transform(X),
         "kpca-gaussian": lambda: KernelPCA(2, kernel="rbf", gamma=0.5 / VARIANCE).fit_transform(X),
         "kpca-polynomial": lambda: KernelPCA(2, kernel="poly", gamma=1.0, coef0=1.0,
                                              degree=2).fit_transform(X),

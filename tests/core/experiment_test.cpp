@@ -97,6 +97,23 @@ TEST(Variations, AgreeWithTheStudyWhereNothingVaries) {
   EXPECT_FALSE(same(result.run.variations[2]));
 }
 
+TEST(Variations, DoNotDependOnWhatTheStudyMapped) {
+  Experiment all = small_experiment();
+  all.variations = {noise_variation()};
+  Experiment few = all;
+  for (SensorStudy& study : few.sensors)
+    std::erase_if(study.methods,
+                  [](const MethodGrid& grid) { return grid.method != Method::kSmacof; });
+  const std::vector<VariationRecord> expected = simulate_run(few, {1, 1}).run.variations;
+  const std::vector<VariationRecord> records = simulate_run(all, {1, 1}).run.variations;
+  ASSERT_EQ(records.size(), expected.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    EXPECT_EQ(records[i].setting, expected[i].setting);
+    EXPECT_EQ(records[i].score->mpe_m, expected[i].score->mpe_m) << i;
+    EXPECT_EQ(records[i].score->moe_percent, expected[i].score->moe_percent) << i;
+  }
+}
+
 TEST(Variations, OfNoiseMakeWorseMaps) {
   Experiment experiment = small_experiment();
   experiment.variations = {noise_variation()};

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
+#include "core/base/random.hpp"
 #include "core/observe/features.hpp"
 #include "core/observe/proximities.hpp"
 #include "core/simulate/sensors.hpp"
@@ -94,6 +95,45 @@ TEST(Proximities, OfThePrefixAreThoseOfAShorterHistory) {
             proximities(history(Sensor::kBearing, angles.leftCols(12)), 12).squared_distances);
   EXPECT_THROW(proximities(history(Sensor::kBearing, angles), 21), InvalidInput);
   EXPECT_THROW(proximities(history(Sensor::kBearing, angles), 0), InvalidInput);
+}
+
+/// Entries from 0 to 1, some of them missing.
+Eigen::MatrixXd random_values(Eigen::Index rows, Eigen::Index steps, double missing) {
+  Random random(11);
+  return Eigen::MatrixXd::NullaryExpr(rows, steps, [&](Eigen::Index, Eigen::Index) {
+    const double value = random.uniform();
+    return random.uniform() < missing ? kMissing : value;
+  });
+}
+
+TEST(Proximities, OfBitsAreThoseOfTheirProductsToTheBit) {
+  for (const Eigen::Index steps : {1, 63, 64, 65, 300})
+    for (const double missing : {0.0, 0.3}) {
+      const Eigen::MatrixXd values = random_values(37, steps, missing);
+      const Eigen::MatrixXd bits =
+          values.array().isNaN().select(values, values.array().round().matrix());
+      const ObservationHistory seen = history(Sensor::kVisibility, bits);
+      const Proximities expected = proximities(features(seen, steps), Sensor::kVisibility);
+      const Proximities counted = proximities(seen, steps);
+      EXPECT_EQ(counted.inner_products, expected.inner_products) << steps << " " << missing;
+      EXPECT_EQ(counted.squared_distances, expected.squared_distances) << steps << " " << missing;
+    }
+}
+
+TEST(Proximities, OfManyStepsAreThoseOfAllVectorsAtOnce) {
+  for (const double missing : {0.0, 0.2}) {
+    const ObservationHistory many = history(Sensor::kBearing, random_values(9, 9000, missing));
+    const Eigen::MatrixXd expected =
+        proximities(features(many, 9000), Sensor::kBearing).squared_distances;
+    EXPECT_LT((proximities(many, 9000).squared_distances - expected).norm(),
+              1e-12 * expected.norm());
+  }
+}
+
+TEST(Proximities, AreFiniteWhereMissingEntriesBeginLate) {
+  Eigen::MatrixXd angles = random_values(4, 9000, 0.0);
+  angles(2, 8999) = kMissing;
+  EXPECT_TRUE(proximities(history(Sensor::kBearing, angles), 9000).squared_distances.allFinite());
 }
 
 TEST(UnseenLandmarks, AreRowsWithoutInformation) {
