@@ -7,6 +7,7 @@
 
 #include "render/plot/axis_map.hpp"
 #include "render/plot/outlines.hpp"
+#include "render/plot/short_names.hpp"
 #include "render/theme/font.hpp"
 #include "render/theme/ticks.hpp"
 
@@ -55,7 +56,8 @@ constexpr double kLabelLine = 1.55;     // From the foot of tick labels to the a
 TickLabels shaped(Ticks ticks, const Theme& theme, double widest_em = kWidestName) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(shape_text_within(text, widest_em, Elide::kEnd, theme.font.get()));
+    labels.texts.push_back(
+        shape_text_within(label_in(theme, text), widest_em, Elide::kEnd, theme.font.get()));
     labels.widest = std::max(labels.widest, labels.texts.back().advance);
   }
   return labels;
@@ -240,8 +242,14 @@ void AxesLayout::choose_ticks(Axes& axes) const {
 void AxesLayout::choose_equal_ticks(Axes& axes, int most_x, int most_y) const {
   const double step = std::max(tick_step(limits_.x.low, limits_.x.high, most_x),
                                tick_step(limits_.y.low, limits_.y.high, most_y));
-  axes.x = shaped(linear_ticks(limits_.x.low, limits_.x.high, step), theme_);
-  axes.y = shaped(linear_ticks(limits_.y.low, limits_.y.high, step), theme_);
+  // A short side that has but one of them has a step of its own.
+  const auto ticks_of = [step](const Range& range, int most) {
+    const Ticks ticks = linear_ticks(range.low, range.high, step);
+    if (ticks.at.size() > 1) return ticks;
+    return linear_ticks(range.low, range.high, tick_step(range.low, range.high, most));
+  };
+  axes.x = shaped(ticks_of(limits_.x, most_x), theme_);
+  axes.y = shaped(ticks_of(limits_.y, most_y), theme_);
 }
 
 bool AxesLayout::labels_touch(const Axes& axes) const {

@@ -9,6 +9,7 @@
 #include "render/plot/figure.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
+#include "render/plot/line_ends.hpp"
 #include "render/plot/mark_labels.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/panel_layout.hpp"
@@ -197,7 +198,10 @@ class SharedGrid {
 
   /// In the grid's last row if that has room for it, else below. @return Where it ends.
   double draw_legend(double left, double top) {
-    const Legend legend(all_, theme_, room_.width());
+    Legend legend(all_, theme_, room_.width(),
+                  std::ranges::any_of(panels_, bands_hide_each_other));
+    for (const Panel& panel : panels_)
+      legend.order_by_ends(ends_of_lines(panel, panel_limits(panel)));
     if (legend.empty()) return top;
     const double space = 2.0 * theme_.space_pt;
     const Box& last = drawing_.frames.back();
@@ -367,7 +371,9 @@ void lay_out_grid(const Figure& figure, const Box& room, const Theme& theme, Dra
     CellGrid(figure, room, theme, drawing).lay_out();
 }
 
-constexpr double kLeastOfPage = 0.3;  // Of the theme's height, for the frame.
+constexpr double kLeastOfPage = 0.3;    // Of the theme's height, for a frame of equal scales.
+constexpr double kLeastWithTitle = 0.5;  // Of the page below title and notes, for other frames;
+constexpr double kLeastWithout = 0.66;   // of a page in a text, whose caption has the title, more.
 constexpr double kMostOfHead = 0.4;   // Of the page's height; below it, the panels.
 
 /// Title and notes from the top of the page down.
@@ -416,6 +422,14 @@ class Head {
   double y_;
 };
 
+/// What title and notes take of a page of the theme's height.
+double head_height(const Figure& figure, const Theme& theme) {
+  const double margin = theme.space_pt;
+  const Box page{margin, margin, theme.width_pt - margin, theme.height_pt - margin};
+  Drawing unused;
+  return Head(figure, page, theme, unused).draw().y0;
+}
+
 /// @param height  Of the page; that of several panels follows from them.
 Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   Drawing drawing;
@@ -441,6 +455,16 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   return drawing;
 }
 
+/// The height of the page at which the only frame has its share of it.
+double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
+  const double frame = drawing.frames[0].height();
+  if (figure.panels[0].equal_aspect || figure.panels[0].bare)
+    return theme.height_pt + kLeastOfPage * theme.height_pt - frame;
+  // Around the frame everything keeps its height.
+  const double head = head_height(figure, theme);
+  return head + (drawing.height - head - frame) / (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
+}
+
 }  // namespace
 
 bool draws_notes(const Figure& figure, const Theme& theme) {
@@ -454,9 +478,8 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
   Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
   if (figure.panels.size() > 1) return drawing;
   // A legend that leaves the frame too little makes the page higher.
-  const double missing = kLeastOfPage * theme.height_pt - drawing.frames[0].height();
-  if (missing <= 0.0) return drawing;
-  return lay_out_on(figure, theme, theme.height_pt + missing);
+  const double height = height_for_frame(figure, theme, drawing);
+  return height > theme.height_pt ? lay_out_on(figure, theme, height) : drawing;
 }
 
 }  // namespace mapproof

@@ -153,6 +153,7 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
 }
 
 constexpr int kMostClear = 12;    // Squares along a rod.
+constexpr int kMostOnEdge = 30;   // Along an edge of a wall.
 constexpr double kMostEm = 0.22;  // Of an image's half height.
 
 Fill fill_of(const Style& style) {
@@ -238,6 +239,17 @@ class ViewPanel {
         add_clear(rods.from[i] + share * (rods.to[i] - rods.from[i]), rods.radius);
       }
     }
+  }
+  /// The upper and lower edges of walls, which would strike labels through.
+  void keep_clear(const Surface& surface) {
+    if (!surface.style.lit || surface.smooth) return;
+    for (std::size_t i = 0; i + 3 < surface.points.size(); i += 4)
+      for (const std::size_t edge : {i, i + 2}) {
+        const Point3 &from = surface.points[edge], &to = surface.points[edge + 1];
+        const double step = (to - from).norm() / kMostOnEdge;
+        for (int k = 0; k <= kMostOnEdge; ++k)
+          add_clear(from + static_cast<double>(k) / kMostOnEdge * (to - from), step / 2.0);
+      }
   }
   /// Labels may cover what is wide: floors, fields, a path through all of a room.
   template <typename Wide>

@@ -1,7 +1,9 @@
 #include "render/theme/ticks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -36,6 +38,39 @@ double offset_below(double low, double high) {
   return std::floor(low / round) * round;
 }
 
+constexpr std::size_t kFewestLogLabels = 3;
+
+/// Which multiples of a power of ten are labelled, from few to many.
+constexpr std::array<std::string_view, 4> kLabelledFactors = {"1", "13", "125", "123456789"};
+constexpr std::size_t kOneTwoFive = 2;
+
+int first_decade(double low) { return static_cast<int>(std::ceil(std::log10(low) - 1e-9)); }
+
+int whole_decades(double low, double high) {
+  return static_cast<int>(std::floor(std::log10(high) + 1e-9)) - first_decade(low) + 1;
+}
+
+/// Labels at every `stride`-th power of ten, and at the multiples of `detail`.
+Ticks log_ticks_of(double low, double high, int stride, std::size_t detail) {
+  const int first = first_decade(low), last = first + whole_decades(low, high) - 1;
+  Ticks ticks;
+  for (int exponent = first - 1; exponent <= last; ++exponent) {
+    for (int factor = 1; factor <= 9; ++factor) {
+      const double value = factor * std::pow(10.0, exponent);
+      if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9)) continue;
+      const bool in_detail =
+          kLabelledFactors[detail].find(static_cast<char>('0' + factor)) != std::string_view::npos;
+      if (in_detail && (factor > 1 || (exponent - first) % stride == 0)) {
+        ticks.at.push_back(value);
+        ticks.labels.push_back(log_label(factor, exponent));
+      } else if (stride == 1) {
+        ticks.minor.push_back(value);
+      }
+    }
+  }
+  return ticks;
+}
+
 }  // namespace
 
 std::string power_of_ten(int exponent) { return "×10" + superscript(exponent); }
@@ -51,10 +86,14 @@ std::string number_text(double value, int decimals) {
 double tick_step(double low, double high, int most) {
   const double least = (high - low) / std::max(most, 2);
   const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  double finer = decade;
   for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0}) {
     const double step = factor * decade;
     const double count = std::floor(high / step + 1e-9) - std::ceil(low / step - 1e-9) + 1.0;
+    // One tick gives no scale: rather a few more than asked for.
+    if (count < 2.0) return finer;
     if (count <= most) return step;
+    finer = step;
   }
   return 50.0 * decade;
 }
@@ -84,32 +123,19 @@ Ticks linear_ticks(double low, double high, double step) {
 }
 
 Ticks log_ticks(double low, double high, int most) {
-  const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
-  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
-  const int decades = last - first + 1;
-  Ticks ticks;
-  const auto within = [&](double value) {
-    return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9);
-  };
-  const int stride = std::max(1, (decades + most - 1) / most);
+  const int decades = whole_decades(low, high);
+  int stride = std::max(1, (decades + most - 1) / most);
   // With room for it, 1, 2 and 5 of few decades.
-  const bool fine = decades < 3 && most > 2;
-  for (int exponent = first - 1; exponent <= last; ++exponent) {
-    const double decade = std::pow(10.0, exponent);
-    for (const int factor : {1, 2, 3, 4, 5, 6, 7, 8, 9}) {
-      const double value = factor * decade;
-      if (!within(value)) continue;
-      const bool labelled = (factor == 1 && (exponent - first) % stride == 0) ||
-                            (fine && (factor == 2 || factor == 5));
-      if (labelled) {
-        ticks.at.push_back(value);
-        ticks.labels.push_back(log_label(factor, exponent));
-      } else if (stride == 1) {
-        ticks.minor.push_back(value);
-      }
-    }
-  }
-  if (ticks.at.size() < 2) return linear_ticks(low, high, tick_step(low, high, most));
+  std::size_t detail = decades < 3 && most > 2 ? kOneTwoFive : 0;
+  Ticks ticks = log_ticks_of(low, high, stride, detail);
+  // A logarithm is read from three labels: the distance of two says nothing of the next one.
+  while (ticks.at.size() < kFewestLogLabels && stride > 1)
+    ticks = log_ticks_of(low, high, --stride, detail);
+  while (ticks.at.size() < kFewestLogLabels && detail + 1 < kLabelledFactors.size())
+    ticks = log_ticks_of(low, high, stride, ++detail);
+  if (ticks.at.size() >= kFewestLogLabels) return ticks;
+  for (int count = std::max(most, 3); ticks.at.size() < kFewestLogLabels && count < 12; ++count)
+    ticks = linear_ticks(low, high, tick_step(low, high, count));
   return ticks;
 }
 

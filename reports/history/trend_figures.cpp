@@ -222,7 +222,14 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
 
 /// A method has one style in all figures; the second of two settings gets one that is left.
 std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string& method) {
-  if (!labels.methods.empty()) return std::nullopt;
+  if (!labels.methods.empty()) {
+    std::vector<std::string> ids;
+    for (const auto& [id, label] : labels.methods) ids.push_back(id);
+    const auto found = std::ranges::find(ids, base_method(labels, method));
+    return found == ids.end() ? std::nullopt
+                              : std::optional(series_of_methods(ids)[static_cast<std::size_t>(
+                                    found - ids.begin())]);
+  }
   const std::optional<Method> known = method_named(base_method(labels, method));
   return known ? std::optional(method_series(*known)) : std::nullopt;
 }
