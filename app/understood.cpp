@@ -107,6 +107,16 @@ std::string understood_line(const std::string& name, const CompanionSummary& sum
                      columns.empty() ? "" : "; ", columns);
 }
 
+std::string understood_line(const RangeLog& log) {
+  std::vector<std::string> table = {column_words(log.columns), separator_words(log.separator)};
+  std::erase(table, "");
+  return fmt::format(
+      "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
+      "{}{}{}",
+      log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
+      log.ground_truth ? "yes" : "no", table.empty() ? "" : "; ", fmt::join(table, ", "));
+}
+
 nlohmann::ordered_json understood_json(const CompanionSummary& summary) {
   nlohmann::ordered_json object{{"rows", summary.rows}};
   if (summary.companion != Companion::kLandmarks) {

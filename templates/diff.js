@@ -17,7 +17,7 @@ function makeClusterButton(cluster) {
   button.textContent = "Show it";
   button.addEventListener("click", () => {
     setAtHand(cluster.closest("article"));
-    showBox(stage, cluster.dataset.box.split(" ").map(Number));
+    showBox(stage, ...["box", "size"].map((name) => cluster.dataset[name].split(" ").map(Number)));
     stage.scrollIntoView({ block: "nearest" });
   });
   cluster.append(button);
@@ -54,6 +54,8 @@ by("search").addEventListener("input", applyFilter);
 by("close-keys").addEventListener("click", () => by("keys").close());
 if (items.length > 0) {
   makeToolbar();
+  makeOrder();
+  addThumbnails();
   for (const stage of document.querySelectorAll(".stage")) makeStage(stage);
   for (const cluster of document.querySelectorAll(".cluster")) makeClusterButton(cluster);
   makeTicks();

@@ -1,4 +1,4 @@
-// Filter by verdict, search by ID.
+// Filter by verdict, search by ID, order.
 
 const wanted = new Set();
 
@@ -42,5 +42,45 @@ function makeChips() {
       applyFilter();
     });
     entry.replaceChildren(button);
+  }
+}
+
+// The order in which the page came is by verdict.
+function makeOrder() {
+  const places = new Map(items.map((item, place) => [item, place]));
+  const byPlace = (a, b) => places.get(a) - places.get(b);
+  const compare = {
+    verdict: byPlace,
+    share: (a, b) => Number(b.dataset.share) - Number(a.dataset.share) || byPlace(a, b),
+    name: (a, b) => a.dataset.name.localeCompare(b.dataset.name) || byPlace(a, b),
+  };
+  const end = document.createComment("");
+  items.at(-1).after(end);
+  by("order").addEventListener("change", () => {
+    items.sort(compare[by("order").value]);
+    const list = document.querySelector(".index");
+    for (const item of items) {
+      end.before(item);
+      list.append(entryOf.get(item.id));
+    }
+    const first = items.find(shown);
+    if (first) setAtHand(first);
+  });
+  document.querySelector(".order").hidden = false;
+}
+
+// A small image of each item in the list, of the same bytes as on its stage.
+function addThumbnails() {
+  for (const item of items) {
+    const image = item.querySelector(".current img") ?? item.querySelector(".baseline img") ??
+      item.querySelector(".change img");
+    if (!image) continue;
+    const small = document.createElement("img");
+    small.className = "thumbnail";
+    small.alt = "";
+    small.loading = "lazy";
+    small.decoding = "async";
+    small.src = image.src;
+    entryOf.get(item.id).querySelector("a").prepend(small);
   }
 }

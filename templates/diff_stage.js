@@ -3,8 +3,11 @@
 
 const stageAtHand = () => atHand?.querySelector(".stage") ?? null;
 
+// Not a heat map whose pixels are not those of the images.
+const sizedImages = (stage) => stage.querySelectorAll(".pane:not(.heat) img, .heat img[width]");
+
 function largestSize(stage) {
-  const images = Array.from(stage.querySelectorAll("img"));
+  const images = Array.from(sizedImages(stage));
   const side = (name, natural) => Math.max(1, ...images.map((image) =>
     image[natural] || Number(image.getAttribute(name)) || 0));
   return { width: side("width", "naturalWidth"), height: side("height", "naturalHeight") };
@@ -14,7 +17,7 @@ function largestSize(stage) {
 function arrange(stage) {
   const size = largestSize(stage);
   stage.style.setProperty("--ratio", size.width / size.height);
-  for (const image of stage.querySelectorAll("img")) {
+  for (const image of sizedImages(stage)) {
     const width = image.naturalWidth || Number(image.getAttribute("width")) || size.width;
     image.style.width = `${100 * width / size.width}%`;
   }
@@ -89,13 +92,9 @@ function addFrame(view, shares) {
   view.append(marks);
 }
 
-// Shows a box of pixels at the middle, with a frame around it.
-function showBox(stage, [x, y, width, height]) {
-  const size = largestSize(stage);
-  const shares = {
-    left: x / size.width, top: y / size.height,
-    width: width / size.width, height: height / size.height,
-  };
+// Shows a box of pixels, of images of that size, at the middle, with a frame around it.
+function showBox(stage, [x, y, width, height], [across, down]) {
+  const shares = { left: x / across, top: y / down, width: width / across, height: height / down };
   fit(stage);
   for (const view of stage.querySelectorAll(".view")) addFrame(view, shares);
   const view = viewOf(stage), at = view.middle();

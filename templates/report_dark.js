@@ -22,13 +22,15 @@ function addFigureColours() {
         `.drawing svg [${name}="${light}"] { ${name}: light-dark(${light}, ${dark}); }`);
     }
   }
+  // A 3-D figure is an image with labels on it: both keep the colours of light paper.
+  sheet.insertRule(".drawing:has(svg image) { color-scheme: light; }");
   sheet.insertRule(".drawing { background: light-dark(#ffffff, #15181c); }");
   document.adoptedStyleSheets.push(sheet);
 }
 
 // The text of an SVG in the colours of the page, for images.
 function inPageColours(text) {
-  if (!isDarkPage()) return text;
+  if (!isDarkPage() || text.includes("<image")) return text;
   return text.replace(/(fill|stroke)="(#[0-9a-f]{6})"/g,
     (all, name, colour) => `${name}="${kDarkColours[colour] ?? colour}"`);
 }

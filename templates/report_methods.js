@@ -95,6 +95,20 @@ function followLegend(box, svg, boxes) {
   });
 }
 
+function addTitle(part, text) {
+  const title = document.createElementNS(part.namespaceURI, "title");
+  title.textContent = text;
+  part.append(title);
+}
+
+// A marker under the pointer says its values, "SDE, K = 7: 500, 0.998".
+function addValues(part, name) {
+  const values = part.dataset.points?.split(";") ?? [];
+  [...part.querySelectorAll("use.marker")].forEach((marker, i) => {
+    if (values[i]) addTitle(marker, `${name}: ${values[i]}`);
+  });
+}
+
 function addCurveBoxes(figure, svg) {
   highlightIn(svg);
   const curves = curvesOf(svg), boxes = new Map();
@@ -113,9 +127,8 @@ function addCurveBoxes(figure, svg) {
     label.append(box, name);
     details.append(label);
     for (const part of parts) {
-      const title = document.createElementNS(svg.namespaceURI, "title");
-      title.textContent = name;
-      part.append(title);
+      addTitle(part, name);
+      addValues(part, name);
       part.addEventListener("dblclick", () => chooseMethod(methodOf(name)));
     }
   }

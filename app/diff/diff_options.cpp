@@ -17,6 +17,7 @@
 #include "reports/diff/diff_outputs.hpp"
 #include "reports/diff/item_images.hpp"
 #include "reports/html/diff/diff_html.hpp"
+#include "reports/html/diff/shown_images.hpp"
 
 namespace mapproof {
 namespace {
@@ -201,8 +202,9 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   ImageLinks links;
   if (!options.images.empty()) links.images = write_item_images(result, settings, options.images);
   hand(options.page, [&] {
-    return diff_html(result, settings, load_templates(options.templates),
-                     {.page_bytes = static_cast<std::size_t>(1e6 * options.page_size_mb)});
+    const auto page_bytes = static_cast<std::size_t>(1e6 * options.page_size_mb);
+    return diff_html(result, shown_images(result, settings, {.page_bytes = page_bytes}),
+                     load_templates(options.templates), page_bytes);
   });
   hand(options.junit, [&] {
     if (!options.images.empty()) links.prefix = attachment_prefix(options.images);

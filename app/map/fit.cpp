@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "app/map/pipeline.hpp"
@@ -87,6 +88,19 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
   return joint_fit(std::get<std::vector<ObservationSource>>(draft.observed), map, known_m);
 }
 
+constexpr const char* kCheckIds =
+    "--check-ids looks for landmark IDs that would explain the misfit; --repair-ids corrects them.";
+
+/// Whether a cause of a misfit may be that landmark IDs are wrong.
+bool doubts_ids(const Fit& fit) {
+  constexpr FitCode kOfIds[] = {FitCode::kIdsExchanged,         FitCode::kWrongIds,
+                                FitCode::kKnownLandmarkOff,     FitCode::kKnownLandmarksExchanged,
+                                FitCode::kKnownLandmarksAtOdds, FitCode::kScatter};
+  return std::ranges::any_of(fit.causes, [&](const FitCause& cause) {
+    return std::ranges::find(kOfIds, cause.code) != std::end(kOfIds);
+  });
+}
+
 MapDraft test_fit(MapDraft draft, const MapJob& job) {
   try {
     draft.result.fit = fit_of(draft, job);
@@ -96,6 +110,9 @@ MapDraft test_fit(MapDraft draft, const MapJob& job) {
     draft.result.warnings.push_back(std::string("The fit was not tested: ") + problem.what());
   }
   for (FitCause& cause : draft.result.fit.causes) cause.figure = kFitSection;
+  const bool may_check = job.is_range_bearing() && !job.incremental;
+  if (may_check && !job.check_ids && !job.repair_ids && doubts_ids(draft.result.fit))
+    draft.result.remarks.emplace_back(kCheckIds);
   return draft;
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/html/diff/diff_html.hpp"
+#include "reports/html/diff/shown_images.hpp"
 
 namespace mapproof {
 
@@ -63,7 +64,8 @@ std::vector<std::string> write_comparisons(const NightlyPair& pair, const Histor
     const std::string file = comparison_file(pair.before, pair.after, study);
     make_folder((outputs.out / file).parent_path());
     OutputFolder(outputs.out)
-        .write(file, outputs.disclosure.text(diff_html(result, settings, outputs.page)));
+        .write(file, outputs.disclosure.text(
+                         diff_html(result, shown_images(result, settings), outputs.page)));
     written.push_back(file);
   }
   return written;

@@ -209,10 +209,10 @@ MetricsRequest read_metrics_request(const std::string& file, std::optional<Bette
                                              : metrics.name);
   request.study.name = study.name;
   request.study.texts = {{kStudyFile, results_study_json(study)},
-                         {"results.csv", results_csv(study.results.rows)}};
+                         {kResultsFile, results_csv(study.results.rows)}};
   request.study.compared_by = sha256_hex("metrics\n" + study.name);
   request.study.digest =
-      sha256_hex(request.study.texts.at(kStudyFile) + "\n" + request.study.texts.at("results.csv"));
+      sha256_hex(request.study.texts.at(kStudyFile) + "\n" + request.study.texts.at(kResultsFile));
   const auto negative = std::ranges::find_if(metrics.metrics, [](const Metric& metric) {
     return metric.value < 0.0 && metric.better != Better::kNeither && metric.unit != "%";
   });

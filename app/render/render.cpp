@@ -14,6 +14,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/text/spelling.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_scene.hpp"
 #include "render/plot/layout.hpp"
@@ -107,23 +108,44 @@ Formats formats_of(const RenderArguments& arguments) {
   return formats;
 }
 
+/// --list names the figures of INPUT as they are.
+void refuse_idle_options_of_list(const RenderArguments& arguments) {
+  const std::pair<const char*, bool> options[] = {
+      {"--figure", !arguments.ids.empty()},
+      {"--animate", !arguments.animations.empty()},
+      {"--panel", !arguments.panels.empty()},
+      {"--as", !arguments.as.empty()},
+      {"--out", !arguments.out.empty()},
+      {"--theme", arguments.style.theme.has_value()},
+      {"--style and the like", arguments.style.changes_figures()}};
+  for (const auto& [option, given] : options)
+    if (given) throw InvalidInput(fmt::format("{}: has no effect on --list", option));
+}
+
 /// Options that would change nothing in these formats.
-void refuse_idle_options(const StyleArguments& style, const Formats& formats, bool has_animation) {
+void refuse_idle_options(const StyleArguments& style, const Formats& formats,
+                         const Drawables& drawables) {
+  const bool has_animation = !drawables.films.empty();
   const auto has = [&](FileFormat format) { return formats.files.contains(format); };
   const bool is_drawn = has(FileFormat::kSvg) || has(FileFormat::kPng) || has(FileFormat::kPdf) ||
                         has(FileFormat::kEps) || has(FileFormat::kMatplotlib) || has_animation;
   const std::pair<const char*, bool> options[] = {
-      {"--theme", style.theme.has_value()},      {"--width", style.width_in.has_value()},
-      {"--height", style.height_in.has_value()}, {"--dpi", style.dpi.has_value()},
-      {"--font", style.font.has_value()},        {"--no-title", style.no_title}};
+      {"--theme", style.theme.has_value()},
+      {"--width", style.width_in.has_value()},
+      {"--height", style.height_in.has_value()},
+      {"--dpi", style.dpi.has_value()},
+      {"--font", style.font.has_value()},
+      {"--no-title", style.no_title},
+      {"--title", style.title && !has(FileFormat::kJson)}};
   for (const auto& [option, given] : options)
     if (given && !is_drawn)
       throw InvalidInput(
           fmt::format("{}: has no effect on csv and json, which hold the data alone", option));
   if (style.font && has(FileFormat::kMatplotlib) && formats.files.size() == 1)
     throw InvalidInput("--font: a script of matplotlib chooses its font itself");
-  if (style.dpi && !has(FileFormat::kPng) && !has(FileFormat::kMatplotlib) && !has_animation)
-    throw InvalidInput("--dpi: only png has pixels; add png to --as");
+  const bool has_pixels = has(FileFormat::kPng) || has(FileFormat::kMatplotlib) || has_animation ||
+                          !drawables.scenes.empty();
+  if (style.dpi && !has_pixels) throw InvalidInput("--dpi: only png has pixels; add png to --as");
 }
 
 /// Each once, as it came first.
@@ -226,11 +248,10 @@ void edit(const StyleArguments& arguments, const FigureStyle& style, Drawables& 
   edit_landmarks(arguments, drawables);
   if (!style.words.empty())
     require_known_phrases(style, texts_of(drawables), arguments.file.value_or("--style"));
-  const auto words = words_of(style);
-  for (Figure& figure : drawables.figures) replace_words(figure, words);
-  for (Scene& scene : drawables.scenes) replace_words(scene, words);
+  for (Figure& figure : drawables.figures) replace_words(figure, style);
+  for (Scene& scene : drawables.scenes) replace_words(scene, style);
   for (Film& film : drawables.films)
-    for (Scene& frame : film.frames) replace_words(frame, words);
+    for (Scene& frame : film.frames) replace_words(frame, style);
   if (!arguments.title) return;
   const std::size_t count =
       drawables.figures.size() + drawables.scenes.size() + drawables.films.size();
@@ -331,6 +352,33 @@ void report_notes(const Drawables& drawables, const Theme& theme, const Console&
         console.info(fmt::format("{}: for the caption: {}", figure.id, note.text));
 }
 
+/// Names beside points of a figure that find no room in it.
+std::vector<std::string> names_without_room(const Figure& figure, const Theme& theme) {
+  std::multiset<std::string> drawn;
+  for (const Item& item : lay_out(figure, theme).items)
+    if (const auto* line = std::get_if<TextLine>(&item.what);
+        line != nullptr && item.item_class == ItemClass::kMarkLabel)
+      drawn.insert(line->whole.empty() ? line->shaped.text : line->whole);
+  std::vector<std::string> names;
+  for (const Panel& panel : figure.panels)
+    for (const Layer& layer : panel.layers)
+      if (const auto* labels = std::get_if<PointLabels>(&layer))
+        for (const std::string& name : labels->text)
+          if (drawn.extract(name).empty()) names.push_back(name);
+  return names;
+}
+
+/// Says which of the landmarks that are to be named are not.
+void report_names(const RenderArguments& arguments, const Drawables& drawables, const Theme& theme,
+                  const Console& console) {
+  constexpr std::size_t kMost = 10;
+  if (arguments.style.landmarks.empty()) return;
+  for (const Figure& figure : drawables.figures)
+    if (const auto names = names_without_room(figure, theme); !names.empty())
+      console.info(fmt::format("{}: no room for the names of {}; a larger --width has more",
+                               figure.id, printable(listed(names, kMost), 1000)));
+}
+
 void write_latex(const Drawables& drawables, const Theme& theme, const OutputFolder& folder) {
   for (const Figure& figure : drawables.figures)
     folder.write(figure.id + ".tex",
@@ -354,12 +402,15 @@ void write_films(const Drawables& drawables, const DrawingJob& job, const Format
 }
 
 int render(const RenderArguments& arguments, const Invocation& invocation) {
-  if (arguments.list) return list(read_drawables(arguments.input), invocation);
+  if (arguments.list) {
+    refuse_idle_options_of_list(arguments);
+    return list(read_drawables(arguments.input), invocation);
+  }
   const Formats formats = formats_of(arguments);
-  refuse_idle_options(arguments.style, formats, !arguments.animations.empty());
   const FigureStyle style = style_of(arguments.style);
   const Theme theme = theme_of(style);
   Drawables drawables = read_all(arguments);
+  refuse_idle_options(arguments.style, formats, drawables);
   edit(arguments.style, style, drawables);
   const fs::path folder = folder_for(arguments, drawables, style);
   make_folder(folder);
@@ -378,6 +429,7 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   const Drawn drawn = write_images(images, job, client);
   job.progress = nullptr;
   report_notes(drawables, theme, invocation.console);
+  report_names(arguments, drawables, theme, invocation.console);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
   if (formats.latex) write_latex(drawables, theme, folder);
   write_films(drawables, job, formats, client, invocation.console);

@@ -18,6 +18,7 @@
 #include "app/slam/range_map.hpp"
 #include "app/slam/slam_json.hpp"
 #include "app/study/folder_report.hpp"
+#include "app/understood.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/files.hpp"
@@ -259,11 +260,7 @@ int map_ranges(SlamArguments arguments, const Invocation& invocation) {
     known = known_landmarks_of(log, *anchors);
     if (!anchors->points.heights.empty()) log.remarks.push_back(anchors->points.heights);
   }
-  invocation.console.info(fmt::format(
-      "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
-      "{}",
-      log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
-      log.ground_truth ? "yes" : "no"));
+  invocation.console.info(understood_line(log));
   working.emplace(invocation.console, "mapping");
   const SlamRunResult result = range_map(std::move(log), known, arguments.fit, arguments.repair);
   working.reset();

@@ -2,10 +2,15 @@
 
 #include <memory>
 #include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 
+#include "app/map/map_folder.hpp"
+#include "app/slam/range_map.hpp"
 #include "app/study/folder_report.hpp"
+#include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/studies/folder_lock.hpp"
 
 namespace mapproof {
@@ -17,7 +22,19 @@ struct ReportArguments {
   int jobs = 1;
 };
 
+/// A map has its report already. @throws InvalidInput naming it.
+void refuse_map(const std::filesystem::path& folder) {
+  for (const std::string_view record : {kMapFile, kSlamFile}) {
+    std::error_code error;
+    if (std::filesystem::exists(folder / record, error))
+      throw InvalidInput(fmt::format(
+          "{} is the folder of a map: its report is {}; `mapproof render` draws its figures again",
+          printable(folder.string()), printable((folder / "report.html").string())));
+  }
+}
+
 int report(const ReportArguments& arguments, const Invocation& invocation) {
+  refuse_map(arguments.study);
   const Templates page = load_templates(arguments.templates);
   const FolderLock lock(arguments.study);
   remove_leftovers(arguments.study);

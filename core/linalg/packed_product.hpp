@@ -26,18 +26,6 @@ void add_gram(const ConstBlock& A, double sign, Block out);
 /// @param out   n x m.
 void add_product(const ConstBlock& A, const ConstBlock& B, double sign, Block out);
 
-/// Replaces the lower half of A by its Cholesky factor L, A = L L'; the other half is left alone.
-///
-/// Recursive, on add_gram() and add_product(): same bits on all processors.
-/// @param A  n x n, symmetric (the lower half is read).
-/// @return False if A is not positive definite to working precision or not finite: A is then
-///         spoilt.
-/// @note n^3 / 6 multiplications and additions.
-[[nodiscard]] bool factor_cholesky(Block A);
-
-/// The solution x of L L' x = b.
-Eigen::VectorXd solve_cholesky(const Eigen::MatrixXd& L, const Eigen::VectorXd& b);
-
 // A tile of a product is as large as the registers of the processor.
 inline constexpr Eigen::Index kTileRows = 8;
 inline constexpr Eigen::Index kTileColumns = 6;

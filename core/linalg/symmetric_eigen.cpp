@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/linalg/decompositions.hpp"
+#include "core/linalg/packed_product.hpp"
 #include "core/linalg/sign.hpp"
 
 namespace mapproof {
@@ -160,6 +161,86 @@ EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k) {
   if (!pairs.converged) pairs = dense(matrix, k);
   fix_signs(pairs.vectors);
   return pairs;
+}
+
+namespace {
+
+constexpr Eigen::Index kDenseFrame = 64;  // Up to here all eigenpairs take no longer.
+constexpr Eigen::Index kProducts = 3;     // Of the start, in the span of one round.
+constexpr int kMostRounds = 8;    // Some fifty products, in half the time of all eigenpairs.
+constexpr double kExact = 1e-13;  // Of the largest eigenvalue, what a residual may be.
+
+EigenPairs fixed_dense(const Eigen::MatrixXd& matrix, Eigen::Index k) {
+  EigenPairs pairs = dense(matrix, k);
+  fix_signs(pairs.vectors);
+  return pairs;
+}
+
+/// A V of a symmetric A.
+Eigen::MatrixXd product(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(A.rows(), V.cols());
+  add_product(A, V.transpose(), 1.0, result);
+  return result;
+}
+
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& V) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(V);
+  return qr.householderQ() * Eigen::MatrixXd::Identity(V.rows(), V.cols());
+}
+
+/// Columns of the start, or of none of its symmetries where it has too few.
+Eigen::MatrixXd completed(const Eigen::MatrixXd& start, Eigen::Index count) {
+  Eigen::MatrixXd V(start.rows(), count);
+  const Eigen::Index known = std::min(count, start.cols());
+  V.leftCols(known) = start.leftCols(known).colwise().normalized();
+  for (Eigen::Index k = known; k < count; ++k)
+    for (Eigen::Index i = 0; i < V.rows(); ++i)
+      V(i, k) = std::fmod(0.6180339887498949 * static_cast<double>((i + 1) * (k + 1)), 1.0) - 0.5;
+  return orthonormal(V);
+}
+
+/// The eigenpairs that the span of V and its next products holds; converged if the first are exact.
+EigenPairs ritz_pairs(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V,
+                      const LeadingPairs& wanted) {
+  const Eigen::Index width = V.cols();
+  Eigen::MatrixXd basis(V.rows(), (kProducts + 1) * width);
+  Eigen::MatrixXd image(V.rows(), basis.cols());
+  basis.leftCols(width) = V;
+  for (Eigen::Index k = 0; k <= kProducts; ++k) {
+    image.middleCols(k * width, width) = product(A, basis.middleCols(k * width, width));
+    if (k == kProducts) break;
+    const auto so_far = basis.leftCols((k + 1) * width);
+    Eigen::MatrixXd next = image.middleCols(k * width, width);
+    for (int twice = 0; twice < 2; ++twice) {  // Its columns may have very different lengths.
+      next -= so_far * (so_far.transpose() * next).eval();
+      next = orthonormal(next);
+    }
+    basis.middleCols((k + 1) * width, width) = next;
+  }
+  const Eigen::MatrixXd inner = basis.transpose() * image;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (inner + inner.transpose()));
+  const Eigen::MatrixXd axes = solver.eigenvectors().rowwise().reverse().leftCols(width);
+  EigenPairs found{.values = solver.eigenvalues().tail(width).reverse(), .vectors = basis * axes};
+  const Eigen::MatrixXd rest = image * axes - found.vectors * found.values.asDiagonal();
+  found.converged =
+      rest.leftCols(wanted.exact).colwise().norm().maxCoeff() <= kExact * std::abs(found.values(0));
+  return found;
+}
+
+}  // namespace
+
+EigenPairs leading_eigenpairs(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& start,
+                              const LeadingPairs& pairs) {
+  const Eigen::Index count = std::min(pairs.count, matrix.rows());
+  if (matrix.rows() <= kDenseFrame || start.cols() == 0) return fixed_dense(matrix, count);
+  EigenPairs found{.values = {}, .vectors = completed(start, count)};
+  for (int round = 0; round < kMostRounds; ++round) {
+    found = ritz_pairs(matrix, found.vectors, pairs);
+    if (!found.converged) continue;
+    fix_signs(found.vectors);
+    return found;
+  }
+  return fixed_dense(matrix, count);
 }
 
 }  // namespace mapproof

@@ -35,4 +35,23 @@ EigenPairs largest_eigenpairs(const Eigen::MatrixXd& matrix, Eigen::Index k);
 EigenPairs smallest_eigenpairs(const Eigen::SparseMatrix<double>& matrix, Eigen::Index k,
                                const Eigen::VectorXd& null_vector);
 
+/// What is requested of leading_eigenpairs(), which takes two numbers.
+struct LeadingPairs {
+  Eigen::Index exact;  ///< So many eigenvectors have to be exact to rounding,
+  Eigen::Index count;  ///< of so many: of the others the span of a few products is enough.
+};
+
+/// The largest eigenpairs of a symmetric matrix that has changed little since the last ones.
+///
+/// Up to 64 rows, or without a start, all eigenpairs are computed. Elsewhere by Rayleigh and Ritz
+/// in the span of the start and of its next products [golub1977], from the result again until the
+/// first ones are exact; all eigenpairs if that takes too long.
+/// @param matrix  n x n, positive semidefinite up to rounding, finite.
+/// @param start   n x k, columns orthogonal, none zero: the last eigenvectors, most important
+///                first; may have no columns.
+/// @return min(count, n) pairs, descending, with orthonormal columns.
+/// @note O(n^2 count) time from a good start, O(n^3) otherwise. Deterministic.
+EigenPairs leading_eigenpairs(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& start,
+                              const LeadingPairs& pairs);
+
 }  // namespace mapproof

@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kFitVerdicts = {"fits", "doubtful", "undetermined",
                                                           "does_not_fit", "not_testable"};
 
-constexpr std::array<std::string_view, 28> kFitCodes = {"residuals",
+constexpr std::array<std::string_view, 29> kFitCodes = {"residuals",
                                                         "landmark_residuals",
                                                         "outliers",
                                                         "common_offset",
@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 28> kFitCodes = {"residuals",
                                                         "known_landmarks_at_odds",
                                                         "residuals_over_time",
                                                         "residuals_over_range",
+                                                        "odometry_residuals",
                                                         "stress",
                                                         "anchor_missed",
                                                         "weak_bridge",

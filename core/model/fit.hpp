@@ -40,6 +40,7 @@ enum class FitCode {
   kKnownLandmarksAtOdds,     ///< Given positions are at odds; which one, is open.
   kResidualsOverTime,        ///< Residuals of some time differ from those of the others.
   kResidualsOverRange,       ///< Residuals depend on the range.
+  kOdometryResiduals,        ///< The robot moved otherwise than the odometry reports.
   // Of maps of observations.
   kStress,         ///< Distances in the map beside the measured ones.
   kAnchorMissed,   ///< An anchor is missed by more than noise allows.

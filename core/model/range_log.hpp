@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -64,6 +65,10 @@ struct RangeLog {
   std::optional<Trajectory> ground_truth;  ///< The surveyed path.
   std::optional<Points> true_landmarks;    ///< N x 2, m; NaN rows: not surveyed.
   std::vector<std::string> remarks;        ///< What the reader did or noticed, a sentence each.
+  /// Of the table of ranges: role and header of each column that is read, and what separates cells.
+  /// Empty and 0: the log is not a table.
+  std::vector<std::pair<std::string, std::string>> columns = {};
+  char separator = '\0';
 };
 
 }  // namespace mapproof

@@ -340,18 +340,26 @@ bool is_timings(ByteSource& source) {
          (is_json(source) && json_schema(source) == "mapproof.timings");
 }
 
+/// What a range log holds, as a remark.
+void take_range_log(const RangeLog& log, Finding& finding) {
+  finding.kind = "range log";
+  finding.remarks = {fmt::format(
+      "{}, {}, {} of odometry", counted(std::ssize(log.landmarks), "landmark"),
+      counted(std::ssize(log.ranges), "range"), counted(std::ssize(log.odometry), "motion"))};
+}
+
 /// A graph may hold a range log, or detections, as `slam` and `map` read them.
 void check_range_log(ByteSource& source, const ValidateOptions& options, Finding& finding) {
   finding.kind = "range log";
   const std::string_view start = source.peek();
   if (!start.starts_with("VERTEX") && !start.starts_with("EDGE_")) {
-    read_range_log(source, {.columns = options.format.columns});
+    take_range_log(read_range_log(source, {.columns = options.format.columns}), finding);
     return;
   }
   const std::string bytes = source.rest(), name = source.name();
   try {
     ByteSource log = memory_source(name, bytes);
-    read_range_log(log);
+    take_range_log(read_range_log(log), finding);
   } catch (const IoError& error) {
     const std::string problem = error.what();
     try {
@@ -394,8 +402,9 @@ void check_table_or_ranges(ByteSource& source, const ValidateOptions& options, F
   if (finding.problem.empty()) return;
   try {
     ByteSource again = memory_source(name, bytes);
-    read_range_log(again, {.columns = columns});
-    finding = {.path = finding.path, .kind = "range log", .problem = ""};
+    const RangeLog log = read_range_log(again, {.columns = columns});
+    finding = {.path = finding.path, .kind = "", .problem = ""};
+    take_range_log(log, finding);
   } catch (const IoError&) {  // The problem as detections is reported.
   }
 }
@@ -536,9 +545,14 @@ std::vector<Finding> check_folder(const fs::path& folder, const ForeignReader& f
     }
     return findings;
   }
-  if (is_range_log_folder(folder))
-    return {check_as("range log", folder,
-                     [&] { read_range_log(folder, {.columns = options.format.columns}); })};
+  if (is_range_log_folder(folder)) {
+    RangeLog log;
+    Finding finding = check_as("range log", folder, [&] {
+      log = read_range_log(folder, {.columns = options.format.columns});
+    });
+    if (finding.problem.empty()) take_range_log(log, finding);
+    return {finding};
+  }
   if (is_mrclam(folder))
     return {check_as("MRCLAM observations", folder, [&] {
       read_mrclam(folder, Sensor::kVisibility, options.format.scan_window_s);

@@ -13,13 +13,14 @@ A test takes the fixture `figure_check` and gives it a figure of matplotlib, or 
         figure_check(figure)                # NAME.png, where NAME is that of the test
         figure_check(figure, "path.svg")    # another name or format
 
-Options of pytest, or keys of pytest.ini:
+Options of pytest, or keys of pytest.ini. The "=" is needed: before it reads conftest.py, pytest takes
+a path behind a space for one of tests.
 
-    --mapproof-baseline DIR    mapproof_baseline    the baseline; default: baseline, below the root
-    --mapproof-out DIR         mapproof_out         what was drawn, and what differs; default:
+    --mapproof-baseline=DIR    mapproof_baseline    the baseline; default: baseline, below the root
+    --mapproof-out=DIR         mapproof_out         what was drawn, and what differs; default:
                                                     out/figures, below the root
     --mapproof-approve                              take what was drawn as the new baseline
-    --mapproof PROGRAM         mapproof_program     the program; default: mapproof
+    --mapproof=PROGRAM         mapproof_program     the program; default: mapproof
 
 Thresholds, masks and verdicts that pass stand in mapproof-diff.json in the baseline's folder; an
 item's id is the name without its extension. A figure without a baseline fails its test.

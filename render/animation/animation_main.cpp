@@ -1,6 +1,7 @@
 #include <sys/resource.h>
 
 #include <array>
+#include <cinttypes>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -61,7 +62,8 @@ void write(std::string_view bytes) {
     throw std::runtime_error("the pixels cannot be written");
 }
 
-/// Writes of each frame "WIDTH HEIGHT MILLISECONDS", a line feed and its pixels, RGBA; "end" last.
+/// Writes of each frame "WIDTH HEIGHT MILLISECONDS PROFILE", a line feed and its pixels, RGBA;
+/// "end" last.
 void decode(std::string_view format) {
   set_limits();
   std::string bytes;
@@ -70,10 +72,12 @@ void decode(std::string_view format) {
     bytes.append(block.data(), got);
   decode_image(std::move(bytes), format, [](const DecodedFrame& frame) {
     std::array<char, 64> head{};
-    const int length = std::snprintf(head.data(), head.size(), "%d %d %d\n", frame.width,
-                                     frame.height, frame.duration_ms);
+    const int length = std::snprintf(head.data(), head.size(), "%d %d %d %" PRIu64 "\n",
+                                     frame.width, frame.height, frame.duration_ms, frame.profile);
     write({head.data(), static_cast<std::size_t>(length)});
-    write(frame.rgba);
+    for (int y = 0; y < frame.height; ++y)
+      write({reinterpret_cast<const char*>(frame.rgba + y * frame.stride),
+             static_cast<std::size_t>(frame.width) * 4});
   });
   write("end\n");
   if (std::fflush(stdout) != 0) throw std::runtime_error("the pixels cannot be written");

@@ -7,12 +7,14 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 extern "C" {
 #include <libavformat/avformat.h>
 }
+#include <webp/demux.h>
 
 #include "render/animation/ffmpeg.hpp"
 
@@ -63,7 +65,7 @@ Codec opened_codec(const Traits& traits, const AVCodecParameters* facts) {
 /// Converts frames to RGBA.
 class RgbaFrame {
  public:
-  std::string_view of(const AVFrame& frame) {
+  const AVFrame& of(const AVFrame& frame) {
     const auto format = static_cast<AVPixelFormat>(frame.format);
     const Converter converter(made(sws_getContext(
         frame.width, frame.height, format, frame.width, frame.height, AV_PIX_FMT_RGBA,
@@ -78,20 +80,31 @@ class RgbaFrame {
     checked(sws_scale(converter.get(), frame.data, frame.linesize, 0, frame.height, frame_->data,
                       frame_->linesize),
             "conversion");
-    const auto row = static_cast<std::size_t>(frame.width) * 4;
-    bytes_.resize(row * static_cast<std::size_t>(frame.height));
-    for (int y = 0; y < frame.height; ++y)
-      std::memcpy(bytes_.data() + row * static_cast<std::size_t>(y),
-                  frame_->data[0] + static_cast<std::ptrdiff_t>(y) * frame_->linesize[0], row);
-    return bytes_;
+    return *frame_;
   }
 
  private:
   Frame frame_;
-  std::string bytes_;
 };
 
 using Take = std::function<void(const DecodedFrame&)>;
+
+/// FNV-1a of an ICC profile, without the date when it was made and the id that a program computes.
+std::uint64_t profile_digest(std::span<const std::uint8_t> profile) {
+  constexpr std::size_t kDate = 24, kDateEnd = 36, kId = 84, kIdEnd = 100;
+  if (profile.empty()) return 0;
+  std::uint64_t digest = 0xCBF29CE484222325U;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if ((i >= kDate && i < kDateEnd) || (i >= kId && i < kIdEnd)) continue;
+    digest = (digest ^ profile[i]) * 0x100000001B3U;
+  }
+  return digest >> 1;  // Positive as a signed number.
+}
+
+std::uint64_t profile_of(const AVFrame& frame) {
+  const AVFrameSideData* data = av_frame_get_side_data(&frame, AV_FRAME_DATA_ICC_PROFILE);
+  return data == nullptr ? 0 : profile_digest({data->data, data->size});
+}
 
 /// Gives a codec its packets, and hands on the frames that it makes of them.
 class FrameSource {
@@ -113,11 +126,14 @@ class FrameSource {
       if (frame_->decode_error_flags != 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0)
         throw std::runtime_error("it is damaged");
       ++frames_;
+      const AVFrame& rgba = rgba_.of(*frame_);
       take_({.width = frame_->width,
              .height = frame_->height,
              .duration_ms = static_cast<int>(
                  std::min<std::int64_t>(av_rescale_q(duration_, time_base_, {1, 1000}), 1 << 30)),
-             .rgba = rgba_.of(*frame_)});
+             .profile = profile_of(*frame_),
+             .rgba = rgba.data[0],
+             .stride = rgba.linesize[0]});
     }
   }
 
@@ -203,12 +219,53 @@ void decode_animation(std::string bytes, const Traits& traits, const Take& take)
   if (source.frames() == 0) throw std::runtime_error("it holds no image");
 }
 
+struct DeleteWebp {
+  void operator()(WebPAnimDecoder* decoder) const { WebPAnimDecoderDelete(decoder); }
+};
+
+/// Whether the flag of an animation is set in the extended header, which stands first.
+bool is_animated_webp(std::string_view bytes) {
+  constexpr std::size_t kFlags = 20;
+  constexpr unsigned kAnimation = 2;
+  return bytes.size() > kFlags && bytes.substr(12, 4) == "VP8X" &&
+         (static_cast<unsigned char>(bytes[kFlags]) & kAnimation) != 0;
+}
+
+/// By libwebp, as FFmpeg reads no animated WebP.
+void decode_animated_webp(const std::string& bytes, const Take& take) {
+  const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+  const std::unique_ptr<WebPAnimDecoder, DeleteWebp> decoder(WebPAnimDecoderNew(&data, nullptr));
+  WebPAnimInfo facts{};
+  if (!decoder || WebPAnimDecoderGetInfo(decoder.get(), &facts) == 0)
+    throw std::runtime_error("it is damaged");
+  const int width = static_cast<int>(facts.canvas_width);
+  const int height = static_cast<int>(facts.canvas_height);
+  const WebPDemuxer* parts = WebPAnimDecoderGetDemuxer(decoder.get());
+  WebPChunkIterator chunk{};
+  const std::uint64_t profile = WebPDemuxGetChunk(parts, "ICCP", 1, &chunk) == 0
+                                    ? 0
+                                    : profile_digest({chunk.chunk.bytes, chunk.chunk.size});
+  WebPDemuxReleaseChunkIterator(&chunk);
+  int before_ms = 0, frames = 0;
+  while (WebPAnimDecoderHasMoreFrames(decoder.get()) != 0) {
+    std::uint8_t* rgba = nullptr;
+    int end_ms = 0;
+    if (WebPAnimDecoderGetNext(decoder.get(), &rgba, &end_ms) == 0) break;
+    take({width, height, end_ms - before_ms, profile, rgba, std::ptrdiff_t{4} * width});
+    before_ms = end_ms;
+    ++frames;
+  }
+  if (frames != static_cast<int>(facts.frame_count)) throw std::runtime_error("it is damaged");
+}
+
 }  // namespace
 
 void decode_image(std::string bytes, std::string_view format, const Take& take) {
   av_log_set_level(AV_LOG_QUIET);
   const Traits& traits = traits_of(format);
-  if (traits.demuxer == nullptr)
+  if (format == "webp" && is_animated_webp(bytes))
+    decode_animated_webp(bytes, take);
+  else if (traits.demuxer == nullptr)
     decode_still(bytes, traits, take);
   else
     decode_animation(std::move(bytes), traits, take);

@@ -18,6 +18,7 @@
 #include "core/base/out_of_memory.hpp"
 #include "render/animation/animation.hpp"
 #include "render/image/png_chunks.hpp"
+#include "render/image/png_read.hpp"
 
 namespace mapproof {
 namespace {
@@ -104,9 +105,10 @@ std::uint32_t over(std::uint32_t ground, std::uint32_t colour, std::uint32_t alp
   return (colour * alpha + ground * (255 - alpha) + 127) / 255;
 }
 
-/// @param rgba  Four bytes a pixel.
-Image composed(int width, int height, std::string_view rgba, std::uint32_t ground) {
-  Image image{width, height, std::vector<std::uint32_t>(rgba.size() / 4)};
+/// @param rgba  Four bytes a pixel, which fill the image.
+Image composed(int width, std::string_view rgba, std::uint32_t ground) {
+  Image image{width, 0, std::vector<std::uint32_t>(rgba.size() / 4)};
+  image.height = static_cast<int>(image.pixels.size() / static_cast<std::size_t>(width));
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const std::uint32_t alpha = byte_at(rgba, 4 * i + 3);
     for (std::size_t channel = 0; channel < 3; ++channel)
@@ -119,6 +121,16 @@ bool is_opaque(std::string_view rgba) {
   for (std::size_t at = 3; at < rgba.size(); at += 4)
     if (byte_at(rgba, at) != 255) return false;
   return true;
+}
+
+/// @param rgb  Three bytes a pixel, which fill the image.
+Image opaque(int width, std::string_view rgb) {
+  Image image{width, 0, std::vector<std::uint32_t>(rgb.size() / 3)};
+  image.height = static_cast<int>(image.pixels.size() / static_cast<std::size_t>(width));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] =
+        byte_at(rgb, 3 * i) << 16 | byte_at(rgb, 3 * i + 1) << 8 | byte_at(rgb, 3 * i + 2);
+  return image;
 }
 
 /// Whether the blocks of a GIF are whole up to its trailer: newer decoders take a file that
@@ -146,6 +158,9 @@ bool has_gif_trailer(std::string_view bytes) {
   return false;
 }
 
+/// Some 4 million pixels.
+int rows_at_once(int width) { return std::max(1, (1 << 22) / width); }
+
 }  // namespace
 
 std::string_view label(DecodedFormat format) {
@@ -168,8 +183,23 @@ std::optional<DecodedFormat> decoded_format(std::string_view bytes) {
 }
 
 ImageReader::ImageReader(std::string_view bytes, DecodedFormat format) : format_(format) {
-  const ProgramCall call = program_of(format);
-  if (format == DecodedFormat::kGif && !has_gif_trailer(bytes))
+  if (format == DecodedFormat::kPng)
+    start_png(bytes);
+  else
+    start_program(bytes);
+}
+
+void ImageReader::start_png(std::string_view bytes) {
+  const PngHeader header = read_png_remarks(bytes).header;
+  if (header.interlace != 0 && !is_held_whole(header)) return start_program(bytes);
+  head_ = {.width = static_cast<int>(header.width), .height = static_cast<int>(header.height)};
+  png_.emplace(png_chunks(bytes));
+  is_png_pending_ = true;
+}
+
+void ImageReader::start_program(std::string_view bytes) {
+  const ProgramCall call = program_of(format_);
+  if (format_ == DecodedFormat::kGif && !has_gif_trailer(bytes))
     throw InvalidInput("GIF cannot be read: it is cut off or damaged, it has no trailer");
   try {
     input_ = file_of(bytes);
@@ -180,17 +210,47 @@ ImageReader::ImageReader(std::string_view bytes, DecodedFormat format) : format_
         StandardStreams{.input = input_.get(), .output = to.get(), .messages = messages_.get()});
     output_ = std::move(from);
   } catch (const ProcessError& error) {
-    throw InvalidInput(fmt::format("{} cannot be read: {}", label(format), error.what()));
+    throw InvalidInput(fmt::format("{} cannot be read: {}", label(format_), error.what()));
   }
 }
 
-std::optional<DecodedImage> ImageReader::next() {
+std::optional<ImageHead> ImageReader::next() {
+  while (rows_left_ > 0) rows(std::min(rows_left_, rows_at_once(head_.width)));
+  if (png_) {
+    if (!std::exchange(is_png_pending_, false)) return std::nullopt;
+    rows_left_ = head_.height;
+    return head_;
+  }
   if (!process_) return std::nullopt;
-  return format_ == DecodedFormat::kPdf ? next_page() : next_frame();
+  const std::optional<ImageHead> head = format_ == DecodedFormat::kPdf ? next_page() : next_frame();
+  if (head) {
+    head_ = *head;
+    rows_left_ = head->height;
+  }
+  return head;
 }
 
-std::optional<DecodedImage> ImageReader::next_page() {
-  constexpr std::size_t kChannels = 3;
+ImageStrip ImageReader::rows(int count) {
+  rows_left_ -= count;
+  const std::size_t pixels =
+      static_cast<std::size_t>(count) * static_cast<std::size_t>(head_.width);
+  if (png_) {
+    Image white{head_.width, count, std::vector<std::uint32_t>(pixels)}, black = white;
+    const bool is_opaque = png_->read(count, white.pixels.data(), black.pixels.data());
+    if (rows_left_ == 0) png_->finish();
+    ImageStrip strip{.over_white = std::move(white), .over_black = std::nullopt};
+    if (!is_opaque) strip.over_black = std::move(black);
+    return strip;
+  }
+  if (format_ == DecodedFormat::kPdf)
+    return {.over_white = opaque(head_.width, bytes(3 * pixels)), .over_black = std::nullopt};
+  const std::string rgba = bytes(4 * pixels);
+  ImageStrip strip{.over_white = composed(head_.width, rgba, 255), .over_black = std::nullopt};
+  if (!is_opaque(rgba)) strip.over_black = composed(head_.width, rgba, 0);
+  return strip;
+}
+
+std::optional<ImageHead> ImageReader::next_page() {
   const std::optional<std::string> start = line();
   if (!start) {
     require_end();
@@ -199,17 +259,10 @@ std::optional<DecodedImage> ImageReader::next_page() {
   const std::vector<std::int64_t> size = numbers_in(line().value_or(""));
   if (*start != "P6" || size.size() != 2 || line() != "255") fail("its pages cannot be drawn");
   require_size(size[0], size[1]);
-  const auto count = static_cast<std::size_t>(size[0] * size[1]);
-  const std::string rgb = bytes(kChannels * count);
-  Image page{static_cast<int>(size[0]), static_cast<int>(size[1]),
-             std::vector<std::uint32_t>(count)};
-  for (std::size_t i = 0; i < count; ++i)
-    page.pixels[i] = byte_at(rgb, kChannels * i) << 16 | byte_at(rgb, kChannels * i + 1) << 8 |
-                     byte_at(rgb, kChannels * i + 2);
-  return DecodedImage{.over_white = std::move(page), .over_black = std::nullopt};
+  return ImageHead{.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
 }
 
-std::optional<DecodedImage> ImageReader::next_frame() {
+std::optional<ImageHead> ImageReader::next_frame() {
   const std::optional<std::string> start = line();
   if (!start || *start == "end") {
     if (!start) fail("it ends too soon");
@@ -217,15 +270,12 @@ std::optional<DecodedImage> ImageReader::next_frame() {
     return std::nullopt;
   }
   const std::vector<std::int64_t> facts = numbers_in(*start);
-  if (facts.size() != 3) fail("its pixels cannot be read");
+  if (facts.size() != 4) fail("its pixels cannot be read");
   require_size(facts[0], facts[1]);
-  const int width = static_cast<int>(facts[0]), height = static_cast<int>(facts[1]);
-  const std::string rgba = bytes(static_cast<std::size_t>(4 * facts[0] * facts[1]));
-  DecodedImage image{.over_white = composed(width, height, rgba, 255),
-                     .over_black = std::nullopt,
-                     .duration_ms = static_cast<int>(facts[2])};
-  if (!is_opaque(rgba)) image.over_black = composed(width, height, rgba, 0);
-  return image;
+  return ImageHead{.width = static_cast<int>(facts[0]),
+                   .height = static_cast<int>(facts[1]),
+                   .duration_ms = static_cast<int>(facts[2]),
+                   .profile = static_cast<std::uint64_t>(facts[3])};
 }
 
 /// The next line of the program's output; empty at its end.
@@ -276,6 +326,15 @@ void ImageReader::fail(std::string_view otherwise) {
   throw InvalidInput(printable(
       fmt::format("cannot be read as {}: {}", label(format_), said.empty() ? otherwise : said),
       500));
+}
+
+void require_readable(std::string_view bytes, DecodedFormat format) {
+  if (format == DecodedFormat::kPng && is_held_whole(read_png_remarks(bytes).header)) {
+    read_png(bytes);  // Faster than row by row.
+    return;
+  }
+  ImageReader reader(bytes, format);
+  while (reader.next()) continue;
 }
 
 std::string drawn_svg(std::string_view bytes) {

@@ -11,7 +11,7 @@ namespace mapproof {
 struct ErrorWords {
   std::string name;     ///< "MPE".
   std::string value;    ///< "0.219 m".
-  std::string meaning;  ///< "mean position error, anchors left out".
+  std::string meaning;  ///< "mean position error".
   std::string limit;    ///< What it is free of, to follow the value; empty for the usual errors.
 };
 

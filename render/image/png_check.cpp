@@ -10,8 +10,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::string_view kSignature = "\x89PNG\r\n\x1A\n";
-
 std::uint32_t checksum(std::string_view bytes) {
   return libdeflate_crc32(0, bytes.data(), bytes.size());
 }
@@ -19,9 +17,9 @@ std::uint32_t checksum(std::string_view bytes) {
 }  // namespace
 
 std::string png_problem(std::string_view bytes) {
-  if (!bytes.starts_with(kSignature)) return "is not a PNG: the signature is missing";
+  if (!bytes.starts_with(kPngSignature)) return "is not a PNG: the signature is missing";
   constexpr std::size_t kFrame = 12;  // Length, type and checksum of a chunk.
-  std::size_t at = kSignature.size();
+  std::size_t at = kPngSignature.size();
   for (std::size_t chunk = 0;; ++chunk) {
     const std::string_view rest = bytes.substr(at);
     if (rest.size() < kFrame || big_endian(rest) > rest.size() - kFrame)

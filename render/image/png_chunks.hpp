@@ -6,6 +6,8 @@
 
 namespace mapproof {
 
+inline constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1A\n";
+
 struct PngChunk {
   std::string_view type;  ///< "IHDR"
   std::string_view data;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <csetjmp>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -13,12 +11,12 @@
 
 #include <fmt/format.h>
 #include <libdeflate.h>
-#include <png.h>
 
 #include "core/base/errors.hpp"
 #include "render/image/image.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
+#include "render/image/png_rows.hpp"
 
 namespace mapproof {
 namespace {
@@ -175,150 +173,6 @@ std::optional<Image> quick_rows(const PngHeader& header, std::string_view compre
   return image;
 }
 
-/// What libpng is given: signature, header, palette, tRNS and rows, so that no profile and no text
-/// is ever inflated.
-struct Source {
-  std::string_view signature;
-  const std::vector<PngChunk>* chunks;
-  std::size_t next = 0;
-  std::string_view rest = signature;
-  std::string reason = {};
-  bool is_out_of_memory = false;
-};
-
-bool is_needed(std::string_view type) {
-  return type == "IHDR" || type == "PLTE" || type == "tRNS" || type == "IDAT" || type == "IEND";
-}
-
-void take(png_structp png, png_bytep out, std::size_t count) {
-  auto& source = *static_cast<Source*>(png_get_io_ptr(png));
-  while (count > 0) {
-    while (source.rest.empty()) {
-      if (source.next == source.chunks->size()) png_error(png, "its rows end early");
-      const PngChunk& chunk = (*source.chunks)[source.next++];
-      if (is_needed(chunk.type)) source.rest = chunk.whole;
-    }
-    const std::size_t part = std::min(count, source.rest.size());
-    std::memcpy(out, source.rest.data(), part);
-    source.rest.remove_prefix(part);
-    out += part;
-    count -= part;
-  }
-}
-
-void leave(png_structp png, png_const_charp why) {
-  static_cast<Source*>(png_get_error_ptr(png))->reason = why;
-  png_longjmp(png, 1);
-}
-
-void no_warning(png_structp, png_const_charp) {}
-
-png_voidp allocate(png_structp png, png_alloc_size_t bytes) {
-  void* memory = std::malloc(bytes);
-  if (!memory) static_cast<Source*>(png_get_mem_ptr(png))->is_out_of_memory = true;
-  return memory;
-}
-
-void release(png_structp, png_voidp memory) { std::free(memory); }
-
-/// Lays `colour` of `most` over white, as 0 to 255.
-std::uint32_t over_white(std::uint32_t colour, std::uint32_t alpha, std::uint32_t most) {
-  const std::uint64_t sum = std::uint64_t{colour} * alpha + std::uint64_t{most} * (most - alpha);
-  const std::uint64_t square = std::uint64_t{most} * most;
-  return static_cast<std::uint32_t>((sum * 255 + square / 2) / square);
-}
-
-void mix(std::uint64_t& digest, std::uint64_t value) {
-  digest = (digest ^ value) * 0x9E3779B97F4A7C15u;
-  digest ^= digest >> 29;
-}
-
-/// Rows of red, green, blue and alpha, of 8 or 16 bits each, the same for every kind of PNG: one
-/// after the other, all of them only if they are interlaced.
-struct Samples {
-  std::size_t bytes_a_row = 0;
-  bool is_deep = false;
-  std::vector<unsigned char> bytes = {};
-  std::vector<png_bytep> rows = {};
-};
-
-/// Fills a row of the image, and the digest. Samples of 16 bits that repeat a byte are those of 8.
-void flatten(const unsigned char* p, bool is_deep, int y, PngFile& file) {
-  const std::uint32_t most = is_deep ? 0xFFFF : 0xFF;
-  for (int x = 0; x < file.image.width; ++x, p += is_deep ? 8 : 4) {
-    std::uint32_t value[4];
-    std::uint64_t exact = 0;
-    for (int c = 0; c < 4; ++c) {
-      value[c] = is_deep ? p[2 * c] << 8u | p[2 * c + 1] : p[c];
-      exact = exact << 16 | (is_deep ? value[c] : value[c] * 0x101u);
-    }
-    std::uint32_t pixel = 0;
-    for (int c = 0; c < 3; ++c) pixel = pixel << 8 | over_white(value[c], value[3], most);
-    file.image.row(y)[x] = pixel;
-    std::uint64_t reported = 0xFFFF;
-    for (const int shift : {0, 8, 16})
-      reported |= std::uint64_t{((pixel >> shift) & 0xFF) * 0x101u} << (16 + 2 * shift);
-    if (exact != reported) {
-      mix(file.finer_digest, static_cast<std::uint64_t>(y) << 32 | static_cast<unsigned>(x));
-      mix(file.finer_digest, exact);
-    }
-  }
-}
-
-/// Nothing with a destructor may live here: libpng leaves by longjmp.
-bool decode(png_structp png, png_infop info, Samples& samples, PngFile& file) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_benign_errors(png, 0);
-  png_set_crc_action(png, PNG_CRC_QUIET_USE, PNG_CRC_QUIET_USE);
-  png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
-  png_read_info(png, info);
-  png_set_expand(png);
-  png_set_gray_to_rgb(png);
-  png_set_add_alpha(png, 0xFFFF, PNG_FILLER_AFTER);
-  const bool is_interlaced = png_set_interlace_handling(png) > 1;
-  png_read_update_info(png, info);
-  samples.bytes_a_row = png_get_rowbytes(png, info);
-  samples.is_deep = png_get_bit_depth(png, info) == 16;
-  const int height = file.image.height;
-  samples.bytes.resize(samples.bytes_a_row * (is_interlaced ? height : 1));
-  if (is_interlaced) {
-    samples.rows.resize(height);
-    for (int y = 0; y < height; ++y)
-      samples.rows[y] = samples.bytes.data() + y * samples.bytes_a_row;
-    png_read_image(png, samples.rows.data());
-  }
-  for (int y = 0; y < height; ++y) {
-    if (!is_interlaced) png_read_row(png, samples.bytes.data(), nullptr);
-    flatten(is_interlaced ? samples.rows[y] : samples.bytes.data(), samples.is_deep, y, file);
-  }
-  png_read_end(png, nullptr);
-  return true;
-}
-
-/// Fills the image, which has its size, and the digest.
-void decode(std::string_view bytes, const std::vector<PngChunk>& chunks, PngFile& file) {
-  Source source{bytes.substr(0, 8), &chunks};
-  png_structp png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &source, leave, no_warning,
-                                             &source, allocate, release);
-  png_infop info = png ? png_create_info_struct(png) : nullptr;
-  if (!info) {
-    png_destroy_read_struct(&png, nullptr, nullptr);
-    throw std::bad_alloc();
-  }
-  png_set_read_fn(png, &source, take);
-  Samples samples;
-  bool is_done = false;
-  try {
-    is_done = decode(png, info, samples, file);
-  } catch (...) {
-    png_destroy_read_struct(&png, &info, nullptr);
-    throw;
-  }
-  png_destroy_read_struct(&png, &info, nullptr);
-  if (source.is_out_of_memory) throw std::bad_alloc();
-  if (!is_done) throw InvalidInput("its pixels cannot be decoded: " + source.reason);
-}
-
 void read_words(const PngChunk& chunk, PngFile& file) {
   const std::size_t key_end = chunk.data.find('\0');
   if (key_end == std::string_view::npos || chunk.data.size() > 65536) return;
@@ -336,12 +190,26 @@ void read_words(const PngChunk& chunk, PngFile& file) {
   file.texts[std::string(chunk.data.substr(0, key_end))] = text;
 }
 
+/// Pixels of an image that is held whole.
+std::uint64_t most_pixels(const PngHeader& header) {
+  return kMostPngBytes / (header.interlace == 0 ? 4 : header.depth == 16 ? 12 : 8);
+}
+
+std::uint64_t pixels_of(const PngHeader& header) {
+  return std::uint64_t{header.width} * header.height;
+}
+
+[[noreturn]] void refuse_size(const PngHeader& header, std::uint64_t most) {
+  throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are read", header.width,
+                                 header.height, most));
+}
+
+/// What holds however the rows are read.
 void check_size(const PngHeader& header, std::size_t compressed) {
-  const std::uint64_t pixels = std::uint64_t{header.width} * header.height;
-  const std::uint64_t samples = header.interlace == 0 ? 0 : header.depth == 16 ? 8 : 4;
-  if (pixels > kMostPngBytes / (4 + samples))
-    throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are read",
-                                   header.width, header.height, kMostPngBytes / (4 + samples)));
+  if (header.width > kMostPngWidth)
+    throw InvalidInput(fmt::format("a width of {} pixels is more than the {} that are read",
+                                   header.width, kMostPngWidth));
+  if (pixels_of(header) > kMostPngPixels) refuse_size(header, kMostPngPixels);
   // Deflate makes at most 1032 bytes of one.
   const std::uint64_t bits = std::uint64_t{header.width} * header.channels() * header.depth;
   if (header.height * (bits / 8) > 1032 * static_cast<std::uint64_t>(compressed))
@@ -362,7 +230,8 @@ struct Parts {
 Parts read_parts(std::string_view bytes, PngFile& file) {
   if (const std::string problem = png_problem(bytes); !problem.empty()) throw InvalidInput(problem);
   Parts parts{.chunks = png_chunks(bytes), .header = {}};
-  parts.header = png_header(parts.chunks.front());
+  parts.header = file.header = png_header(parts.chunks.front());
+  file.colour = png_colour(parts.chunks);
   std::size_t row_chunks = 0;
   for (const PngChunk& chunk : parts.chunks) {
     if (chunk.type == "PLTE") parts.palette = chunk.data;
@@ -388,6 +257,8 @@ Parts read_parts(std::string_view bytes, PngFile& file) {
 
 }  // namespace
 
+bool is_held_whole(const PngHeader& header) { return pixels_of(header) <= most_pixels(header); }
+
 PngFile read_png_remarks(std::string_view bytes) {
   PngFile file;
   read_parts(bytes, file);
@@ -396,7 +267,8 @@ PngFile read_png_remarks(std::string_view bytes) {
 
 PngFile read_png(std::string_view bytes) {
   PngFile file;
-  const Parts parts = read_parts(bytes, file);
+  Parts parts = read_parts(bytes, file);
+  if (!is_held_whole(parts.header)) refuse_size(parts.header, most_pixels(parts.header));
   if (!parts.has_transparency && has_quick_rows(parts.header))
     if (std::optional<Image> image = quick_rows(parts.header, parts.rows, parts.palette)) {
       file.image = std::move(*image);
@@ -404,7 +276,10 @@ PngFile read_png(std::string_view bytes) {
     }
   file.image = {static_cast<int>(parts.header.width), static_cast<int>(parts.header.height), {}};
   file.image.pixels.resize(static_cast<std::size_t>(file.image.width) * file.image.height);
-  decode(bytes, parts.chunks, file);
+  PngRows rows(std::move(parts.chunks));
+  rows.read(file.image.height, file.image.pixels.data(), nullptr);
+  rows.finish();
+  file.finer_digest = rows.finer_digest();
   return file;
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/plot/axis_map.hpp"
 #include "render/plot/outlines.hpp"
+#include "render/plot/short_names.hpp"
 #include "render/theme/font.hpp"
 #include "render/theme/ticks.hpp"
 
@@ -48,17 +49,34 @@ std::string whole_label(const Cells& cells, const Ticks& ticks) {
 constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are shorter.
 // Of a row's label: wider in a frame that has the room.
 constexpr double kWidestRowName = 16.0;
-constexpr double kRowNameShare = 0.38;  // Of the frame's width.
-constexpr double kLabelLine = 1.55;     // From the foot of tick labels to the axis label's, em.
+constexpr double kRowNameShare = 0.38;     // Of the frame's width.
+constexpr double kLeastTickGap = 0.25;     // Between labels of ticks that cannot be fewer, em.
+constexpr std::size_t kFewestToHalve = 3;  // Of labels that touch; two are left.
+constexpr double kLabelLine = 1.55;        // From the foot of tick labels to the axis label's, em.
 
 /// Shortens names, which may come from anywhere.
 TickLabels shaped(Ticks ticks, const Theme& theme, double widest_em = kWidestName) {
   TickLabels labels{std::move(ticks), {}, 0.0};
   for (const std::string& text : labels.ticks.labels) {
-    labels.texts.push_back(shape_text_within(text, widest_em, Elide::kEnd, theme.font.get()));
+    labels.texts.push_back(
+        shape_text_within(label_in(theme, text), widest_em, Elide::kEnd, theme.font.get()));
     labels.widest = std::max(labels.widest, labels.texts.back().advance);
   }
   return labels;
+}
+
+/// Every second tick, the others without a label.
+Ticks every_second(const Ticks& ticks) {
+  Ticks left{.at = {}, .labels = {}, .minor = ticks.minor, .factor = ticks.factor};
+  for (std::size_t i = 0; i < ticks.at.size(); ++i) {
+    if (i % 2 == 1) {
+      left.minor.push_back(ticks.at[i]);
+      continue;
+    }
+    left.at.push_back(ticks.at[i]);
+    left.labels.push_back(ticks.labels[i]);
+  }
+  return left;
 }
 
 /// Every so-manieth name, so that at most `most` are left.
@@ -225,8 +243,9 @@ void AxesLayout::choose_ticks(Axes& axes) const {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x), theme_);
     const bool is_named = !panel_.y.names.empty();
     const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
-                     : is_named ? std::max(2, static_cast<int>(axes.frame.height() / (1.6 * em)))
-                                : most_y;
+                     : is_named
+                         ? std::max(2, static_cast<int>(axes.frame.height() / (kNameLine * em)))
+                         : most_y;
     const double row_em =
         std::clamp(kRowNameShare * axes.frame.width() / em, kWidestName, kWidestRowName);
     axes.y = shaped(ticks_for(panel_.y, limits_.y, most), theme_, is_named ? row_em : kWidestName);
@@ -234,22 +253,32 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   while (most_x > 2 && labels_touch(axes)) {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x), theme_);
   }
+  if (panel_.x.scale == Scale::kLog && labels_touch(axes))
+    axes.x = shaped(three_log_ticks(limits_.x.low, limits_.x.high), theme_);
+  while (axes.x.ticks.at.size() >= kFewestToHalve && labels_touch(axes, kLeastTickGap))
+    axes.x = shaped(every_second(axes.x.ticks), theme_);
 }
 
-/// One step for both axes, so that the grid is of squares.
+/// One step for both axes, so that the grid is of squares; but no axis is left with a single tick.
 void AxesLayout::choose_equal_ticks(Axes& axes, int most_x, int most_y) const {
   const double step = std::max(tick_step(limits_.x.low, limits_.x.high, most_x),
                                tick_step(limits_.y.low, limits_.y.high, most_y));
-  axes.x = shaped(linear_ticks(limits_.x.low, limits_.x.high, step), theme_);
-  axes.y = shaped(linear_ticks(limits_.y.low, limits_.y.high, step), theme_);
+  // A short side that has but one of them has a step of its own.
+  const auto ticks = [step](const Range& limits, int most) {
+    Ticks shared = linear_ticks(limits.low, limits.high, step);
+    if (shared.at.size() > 1) return shared;
+    return linear_ticks(limits.low, limits.high, tick_step(limits.low, limits.high, most));
+  };
+  axes.x = shaped(ticks(limits_.x, most_x), theme_);
+  axes.y = shaped(ticks(limits_.y, most_y), theme_);
 }
 
-bool AxesLayout::labels_touch(const Axes& axes) const {
+bool AxesLayout::labels_touch(const Axes& axes, double gap_em) const {
   const AxisMap x(panel_.x.scale, limits_.x, axes.frame.x0, axes.frame.x1);
   const double em = theme_.tick_font_pt;
   for (std::size_t i = 0; i + 1 < axes.x.texts.size(); ++i) {
     const double room = x(axes.x.ticks.at[i + 1]) - x(axes.x.ticks.at[i]);
-    if ((axes.x.texts[i].advance + axes.x.texts[i + 1].advance) / 2.0 * em + 0.7 * em > room)
+    if ((axes.x.texts[i].advance + axes.x.texts[i + 1].advance) / 2.0 * em + gap_em * em > room)
       return true;
   }
   return false;
@@ -280,7 +309,8 @@ double AxesLayout::label_lines(const Axes& axes) const {
   const double height = axes.frame.height(), em = theme_.font_pt;
   const double of_bar = colour_bar_label_room(panel_, height, theme_);
   if (!has_y_label()) return of_bar;
-  return of_bar + further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, theme_), em);
+  return of_bar +
+         further_lines(upward_lines(axis_title(panel_.y, axes.y.ticks), height, theme_), em);
 }
 
 /// How far texts at points reach over the sides of the frame.

@@ -64,6 +64,9 @@ struct AxisLabels {
 /// Finds a frame's place in the room it is given, and its ticks.
 class AxesLayout {
  public:
+  /// Of a frame's height, for each name along it, em of the tick labels.
+  static constexpr double kNameLine = 1.6;
+
   AxesLayout(const Panel& panel, const Theme& theme, AxisLabels shown = {});
 
   /// The largest frame in `room` that leaves space for labels; empty or turned round if there is
@@ -87,7 +90,7 @@ class AxesLayout {
  private:
   void choose_ticks(Axes& axes) const;
   void choose_equal_ticks(Axes& axes, int most_x, int most_y) const;
-  bool labels_touch(const Axes& axes) const;
+  bool labels_touch(const Axes& axes, double gap_em = 0.7) const;
   Ticks ticks_for(const Axis& axis, Range range, int most) const;
   Margins overhang(const Box& frame) const;
   double label_lines(const Axes& axes) const;

@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/base/not_finite.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/outlines.hpp"
@@ -12,7 +14,9 @@
 namespace mapproof {
 namespace {
 
-constexpr double kMarkerSpacing = 4.0;  // Between markers of a line, in units of their size.
+constexpr double kMarkerSpacing = 4.0;    // Between markers of a line, in units of their size.
+constexpr double kIntervalWidth = 0.9;    // Of an interval's bar, in lines of the theme.
+constexpr double kIntervalSpacing = 1.9;  // Between bars at one point, in lines of the theme.
 /// How far from its frame a line is drawn, in points: it cannot be seen there, and dashes that are
 /// drawn all the way take any time and memory.
 constexpr double kFarthest = 10'000.0;
@@ -21,8 +25,10 @@ bool known(Point p) { return !std::isnan(p.x) && !std::isnan(p.y); }
 
 class Painter {
  public:
-  Painter(std::size_t panel, const PanelMap& map, const Theme& theme, Drawing& drawing)
-      : panel_(panel), map_(map), theme_(theme), drawing_(drawing) {}
+  /// @param bar_bands  How many bands are drawn as bars: all of the panel, or none.
+  Painter(std::size_t panel, std::ptrdiff_t bar_bands, const PanelMap& map, const Theme& theme,
+          Drawing& drawing)
+      : panel_(panel), bar_bands_(bar_bands), map_(map), theme_(theme), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
     Shape shape;
@@ -39,6 +45,7 @@ class Painter {
   }
 
   void operator()(const Band& band) {
+    if (bar_bands_ > 0) return draw_bars(band);
     Shape shape;
     shape.fill = theme_.of(band.colour);
     shape.fill_opacity = kBandOpacity;
@@ -128,12 +135,39 @@ class Painter {
     const std::size_t symbol = symbol_of(line.marker, true, 1.0, line.colour);
     const double least = kMarkerSpacing * theme_.marker_pt;
     double last = -kInfinity;
+    std::string values;
     for (std::size_t i = 0; i < line.x.size(); ++i) {
       const Point at = map_(line.x[i], line.y[i]);
       if (!in_frame(at) || at.x - last < least) continue;
       stamp(symbol, at, mark);
+      values += fmt::format("{}{:.6g}, {:.4g}", values.empty() ? "" : ";", line.x[i], line.y[i]);
       last = at.x;
     }
+    // What a page shows where the pointer is, in the order of the markers.
+    if (mark &&
+        std::ranges::find(line.mark.data, "curve", &std::pair<std::string, std::string>::first) !=
+            line.mark.data.end())
+      drawing_.marks[*mark].data.emplace_back("points", std::move(values));
+  }
+
+  /// A bar per point, those of one point side by side; points that have no room for that are left
+  /// out, the same ones for all bands.
+  void draw_bars(const Band& band) {
+    const double spacing = kIntervalSpacing * theme_.line_pt;
+    const auto count = static_cast<double>(bar_bands_);
+    const double offset = (static_cast<double>(next_bar_band_++) - (count - 1.0) / 2.0) * spacing;
+    Shape shape;
+    shape.stroke = stroke_of(band.colour, Dash::kSolid, kIntervalWidth, theme_);
+    double last = -kInfinity;
+    for (std::size_t i = 0; i < band.x.size(); ++i) {
+      const Point low = map_(band.x[i], band.low[i]), high = map_(band.x[i], band.high[i]);
+      if (low.x - last < (count + 1.0) * spacing) continue;
+      last = low.x;
+      if (!known(low) || !known(high)) continue;
+      shape.path.move_to({low.x + offset, low.y});
+      shape.path.line_to({high.x + offset, high.y});
+    }
+    if (!shape.path.points.empty()) add(ItemClass::kBand, std::move(shape), add_mark(band.mark));
   }
 
   /// A point without neighbours gets a band as wide as a marker.
@@ -184,12 +218,52 @@ class Painter {
   }
 
   std::size_t panel_;
+  std::ptrdiff_t bar_bands_;
+  std::ptrdiff_t next_bar_band_ = 0;
   const PanelMap& map_;
   const Theme& theme_;
   Drawing& drawing_;
 };
 
+constexpr std::size_t kMostOverlaps = 3;
+
+std::vector<const Band*> bands_of(const Panel& panel) {
+  std::vector<const Band*> bands;
+  for (const Layer& layer : panel.layers)
+    if (const auto* band = std::get_if<Band>(&layer)) bands.push_back(band);
+  return bands;
+}
+
+/// The known intervals of all bands at that x.
+std::vector<Range> intervals_at(const std::vector<const Band*>& bands, double x) {
+  std::vector<Range> intervals;
+  for (const Band* band : bands)
+    for (std::size_t i = 0; i < band->x.size(); ++i)
+      if (band->x[i] == x && !std::isnan(band->low[i] + band->high[i]))
+        intervals.push_back({band->low[i], band->high[i]});
+  return intervals;
+}
+
+/// The most of the intervals that have a value in common.
+std::size_t depth(const std::vector<Range>& intervals) {
+  std::ptrdiff_t most = 0;
+  for (const Range& at : intervals)
+    most = std::max(most, std::ranges::count_if(intervals, [&](const Range& one) {
+                      return one.low <= at.low && at.low <= one.high;
+                    }));
+  return static_cast<std::size_t>(most);
+}
+
 }  // namespace
+
+bool bands_hide_each_other(const Panel& panel) {
+  const std::vector<const Band*> bands = bands_of(panel);
+  if (bands.size() <= kMostOverlaps) return false;
+  return std::ranges::any_of(bands, [&](const Band* band) {
+    return std::ranges::any_of(
+        band->x, [&](double x) { return depth(intervals_at(bands, x)) > kMostOverlaps; });
+  });
+}
 
 Stroke stroke_of(ThemeColour colour, Dash dash, double width, const Theme& theme) {
   const double width_pt = width * theme.line_pt;
@@ -227,7 +301,8 @@ std::vector<double> dash_lengths(Dash dash, double width_pt) {
 
 void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& map,
                  const Theme& theme, Drawing& drawing) {
-  Painter painter(panel_index, map, theme, drawing);
+  const std::ptrdiff_t bar_bands = bands_hide_each_other(panel) ? std::ssize(bands_of(panel)) : 0;
+  Painter painter(panel_index, bar_bands, map, theme, drawing);
   for (const Layer& layer : panel.layers) std::visit(painter, layer);
 }
 

@@ -12,6 +12,10 @@ void draw_layers(const Panel& panel, std::size_t panel_index, const PanelMap& ma
 
 bool has_image(const Panel& panel);
 
+/// Whether at some x more than three bands of the panel have a value in common: none of them could
+/// be distinguished, and each is drawn as a bar per point, side by side.
+bool bands_hide_each_other(const Panel& panel);
+
 /// The lengths of a dash, in points; empty for a solid line.
 std::vector<double> dash_lengths(Dash dash, double width_pt);
 

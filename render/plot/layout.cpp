@@ -9,6 +9,7 @@
 #include "render/plot/figure.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
+#include "render/plot/line_ends.hpp"
 #include "render/plot/mark_labels.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/panel_layout.hpp"
@@ -18,6 +19,8 @@ namespace mapproof {
 namespace {
 
 /// How many panels stand in a row of that width: at most as many as the figure asks for.
+constexpr double kLeastWidthOfNames = 40.0;  // em.
+
 std::size_t columns_within(const Figure& figure, double width, const Theme& theme);
 
 constexpr double kHeightOfWidth = 0.85;  // Of frames whose units need not be equally long.
@@ -144,7 +147,11 @@ class SharedGrid {
   double frame_height() const {
     const double most = kMostOfPage * theme_.height_pt;
     if (panels_.front().equal_aspect) return std::min(width_ / aspect(), 1.2 * most);
-    return std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
+    const double usual =
+        std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
+    // A row that is named needs its name.
+    const auto names = static_cast<double>(panels_.front().y.names.size());
+    return std::max(usual, names * AxesLayout::kNameLine * theme_.tick_font_pt + 1.0);
   }
 
   double grid_width() const {
@@ -197,7 +204,9 @@ class SharedGrid {
 
   /// In the grid's last row if that has room for it, else below. @return Where it ends.
   double draw_legend(double left, double top) {
-    const Legend legend(all_, theme_, room_.width());
+    Legend legend(all_, theme_, room_.width(), std::ranges::any_of(panels_, bands_hide_each_other));
+    for (const Panel& panel : panels_)
+      legend.order_by_ends(ends_of_lines(panel, panel_limits(panel)));
     if (legend.empty()) return top;
     const double space = 2.0 * theme_.space_pt;
     const Box& last = drawing_.frames.back();
@@ -349,6 +358,10 @@ class CellGrid {
 std::size_t columns_within(const Figure& figure, double width, const Theme& theme) {
   const std::size_t count = figure.panels.size();
   const std::size_t most = figure.columns == 0 ? count : std::min(figure.columns, count);
+  // Beside two columns of names a column of a journal has no room for data.
+  const bool has_names =
+      std::ranges::any_of(figure.panels, [](const Panel& panel) { return !panel.y.names.empty(); });
+  if (has_names && width < kLeastWidthOfNames * theme.font_pt) return 1;
   const bool narrow = !std::ranges::any_of(figure.panels, has_image) &&
                       (figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare));
   const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt +
@@ -367,8 +380,10 @@ void lay_out_grid(const Figure& figure, const Box& room, const Theme& theme, Dra
     CellGrid(figure, room, theme, drawing).lay_out();
 }
 
-constexpr double kLeastOfPage = 0.3;  // Of the theme's height, for the frame.
-constexpr double kMostOfHead = 0.4;   // Of the page's height; below it, the panels.
+constexpr double kLeastOfPage = 0.3;     // Of the theme's height, for a frame of equal scales.
+constexpr double kLeastWithTitle = 0.5;  // Of the page below title and notes, for other frames;
+constexpr double kLeastWithout = 0.66;   // of a page in a text, whose caption has the title, more.
+constexpr double kMostOfHead = 0.4;      // Of the page's height; below it, the panels.
 
 /// Title and notes from the top of the page down.
 class Head {
@@ -416,6 +431,17 @@ class Head {
   double y_;
 };
 
+constexpr int kMostHeights = 3;
+constexpr double kLeastHigher = 0.5;  // In points.
+
+/// What title and notes take of a page of the theme's height.
+double head_height(const Figure& figure, const Theme& theme) {
+  const double margin = theme.space_pt;
+  const Box page{margin, margin, theme.width_pt - margin, theme.height_pt - margin};
+  Drawing unused;
+  return Head(figure, page, theme, unused).draw().y0;
+}
+
 /// @param height  Of the page; that of several panels follows from them.
 Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   Drawing drawing;
@@ -441,6 +467,17 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   return drawing;
 }
 
+/// The height of the page at which the only frame has its share of it.
+double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
+  const double frame = drawing.frames[0].height();
+  if (figure.panels[0].equal_aspect || figure.panels[0].bare)
+    return drawing.height + kLeastOfPage * theme.height_pt - frame;
+  // Around the frame everything keeps its height.
+  const double head = theme.draws_title ? head_height(figure, theme) : 0.0;
+  return head + (drawing.height - head - frame) /
+                    (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
+}
+
 }  // namespace
 
 bool draws_notes(const Figure& figure, const Theme& theme) {
@@ -453,10 +490,13 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
   require_valid(figure);
   Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
   if (figure.panels.size() > 1) return drawing;
-  // A legend that leaves the frame too little makes the page higher.
-  const double missing = kLeastOfPage * theme.height_pt - drawing.frames[0].height();
-  if (missing <= 0.0) return drawing;
-  return lay_out_on(figure, theme, theme.height_pt + missing);
+  // A legend that leaves the frame too little makes the page higher; then it may need more itself.
+  for (int i = 0; i < kMostHeights; ++i) {
+    const double height = height_for_frame(figure, theme, drawing);
+    if (height <= drawing.height + kLeastHigher) break;
+    drawing = lay_out_on(figure, theme, height);
+  }
+  return drawing;
 }
 
 }  // namespace mapproof

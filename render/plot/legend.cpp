@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "render/plot/layers.hpp"
+#include "render/plot/line_ends.hpp"
 #include "render/plot/markers.hpp"
 #include "render/plot/outlines.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,14 +30,17 @@ const std::string& label_of(const Layer& layer) {
 /// Draws what stands for a layer into the sample's box.
 class SamplePainter {
  public:
-  SamplePainter(const Theme& theme, const Box& position, std::size_t panel, Drawing& drawing)
-      : theme_(theme), place_(position), panel_(panel), drawing_(drawing) {}
+  /// @param as_bars  Whether bands are drawn as bars.
+  SamplePainter(const Theme& theme, const Box& position, bool as_bars, std::size_t panel,
+                Drawing& drawing)
+      : theme_(theme), place_(position), as_bars_(as_bars), panel_(panel), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
     draw_line(line.colour, line.dash, line.width);
     if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.colour);
   }
   void operator()(const Band& band) {
+    if (as_bars_) return draw_bar(band);
     Shape shape = filled_shape(Fill::kTint, band.colour, theme_);
     shape.path.add_box(inset());
     add(std::move(shape));
@@ -96,6 +101,15 @@ class SamplePainter {
     add(std::move(shape));
   }
 
+  /// Across the line, as high as the sample.
+  void draw_bar(const Band& band) {
+    Shape shape;
+    shape.path.move_to({place_.centre().x, place_.y0});
+    shape.path.line_to({place_.centre().x, place_.y1});
+    shape.stroke = stroke_of(band.colour, Dash::kSolid, 1.0, theme_);
+    add(std::move(shape));
+  }
+
   void draw_marker(Marker marker, bool filled, double size, ThemeColour colour) {
     const Shape symbol =
         marker_symbol(marker, filled, size * theme_.marker_pt, theme_.of(colour), theme_);
@@ -109,13 +123,15 @@ class SamplePainter {
 
   const Theme& theme_;
   const Box& place_;
+  bool as_bars_;
   std::size_t panel_;
   Drawing& drawing_;
 };
 
 }  // namespace
 
-Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : theme_(theme) {
+Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars)
+    : theme_(theme), as_bars_(as_bars) {
   const double em = theme.font_pt;
   const double most_text = std::max(most_width_pt / em - kSampleWidth - kSampleGap, 2.0);
   for (const Layer& layer : panel.layers) {
@@ -129,7 +145,9 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
       continue;
     }
     entries_.push_back(
-        {shape_text_within(label, most_text, Elide::kMiddle, theme.font.get()), label, {&layer}});
+        {shape_text_within(label_in(theme, label), most_text, Elide::kMiddle, theme.font.get()),
+         label,
+         {&layer}});
     const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
     entry_width_ = std::max(entry_width_, width);
   }
@@ -138,6 +156,21 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt) : t
     return !std::holds_alternative<Segments>(*entry.layers.front());
   });
   row_height_ = kRowHeight * em;
+}
+
+void Legend::order_by_ends(const std::vector<LineEnd>& ends) {
+  std::vector<std::size_t> indices;
+  std::vector<LegendEntry> lines;
+  const auto rank = [&](const LegendEntry& entry) {
+    return std::ranges::find(ends, entry.whole, &LineEnd::label) - ends.begin();
+  };
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    if (rank(entries_[i]) < std::ssize(ends)) {
+      indices.push_back(i);
+      lines.push_back(entries_[i]);
+    }
+  std::ranges::stable_sort(lines, {}, rank);
+  for (std::size_t i = 0; i < lines.size(); ++i) entries_[indices[i]] = std::move(lines[i]);
 }
 
 Point Legend::size(std::size_t columns) const {
@@ -205,7 +238,7 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
 void Legend::draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                          Drawing& drawing) const {
   for (const Layer* layer : entry.layers)
-    std::visit(SamplePainter(theme_, position, panel_index, drawing), *layer);
+    std::visit(SamplePainter(theme_, position, as_bars_, panel_index, drawing), *layer);
 }
 
 }  // namespace mapproof

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/plot/drawing.hpp"
+#include "render/plot/line_ends.hpp"
 #include "render/plot/obstacles.hpp"
 #include "render/theme/theme.hpp"
 
@@ -19,7 +20,11 @@ struct LegendEntry {
 class Legend {
  public:
   /// @param most_width_pt  Of one entry; longer labels are elided.
-  Legend(const Panel& panel, const Theme& theme, double most_width_pt);
+  /// @param as_bars  Whether bands are drawn as bars.
+  Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars);
+
+  /// Lists these lines in the order of their ends, other entries staying in place.
+  void order_by_ends(const std::vector<LineEnd>& ends);
 
   bool empty() const { return entries_.empty(); }
   /// Width and height of the legend in so many columns.
@@ -38,6 +43,7 @@ class Legend {
                    Drawing& drawing) const;
 
   const Theme& theme_;
+  bool as_bars_;
   std::vector<LegendEntry> entries_;
   double entry_width_ = 0.0;
   double row_height_ = 0.0;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/not_finite.hpp"
+#include "render/plot/outlines.hpp"
 
 namespace mapproof {
 namespace {
@@ -85,6 +86,18 @@ std::optional<LabelBox> find_free_box(Point at, Point size, const Surroundings& 
   return best;
 }
 
+/// The texts at points, which leaders must not cross either.
+std::vector<Box> texts_in(const Panel& panel, const PanelMap& map, const Theme& theme) {
+  std::vector<Box> boxes;
+  for (const Layer& layer : panel.layers) {
+    const auto* texts = std::get_if<Texts>(&layer);
+    if (texts == nullptr) continue;
+    for (std::size_t i = 0; i < texts->x.size(); ++i)
+      if (const auto line = placed_text(*texts, i, map, theme)) boxes.push_back(text_box(*line));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const Box& frame,
@@ -93,17 +106,17 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
   const PanelMap map = layout.map(frame);
   const double em = theme.tick_font_pt;
   const double gap = 0.25 * theme.space_pt;
-  Surroundings around{frame.grown(-gap), std::move(taken)};
+  Surroundings around{frame.grown(-gap), std::move(taken), texts_in(layout.panel(), map, theme)};
   for (const Layer& layer : layout.panel().layers) {
     const auto* labels = std::get_if<PointLabels>(&layer);
     if (labels == nullptr) continue;
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
-      TextLine line{
-          .shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em, Elide::kMiddle, theme.font.get()),
-          .size = em,
-          .colour = theme.of(labels->colour)};
+      TextLine line{.shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em,
+                                                Elide::kMiddle, theme.font.get()),
+                    .size = em,
+                    .colour = theme.of(labels->colour)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
       const Box bounds = line.shaped.bounds;
       const Point size{bounds.width() * em + 2 * gap, bounds.height() * em + 2 * gap};

@@ -5,6 +5,7 @@
 #include "render/plot/axes_layout.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
+#include "render/plot/line_ends.hpp"
 #include "render/plot/mark_labels.hpp"
 
 namespace mapproof {
@@ -147,10 +148,16 @@ struct Arrangement {
 /// leaves more room.
 class Arranger {
  public:
-  Arranger(const AxesLayout& layout, const Legend& legend, const Panel& panel, const Theme& theme)
-      : layout_(layout), legend_(legend), panel_(panel), theme_(theme) {}
+  /// @param beside_frame  What stands right of the frame before a legend, in points.
+  Arranger(const AxesLayout& layout, const Legend& legend, double beside_frame)
+      : layout_(layout),
+        legend_(legend),
+        beside_frame_(beside_frame),
+        panel_(layout.panel()),
+        theme_(layout.theme()) {}
 
-  Arrangement arrange(const Box& room) const {
+  Arrangement arrange(Box room) const {
+    room.x1 -= beside_frame_;
     Arrangement found = choose(room);
     if (panel_.equal_aspect) centre(found, room);
     return found;
@@ -196,7 +203,7 @@ class Arranger {
     rest.x1 -= size.x + gap;
     Arrangement found{layout_.within(rest), std::nullopt, 1};
     const Box& frame = found.axes.frame;
-    found.legend_at = Point{frame.x1 + gap, frame.y0};
+    found.legend_at = Point{frame.x1 + beside_frame_ + gap, frame.y0};
     if (size.y > frame.height()) found.axes.frame = {};  // Too long: no choice.
     return found;
   }
@@ -216,6 +223,7 @@ class Arranger {
 
   const AxesLayout& layout_;
   const Legend& legend_;
+  double beside_frame_;
   const Panel& panel_;
   const Theme& theme_;
 };
@@ -267,8 +275,17 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
                    Drawing& drawing) {
   const Box room = draw_panel_title(panel, panel_index, cell, theme, drawing);
   const AxesLayout layout(panel, theme);
-  const Legend legend(panel, theme, cell.width());
-  const Arrangement arrangement = Arranger(layout, legend, panel, theme).arrange(room);
+  const LineEndLabels ends(layout);
+  const Panel rest = ends.without_labels();
+  const bool as_bars = bands_hide_each_other(panel);
+  const Legend of_rest(rest, theme, cell.width(), as_bars);
+  Arrangement arrangement =
+      Arranger(layout, of_rest, ends.empty() ? 0.0 : ends.width()).arrange(room);
+  const bool at_ends = ends.fit(arrangement.axes.frame, room);
+  Legend of_all(panel, theme, cell.width(), as_bars);
+  of_all.order_by_ends(ends_of_lines(panel, panel_limits(panel)));
+  const Legend& legend = at_ends ? of_rest : of_all;
+  if (!at_ends) arrangement = Arranger(layout, legend, 0.0).arrange(room);
   const Box& frame = arrangement.axes.frame;
   draw_panel(layout, panel_index, arrangement.axes, drawing);
 
@@ -282,6 +299,7 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
     legend.draw(at, arrangement.legend_columns, panel_index, drawing);
     taken.boxes.push_back(position);
   }
+  if (at_ends) ends.draw(frame, panel_index, drawing);
   draw_mark_labels(layout, panel_index, frame, std::move(taken), drawing);
 }
 

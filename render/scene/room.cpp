@@ -1,6 +1,7 @@
 #include "render/scene/room.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@ namespace {
 constexpr double kWallShare = 0.045;   // Of the room's side: low, since the front ones stand too.
 constexpr double kHeightShare = 0.09;  // Landmarks', of the room's side.
 constexpr double kLeastRadiusShare = 0.005;  // Of a pillar, of the room's side.
+constexpr double kWallTint = 0.25;           // Pale: shadows show on them.
 constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels of the axes.
 
 std::vector<Rule> floor_rules(double side_m) {
@@ -40,6 +42,21 @@ std::vector<Point3> corners(double side_m, double height_m, std::span<const Poin
   return points;
 }
 
+/// A camera whose image has the proportions of what it shows, so that no side of it is empty.
+Camera tight_camera(std::span<const Point3> points, const Point3& from, bool parallel,
+                    double aspect) {
+  constexpr double kNarrowest = 0.9, kWidest = 2.6;
+  const Projection project(fitted_camera(points, from, parallel, aspect));
+  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (const Point3& point : points) {
+    const Point at = project(point);
+    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+  }
+  const double tight = (high.x - low.x) / std::max(high.y - low.y, 1e-9);
+  return fitted_camera(points, from, parallel, std::clamp(tight, kNarrowest, kWidest));
+}
+
 }  // namespace
 
 bool is_room_side(double side_m) { return side_m > 0.0 && side_m <= kLongestSide_m; }
@@ -50,7 +67,8 @@ bool has_room(const World& world) {
 }
 
 std::vector<Light> usual_lights() {
-  return {{{-0.35, -0.6, 1.0}, 0.85}, {{0.9, -0.25, 0.5}, 0.35}};
+  // From the upper left and a little from the front: from behind, pillars would be dark.
+  return {{{-0.74, -0.22, 0.8}, 0.85}, {{0.9, -0.25, 0.5}, 0.35}};
 }
 
 void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Point3& c,
@@ -69,7 +87,7 @@ Surface floor_of(double side_m) {
 }
 
 Surface walls_of(double side_m) {
-  Surface walls{.style = {.colour = ThemeColour::kMuted, .share = kTintShare}};
+  Surface walls{.style = {.colour = ThemeColour::kMuted, .share = kWallTint}};
   const double top = kWallShare * side_m, s = side_m;
   const std::array<Point3, 5> foot = {
       {{0.0, 0.0, 0.0}, {s, 0.0, 0.0}, {s, s, 0.0}, {0.0, s, 0.0}, {0.0, 0.0, 0.0}}};
@@ -106,7 +124,7 @@ std::string words_of_pillars(const World& world) {
 
 Shot room_view(double side_m, double height_m, std::span<const Point3> also, double aspect) {
   Shot view;
-  view.camera = fitted_camera(corners(side_m, height_m, also), {0.42, -1.0, 0.95}, false, aspect);
+  view.camera = tight_camera(corners(side_m, height_m, also), {0.42, -1.0, 0.95}, false, aspect);
   view.rules = floor_rules(side_m);
   return view;
 }
@@ -114,7 +132,7 @@ Shot room_view(double side_m, double height_m, std::span<const Point3> also, dou
 Shot room_plan(double side_m, std::span<const Point3> also) {
   Shot view;
   view.camera =
-      fitted_camera(corners(side_m, landmark_height(side_m), also), Point3::UnitZ(), true);
+      tight_camera(corners(side_m, landmark_height(side_m), also), Point3::UnitZ(), true, 1.6);
   view.rules = floor_rules(side_m);
   return view;
 }

@@ -92,6 +92,17 @@ bool RuleLayers::is_free(const Box& box) const {
   return std::ranges::none_of(taken_, [&box](const Box& other) { return overlap(box, other); });
 }
 
+/// The least step 1, 2 or 5 × 10^k with at most `most` ticks, one in a small image if two have no
+/// room.
+double step_within(Range range, int most) {
+  double step = tick_step(range.low, range.high, most);
+  while (linear_ticks(range.low, range.high, step).at.size() > static_cast<std::size_t>(most)) {
+    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    step *= mantissa > 1.5 && mantissa < 3.0 ? 2.5 : 2.0;
+  }
+  return step;
+}
+
 /// @param feet       Set to where the ticks meet the axis, as many as labels.
 /// @param factor  Set to that of the ticks.
 std::vector<RuleLayers::Text> RuleLayers::tick_labels(const Rule& rule, Point outward, Align align,
@@ -100,8 +111,8 @@ std::vector<RuleLayers::Text> RuleLayers::tick_labels(const Rule& rule, Point ou
   constexpr int kMostTicks = 6, kFewestTicks = 2;
   std::vector<Text> texts;
   for (int most = kMostTicks; most >= kFewestTicks; --most) {
-    const Ticks ticks = linear_ticks(rule.range.low, rule.range.high,
-                                     tick_step(rule.range.low, rule.range.high, most));
+    const Ticks ticks =
+        linear_ticks(rule.range.low, rule.range.high, step_within(rule.range, most));
     factor = ticks.factor;
     texts.clear();
     feet.clear();
@@ -153,6 +164,7 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
 }
 
 constexpr int kMostClear = 12;    // Squares along a rod.
+constexpr int kMostOnEdge = 30;   // Along an edge of a wall.
 constexpr double kMostEm = 0.22;  // Of an image's half height.
 
 Fill fill_of(const Style& style) {
@@ -238,6 +250,17 @@ class ViewPanel {
         add_clear(rods.from[i] + share * (rods.to[i] - rods.from[i]), rods.radius);
       }
     }
+  }
+  /// The upper and lower edges of walls, which would strike labels through.
+  void keep_clear(const Surface& surface) {
+    if (!surface.style.lit || surface.smooth) return;
+    for (std::size_t i = 0; i + 3 < surface.points.size(); i += 4)
+      for (const std::size_t edge : {i, i + 2}) {
+        const Point3 &from = surface.points[edge], &to = surface.points[edge + 1];
+        const double step = (to - from).norm() / kMostOnEdge;
+        for (int k = 0; k <= kMostOnEdge; ++k)
+          add_clear(from + static_cast<double>(k) / kMostOnEdge * (to - from), step / 2.0);
+      }
   }
   /// Labels may cover what is wide: floors, fields, a path through all of a room.
   template <typename Wide>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
@@ -85,7 +86,9 @@ Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, doubl
   return field;
 }
 
-constexpr double kPathRadius = 0.0022;  // Of the room's side.
+constexpr double kPathRadius = 0.0035;   // Of the room's side.
+constexpr Eigen::Index kShownSteps = 150;
+constexpr int kPathPieces = 10;
 constexpr double kMostCovered = 0.2;    // Of the floor, by the path.
 constexpr std::size_t kMostWorst = 3;
 
@@ -125,7 +128,7 @@ class WorldScene {
  private:
   void add_parts() {
     scene_.parts = {floor_of(side_), walls_of(side_), landmarks(false), landmarks(true)};
-    if (spec_.path_m.rows() > 1) scene_.parts.emplace_back(path());
+    add_path();
     Rods arrows = found_.arrows;
     arrows.label = "true to estimated position";
     arrows.style.colour = ThemeColour::kText;
@@ -137,16 +140,38 @@ class WorldScene {
     for (Eigen::Index i = 0; i < world_.landmarks_m.rows(); ++i)
       if (is_anchor(i) == anchors) rows.push_back(i);
     Rods rods = pillars(world_.landmarks_m, rows, pillar_radius_m(world_), landmark_height(side_));
-    rods.label = anchors ? "anchor" : "landmark";
-    rods.style.colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kSeries1;
+    rods.style.colour = anchors ? ThemeColour::kText : ThemeColour::kMuted;
+    if (anchors) {
+      rods.label = "anchor";
+    } else {
+      rods.tones = tones(rows);
+      rods.label = fmt::format("landmark, its error from 0 to {} m or more",
+                               significant(rods.tones.limits.high, 2));
+    }
     if (rods.from.empty()) rods.label.clear();
     return rods;
+  }
+
+  /// The error of each landmark that pillars() draws; NaN, and so grey, where there is none.
+  Tones tones(const std::vector<Eigen::Index>& rows) const {
+    Tones tones;
+    std::vector<double> errors_m;
+    for (const Eigen::Index row : rows) {
+      if (!world_.landmarks_m.row(row).allFinite()) continue;
+      const double error =
+          (spec_.map.estimate.row(row) - world_.landmarks_m.row(row)).norm();
+      tones.values.push_back(std::isfinite(error) ? error : kNaN);
+      if (std::isfinite(error)) errors_m.push_back(error);
+    }
+    tones.limits = {0.0, errors_m.empty() ? 1.0 : ErrorRamp(errors_m).most_m};
+    return tones;
   }
 
   /// Long paths are thin: they cover at most a share of the floor.
   double path_radius() const {
     double length_m = 0.0;
-    for (Eigen::Index i = 1; i < spec_.path_m.rows(); ++i) {
+    for (Eigen::Index i = std::max<Eigen::Index>(1, spec_.path_m.rows() - kShownSteps);
+         i < spec_.path_m.rows(); ++i) {
       const double step = (spec_.path_m.row(i) - spec_.path_m.row(i - 1)).norm();
       if (std::isfinite(step)) length_m += step;
     }
@@ -154,15 +179,23 @@ class WorldScene {
     return std::min(kPathRadius * side_, covering);
   }
 
-  Tube path() const {
-    Tube tube{.label = "path, start (dark) to end", .radius = path_radius()};
-    tube.tones.limits = {0.0, static_cast<double>(spec_.path_m.rows() - 1)};
-    for (Eigen::Index i = 0; i < spec_.path_m.rows(); ++i) {
-      if (!spec_.path_m.row(i).allFinite()) continue;
-      tube.points.push_back(on_floor(spec_.path_m.row(i), tube.radius));
-      tube.tones.values.push_back(static_cast<double>(i));
+  /// The last steps, the earlier ones paler: all of a long walk would hide the floor.
+  void add_path() {
+    const Eigen::Index last = spec_.path_m.rows() - 1;
+    const Eigen::Index first = std::max<Eigen::Index>(0, last - kShownSteps);
+    if (last < 1) return;
+    for (int piece = 0; piece < kPathPieces; ++piece) {
+      const auto end_of = [&](int pieces) { return first + (last - first) * pieces / kPathPieces; };
+      Tube tube{.radius = path_radius(),
+                .style = {.colour = ThemeColour::kSeries1,
+                          .share = static_cast<double>(piece + 1) / kPathPieces}};
+      for (Eigen::Index i = end_of(piece); i <= end_of(piece + 1); ++i)
+        if (spec_.path_m.row(i).allFinite())
+          tube.points.push_back(on_floor(spec_.path_m.row(i), tube.radius));
+      if (piece + 1 == kPathPieces)
+        tube.label = fmt::format("path, the last {} steps", last - first);
+      if (tube.points.size() > 1) scene_.parts.emplace_back(std::move(tube));
     }
-    return tube;
   }
 
   void add_association() {
@@ -195,10 +228,11 @@ class WorldScene {
     const auto landmarks = static_cast<std::size_t>(world_.landmarks_m.rows());
     scene_.caption = fmt::format(
         "Layout {}, pose {}: {} of {} mm in diameter{}, the robot's path "
-        "over {} steps, and where {} of {} steps puts each landmark.",
+        "over the last {} steps, and where {} of {} steps puts each landmark.",
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
         significant(1000.0 * world_.landmark_diameter_m),
-        scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)", spec_.path_m.rows(),
+        scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)",
+        std::min(spec_.path_m.rows(), kShownSteps + 1),
         method_label(spec_.map), spec_.map.step);
     scene_.alt =
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),

@@ -13,6 +13,7 @@
 #include "core/base/resource.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/json/record_reader.hpp"
+#include "render/style/edits.hpp"
 #include "render/style/figure_style_fields.hpp"
 
 namespace mapproof {
@@ -36,6 +37,31 @@ bool is_border(std::string_view text, std::size_t at) {
   return at == 0 || at == text.size() || !is_of_word(text[at - 1]) || !is_of_word(text[at]);
 }
 
+/// Whether a phrase stands in the text, as whole words.
+bool is_phrase(std::string_view text, std::size_t at, std::string_view phrase) {
+  return !phrase.empty() && is_border(text, at) && text.substr(at).starts_with(phrase) &&
+         is_border(text, at + phrase.size());
+}
+
+/// Of the phrases at a place of the text; 0: there is none.
+std::size_t longest_phrase(std::string_view text, std::size_t at, const Words& words) {
+  std::size_t length = 0;
+  for (const Words::value_type& word : words)
+    if (is_phrase(text, at, word.first)) length = std::max(length, word.first.size());
+  return length;
+}
+
+/// Of a symbol, an abbreviation or a number that begins there; 0: it is a word of a language.
+std::size_t symbol_length(std::string_view text, std::size_t at) {
+  std::size_t length = 0;
+  while (at + length < text.size() && is_of_word(text[at + length])) ++length;
+  const std::string_view word = text.substr(at, length);
+  const bool is_lower =
+      word.substr(1).find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
+  const bool is_number = word.front() >= '0' && word.front() <= '9';
+  return length > 1 && is_lower && !is_number ? 0 : length;
+}
+
 using Use = std::function<void(std::string& text)>;
 
 void for_each_text(std::vector<Note>& notes, const Use& use) {
@@ -56,6 +82,21 @@ void for_each_text(Layer& layer, const Use& use) {
       layer);
   if (auto* texts = std::get_if<Texts>(&layer))
     for (std::string& text : texts->text) use(text);
+}
+
+/// @param names  Of landmarks, which stay as they are.
+template <typename Drawable>
+void replace_words_of(Drawable& drawable, const FigureStyle& style,
+                      const std::vector<std::string>& names) {
+  const Words words = words_of(style);
+  if (words.empty()) return;
+  const auto replace = [&](std::string& text) { text = replaced(text, words); };
+  if (style.language.empty() || style.language == "en") return for_each_text(drawable, replace);
+  std::set<const std::string*> sentences = {&drawable.caption, &drawable.alt};
+  for (const Note& note : drawable.notes) sentences.insert(&note.text);
+  for_each_text(drawable, [&](std::string& text) {
+    if (!sentences.contains(&text) || replaces_all(text, words, names)) replace(text);
+  });
 }
 
 /// Whether a text has the phrase as replaced() finds it.
@@ -85,15 +126,10 @@ Words language_words(std::string_view language) {
 std::string replaced(std::string_view text, const Words& words) {
   std::string made;
   for (std::size_t at = 0; at < text.size();) {
-    const Words::value_type* longest = nullptr;
-    if (is_border(text, at))
-      for (const Words::value_type& word : words)
-        if (!word.first.empty() && text.substr(at).starts_with(word.first) &&
-            is_border(text, at + word.first.size()) &&
-            (longest == nullptr || word.first.size() > longest->first.size()))
-          longest = &word;
-    made += longest == nullptr ? std::string(1, text[at]) : longest->second;
-    at += longest == nullptr ? 1 : longest->first.size();
+    const std::size_t length = longest_phrase(text, at, words);
+    made += length == 0 ? std::string(1, text[at])
+                        : words.find(std::string(text.substr(at, length)))->second;
+    at += std::max(length, std::size_t{1});
   }
   return made;
 }
@@ -120,15 +156,28 @@ void for_each_text(Scene& scene, const Use& use) {
   }
 }
 
-void replace_words(Figure& figure, const Words& words) {
-  if (!words.empty())
-    for_each_text(figure, [&](std::string& text) { text = replaced(text, words); });
+bool replaces_all(std::string_view text, const Words& words,
+                  const std::vector<std::string>& names) {
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t length = 1;
+    if (is_border(text, at) && is_of_word(text[at])) {
+      length = longest_phrase(text, at, words);
+      for (const std::string& name : names)
+        if (is_phrase(text, at, name)) length = std::max(length, name.size());
+      if (length == 0) length = symbol_length(text, at);
+      if (length == 0) return false;
+    }
+    at += length;
+  }
+  return true;
 }
 
-void replace_words(Scene& scene, const Words& words) {
-  if (!words.empty())
-    for_each_text(scene, [&](std::string& text) { text = replaced(text, words); });
+void replace_words(Figure& figure, const FigureStyle& style) {
+  const std::vector<std::string> names = landmarks_of(figure);
+  replace_words_of(figure, style, names);
 }
+
+void replace_words(Scene& scene, const FigureStyle& style) { replace_words_of(scene, style, {}); }
 
 void require_known_phrases(const FigureStyle& style, const std::vector<std::string>& texts,
                            const std::string& source) {

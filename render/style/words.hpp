@@ -27,9 +27,16 @@ std::string replaced(std::string_view text, const std::map<std::string, std::str
 void for_each_text(Figure& figure, const std::function<void(std::string& text)>& use);
 void for_each_text(Scene& scene, const std::function<void(std::string& text)>& use);
 
-/// Replaces phrases in these texts.
-void replace_words(Figure& figure, const std::map<std::string, std::string>& words);
-void replace_words(Scene& scene, const std::map<std::string, std::string>& words);
+/// Whether the phrases leave no word of a text as it is: none but names, symbols and abbreviations,
+/// which have capitals or digits (ISOMAP, kNN, K).
+bool replaces_all(std::string_view text, const std::map<std::string, std::string>& words,
+                  const std::vector<std::string>& names);
+
+/// Replaces the phrases of a style in these texts. In another language sentences (captions,
+/// descriptions and notes) are replaced as a whole, or stay in English.
+/// @throws InvalidInput for a language that is not known.
+void replace_words(Figure& figure, const FigureStyle& style);
+void replace_words(Scene& scene, const FigureStyle& style);
 
 /// Refuses phrases of a style that none of the texts has, nor the words of any language: they are
 /// of no figure. @throws IoError naming the nearest one that is known.

@@ -23,6 +23,10 @@ Ticks linear_ticks(double low, double high, double step);
 /// there are fewer than three; linear ticks if there is less than that.
 Ticks log_ticks(double low, double high, int most);
 
+/// Three of them, far from each other, for a frame that has no room for more; log_ticks() where
+/// there are no three.
+Ticks three_log_ticks(double low, double high);
+
 /// "×10⁶".
 std::string power_of_ten(int exponent);
 

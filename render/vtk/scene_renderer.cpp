@@ -1,31 +1,15 @@
 #include "render/vtk/scene_renderer.hpp"
 
 #include <unistd.h>
-#include <vtkActor.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
-#include <vtkContourFilter.h>
-#include <vtkDelaunay2D.h>
-#include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
 #include <vtkLogger.h>
-#include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkPolyDataNormals.h>
-#include <vtkProp.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
-#include <vtkStripper.h>
-#include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkVersion.h>
 #include <vtkVersionMacros.h>
@@ -37,6 +21,7 @@
 #include <cstdlib>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -45,237 +30,14 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "render/scene/baked_light.hpp"
 #include "render/scene/scene.hpp"
 #include "render/scene/scene_request.hpp"
-#include "render/theme/palette.hpp"
 #include "render/vtk/gl_context.hpp"
+#include "render/vtk/scene_props.hpp"
 
 namespace mapproof {
 namespace {
-
-using Props = std::vector<vtkSmartPointer<vtkProp>>;
-
-constexpr int kSides = 24;  // Of the polygon that stands for a circle.
-constexpr int kTubeSides = 12;
-constexpr double kAmbient = 0.42;  // White stays near white where no light falls.
-constexpr double kDiffuse = 0.58;
-
-Colour plain_colour(const Style& style, const SceneRequest& request) {
-  return mix(request.colours[static_cast<std::size_t>(style.colour)], request.background,
-             style.share);
-}
-
-/// The colour of the i-th value; the plain colour where there is none.
-Colour toned_colour(const Style& style, const Tones& tones, std::size_t i,
-                    const SceneRequest& request) {
-  if (tones.values.empty() || std::isnan(tones.values[i])) return plain_colour(style, request);
-  return viridis((tones.values[i] - tones.limits.low) / (tones.limits.high - tones.limits.low));
-}
-
-vtkNew<vtkPoints> points_of(const std::vector<Point3>& positions) {
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(static_cast<vtkIdType>(positions.size()));
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    points->SetPoint(static_cast<vtkIdType>(i), positions[i].data());
-  return points;
-}
-
-vtkNew<vtkCellArray> cells_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  vtkNew<vtkCellArray> cells;
-  for (const auto& [a, b, c] : triangles) {
-    const std::array<vtkIdType, 3> corners = {a, b, c};
-    cells->InsertNextCell(3, corners.data());
-  }
-  return cells;
-}
-
-class ColourList {
- public:
-  ColourList() { list_->SetNumberOfComponents(3); }
-  void add(Colour colour, std::size_t times = 1) {
-    for (; times > 0; --times) list_->InsertNextTuple3(colour.red, colour.green, colour.blue);
-  }
-  vtkUnsignedCharArray* get() { return list_; }
-
- private:
-  vtkNew<vtkUnsignedCharArray> list_;
-};
-
-vtkSmartPointer<vtkActor> actor_of(vtkPolyDataMapper* mapper, const Style& style,
-                                   const SceneRequest& request) {
-  auto actor = vtkSmartPointer<vtkActor>::New();
-  actor->SetMapper(mapper);
-  const Colour colour = plain_colour(style, request);
-  vtkProperty* property = actor->GetProperty();
-  property->SetColor(colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
-  property->SetOpacity(style.opacity);
-  property->SetLighting(style.lit);
-  property->SetAmbient(kAmbient);
-  property->SetDiffuse(kDiffuse);
-  property->SetSpecular(0.0);
-  return actor;
-}
-
-/// Points have the colours of `data`, if it has any.
-vtkSmartPointer<vtkActor> actor_of(vtkPolyData* data, const Style& style,
-                                   const SceneRequest& request) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(data);
-  mapper->SetScalarVisibility(data->GetPointData()->GetScalars() != nullptr);
-  return actor_of(mapper, style, request);
-}
-
-Props mesh_props(const TriangleMesh& mesh, ColourList* colours, const Style& style,
-                 const SceneRequest& request) {
-  if (mesh.triangles.empty()) return {};
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(mesh.points));
-  data->SetPolys(cells_of(mesh.triangles));
-  vtkNew<vtkFloatArray> normals;
-  normals->SetNumberOfComponents(3);
-  for (const Point3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
-  data->GetPointData()->SetNormals(normals);
-  if (colours != nullptr) data->GetPointData()->SetScalars(colours->get());
-  return {actor_of(data, style, request)};
-}
-
-/// One mesh of `count` solids, each in the colour of its value.
-template <typename AddOne>
-Props solid_props(std::size_t count, const Style& style, const Tones& tones,
-                  const SceneRequest& request, AddOne add_one) {
-  TriangleMesh mesh;
-  ColourList colours;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t before = mesh.points.size();
-    add_one(mesh, i);
-    colours.add(toned_colour(style, tones, i, request), mesh.points.size() - before);
-  }
-  return mesh_props(mesh, tones.values.empty() ? nullptr : &colours, style, request);
-}
-
-Props part_props(const Surface& surface, const SceneRequest& request) {
-  if (surface.triangles.empty()) return {};
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(surface.points));
-  data->SetPolys(cells_of(surface.triangles));
-  ColourList colours;
-  for (std::size_t i = 0; i < surface.points.size(); ++i)
-    colours.add(toned_colour(surface.style, surface.tones, i, request));
-  if (!surface.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
-  if (!surface.smooth) {
-    const auto actor = actor_of(data, surface.style, request);
-    actor->GetProperty()->SetInterpolationToFlat();
-    return {actor};
-  }
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(data);
-  normals->SplittingOff();
-  normals->Update();
-  return {actor_of(normals->GetOutput(), surface.style, request)};
-}
-
-Props part_props(const Tube& tube, const SceneRequest& request) {
-  std::vector<Point3> positions;
-  ColourList colours;
-  for (std::size_t i = 0; i < tube.points.size(); ++i) {
-    if (!positions.empty() && (tube.points[i] - positions.back()).norm() < 1e-9 * tube.radius)
-      continue;
-    positions.push_back(tube.points[i]);
-    colours.add(toned_colour(tube.style, tube.tones, i, request));
-  }
-  if (positions.size() < 2) return {};
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(positions));
-  vtkNew<vtkCellArray> lines;
-  lines->InsertNextCell(static_cast<int>(positions.size()));
-  for (std::size_t i = 0; i < positions.size(); ++i)
-    lines->InsertCellPoint(static_cast<vtkIdType>(i));
-  data->SetLines(lines);
-  if (!tube.tones.values.empty()) data->GetPointData()->SetScalars(colours.get());
-  vtkNew<vtkTubeFilter> filter;
-  filter->SetInputData(data);
-  filter->SetRadius(tube.radius);
-  filter->SetNumberOfSides(kTubeSides);
-  filter->CappingOn();
-  filter->Update();
-  return {actor_of(filter->GetOutput(), tube.style, request)};
-}
-
-Props part_props(const Rods& rods, const SceneRequest& request) {
-  return solid_props(rods.from.size(), rods.style, rods.tones, request,
-                     [&rods](TriangleMesh& mesh, std::size_t i) {
-                       const auto add = rods.arrow ? add_arrow : add_rod;
-                       add(mesh, rods.from[i], rods.to[i], rods.radius, kSides);
-                     });
-}
-
-Props part_props(const Spheres& spheres, const SceneRequest& request) {
-  return solid_props(spheres.at.size(), spheres.style, spheres.tones, request,
-                     [&spheres](TriangleMesh& mesh, std::size_t i) {
-                       add_sphere(mesh, spheres.at[i], spheres.radius, kSides);
-                     });
-}
-
-vtkNew<vtkLookupTable> viridis_table(const Range& limits) {
-  constexpr int kColours = 256;
-  vtkNew<vtkLookupTable> table;
-  table->SetNumberOfTableValues(kColours);
-  table->SetRange(limits.low, limits.high);
-  for (int i = 0; i < kColours; ++i) {
-    const Colour c = viridis(static_cast<double>(i) / (kColours - 1));
-    table->SetTableValue(i, c.red / 255.0, c.green / 255.0, c.blue / 255.0);
-  }
-  return table;
-}
-
-vtkSmartPointer<vtkProp> contour_prop(const Field& field, vtkPolyData* surface,
-                                      const SceneRequest& request) {
-  vtkNew<vtkContourFilter> contours;
-  contours->SetInputData(surface);
-  for (std::size_t i = 0; i < field.levels.size(); ++i)
-    contours->SetValue(static_cast<int>(i), field.levels[i]);
-  vtkNew<vtkStripper> joined;
-  joined->SetInputConnection(contours->GetOutputPort());
-  vtkNew<vtkTubeFilter> tubes;
-  tubes->SetInputConnection(joined->GetOutputPort());
-  tubes->SetRadius(field.contour_radius);
-  tubes->SetNumberOfSides(kTubeSides);
-  tubes->CappingOn();
-  tubes->Update();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(tubes->GetOutput());
-  mapper->ScalarVisibilityOff();
-  return actor_of(mapper, {.colour = ThemeColour::kText, .lit = false}, request);
-}
-
-/// Values are interpolated before they are coloured, so that a triangle shows the colours of the
-/// ramp and not a mixture of those at its corners.
-Props part_props(const Field& field, const SceneRequest& request) {
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points_of(field.points));
-  vtkNew<vtkDoubleArray> values;
-  for (const double value : field.tones.values) values->InsertNextValue(value);
-  data->GetPointData()->SetScalars(values);
-  vtkNew<vtkDelaunay2D> plan;
-  plan->SetInputData(data);
-  plan->Update();
-  vtkPolyData* surface = plan->GetOutput();
-  if (surface->GetNumberOfPolys() == 0) return {};
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(surface);
-  mapper->SetLookupTable(viridis_table(field.tones.limits));
-  mapper->UseLookupTableScalarRangeOn();
-  mapper->InterpolateScalarsBeforeMappingOn();
-  Props props = {actor_of(mapper, field.style, request)};
-  if (!field.levels.empty()) props.push_back(contour_prop(field, surface, request));
-  return props;
-}
-
-/// The VTK props of a part, in the colours of the request; none for an empty part.
-Props props_of(const Part& part, const SceneRequest& request) {
-  return std::visit([&request](const auto& one) { return part_props(one, request); }, part);
-}
 
 /// A window that owns an OpenGL context, in which VTK draws into a framebuffer of its own.
 class OffscreenWindow : public vtkGenericOpenGLRenderWindow {
@@ -434,15 +196,21 @@ int side_samples(const SceneRequest& request) {
   return side;
 }
 
-/// The mean of `side` x `side` samples, the first of the lowest row at `first`.
+/// The mean of `side` x `side` samples, the first of the lowest row at `first`, in about linear
+/// light (a gamma of 2), in which thin lines keep their weight.
 std::uint32_t mean_of(const unsigned char* first, vtkIdType row_bytes, int side) {
-  const auto count = static_cast<std::uint32_t>(side * side);
-  std::array<std::uint32_t, 3> sum{count / 2, count / 2, count / 2};
-  for (int i = 0; i < side; ++i)
-    for (int j = 0; j < side; ++j)
-      for (std::size_t c = 0; c < 3; ++c)
-        sum[c] += first[row_bytes * i + 3 * j + static_cast<vtkIdType>(c)];
-  return sum[0] / count << 16 | sum[1] / count << 8 | sum[2] / count;
+  const double count = side * side;
+  std::uint32_t mean = 0;
+  for (vtkIdType c = 0; c < 3; ++c) {
+    std::uint32_t sum = 0;
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; j < side; ++j) {
+        const std::uint32_t sample = first[row_bytes * i + 3 * j + c];
+        sum += sample * sample;
+      }
+    mean = mean << 8 | static_cast<std::uint32_t>(std::lround(std::sqrt(sum / count)));
+  }
+  return mean;
 }
 
 /// An image of samples whose lowest row is the first, as in OpenGL. Each pixel is the mean of
@@ -523,9 +291,12 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   const Colour paper = request.background;
   renderer->SetBackground(paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
   add_lights(scene, renderer);
+  const std::optional<BakedLight> light = BakedLight::of(scene, view);
+  const Paint paint{request, view.camera.eye, light ? &*light : nullptr};
+  if (light) renderer->AddViewProp(shadow_prop(*light));
   for (std::size_t i = 0; i < scene.parts.size(); ++i)
     if (shows(view, i))
-      for (const auto& prop : props_of(scene.parts[i], request)) renderer->AddViewProp(prop);
+      for (const auto& prop : props_of(scene.parts[i], paint)) renderer->AddViewProp(prop);
   set_camera(view.camera, renderer->GetActiveCamera());
   renderer->ResetCameraClippingRange();
 

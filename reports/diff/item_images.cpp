@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -11,6 +12,9 @@
 #include "core/base/files/files.hpp"
 #include "core/base/text/percent.hpp"
 #include "render/image/png.hpp"
+#include "render/output/write_figure.hpp"
+#include "render/theme/theme.hpp"
+#include "reports/diff/figures/change_figure.hpp"
 #include "reports/diff/images/image_diff.hpp"
 
 namespace mapproof {
@@ -82,6 +86,20 @@ std::string write_difference(const ImageFile& file, const ImageOptions& options,
   return to;
 }
 
+/// What changed in the data, drawn. @return Its path; empty if none did.
+std::string write_change(const DiffItem& item, const std::string& to, const OutputFolder& folder) {
+  if (item.judgement.verdict <= Verdict::kRenderer) return "";
+  std::optional<Figure> figure;
+  try {
+    figure = change_figure(item, figure_values(item));
+  } catch (const IoError&) {
+    return "";  // The verdict reports it.
+  }
+  if (!figure) return "";
+  folder.write(to, figure_png(*figure, report_theme()));
+  return to;
+}
+
 }  // namespace
 
 std::vector<std::string> ItemImages::paths() const {
@@ -110,6 +128,14 @@ std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSe
   std::string list;
   for (const DiffItem& item : result.items) {
     if (item.judgement.verdict <= Verdict::kWithinTolerance) continue;
+    const auto keep = [&](ItemImages images) {
+      for (const std::string& path : images.paths()) list += path + "\n";
+      if (!images.paths().empty()) all.push_back(std::move(images));
+    };
+    ItemImages change{.id = item.id, .format = "change"};
+    change.difference =
+        write_change(item, file_name(item.id + ".change") + "/difference.png", folder);
+    keep(std::move(change));
     for (const ImageFile& file : item.images) {
       const std::string start = file_name(item.id + "." + file.format) + "/";
       ItemImages images{.id = item.id, .format = file.format};
@@ -117,8 +143,7 @@ std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSe
       images.current = copy(file.current, start + "current." + file.format, folder);
       images.difference =
           write_difference(file, settings.images_of(item.id), start + "difference.png", folder);
-      for (const std::string& path : images.paths()) list += path + "\n";
-      if (!images.paths().empty()) all.push_back(std::move(images));
+      keep(std::move(images));
     }
   }
   folder.write(kList, list);

@@ -11,7 +11,7 @@ namespace mapproof {
 
 /// The images of one file that is not identical, as paths below a folder; empty: none.
 struct ItemImages {
-  std::string id, format;
+  std::string id, format;       ///< "png"; "change": a figure of what changed in the data.
   std::string difference = {};  ///< A PNG: the heat map (heat_map() in image_diff.hpp).
   std::string current = {}, baseline = {};
 
@@ -30,8 +30,9 @@ struct ImageLinks {
 
 /// Writes the images of each item that is neither identical nor within tolerance:
 /// ID.FORMAT/baseline.FORMAT, /current.FORMAT as they are, and /difference.png if both can be
-/// compared pixel by pixel. In names, bytes other than letters, digits and "-._/@+" are "%XX". What
-/// an earlier call wrote to the folder is removed first.
+/// compared pixel by pixel; and where data changed, ID.change/difference.png: change_figure(). In
+/// names, bytes other than letters, digits and "-._/@+" are "%XX". What an earlier call wrote to
+/// the folder is removed first.
 /// @throws IoError; InvalidInput if the folder holds files, but none of an earlier call.
 /// @note Compares the images of one file after the other again.
 std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,

@@ -137,8 +137,7 @@ std::string tick_of(const NightlyFacts& nightly_run) {
   constexpr std::size_t kMonth = 5, kDate = 5;  // In "2026-11-22 …".
   const std::string time = local_time(nightly_run);
   const bool is_dated = time.size() > kMonth + kDate && time[kMonth - 1] == '-';
-  return std::to_string(nightly_run.number) +
-         (is_dated ? ": " + time.substr(kMonth, kDate) : "");
+  return std::to_string(nightly_run.number) + (is_dated ? ": " + time.substr(kMonth, kDate) : "");
 }
 
 /// The nightly runs side by side.
@@ -159,16 +158,13 @@ std::vector<double> places_of(const StudyTrend& trend) {
 
 /// Values as changes since the nightly run of index `from`, or the first that has a value: in
 /// percent of that value, or as differences. NaN where there is no such value.
-std::vector<double> changes_of(const std::vector<double>& values, std::size_t from,
-                               bool by_ratio) {
+std::vector<double> changes_of(const std::vector<double>& values, std::size_t from, bool by_ratio) {
   double base = values[from];
   for (const double value : values)
     if (!std::isfinite(base)) base = value;
   std::vector<double> changes;
   for (const double value : values)
-    changes.push_back(!by_ratio ? value - base
-                      : base > 0.0 ? 100.0 * (value / base - 1.0)
-                                   : kNaN);
+    changes.push_back(!by_ratio ? value - base : base > 0.0 ? 100.0 * (value / base - 1.0) : kNaN);
   return changes;
 }
 
@@ -193,11 +189,10 @@ void mark_findings(const Reported& reported, const std::string& label,
   for (const auto& [nightly_run, finding] : reported.findings)
     if (is_about_it(*finding) && std::isfinite(values[nightly_run]) &&
         marked.insert(nightly_run).second)
-      panel.points.push_back(
-          {.label = kFound,
-           .line = label,
-           .x = static_cast<double>(nightly_run),
-           .y = values[nightly_run]});
+      panel.points.push_back({.label = kFound,
+                              .line = label,
+                              .x = static_cast<double>(nightly_run),
+                              .y = values[nightly_run]});
 }
 
 /// What all figures of a trend have in common.
@@ -222,7 +217,14 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
 
 /// A method has one style in all figures; the second of two settings gets one that is left.
 std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string& method) {
-  if (!labels.methods.empty()) return std::nullopt;
+  if (!labels.methods.empty()) {
+    std::vector<std::string> ids;
+    for (const auto& [id, label] : labels.methods) ids.push_back(id);
+    const auto found = std::ranges::find(ids, base_method(labels, method));
+    return found == ids.end() ? std::nullopt
+                              : std::optional(series_of_methods(
+                                    ids)[static_cast<std::size_t>(found - ids.begin())]);
+  }
   const std::optional<Method> known = method_named(base_method(labels, method));
   return known ? std::optional(method_series(*known)) : std::nullopt;
 }
@@ -277,14 +279,12 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;
   spec.quantity = "change of peak memory";
-  spec.caption = fmt::format(
-      "Peak memory of the process that made the study, as its change since {}.",
-      base_words(reported));
+  spec.caption =
+      fmt::format("Peak memory of the process that made the study, as its change since {}.",
+                  base_words(reported));
   ErrorPanel panel = panel_of(reported.trend);
-  panel.lines.push_back({.label = "peak memory",
-                         .key = "peak-memory",
-                         .x = places_of(reported.trend),
-                         .mean = mib});
+  panel.lines.push_back(
+      {.label = "peak memory", .key = "peak-memory", .x = places_of(reported.trend), .mean = mib});
   const auto is_memory = [](const NightlyFinding& finding) { return finding.quantity == "memory"; };
   mark_findings(reported, "peak memory", mib, is_memory, panel);
   return drawn(std::move(spec), std::move(panel), true);

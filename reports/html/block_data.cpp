@@ -64,20 +64,16 @@ const char* class_of(double percent) {
   return percent <= -kLeastPercent ? "better" : "same";
 }
 
-
 /// A small curve of changes in percent, oldest first, with a line at zero: an <svg> element without
 /// text of its own. Above zero is worse. Classes give the colours: "better", "same", "worse".
 std::string curve_svg(const std::vector<double>& percent) {
   double most = kLeastPercent;
   for (const double value : percent)
     if (std::isfinite(value)) most = std::max(most, std::abs(value));
-  const double step = percent.size() > 1
-                          ? (kWidth - 2 * kMargin) / static_cast<double>(percent.size() - 1)
-                          : 0.0;
+  const double step =
+      percent.size() > 1 ? (kWidth - 2 * kMargin) / static_cast<double>(percent.size() - 1) : 0.0;
   const auto x = [&](std::size_t i) { return kMargin + step * static_cast<double>(i); };
-  const auto y = [&](double value) {
-    return kHeight / 2 - (kHeight / 2 - kMargin) * value / most;
-  };
+  const auto y = [&](double value) { return kHeight / 2 - (kHeight / 2 - kMargin) * value / most; };
   std::string svg = fmt::format(
       "<svg class=\"curve\" viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" "
       "aria-hidden=\"true\" focusable=\"false\"><line class=\"zero\" x1=\"0\" x2=\"{}\" "
@@ -182,7 +178,8 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   data out;
   const std::string link = text == nullptr ? "" : link_of(emphasis, text->text);
   const bool is_file = !link.empty();
-  out.set("value", is_file ? link_words(text->text, options) : format_cell(cell));
+  out.set("value",
+          is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index].unit));
   out.set("curve", has_curve(row, index) ? data(curve_svg(row.curve)) : data(false));
   out.set("heads", index == 0);
   out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));
@@ -300,8 +297,8 @@ data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   const std::string link = link_of(phrase.emphasis, phrase.text);
   const bool is_file = !link.empty();
   out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
-  out.set("plain", phrase.emphasis == Emphasis::kPlain ||
-                       (phrase.emphasis == Emphasis::kUrl && !is_file));
+  out.set("plain",
+          phrase.emphasis == Emphasis::kPlain || (phrase.emphasis == Emphasis::kUrl && !is_file));
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
   out.set("code", phrase.emphasis == Emphasis::kCode);
   out.set("file", is_file);

@@ -1,6 +1,7 @@
 #include "reports/model/format.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -33,6 +34,25 @@ struct CellFormatter {
   std::string operator()(const MissingCell&) const { return kMissingText; }
 };
 
+/// "1.23e+11" as "1.23 × 10¹¹"; other texts as they are.
+std::string with_power(const std::string& text) {
+  static constexpr std::array kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  const std::size_t at = text.find('e');
+  if (at == std::string::npos) return text;
+  const int exponent = std::stoi(text.substr(at + 1));
+  std::string power = exponent < 0 ? "⁻" : "";
+  for (const char digit : std::to_string(std::abs(exponent)))
+    power += kDigits[static_cast<std::size_t>(digit - '0')];
+  return text.substr(0, at) + "\u00A0×\u00A010" + power;
+}
+
+/// @param text  The number as format_number() writes it.
+std::string page_number(double value, std::string_view unit, const std::string& text) {
+  if (!std::isfinite(value)) return text;
+  if (unit == "m" && std::abs(value) >= kLargest) return "over 1\u00A0km";
+  return with_power(text);
+}
+
 }  // namespace
 
 std::string format_number(double value, int decimals, bool with_sign) {
@@ -50,6 +70,17 @@ std::string format_number(double value, int decimals, bool with_sign) {
 }
 
 std::string format_cell(const Cell& cell) { return std::visit(CellFormatter{}, cell); }
+
+std::string page_cell(const Cell& cell, std::string_view unit) {
+  if (const auto* number = std::get_if<NumberCell>(&cell))
+    return page_number(number->value, unit, format_cell(cell));
+  const auto* interval = std::get_if<IntervalCell>(&cell);
+  if (interval == nullptr || !(std::abs(interval->high) >= kLargest)) return format_cell(cell);
+  const auto end = [&](double value) {
+    return page_number(value, unit, format_number(value, interval->decimals));
+  };
+  return end(interval->low) + " to " + end(interval->high);
+}
 
 std::string full_heading(const Column& column) {
   std::string text = column.group.empty() ? column.title : column.group + ": " + column.title;

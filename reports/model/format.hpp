@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "reports/model/report.hpp"
 
@@ -16,6 +17,10 @@ std::string format_number(double value, int decimals, bool with_sign = false);
 
 /// As a reader sees it: "0.219", "0.191–0.247", "–".
 std::string format_cell(const Cell& cell);
+
+/// As a page shows it in a column of that unit: powers of ten are set as such, "2.8 × 10¹⁴", and
+/// metres of maps that diverged (from 1e9 on) are "over 1 km".
+std::string page_cell(const Cell& cell, std::string_view unit);
 
 /// "MPE: Mean [m]": group, title and unit of a column.
 std::string full_heading(const Column& column);

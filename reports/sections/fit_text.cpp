@@ -95,6 +95,11 @@ std::string range_cause_words(const FitCause& cause) {
       return fmt::format("residuals{} are larger than at other times", values.when());
     case FitCode::kResidualsOverRange:
       return "residuals depend on the range";
+    case FitCode::kOdometryResiduals:
+      return fmt::format(
+          "the robot moved otherwise than the odometry reports, by {} of the way: noise of the "
+          "odometry, or clocks that differ by seconds",
+          values.amount("share_percent", "%"));
     default:
       return "";
   }
@@ -354,6 +359,8 @@ std::string test_label(FitCode code, const std::vector<std::string>& landmarks) 
       return "residuals over time";
     case FitCode::kResidualsOverRange:
       return "residuals over range";
+    case FitCode::kOdometryResiduals:
+      return "error of the odometry";
     default:
       return map_test_words(code, names);
   }

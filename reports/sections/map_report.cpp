@@ -143,15 +143,18 @@ Table anchors_table(const MapRecord& record) {
   return table;
 }
 
+/// "mean position error over 26 landmarks, without the 4 anchors".
+std::string meaning_of(const ErrorWords& error, const MapRecord& record) {
+  const std::string landmarks = error.name == "MPE" ? scored_landmarks_text(record) : "";
+  return fmt::format("{}{}{}{}{}", error.meaning, landmarks.empty() ? "" : " over ", landmarks,
+                     error.limit.empty() ? "" : ", ", error.limit);
+}
+
 Highlights numbers_of(const MapRecord& record) {
   Highlights out;
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
-      out.items.push_back({error.name, error.value,
-                           fmt::format("{}{}{}{}{}", error.meaning, error.limit.empty() ? "" : ", ",
-                                       error.limit, error.name == "MPE" ? "; over " : "",
-                                       error.name == "MPE" ? scored_landmarks_text(record) : ""),
-                           kPositions});
+      out.items.push_back({error.name, error.value, meaning_of(error, record), kPositions});
   out.items.push_back({"landmarks mapped",
                        fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
                        counted(record.step, "observation") + " used", kPositions});

@@ -36,8 +36,8 @@ FigureGroup scene_group(FigureSource& source) {
       "scenes",
       "In space",
       "What a scan takes in; the room with the map of least mean MPE, the median run; where its "
-      "landmarks lie in the space of their observations; how the map forms; and the error of each "
-      "method over the floor. Drawn by VTK without a screen.",
+      "landmarks lie in the space of their observations; and how the map forms. Drawn by VTK "
+      "without a screen.",
       {},
       study_scenes(source),
       {},
@@ -65,8 +65,8 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   add("observations", "From observations to a map",
       "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans), 2);
   add("curves", "Error over observations",
-      "Mean over runs; bands are 95 % intervals of the mean, layouts being the units. Each method "
-      "has its best parameter at the last checkpoint.",
+      "Mean over runs; bands and bars are 95 % intervals of the mean, layouts being the units. "
+      "Each method has its best parameter at the last checkpoint.",
       curve_figures(source));
   std::vector<Figure> maps = map_figures(source);
   const auto compared = static_cast<std::size_t>(std::ranges::count_if(
@@ -84,13 +84,13 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   if (FigureGroup scenes = scene_group(source); !scenes.scenes.empty())
     figures.groups.push_back(std::move(scenes));
   add("parameters", "Error over parameters",
-      "At the last checkpoint; bands are 95 % intervals of the mean.", parameter_figures(source),
-      0);
+      "At the last checkpoint; bands and bars are 95 % intervals of the mean.",
+      parameter_figures(source), 0);
   add("comparison", "Methods side by side",
       "Each at its best parameter. Ranks are over layouts, since runs in one layout are not "
       "independent; distances and eigenvalues are of the median run of the best method.",
       comparison_figures(source), 3);
-  add("conditions", "Occlusion and variations",
+  add("conditions", "Variations",
       "What happens if one thing is changed: methods with the parameters that the experiment "
       "names. "
       "The levels of one figure share their random numbers.",

@@ -52,7 +52,7 @@ TEST(CommandLine, VersionNamesWhatItIsLinkedWithAndTheCommit) {
   const Outcome version = mapproof({"--version"});
   EXPECT_EQ(version.exit_code, 0);
   for (const char* part :
-       {"mapproof 0.", "commit ", "Eigen 3.", "Cairo 1.", "oneTBB ", "HarfBuzz "})
+       {"mapproof 1.", "commit ", "Eigen 3.", "Cairo 1.", "oneTBB ", "HarfBuzz "})
     EXPECT_NE(version.out.find(part), std::string::npos) << part;
 }
 

@@ -148,6 +148,7 @@ TEST_F(RenderOfAMap, PutsSeveralIntoOneFigure) {
 TEST_F(RenderOfAMap, RefusesInOneLineWhatWouldChangeNothingOrIsNotThere) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{map_, "--as", "csv", "--width", "5"}, "--width: has no effect on csv"},
+      {{map_, "--as", "csv", "--figure", "map", "--title", "X"}, "--title: has no effect on csv"},
       {{map_, "--as", "pdf", "--dpi", "300"}, "--dpi: only png has pixels"},
       {{map_, "--as", "mp4"}, "a map is one still figure"},
       {{map_, "--animate", "scene-x"}, "nothing moves"},
@@ -172,6 +173,67 @@ TEST_F(RenderOfAMap, ListsWhatCanBeDrawn) {
   const Outcome outcome = render({map_, "--list"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_TRUE(outcome.out.starts_with("map  figure: ")) << outcome.out;
+}
+
+TEST_F(RenderOfAMap, AListTakesNoOptionsOfDrawing) {
+  for (const char* option : {"--width=5", "--figure=map", "--as=png", "--title=Hall"}) {
+    const Outcome outcome = render({map_, "--list", option});
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_NE(outcome.error.find("has no effect on --list"), std::string::npos) << outcome.error;
+  }
+}
+
+TEST_F(RenderOfAMap, SaysWhichNamesFindNoRoom) {
+  const Outcome crowded = render({map_, "--figure", "map", "--theme", "paper", "--width", "2",
+                                  "--height", "1", "--landmarks", "all", "--as", "svg"});
+  EXPECT_EQ(crowded.exit_code, 0) << crowded.error;
+  EXPECT_NE(crowded.error.find("map: no room for the names of "), std::string::npos)
+      << crowded.error;
+  const Outcome wide =
+      render({map_, "--figure", "map", "--landmarks", "L1,L2", "--width", "12", "--as", "svg"});
+  EXPECT_EQ(wide.error.find("no room"), std::string::npos) << wide.error;
+}
+
+TEST_F(RenderOfAMap, NamesLandmarksWhoseErrorsAreNotKnown) {
+  const std::string svg = text_of("map/figures/map.svg");
+  for (const char* name : {"aria-label=\"L2\"", "aria-label=\"L30\""})
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+}
+
+TEST_F(RenderOfAMap, ACaptionIsInOneLanguage) {
+  const auto caption = [&](const std::string& language) {
+    EXPECT_EQ(render({map_, "--figure", "map", "--language", language, "--as", "json", "--out",
+                      folder_ / language})
+                  .exit_code,
+              0);
+    return nlohmann::json::parse(text_of(language + "/map.figure.json"))
+        .at("caption")
+        .get<std::string>();
+  };
+  EXPECT_EQ(caption("de").find("LPCA, Peilung, 200 Schritte"), 0U) << caption("de");
+  EXPECT_NE(caption("fr").find("Cercles ouverts"), std::string::npos) << caption("fr");
+  auto figure = nlohmann::json::parse(text_of("map/figures/map.figure.json"));
+  figure["caption"] = "A phrase of nobody's dictionary: error of the map.";
+  folder_.file("own.figure.json", figure.dump());
+  ASSERT_EQ(render({folder_ / "own.figure.json", "--language", "de", "--as", "json", "--out",
+                    folder_ / "own"})
+                .exit_code,
+            0);
+  const auto own = nlohmann::json::parse(text_of("own/map.figure.json"));
+  EXPECT_EQ(own.at("caption"), figure.at("caption"));
+}
+
+TEST_F(RenderOfAMap, ItsScriptLeavesTheFiguresPdfAsItIs) {
+  ASSERT_EQ(render({map_, "--figure", "map", "--as", "pdf,matplotlib", "--out", folder_ / "both"})
+                .exit_code,
+            0);
+  const std::string before = text_of("both/map.pdf");
+  const Outcome drawn =
+      run_program({"/bin/sh", "-c", "cd '" + (folder_ / "both").string() + "' && python3 map.py"});
+  if (drawn.error.find("No module named") != std::string::npos) GTEST_SKIP() << drawn.error;
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.error;
+  EXPECT_EQ(text_of("both/map.pdf"), before);
+  EXPECT_TRUE(fs::exists(folder_ / "both/map-matplotlib.pdf"));
 }
 
 TEST_F(RenderOfAMap, ItsFolderTakesAnotherMapByForceAlone) {

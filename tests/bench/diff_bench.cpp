@@ -11,10 +11,12 @@
 
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/random.hpp"
 #include "render/cairo/cairo_backend.hpp"
 #include "render/image/png.hpp"
 #include "render/plot/layout.hpp"
 #include "reports/diff/images/image_diff.hpp"
+#include "tests/support/images/foreign_pairs.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof {
@@ -80,6 +82,43 @@ void make(const fs::path& folder) {
   }
 }
 
+/// One level up or down at random places, as other rounding leaves it.
+Image with_noise(Image image, Random& random) {
+  for (std::uint32_t& pixel : image.pixels) {
+    const double which = random.uniform();
+    const std::uint32_t green = (pixel >> 8) & 0xFF;
+    if (which < 0.2 && green > 0) pixel -= 0x100;
+    if (which > 0.8 && green < 255) pixel += 0x100;
+  }
+  return image;
+}
+
+/// Pairs in which programs err: same-NNN.png, which no reader can tell apart, and changed-NNN.png,
+/// which differ in the same harmless way, and in one of them something is drawn on flat ground.
+void make_errors(const fs::path& folder) {
+  constexpr std::size_t kChanged = 200;
+  const std::vector<test::HarmlessPair> pairs = test::harmless_pairs();
+  Random random(22);
+  std::size_t same = 0, changed = 0;
+  const auto write = [&](const std::string& name, const Image& a, const Image& b) {
+    write_usual_png(folder / "a" / name, a);
+    write_usual_png(folder / "b" / name, b);
+  };
+  for (const test::HarmlessPair& pair : pairs) {
+    write(fmt::format("same-{:03}.png", same++), pair.baseline, pair.current);
+    write(fmt::format("same-{:03}.png", same++), pair.baseline, with_noise(pair.baseline, random));
+  }
+  for (std::size_t round = 0; changed < kChanged; ++round) {
+    const test::HarmlessPair& pair = pairs[round % pairs.size()];
+    const test::Planting planting = test::random_planting(random);
+    const int contrast = static_cast<int>(random.uniform(12.0, 120.0));
+    const PixelBox place = test::flat_place(pair, planting, random);
+    if (place.width == 0 || !test::is_promised(planting, contrast)) continue;
+    write(fmt::format("changed-{:03}.png", changed++), pair.baseline,
+          test::planted(pair.current, planting, place, contrast));
+  }
+}
+
 void compare(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
   Image map;
   const ImageDiff diff = image_diff(baseline, current, {}, &map);
@@ -104,10 +143,14 @@ int main(int argc, char** argv) {
   const std::string command = argc > 1 ? argv[1] : "";
   if (command == "make" && argc == 3) {
     mapproof::make(argv[2]);
+  } else if (command == "errors" && argc == 3) {
+    mapproof::make_errors(argv[2]);
   } else if (command == "compare" && argc == 5) {
     mapproof::compare_folders(argv[2], argv[3], argv[4]);
   } else {
-    std::fputs("usage: diff_bench make FOLDER | compare BASELINE CURRENT HEAT_MAPS\n", stderr);
+    std::fputs(
+        "usage: diff_bench make FOLDER | errors FOLDER | compare BASELINE CURRENT HEAT_MAPS\n",
+        stderr);
     return 2;
   }
 }

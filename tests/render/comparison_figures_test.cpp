@@ -281,26 +281,6 @@ TEST(PairDistancesFigure, SaysThatNoPairHasAPlaceAndRefusesRowsThatAreNotThere) 
   }
 }
 
-TEST(OcclusionFigure, CountsEachRunInOneBin) {
-  const OcclusionSpec spec = sample_occlusion(25);
-  const auto bars = layers_of<Area>(occlusion_figure(spec).panels[0]).at(0);
-  double runs = 0.0;
-  for (std::size_t i = 2; i < bars.y.size(); i += 5) runs += bars.y[i];  // Upper right corners.
-  EXPECT_EQ(runs, 25.0);
-}
-
-TEST(OcclusionFigure, StatesTheMeanShareAndTheCorrelation) {
-  OcclusionSpec spec = sample_occlusion(3);
-  spec.hidden_share = {0.1, 0.2, 0.3};
-  spec.methods.resize(1);
-  spec.methods[0].mpe_m = {0.5, 0.6, 0.7};
-  const Figure figure = occlusion_figure(spec);
-  EXPECT_TRUE(contains(figure.alt, "decides 20.0 %")) << figure.alt;
-  EXPECT_TRUE(contains(figure.alt, "SDE, K = 7 1.0.")) << figure.alt;
-  spec.hidden_share[0] = 1.2;
-  EXPECT_THROW(occlusion_figure(spec), InvalidInput);
-}
-
 TEST(ParetoFront, HoldsWhatNoOtherBeatsInBoth) {
   const std::vector<CostedSetting> settings = {{"slow good", 10.0, 0.1}, {"fast bad", 0.1, 0.9},
                                                {"beaten", 11.0, 0.2},    {"middle", 1.0, 0.3},

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
+#include "render/figures/curves/method_series.hpp"
 #include "tests/support/samples/drawn_panels.hpp"
 #include "tests/support/samples/sample_studies.hpp"
 
@@ -31,12 +33,78 @@ TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({NAN}, {}).limits, (Range{0.0, 1.0}));
 }
 
-TEST(SeriesOf, TakesWhatIsAskedForUnlessTwoWouldStyleAlike) {
+TEST(ErrorAxis, DoesNotBeginAt0WhereAllValuesLieInItsUppermostPart) {
+  EXPECT_EQ(error_axis({0.2, 1.0}, {}).limits.low, 0.0);
+  const Range near_one = error_axis({0.99, 1.0}, {0.985, 1.0}).limits;
+  EXPECT_GT(near_one.low, 0.98);
+  EXPECT_LT(near_one.low, 0.985);
+  EXPECT_LT(near_one.high, 1.01);
+  EXPECT_EQ(error_axis({1.0, 1.0}, {}).limits.low, 0.0);  // No difference to be seen.
+}
+
+TEST(SeriesOf, KeepsWhatIsAskedForAndGivesOthersStylesThatAreLeft) {
   using Asked = std::vector<std::optional<std::size_t>>;
   using Series = std::vector<std::size_t>;
   EXPECT_EQ(series_of(Asked{7, 2, 5}), (Series{7, 2, 5}));
-  EXPECT_EQ(series_of(Asked{7, 2, 7}), (Series{0, 1, 2}));
-  EXPECT_EQ(series_of(Asked{7, std::nullopt}), (Series{0, 1}));
+  EXPECT_EQ(series_of(Asked{7, 2, 7}), (Series{7, 2, kMethodStyles}));
+  EXPECT_EQ(series_of(Asked{7, std::nullopt}), (Series{7, kMethodStyles}));
+  EXPECT_EQ(series_of(Asked{std::nullopt, std::nullopt}), (Series{0, 1}));
+}
+
+TEST(SeriesOfMethods, AreThoseOfMappingMethodsWhateverTheirParameter) {
+  const auto series =
+      series_of_methods({"isomap", "isomap-K6", "kpca-gaussian-sigma2-0.5", "mine"});
+  EXPECT_EQ(series[0], method_series(Method::kIsomap));
+  EXPECT_EQ(series[1], series[0]);
+  EXPECT_EQ(series[2], method_series(Method::kKpcaGaussian));
+  EXPECT_GE(series[3], kMethodStyles);
+}
+
+TEST(SeriesOfMethods, OfOneStudyDoNotDependOnItsOtherMethods) {
+  const std::size_t fixed = series_of_methods({"fixed"})[0];
+  EXPECT_EQ(series_of_methods({"stress", "fixed", "isomap"})[1], fixed);
+  EXPECT_GE(fixed, kMethodStyles);
+}
+
+TEST(SeriesOfMethods, OfUnknownMethodsAreTheFirst) {
+  EXPECT_EQ(series_of_methods({"ekf", "fastslam"}), (std::vector<std::size_t>{0, 1}));
+}
+
+ErrorLine three_points(const std::string& label, std::vector<double> mean, double half_width) {
+  ErrorLine line{.label = label, .key = "key", .x = {1, 2, 3}, .mean = std::move(mean)};
+  for (const double value : line.mean) {
+    line.low.push_back(value - half_width);
+    line.high.push_back(value + half_width);
+  }
+  return line;
+}
+
+TEST(BestLine, IsNamedWithItsValueAtTheEnd) {
+  const std::vector<ErrorLine> lines = {three_points("A", {3, 2, 0.25}, 0.01),
+                                        three_points("B", {1, 1, 1}, 0.01)};
+  EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
+            "A has the lowest MPE after 3 steps, 0.25\u00A0m");
+  EXPECT_EQ(best_at_end(lines, {"share", "%", false}, "at {}"),
+            "B has the highest share at 3, 1.0\u00A0%");
+}
+
+TEST(BestLine, IsNamedWithThoseWhoseIntervalsOverlapItsOwn) {
+  const std::vector<ErrorLine> lines = {three_points("A", {3, 2, 0.25}, 0.1),
+                                        three_points("B", {1, 1, 0.3}, 0.1),
+                                        three_points("C", {1, 1, 0.9}, 0.1)};
+  EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
+            "A and B have the lowest MPE after 3 steps, from 0.25\u00A0m");
+}
+
+TEST(BestLine, OverAnAxisIsOneOrChanges) {
+  const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {2, 2.5, 1}, 0.1);
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [°]")),
+            "A has the lowest MPE at noise = 1°, B at 3°");
+  EXPECT_EQ(best_over({a, three_points("C", {4, 4, 4}, 0.1)}, {}, {"noise"}),
+            "A has the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, a}, {}, {"noise"}), "");  // Neither is better.
+  EXPECT_EQ(best_over({}, {}, {"noise"}), "");
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "A has the lowest MPE, 1.0\u00A0m at K = 1");
 }
 
 TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {

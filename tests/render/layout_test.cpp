@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -151,6 +152,16 @@ TEST(Layout, ALongLabelOfTheYAxisIsWrapped) {
   }
 }
 
+TEST(Layout, NoAxisOfAMapHasASingleTick) {
+  Figure figure = with_panels(1);
+  figure.panels[0].equal_aspect = true;
+  figure.panels[0].layers.push_back(Polyline{.x = {0.4, 13.8}, .y = {1.5, 8.6}});
+  std::set<double> baselines;  // One for all ticks of x, one for each of y.
+  for (const TextLine& line : texts_of(lay_out(figure, paper_theme(3.4)), ItemClass::kTickLabel))
+    baselines.insert(line.at.y);
+  EXPECT_GE(baselines.size(), 3U);
+}
+
 TEST(Layout, ALongLabelOfASharedYAxisIsWrapped) {
   const std::string label = "distance of the map from the ground truth [m]";
   Figure figure = with_panels(3);
@@ -257,6 +268,108 @@ TEST(Layout, FramesStayOnThePageWhateverTheNotes) {
 
 TEST(Layout, RefusesAFigureThatCannotBeDrawn) {
   EXPECT_THROW(lay_out(with_panels(0), report_theme()), InvalidInput);
+}
+
+/// As many lines as ends, each from 0 to its end.
+Figure with_lines(const std::vector<double>& ends, const std::string& name = "line ") {
+  Figure figure = with_panels(1);
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    figure.panels[0].layers.push_back(Polyline{.label = name + std::to_string(i),
+                                               .x = {0.0, 1.0},
+                                               .y = {0.0, ends[i]},
+                                               .marker = Marker::kCircle});
+  return figure;
+}
+
+std::vector<std::string> legend_words(const Drawing& drawing) {
+  std::vector<std::string> words;
+  for (const TextLine& line : texts_of(drawing, ItemClass::kLegendText))
+    words.push_back(line.shaped.text);
+  return words;
+}
+
+TEST(LineEnds, AreLabelledRightOfTheFrameInTheirOrder) {
+  const Drawing drawing = lay_out(with_lines({1.0, 3.0, 2.9}), report_theme());
+  EXPECT_EQ(legend_words(drawing), (std::vector<std::string>{"line 1", "line 2", "line 0"}));
+  double last = 0.0;
+  for (const TextLine& line : texts_of(drawing, ItemClass::kLegendText)) {
+    EXPECT_GT(line.at.x, drawing.frames[0].x1);
+    EXPECT_GT(line.at.y, last + 12.0);  // Apart, though two ends nearly meet.
+    last = line.at.y;
+  }
+  EXPECT_FALSE(legend_is_inside(drawing));
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+}
+
+TEST(Curves, HaveTheValuesOfTheirMarkersForPages) {
+  Figure figure = with_lines({0.25});
+  std::get<Polyline>(figure.panels[0].layers[0]).mark = {"line", {{"curve", "line 0"}}};
+  const Drawing drawing = lay_out(figure, report_theme());
+  using Data = std::vector<std::pair<std::string, std::string>>;
+  ASSERT_EQ(drawing.marks.size(), 1U);
+  EXPECT_EQ(drawing.marks[0].data, (Data{{"curve", "line 0"}, {"points", "0, 0;1, 0.25"}}));
+}
+
+TEST(LineEnds, ThatAreFarFromTheRightSideNeedALegend) {
+  Figure figure = with_lines({1.0, 2.0});
+  std::get<Polyline>(figure.panels[0].layers[0]).x = {0.0, 0.3};
+  const Drawing drawing = lay_out(figure, report_theme());
+  EXPECT_TRUE(legend_is_inside(drawing));
+}
+
+TEST(Legend, ListsLinesInTheOrderOfTheirEnds) {
+  const Figure figure = with_lines({1.0, 3.0, 2.0}, "a name too long to stand beside a frame, ");
+  const std::vector<std::string> words = legend_words(lay_out(figure, report_theme()));
+  ASSERT_EQ(words.size(), 3U);
+  EXPECT_TRUE(words[0].ends_with("1"));
+  EXPECT_TRUE(words[1].ends_with("2"));
+  EXPECT_TRUE(words[2].ends_with("0"));
+}
+
+TEST(LineEnds, HaveShortNamesWhereLongOnesAreTooLong) {
+  const Figure figure = with_lines({1.0, 3.0}, "SMACOF, kNN weights, K = ");
+  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(6.75)))[0], "SMACOF kNN, K = 1");
+}
+
+TEST(Legend, HasShortNamesOfMethodsInAColumn) {
+  Figure figure = with_lines({1.0, 3.0}, "SMACOF, kNN weights, K = ");
+  std::get<Polyline>(figure.panels[0].layers[1]).x = {0.0, 0.3};
+  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(3.25)))[1], "SMACOF kNN, K = 1");
+  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(6.75)))[1], "SMACOF, kNN weights, K = 1");
+}
+
+/// What stands for the bands.
+std::vector<Shape> bands_in(const Drawing& drawing) {
+  std::vector<Shape> shapes;
+  for (const Item& item : drawing.items)
+    if (item.item_class == ItemClass::kBand) shapes.push_back(std::get<Shape>(item.what));
+  return shapes;
+}
+
+TEST(Bands, AreBarsSideBySideWhereMoreThanThreeLieOnEachOther) {
+  Figure figure = with_panels(1);
+  for (int i = 0; i < 3; ++i)
+    figure.panels[0].layers.push_back(
+        Band{.x = {0.0, 1.0}, .low = {0.0, 0.0}, .high = {1.0, 1.0 + i}});
+  for (const Shape& band : bands_in(lay_out(figure, report_theme()))) EXPECT_TRUE(band.fill);
+  figure.panels[0].layers.push_back(Band{.x = {0.0, 1.0}, .low = {0.5, 9.0}, .high = {1.0, 10.0}});
+  std::vector<double> at;
+  for (const Shape& band : bands_in(lay_out(figure, report_theme()))) {
+    EXPECT_FALSE(band.fill);
+    ASSERT_EQ(band.path.points.size(), 4U);  // Two bars.
+    at.push_back(band.path.points[0].x);
+  }
+  ASSERT_EQ(at.size(), 4U);
+  for (std::size_t i = 1; i < at.size(); ++i) EXPECT_GT(at[i], at[i - 1] + 1.5);
+}
+
+TEST(LayOut, LeavesTheFrameTwoThirdsOfAPageWithoutTitle) {
+  const Figure figure = with_lines({1, 2, 3, 4, 5, 6, 7, 8}, "a name too long to stand beside, ");
+  for (const double width_in : {3.25, 6.75}) {
+    const Drawing drawing = lay_out(figure, paper_theme(width_in));
+    EXPECT_GE(drawing.frames[0].height(), 0.65 * drawing.height);
+    for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+  }
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(Words, OfALanguageReachLegendAndAxesButNoNames) {
   for (const std::string_view language : languages()) {
     Figure figure = map_sample();
     const Figure before = figure;
-    replace_words(figure, language_words(language));
+    replace_words(figure, FigureStyle{.language = std::string(language)});
     EXPECT_EQ(problem(figure), "") << language;
     EXPECT_EQ(landmarks_of(figure), landmarks_of(before));
     EXPECT_EQ(figure == before, language == "en") << language;

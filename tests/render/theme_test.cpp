@@ -1,5 +1,6 @@
 #include "render/theme/theme.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -68,13 +69,14 @@ TEST(Ticks, StepsAreOneTwoOrFive) {
   EXPECT_DOUBLE_EQ(tick_step(0.0, 2000.0, 5), 500.0);
 }
 
-TEST(Ticks, NeverExceedTheNumberAskedFor) {
+TEST(Ticks, AreAtLeastTwoAndOtherwiseNotMoreThanAskedFor) {
   for (const int most : {2, 3, 5, 9})
     for (double width = 1e-9; width < 1e9; width *= 3.7)
       for (const double low : {-7.3 * width, 0.0, 0.31 * width}) {
         const double step = tick_step(low, low + width, most);
         const std::size_t count = linear_ticks(low, low + width, step).at.size();
-        EXPECT_LE(count, static_cast<std::size_t>(most)) << low << ' ' << width;
+        EXPECT_GE(count, 2U) << low << ' ' << width;
+        EXPECT_LE(count, static_cast<std::size_t>(std::max(most, 4))) << low << ' ' << width;
       }
 }
 
@@ -114,9 +116,22 @@ TEST(Ticks, ManyDecadesAreThinned) {
   EXPECT_EQ(ticks.labels.front(), "10⁻¹²");
 }
 
-TEST(Ticks, AShortLogAxisStillHasTwoLabels) {
-  EXPECT_GE(log_ticks(1.1, 1.4, 6).at.size(), 2u);
-  EXPECT_GE(log_ticks(1.5, 6.0, 6).at.size(), 2u);
+TEST(Ticks, ThreeOfALogAxisAreFarFromEachOther) {
+  EXPECT_EQ(three_log_ticks(0.045, 5.2).labels, (std::vector<std::string>{"0.05", "0.5", "5"}));
+  EXPECT_EQ(three_log_ticks(600.0, 3000.0).labels,
+            (std::vector<std::string>{"600", "1000", "3000"}));
+}
+
+TEST(Ticks, EveryLogAxisHasThreeLabelsWithinIt) {
+  for (const int most : {2, 3, 6, 9})
+    for (const double low : {1.1, 0.07, 3.0, 95.0})
+      for (const double factor : {1.2, 2.0, 4.0, 9.0, 40.0, 1e3, 3e4, 1e9}) {
+        const Ticks ticks = log_ticks(low, low * factor, most);
+        EXPECT_GE(ticks.at.size(), 3U) << low << " x " << factor << ", " << most;
+        EXPECT_GE(ticks.at.front(), low * (1 - 1e-9));
+        EXPECT_LE(ticks.at.back(), low * factor * (1 + 1e-9));
+        EXPECT_EQ(ticks.at.size(), ticks.labels.size());
+      }
 }
 
 TEST(NumberText, HasNoMinusZero) {

@@ -98,7 +98,7 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
   const auto& items = report.opening.numbers.items;
   EXPECT_EQ(items[0].value, "0.310 m");
   EXPECT_EQ(items[0].detail,
-            "mean position error, after the best affine fit to all landmarks; over 2 landmarks");
+            "mean position error over 2 landmarks, after the best affine fit to all landmarks");
   EXPECT_EQ(items[1].value, "4.20 %");
   record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);

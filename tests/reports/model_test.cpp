@@ -27,6 +27,15 @@ TEST(FormatNumber, GivesZeroNoSign) {
   EXPECT_EQ(format_number(0.001, 2, true), "0.00");
 }
 
+TEST(PageCell, HasPowersOfTenAndWordsForMapsThatDiverged) {
+  EXPECT_EQ(page_cell(NumberCell{8.04e15, 1, true}, "%"), "+8.04\u00A0×\u00A010¹⁵");
+  EXPECT_EQ(page_cell(NumberCell{2.79e14, 4}, "m"), "over 1\u00A0km");
+  EXPECT_EQ(page_cell(NumberCell{1900.25, 2}, "m"), "1900.25");
+  EXPECT_EQ(page_cell(NumberCell{-2e-9, 6}, ""), "\u22122.00\u00A0×\u00A010⁻⁹");
+  EXPECT_EQ(page_cell(IntervalCell{0.5, 1e15, 1}, "m"), "0.5 to over 1\u00A0km");
+  EXPECT_EQ(page_cell(IntervalCell{0.5, 1.5, 1}, "m"), "0.5\u20131.5");
+}
+
 TEST(FormatNumber, TurnsHugeNumbersIntoPowersAndMissingOnesIntoADash) {
   EXPECT_EQ(format_number(1.234e11, 3), "1.23e+11");
   EXPECT_EQ(format_number(5821234.5678, 3), "5821234.568");

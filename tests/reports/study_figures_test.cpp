@@ -103,17 +103,17 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
                                       "moe-visibility-graph", "moe-bearing-global",
                                       "moe-bearing-graph"}));
   EXPECT_EQ(ids_of(figures, "maps"),
-            (std::vector<std::string>{"maps-visibility", "maps-bearing", "fig-7",
-                                      "map-visibility-lpca", "map-visibility-isomap",
-                                      "map-bearing-lpca", "map-bearing-isomap"}));
+            (std::vector<std::string>{"maps-visibility", "errors-visibility", "maps-bearing",
+                                      "errors-bearing", "fig-7", "map-visibility-lpca",
+                                      "map-visibility-isomap", "map-bearing-lpca",
+                                      "map-bearing-isomap"}));
   EXPECT_EQ(ids_of(figures, "forming"),
             (std::vector<std::string>{"forming-visibility", "scatter-visibility", "forming-bearing",
                                       "scatter-bearing"}));
   EXPECT_EQ(ids_of(figures, "parameters").size(), 4U);
   EXPECT_EQ(ids_of(figures, "comparison").size(), 6U);
   EXPECT_EQ(ids_of(figures, "conditions"),
-            (std::vector<std::string>{"anchors-visibility", "occlusion-visibility", "level-noise",
-                                      "level-together"}));
+            (std::vector<std::string>{"anchors-visibility", "level-noise", "level-together"}));
   EXPECT_EQ(ids_of(figures, "cost"), (std::vector<std::string>{"cost-visibility", "cost-bearing"}));
   for (const Figure* figure : all_figures(figures)) {
     EXPECT_EQ(problem(*figure), "") << figure->id;

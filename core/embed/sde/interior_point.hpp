@@ -28,10 +28,6 @@ class Reduced {
 
   Eigen::MatrixXd laplacian(const Eigen::VectorXd& w) const;
 
-  /// P L(w).
-  /// @note O(pairs size) time: the Laplacian is sparse.
-  Eigen::MatrixXd times_laplacian(const Eigen::MatrixXd& P, const Eigen::VectorXd& w) const;
-
   /// (b_k' P b_l)(b_k' Q b_l), on and below the diagonal, P and Q symmetric: the matrix of the
   /// pairs after Newton's other unknowns are eliminated.
   void schur(const Eigen::MatrixXd& P, const Eigen::MatrixXd& Q, Eigen::MatrixXd& S) const;
@@ -41,6 +37,8 @@ class Reduced {
     const auto& [i, j] = problem_.pairs[static_cast<std::size_t>(k)];
     return {i - 1, j - 1};
   }
+
+  void differences(const Eigen::MatrixXd& P, Eigen::Index first, Eigen::MatrixXd& out) const;
 
   const Problem& problem_;
   Eigen::Index n_;

@@ -59,7 +59,10 @@ unfolding::CertifiedSolution certified(const unfolding::Problem& problem,
   return {.solution = std::move(solution), .certificate = certificate};
 }
 
-/// By the requested solver; where ours certifies too little, CSDP runs too if that is cheap.
+/// Whether a bound shows that no points have the distances: a variance is not below zero.
+bool is_impossible(const Certificate& certificate) { return certificate.dual < 0.0; }
+
+/// By the requested solver; where ours decides nothing, CSDP runs too if that is cheap.
 unfolding::CertifiedSolution solve(const unfolding::Problem& problem,
                                    const Eigen::MatrixXd& distances, const SdeOptions& options) {
   if (options.solver == SdpSolver::kCsdp)
@@ -73,7 +76,9 @@ unfolding::CertifiedSolution solve(const unfolding::Problem& problem,
   unfolding::CertifiedSolution own = unfolding::solve_by_interior_point(
       problem, gram,
       {.relative_gap = options.relative_gap, .constraint_residual = options.constraint_residual});
-  if (meets(own.certificate, options) || problem.squared.size() > kMostPairsToAskAgain) return own;
+  if (meets(own.certificate, options) || is_impossible(own.certificate) ||
+      problem.squared.size() > kMostPairsToAskAgain)
+    return own;
   unfolding::CertifiedSolution other =
       certified(problem, unfolding::solve_with_csdp(problem).solution);
   return meets(other.certificate, options) ? other : own;
@@ -81,7 +86,7 @@ unfolding::CertifiedSolution solve(const unfolding::Problem& problem,
 
 /// What was not certified, and by how much.
 Status shortfall(const Certificate& certificate, const SdeOptions& options) {
-  if (certificate.dual < 0.0)  // A variance is not.
+  if (is_impossible(certificate))
     return status_of<StatusReason::kBoundBelowZero>(certificate.constraint_residual);
   const double excess = certificate.constraint_residual > options.constraint_residual
                             ? certificate.constraint_residual

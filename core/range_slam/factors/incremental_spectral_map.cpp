@@ -10,7 +10,7 @@
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/gram.hpp"
 #include "core/linalg/packed_product.hpp"
-#include "core/linalg/sign.hpp"
+#include "core/linalg/symmetric_eigen.hpp"
 #include "core/range_slam/factors/quadric.hpp"
 #include "core/range_slam/factors/upgrade_transform.hpp"
 
@@ -22,8 +22,8 @@ constexpr Eigen::Index kRank = 4;
 constexpr Eigen::Index kLeastStepsToMap = 8;
 /// Coordinates whose fourth moments are kept.
 constexpr Eigen::Index kFrame = 8;
-/// Steps that wait before they are folded in: of each landmark, so that the eigenvectors, O(N^3),
-/// take less time than the products; and at least.
+/// Steps that wait before they are folded in: of each landmark, so that the eigenvectors take less
+/// time than the products, even where all are computed, in O(N^3); and at least.
 constexpr Eigen::Index kBlockALandmark = 4;
 constexpr Eigen::Index kLeastBlock = 32;
 /// Eigenvalues of the Gram matrix below this share of the largest are rounding.
@@ -92,14 +92,13 @@ void IncrementalSpectralMap::fold() {
   sum_ += pending.rowwise().sum();
 
   // The frame of the new Gram matrix, and the moments of old columns in it.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
-      Eigen::MatrixXd(gram_ / double(steps_)));
-  eigenvalues_ = solver.eigenvalues().reverse();
-  const double least = kGramRounding * eigenvalues_(0);
-  const Eigen::Index q = std::min<Eigen::Index>(kFrame, (eigenvalues_.array() > least).count());
-  Eigen::MatrixXd U = solver.eigenvectors().rowwise().reverse().leftCols(q);
-  fix_signs(U);
-  const Eigen::VectorXd roots = eigenvalues_.head(q).cwiseSqrt();
+  const EigenPairs leading =
+      leading_eigenpairs(gram_ / double(steps_), frame_,
+                         {.exact = std::min<Eigen::Index>(kRank, gram_.rows()), .count = kFrame});
+  const double least = kGramRounding * leading.values(0);
+  const Eigen::Index q = (leading.values.array() > least).count();
+  const Eigen::MatrixXd U = leading.vectors.leftCols(q);
+  const Eigen::VectorXd roots = leading.values.head(q).cwiseSqrt();
   to_frame_ = roots.cwiseInverse().asDiagonal() * U.transpose();
   const Eigen::MatrixXd K = on_monomials(to_frame_ * frame_);
   const Eigen::Index terms = q * (q + 1) / 2;
@@ -114,9 +113,11 @@ void IncrementalSpectralMap::fold() {
 
 Factorization IncrementalSpectralMap::spectrum() const {
   Factorization result;
-  const double least = kGramRounding * eigenvalues_(0);
-  result.singular_values =
-      (eigenvalues_.array() > least).select(double(steps_) * eigenvalues_.array(), 0.0).sqrt();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+      Eigen::MatrixXd(gram_ / double(steps_)), Eigen::EigenvaluesOnly);
+  const Eigen::ArrayXd eigenvalues = solver.eigenvalues().reverse();
+  const double least = kGramRounding * eigenvalues(0);
+  result.singular_values = (eigenvalues > least).select(double(steps_) * eigenvalues, 0.0).sqrt();
   judge_rank(result, kRank);
   return result;
 }

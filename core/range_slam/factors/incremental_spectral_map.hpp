@@ -59,10 +59,9 @@ class IncrementalSpectralMap {
   Eigen::VectorXd sum_;      ///< N, of folded columns.
   Eigen::MatrixXd pending_;  ///< N x block; the first `pending_count_` columns wait.
   Eigen::Index pending_count_ = 0;
-  Eigen::VectorXd eigenvalues_;  ///< N, of gram_ / steps_, descending.
-  Eigen::MatrixXd frame_;        ///< N x q: y = frame_ z for whitened coordinates z.
-  Eigen::MatrixXd to_frame_;     ///< q x N.
-  Eigen::MatrixXd moments_;      ///< Sum of outer products of the monomials of z.
+  Eigen::MatrixXd frame_;     ///< N x q: y = frame_ z for whitened coordinates z.
+  Eigen::MatrixXd to_frame_;  ///< q x N.
+  Eigen::MatrixXd moments_;   ///< Sum of outer products of the monomials of z.
 };
 
 }  // namespace mapproof

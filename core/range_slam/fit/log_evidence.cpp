@@ -245,6 +245,19 @@ std::vector<OdometryGap> frozen_stretches(const RangeLog& log, std::size_t most)
   return runs;
 }
 
+double odometry_error_percent(const LogProblem& problem, const LogState& state) {
+  std::vector<double> shares;
+  const std::vector<KeyMotion>& motions = problem.keys().motions();
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Eigen::Vector2d way = motions[i].step.head<2>();
+    if (!(way.norm() > 0.0)) continue;
+    const Eigen::Vector2d moved = Eigen::Rotation2Dd(-state.poses[i](2)) *
+                                  Eigen::Vector2d((state.poses[i + 1] - state.poses[i]).head<2>());
+    shares.push_back(100.0 * (moved - way).norm() / way.norm());
+  }
+  return shares.empty() ? 0.0 : median(shares);
+}
+
 double inflation_of(const LogProblem& problem, const LogProblem::Fit& fit) {
   // Each landmark's residuals in time, without outliers.
   std::vector<std::vector<double>> series(static_cast<std::size_t>(problem.landmarks()));
@@ -315,6 +328,10 @@ std::vector<FitTest> residual_tests(const RangeLog& log, const LogProblem& probl
   };
   add(FitCode::kResidualsOverTime, {}, over(by_time, kTimeBlocks));
   add(FitCode::kResidualsOverRange, {}, over(by_range, kRangeBlocks));
+  if (problem.estimates_way())
+    tests.push_back({.code = FitCode::kOdometryResiduals,
+                     .statistic = odometry_error_percent(problem, fit.state),
+                     .bound = kOdometryErrorBound_percent});
   return tests;
 }
 

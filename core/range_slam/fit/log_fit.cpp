@@ -9,6 +9,7 @@
 
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
+#include "core/range_slam/factors/windowed_ranges.hpp"
 #include "core/range_slam/fit/log_evidence.hpp"
 #include "core/range_slam/log_checks.hpp"
 #include "core/range_slam/refinement/refine_starts.hpp"
@@ -155,6 +156,9 @@ class LogTester {
   /// kMostTried, among multiples of `step_s` that grow apart.
   std::vector<double> likely_shifts(const LogHypothesis& hypothesis, LogProblem::Fit fit,
                                     double step_s) const;
+  /// States with time offsets of up to a quarter of the log, at which a quarter of the ranges
+  /// agrees best with the dead-reckoned path. Slopes do not lead to them.
+  std::vector<LogState> starts_by_offset() const;
   void try_offsets();
   void try_times();
   void try_moves();
@@ -453,6 +457,46 @@ std::vector<double> LogTester::likely_shifts(const LogHypothesis& hypothesis, Lo
   return likely_s;
 }
 
+std::vector<LogState> LogTester::starts_by_offset() const {
+  const Eigen::VectorXd& times = odometry_.time_s;
+  const double length_s = times(times.size() - 1) - times(0);
+  const Index most = problem_->keys().size() / 4;
+  std::vector<LogState> states;
+  std::vector<double> misfits;
+  for (Index k = -most; k <= most; ++k) {
+    LogState state = plain_.state;
+    state.shift_s = length_s * static_cast<double>(k) / static_cast<double>(4 * most);
+    RangeLog part = log_;
+    std::erase_if(part.ranges, [&](RangeMeasurement& range) {
+      range.time_s -= state.shift_s;
+      return std::abs(range.time_s - times(0) - 0.5 * length_s) > 0.125 * length_s;
+    });
+    const Points found = trilaterated(part, odometry_, state.scale);
+    for (std::size_t n = 0; n < log_.landmarks.size(); ++n)
+      if (found.row(static_cast<Index>(n)).allFinite())
+        state.landmarks[n] = found.row(static_cast<Index>(n)).transpose();
+    std::vector<double> errors_m;
+    const std::vector<LandmarkRanges> heard =
+        ranges_by_landmark(part.ranges, std::ssize(log_.landmarks), odometry_);
+    for (std::size_t n = 0; n < heard.size(); ++n)
+      for (Index i = 0; i < heard[n].range_m.size(); ++i)
+        errors_m.push_back(std::abs(
+            state.scale * (heard[n].positions_m.row(i).transpose() - state.landmarks[n]).norm() -
+            heard[n].range_m(i)));
+    state.poses = problem_->poses_of(odometry_);
+    states.push_back(std::move(state));
+    misfits.push_back(errors_m.empty() ? kInfinity : median(errors_m));
+  }
+  std::vector<std::size_t> lowest;
+  for (std::size_t i = 1; i + 1 < misfits.size(); ++i)
+    if (misfits[i] <= misfits[i - 1] && misfits[i] <= misfits[i + 1]) lowest.push_back(i);
+  std::ranges::stable_sort(lowest, {}, [&](std::size_t i) { return misfits[i]; });
+  if (lowest.size() > kMostTried) lowest.resize(kMostTried);
+  std::vector<LogState> likely;
+  for (const std::size_t i : lowest) likely.push_back(std::move(states[i]));
+  return likely;
+}
+
 void LogTester::try_times() {
   const double length_s = odometry_.time_s(odometry_.size() - 1) - odometry_.time_s(0);
   // From no shift, and from some that are so large that slopes do not lead there.
@@ -460,7 +504,14 @@ void LogTester::try_times() {
   std::vector<LogState> starts(3, plain_.state);
   starts[1].shift_s = -reach_s;
   starts[2].shift_s = reach_s;
-  const TriedHypothesis late = best_shift({.code = FitCode::kTimeOffset}, starts);
+  TriedHypothesis late = best_shift({.code = FitCode::kTimeOffset}, starts);
+  if (problem_->estimates_way() &&
+      odometry_error_percent(*problem_, plain_.state) > kOdometryErrorBound_percent)
+    for (const LogState& start : starts_by_offset()) {
+      TriedHypothesis one =
+          tried({.code = FitCode::kTimeOffset}, start, first_noise(*problem_, start));
+      if (one.fit.cost < late.fit.cost) late = std::move(one);
+    }
   tried_.push_back(late);
   std::vector<double> times;
   for (int k = 1; k < kJumpTimes; ++k)
@@ -840,11 +891,15 @@ void LogTester::judge(LogFit& result) {
   judge_known(fit);
   for (FitTest& test : residual_tests(log_, *problem_, plain_, inflation_)) {
     if (test.exceeds() && fit.causes.empty())
-      fit.causes.push_back({.code = test.code,
-                            .landmarks = test.landmarks,
-                            .statistic = test.statistic,
-                            .bound = test.bound,
-                            .is_small = test.statistic < 3.0 * test.bound});
+      fit.causes.push_back(
+          {.code = test.code,
+           .landmarks = test.landmarks,
+           .values = test.code == FitCode::kOdometryResiduals
+                         ? std::vector<FitValue>{{.id = "share_percent", .value = test.statistic}}
+                         : std::vector<FitValue>{},
+           .statistic = test.statistic,
+           .bound = test.bound,
+           .is_small = test.statistic < 3.0 * test.bound});
     fit.tests.push_back(std::move(test));
   }
   std::ranges::stable_sort(fit.tests, {}, &FitTest::code);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -260,8 +261,33 @@ double LogProblem::sigma_of(const Range& range, const LogNoise& noise) const {
   return range.sigma_m > 0.0 ? range.sigma_m : noise.range_m;
 }
 
+/// A state with the rotations of its poses, of which each serves many ranges.
+struct LogProblem::Turned {
+  explicit Turned(const LogState& of) : state(of) {
+    rotations.reserve(of.poses.size());
+    for (const Eigen::Vector3d& pose : of.poses)
+      rotations.push_back(Eigen::Rotation2Dd(pose(2)).toRotationMatrix());
+  }
+
+  /// As the pose before, and as the pose after give it, relative to their own positions.
+  std::pair<Eigen::Vector2d, Eigen::Vector2d> ways_to(const BetweenPoses& at) const {
+    const auto before = static_cast<std::size_t>(at.before);
+    return {rotations[before] * at.ahead.head<2>(), rotations[before + 1] * at.behind.head<2>()};
+  }
+  Eigen::Vector2d position(const BetweenPoses& at) const {
+    const auto before = static_cast<std::size_t>(at.before);
+    const auto [from_first, from_second] = ways_to(at);
+    return (1.0 - at.share) * (state.poses[before].head<2>() + from_first) +
+           at.share * (state.poses[before + 1].head<2>() + from_second);
+  }
+
+  const LogState& state;
+  std::vector<Eigen::Matrix2d> rotations;
+};
+
 LogProblem::Term LogProblem::term_of(const Range& range, const LogHypothesis& hypothesis,
-                                     const LogState& state) const {
+                                     const Turned& turned) const {
+  const LogState& state = turned.state;
   Term term;
   term.landmark = range.landmark;
   const bool applies = is_between(range.time_s, hypothesis);
@@ -281,15 +307,8 @@ LogProblem::Term LogProblem::term_of(const Range& range, const LogHypothesis& hy
   const BetweenPoses moved =
       term.has_shift ? keys_.at(range.time_s - state.shift_s) : BetweenPoses{};
   const BetweenPoses& at = term.has_shift ? moved : range.at;
-  const auto before = static_cast<std::size_t>(at.before);
-  const Eigen::Vector3d& first = state.poses[before];
-  const Eigen::Vector3d& second = state.poses[before + 1];
-  const Eigen::Vector2d from_first =
-      Eigen::Rotation2Dd(first(2)) * Eigen::Vector2d(at.ahead.head<2>());
-  const Eigen::Vector2d from_second =
-      Eigen::Rotation2Dd(second(2)) * Eigen::Vector2d(at.behind.head<2>());
-  const Eigen::Vector2d position = (1.0 - at.share) * (first.head<2>() + from_first) +
-                                   at.share * (second.head<2>() + from_second);
+  const auto [from_first, from_second] = turned.ways_to(at);
+  const Eigen::Vector2d position = turned.position(at);
   const Eigen::Vector2d gap = position - state.landmarks[static_cast<std::size_t>(term.landmark)];
   term.before = at.before;
   term.distance_m = gap.norm();
@@ -306,19 +325,14 @@ LogProblem::Term LogProblem::term_of(const Range& range, const LogHypothesis& hy
   return term;
 }
 
-double LogProblem::slope_in_time(const Range& range, const Term& term,
-                                 const LogState& state) const {
-  const double time_s = range.time_s - (term.has_shift ? state.shift_s : 0.0);
-  const auto position_at = [&](double t) -> Eigen::Vector2d {
-    const BetweenPoses there = keys_.at(t);
-    const auto i = static_cast<std::size_t>(there.before);
-    return there.pose(state.poses[i], state.poses[i + 1]).head<2>();
-  };
+double LogProblem::slope_in_time(const Range& range, const Term& term, const Turned& turned) const {
+  const double time_s = range.time_s - (term.has_shift ? turned.state.shift_s : 0.0);
   const Eigen::VectorXd& times = keys_.path().time_s;
   const double low = std::max(time_s - step_s_, times(0));
   const double high = std::min(time_s + step_s_, times(times.size() - 1));
   if (!(high > low)) return 0.0;
-  const Eigen::Vector2d speed = (position_at(high) - position_at(low)) / (high - low);
+  const Eigen::Vector2d speed =
+      (turned.position(keys_.at(high)) - turned.position(keys_.at(low))) / (high - low);
   return term.position.dot(speed);  // The slope in the position is that in the landmark, negated.
 }
 
@@ -331,9 +345,10 @@ double LogProblem::cost_of(const LogHypothesis& hypothesis, const LogState& stat
     cost += llt.matrixL().solve(m.error).squaredNorm();
     cost += 2.0 * Eigen::Matrix3d(llt.matrixL()).diagonal().array().log().sum();
   }
+  const Turned turned(state);
   for (const Range& range : ranges_) {
     if (range.in_gap) continue;
-    const Term term = term_of(range, hypothesis, state);
+    const Term term = term_of(range, hypothesis, turned);
     cost += noise.range_information * mixture_of(term.residual_m, sigma_of(range, noise),
                                                  noise.outlier_share, outlier_width_m_)
                                           .cost;
@@ -354,9 +369,10 @@ void LogProblem::assemble(const LogHypothesis& hypothesis, const Columns& column
     system.add_motion(static_cast<Index>(i) - 1, W * m.first, W * m.second, W * m.error);
   }
   std::vector<ChainSystem::Slope> slopes;
+  const Turned turned(state);
   for (const Range& range : ranges_) {
     if (range.in_gap) continue;
-    const Term term = term_of(range, hypothesis, state);
+    const Term term = term_of(range, hypothesis, turned);
     const double sigma = sigma_of(range, noise);
     const Mixture mixture =
         mixture_of(term.residual_m, sigma, noise.outlier_share, outlier_width_m_);
@@ -368,7 +384,7 @@ void LogProblem::assemble(const LogHypothesis& hypothesis, const Columns& column
     slopes.push_back({columns.scale, weight * term.distance_m});
     if (columns.offset >= 0 && term.has_offset) slopes.push_back({columns.offset, weight});
     if (columns.shift >= 0 && term.has_shift)
-      slopes.push_back({columns.shift, weight * slope_in_time(range, term, state)});
+      slopes.push_back({columns.shift, weight * slope_in_time(range, term, turned)});
     if (columns.offsets >= 0) slopes.push_back({columns.offsets + range.landmark, weight});
     system.add_range(term.before - 1, weight * term.first, weight * term.second, slopes,
                      weight * term.residual_m);
@@ -398,7 +414,7 @@ LogState LogProblem::moved(const LogState& state, const Columns& columns,
 struct LogProblem::Solved {
   const LogHypothesis& hypothesis;
   const Columns& columns;
-  const LogState& state;
+  const Turned& turned;
   const LogNoise& noise;
   const ChainSystem::Covariance& covariance;
 };
@@ -418,7 +434,8 @@ void LogProblem::add_motion_errors(const Solved& solved, ErrorSums& sums) const 
   const Eigen::Array3d weight = variances_of(solved.noise);
   for (std::size_t i = 0; i < motions_.size(); ++i) {
     const Motion& motion = motions_[i];
-    const MotionError m = error_of(motion.step, solved.state.poses[i], solved.state.poses[i + 1]);
+    const MotionError m =
+        error_of(motion.step, solved.turned.state.poses[i], solved.turned.state.poses[i + 1]);
     const Index first = static_cast<Index>(i) - 1;
     Eigen::Matrix3d error = m.second * pose_at(first + 1) * m.second.transpose();
     if (first >= 0) {
@@ -448,7 +465,7 @@ double LogProblem::prediction_variance(const Solved& solved, const Range& range,
   shared(columns.scale) = term.distance_m;
   if (columns.offset >= 0 && term.has_offset) shared(columns.offset) = 1.0;
   if (columns.shift >= 0 && term.has_shift)
-    shared(columns.shift) = slope_in_time(range, term, solved.state);
+    shared(columns.shift) = slope_in_time(range, term, solved.turned);
   if (columns.offsets >= 0) shared(columns.offsets + range.landmark) = 1.0;
   double variance = shared.dot(covariance.shared * shared);
   const auto second = static_cast<std::size_t>(first + 1);
@@ -467,7 +484,7 @@ void LogProblem::add_range_errors(const Solved& solved, ErrorSums& sums) const {
   const LogNoise& noise = solved.noise;
   for (const Range& range : ranges_) {
     if (range.in_gap) continue;
-    const Term term = term_of(range, solved.hypothesis, solved.state);
+    const Term term = term_of(range, solved.hypothesis, solved.turned);
     const double sigma = sigma_of(range, noise);
     const Mixture mixture =
         mixture_of(term.residual_m, sigma, noise.outlier_share, outlier_width_m_);
@@ -487,7 +504,8 @@ bool LogProblem::update_noise(const LogHypothesis& hypothesis, const Columns& co
   const auto covariance = system.covariance();
   if (!covariance) return false;
   ErrorSums sums;
-  const Solved solved{hypothesis, columns, state, noise, *covariance};
+  const Turned turned(state);
+  const Solved solved{hypothesis, columns, turned, noise, *covariance};
   add_motion_errors(solved, sums);
   add_range_errors(solved, sums);
   const auto grown = [](double sigma, double factor) {
@@ -545,10 +563,11 @@ void LogProblem::take_residuals(const LogHypothesis& hypothesis, Fit& fit) const
   const Index count = std::ssize(ranges_);
   fit.normalised = Eigen::VectorXd::Zero(count);
   fit.inlier = Eigen::VectorXd::Zero(count);
+  const Turned turned(fit.state);
   for (Index i = 0; i < count; ++i) {
     const Range& range = ranges_[static_cast<std::size_t>(i)];
     if (range.in_gap) continue;
-    const Term term = term_of(range, hypothesis, fit.state);
+    const Term term = term_of(range, hypothesis, turned);
     const double sigma = sigma_of(range, fit.noise);
     fit.normalised(i) = term.residual_m / sigma;
     fit.inlier(i) =
@@ -583,11 +602,12 @@ LogProblem::Fit LogProblem::fit(const LogHypothesis& hypothesis, LogState start,
 
 Eigen::VectorXd LogProblem::range_costs(const LogHypothesis& hypothesis, const Fit& fit) const {
   Eigen::VectorXd costs = Eigen::VectorXd::Zero(std::ssize(ranges_));
+  const Turned turned(fit.state);
   for (Index i = 0; i < costs.size(); ++i) {
     const Range& range = ranges_[static_cast<std::size_t>(i)];
     if (range.in_gap) continue;
-    costs(i) = mixture_of(term_of(range, hypothesis, fit.state).residual_m,
-                          sigma_of(range, fit.noise), fit.noise.outlier_share, outlier_width_m_)
+    costs(i) = mixture_of(term_of(range, hypothesis, turned).residual_m, sigma_of(range, fit.noise),
+                          fit.noise.outlier_share, outlier_width_m_)
                    .cost;
   }
   return costs;
@@ -605,8 +625,10 @@ LogNoise LogProblem::first_noise(const LogState& start) const {
   noise.heading_per_metre = kFirstTurnError / std::sqrt(way_m);
   noise.heading_per_radian = kFirstTurnError / std::sqrt(std::max(turn, 1.0));
   std::vector<double> sizes;
+  const Turned turned(start);
   for (const Range& range : ranges_)
-    if (!range.in_gap) sizes.push_back(std::abs(term_of(range, LogHypothesis{}, start).residual_m));
+    if (!range.in_gap)
+      sizes.push_back(std::abs(term_of(range, LogHypothesis{}, turned).residual_m));
   const double typical = sizes.empty() ? 0.0 : median(sizes);
   noise.range_m = std::max(1.5 * typical, 1e-6 * outlier_width_m_);
   noise.outlier_share = 0.02;
@@ -625,10 +647,11 @@ ChainSystem LogProblem::score_system(const Fit& fit, const std::vector<double>& 
     const Eigen::Matrix3d W = llt.matrixL().solve(Eigen::Matrix3d::Identity());
     system.add_motion(static_cast<Index>(i) - 1, W * m.first, W * m.second, W * m.error);
   }
+  const Turned turned(fit.state);
   std::vector<ChainSystem::Slope> slopes;
   for (const Range& range : ranges_) {
     if (range.in_gap) continue;
-    const Term term = term_of(range, plain, fit.state);
+    const Term term = term_of(range, plain, turned);
     const double sigma = sigma_of(range, fit.noise);
     const double weight =
         std::sqrt(
@@ -640,7 +663,7 @@ ChainSystem LogProblem::score_system(const Fit& fit, const std::vector<double>& 
     slopes.push_back({column + 1, weight * term.position(1)});
     slopes.push_back({columns.scale, weight * term.distance_m});
     slopes.push_back({columns.count, weight});
-    const double per_second = weight * slope_in_time(range, term, fit.state);
+    const double per_second = weight * slope_in_time(range, term, turned);
     slopes.push_back({columns.count + 1, per_second});
     slopes.push_back({columns.count + 2 + range.landmark, weight});
     for (Index j = 0; j < jumps; ++j)

@@ -76,6 +76,8 @@ class LogProblem {
 
   const KeyPoses& keys() const { return keys_; }
   Eigen::Index landmarks() const { return landmarks_; }
+  /// Whether the noise of the way is estimated, not given.
+  bool estimates_way() const { return !given_[0]; }
 
   struct Range {
     double time_s = 0.0;
@@ -155,6 +157,7 @@ class LogProblem {
   };
   struct Columns;
   struct Term;
+  struct Turned;
   struct Solved;
   struct ErrorSums;
 
@@ -162,9 +165,9 @@ class LogProblem {
                         const std::vector<OdometryGap>& gaps) const;
   Eigen::Matrix3d motion_covariance(const Motion& motion, const LogNoise& noise) const;
   Columns columns_of(const LogHypothesis& hypothesis, const LogNoise& noise) const;
-  Term term_of(const Range& range, const LogHypothesis& hypothesis, const LogState& state) const;
+  Term term_of(const Range& range, const LogHypothesis& hypothesis, const Turned& turned) const;
   /// The slope of a range in the shift of its time.
-  double slope_in_time(const Range& range, const Term& term, const LogState& state) const;
+  double slope_in_time(const Range& range, const Term& term, const Turned& turned) const;
   double sigma_of(const Range& range, const LogNoise& noise) const;
   double cost_of(const LogHypothesis& hypothesis, const LogState& state,
                  const LogNoise& noise) const;

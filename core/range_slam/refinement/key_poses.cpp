@@ -65,6 +65,9 @@ KeyPoses::KeyPoses(const Trajectory& path, const OdometryNoise& noise, double sp
     rows_.push_back(row);
     way_m = 0.0;
   }
+  rotations_.reserve(rows_.size());
+  for (const Eigen::Index row : rows_)
+    rotations_.push_back(Eigen::Rotation2Dd(-path_.heading_rad(row)).toRotationMatrix());
 }
 
 KeyMotion KeyPoses::motion_between(Eigen::Index first, Eigen::Index last,
@@ -92,6 +95,13 @@ KeyMotion KeyPoses::motion_between(Eigen::Index first, Eigen::Index last,
   return motion;
 }
 
+Eigen::Vector3d KeyPoses::seen_from_key(Eigen::Index key, const Eigen::Vector3d& pose) const {
+  const auto k = static_cast<std::size_t>(key);
+  Eigen::Vector3d seen = pose - pose_of(path_, rows_[k]);
+  seen.head<2>() = (rotations_[k] * seen.head<2>()).eval();
+  return seen;
+}
+
 BetweenPoses KeyPoses::at(double time_s) const {
   const Eigen::VectorXd& times = path_.time_s;
   const Eigen::Index last = times.size() - 1;
@@ -108,8 +118,8 @@ BetweenPoses KeyPoses::at(double time_s) const {
   return {.before = next - rows_.begin() - 1,
           .share = std::clamp((time_s - times(first_row)) / (times(second_row) - times(first_row)),
                               0.0, 1.0),
-          .ahead = seen_from(pose_of(path_, first_row), pose),
-          .behind = seen_from(pose_of(path_, second_row), pose)};
+          .ahead = seen_from_key(next - rows_.begin() - 1, pose),
+          .behind = seen_from_key(next - rows_.begin(), pose)};
 }
 
 }  // namespace mapproof

@@ -59,9 +59,12 @@ class KeyPoses {
 
  private:
   KeyMotion motion_between(Eigen::Index first, Eigen::Index last, const OdometryNoise& noise) const;
+  /// A pose of the path in the frame of a key pose.
+  Eigen::Vector3d seen_from_key(Eigen::Index key, const Eigen::Vector3d& pose) const;
 
   Trajectory path_;
   std::vector<Eigen::Index> rows_;
+  std::vector<Eigen::Matrix2d> rotations_;  ///< Into the frames of the key poses.
   std::vector<KeyMotion> motions_;
 };
 

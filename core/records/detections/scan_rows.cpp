@@ -32,10 +32,7 @@ class NamedRoles {
     const ColumnNames columns = columns_in(row.cells, names);
     for (std::size_t i = 0; i < row.cells.size(); ++i) {
       const std::optional<ColumnRole> role = column_heading(row.cells[i], i, columns).role;
-      if (role)
-        has_[static_cast<std::size_t>(*role)] = true;
-      else if (!is_index(row.cells[i]))
-        ++others_;
+      if (role) has_[static_cast<std::size_t>(*role)] = true;
     }
   }
 
@@ -48,15 +45,9 @@ class NamedRoles {
   bool has_measurement() const {
     return (*this)(ColumnRole::kRange) || (*this)(ColumnRole::kBearing) || has_position();
   }
-  /// Nothing but when a landmark was seen, and by whom.
-  bool is_list() const {
-    return has_scan() && (*this)(ColumnRole::kLandmark) && others_ == 0 && !has_measurement() &&
-           !(*this)(ColumnRole::kValue) && !(*this)(ColumnRole::kX) && !(*this)(ColumnRole::kY);
-  }
 
  private:
   std::array<bool, kColumnRoles> has_{};
-  std::size_t others_ = 0;
 };
 
 bool is_time_cell(std::string_view cell) {
@@ -76,10 +67,13 @@ void set_column(DetectionColumns& columns, ColumnRole role, std::size_t cell,
 /// @throws IoError if too little is there.
 void require_detections(const DetectionColumns& columns, const std::string& source,
                         const std::string& location) {
-  const std::string others = columns.unread.empty()
-                                 ? ""
-                                 : fmt::format("; there is {}: --columns ROLE=HEADER names them",
-                                               fmt::join(columns.unread, ", "));
+  std::string others = columns.unread.empty()
+                           ? ""
+                           : fmt::format("; there is {}: --columns ROLE=HEADER names them",
+                                         fmt::join(columns.unread, ", "));
+  const auto ends_in_z = [](const std::string& header) { return header.ends_with(".z\""); };
+  if (std::ranges::any_of(columns.unread, ends_in_z))
+    others += " (in a camera's frame, which is along z: x=...z,right=...x)";
   if (!columns[ColumnRole::kLandmark])
     throw IoError(source, location, "no column is named landmark" + others);
   if (!columns[ColumnRole::kStep] && !columns[ColumnRole::kTime])
@@ -89,14 +83,20 @@ void require_detections(const DetectionColumns& columns, const std::string& sour
       columns[ColumnRole::kX] && (columns[ColumnRole::kY] || columns[ColumnRole::kRight]);
   if (!columns[ColumnRole::kRange] && !columns[ColumnRole::kBearing] && !has_position &&
       !columns[ColumnRole::kValue] && !columns.unread.empty())
-    throw IoError(source, location, "no column is named range or bearing" + others);
+    throw IoError(source, location,
+                  "no column is named range or bearing" + others +
+                      "; a list of times and landmarks alone is read as visibility");
 }
 
 }  // namespace
 
 bool names_detection_columns(const TableRow& row, const ColumnNames& names) {
   const NamedRoles roles(row, names);
-  return (roles(ColumnRole::kLandmark) && roles.has_measurement()) || roles.is_list();
+  // Without a landmark, the message names the columns.
+  if (!roles(ColumnRole::kLandmark))
+    return roles.has_scan() && (roles(ColumnRole::kRange) || roles(ColumnRole::kBearing));
+  // Beside times and landmarks, columns of unknown names are measurements, not landmarks.
+  return roles.has_measurement() || (roles.has_scan() && !roles(ColumnRole::kValue));
 }
 
 bool is_stacked_header(const TableRow& row) {
@@ -173,7 +173,16 @@ DetectionColumns detection_columns(const TableRow& header, const std::string& so
 DetectionColumns usual_detection_columns(const TableRow& first, const std::string& source,
                                          const ColumnNames& names) {
   require_columns(first.cells, names, source);
-  if (!columns_in(first.cells, names).empty()) return detection_columns(first, source, names);
+  if (!columns_in(first.cells, names).empty()) {
+    DetectionColumns columns = detection_columns(first, source, names);
+    // The first row is data, not a header.
+    columns.unread.clear();
+    for (auto& [role, header] : columns.read)
+      for (std::size_t k = 0; k < kColumnRoles; ++k)
+        if (name(static_cast<ColumnRole>(k)) == role && columns.cell[k])
+          header = fmt::format("column {}", *columns.cell[k] + 1);
+    return columns;
+  }
   const std::size_t width = first.cells.size();
   if (width != 4 && width != 2)
     throw IoError(source, fmt::format("line {}", first.line),

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 
@@ -73,8 +74,27 @@ std::string remedy_for(const TableRow& header) {
   return "; --columns landmark=HEADER,x=HEADER,y=HEADER names others";
 }
 
+/// The names that count for positions: where the header's own words suffice, neither numbers, which
+/// are those of the observations, nor the axes of a camera's frame.
+ColumnNames names_of_positions(const TableRow& header, const ColumnNames& names) {
+  std::array<int, 3> counts{};
+  for (std::size_t i = 0; i < header.cells.size(); ++i)
+    if (const Heading own = heading_of(header.cells[i], i, {}); own.column) ++counts[*own.column];
+  if (std::ranges::any_of(counts, [](int count) { return count != 1; })) return names;
+  const bool is_camera =
+      std::ranges::find(names, ColumnRole::kRight, &NamedColumn::role) != names.end();
+  ColumnNames others;
+  std::ranges::copy_if(names, std::back_inserter(others), [&](const NamedColumn& column) {
+    const bool is_number = column.header.find_first_not_of("0123456789") == std::string::npos;
+    return !is_number &&
+           !(is_camera && (column.role == ColumnRole::kX || column.role == ColumnRole::kRight));
+  });
+  return others;
+}
+
 /// @throws IoError unless each of name, x and y is there once; others are not read.
-Columns columns_of(const TableRow& header, const std::string& source, const ColumnNames& names) {
+Columns columns_of(const TableRow& header, const std::string& source, const ColumnNames& all) {
+  const ColumnNames names = names_of_positions(header, all);
   const ColumnNames named = columns_in(header.cells, names);
   Columns columns{};
   std::array<bool, 3> is_found{};

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,6 +25,9 @@ struct RangeLogParts {
   std::vector<std::string> remarks = {};
   ColumnNames columns = {};              ///< That the user names; marked once a table has them.
   std::vector<std::string> header = {};  ///< Of the table of ranges.
+  /// What is read of that table, see RangeLog.
+  std::vector<std::pair<std::string, std::string>> read = {};
+  char separator = '\0';
 };
 
 /// The times of the poses of the odometry: its start, then the end of each motion.

@@ -74,11 +74,13 @@ bool is_of_motion(ColumnRole role) {
 void require_increment(std::string_view cell, const std::string& source,
                        const std::string& location) {
   if (names_rate(cell))
-    throw IoError(source, location,
-                  fmt::format("{} is a speed or a rate of turning; odometry is the way [m] and the "
-                              "heading change [rad] since the row before: multiply by the time "
-                              "between the rows",
-                              in_quotes(cell)));
+    throw IoError(
+        source, location,
+        fmt::format("{} is a speed or a rate of turning; odometry is the way [m] and the "
+                    "heading change [rad] since the row before. With dt between the rows: "
+                    "dheading = w dt, ddist = v dt cos(dheading / 2), dside = v dt "
+                    "sin(dheading / 2)",
+                    in_quotes(cell)));
 }
 
 /// @throws IoError for a table of motions that has speeds or poses in their place.
@@ -91,9 +93,11 @@ void require_motions(const TableRow& header, const std::string& source,
     has_y = has_y || column_heading(cell, 0, {}).role == ColumnRole::kY;
   }
   if (has_x && has_y)
-    throw IoError(source, location,
-                  "holds poses (x, y); odometry is the way [m] and the heading change [rad] since "
-                  "the row before: give the differences of the poses");
+    throw IoError(
+        source, location,
+        "holds poses (x, y); odometry is the way [m] and the heading change [rad] since "
+        "the row before. Of the differences dx, dy and dheading to the row before, with its "
+        "heading h: ddist = dx cos h + dy sin h, dside = dy cos h - dx sin h");
 }
 
 /// @throws IoError if the column is needed but not there, or there twice.
@@ -207,7 +211,7 @@ NumberTable read_range_columns(ByteSource& input, const std::vector<RangeColumn>
     if (const auto cell = cell_of(kNanoseconds, row, source, names)) cells.push_back(*cell);
   const auto name_cell = landmarks ? cell_of(kLandmark, row, source, names) : std::optional<Cell>();
 
-  NumberTable table{.source = source};
+  NumberTable table{.source = source, .separator = reader.separator()};
   for (const Cell& cell : cells) table.columns.emplace_back(name(cell.role), row.cells[cell.index]);
   if (name_cell) table.columns.emplace_back(name(name_cell->role), row.cells[name_cell->index]);
   std::vector<double> values;

@@ -242,7 +242,9 @@ RangeLog assemble(RangeLogParts parts, const RangeLogOptions& options) {
                .odometry = parts.odometry,
                .ground_truth = parts.ground_truth,
                .true_landmarks = std::nullopt,
-               .remarks = parts.remarks};
+               .remarks = parts.remarks,
+               .columns = parts.read,
+               .separator = parts.separator};
   take_measurements(options, parts, log);
   take_true_landmarks(parts, log);
   if (!parts.true_landmarks.heights.empty()) log.remarks.push_back(parts.true_landmarks.heights);

@@ -72,6 +72,8 @@ RangeLog read_range_log_csv(ByteSource& source, const RangeLogOptions& options) 
     parts.remarks.push_back(
         fmt::format("{} without a range: left out.", counted(ranges.left_out, "row")));
   parts.measurements = measurements_in(ranges);
+  parts.read = ranges.columns;
+  parts.separator = ranges.separator;
   if (unpacked_name(path).filename() == "ranges.csv")
     take_folder(path.parent_path(), options, parts);
   return assemble(std::move(parts), options);

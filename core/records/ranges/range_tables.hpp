@@ -22,6 +22,7 @@ struct NumberTable {
   std::size_t left_out = 0;             ///< Rows that were, since their range is missing.
   /// Role and header of each column: {"distance", "Weg [m]"}; empty without a header.
   std::vector<std::pair<std::string, std::string>> columns = {};
+  char separator = '\0';  ///< Of the cells; 0: not known.
 
   /// Takes `values` row by row, as many rows as `rows`.
   void set_values(const std::vector<double>& by_row, Eigen::Index width);

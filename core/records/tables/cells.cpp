@@ -45,9 +45,7 @@ std::string observation_problem(Sensor sensor, double value) {
           value);
     case Sensor::kRange:
       return value < 0.0
-                 ? fmt::format(
-                       "a range cannot be negative, got {}; bearings can: map --sensor bearing",
-                       value)
+                 ? fmt::format("a range cannot be negative, got {}: is it a bearing?", value)
                  : fmt::format("ranges are in metres, at most {}, got {}", kLongestRange_m, value);
   }
   return {};

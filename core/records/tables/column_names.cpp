@@ -67,6 +67,9 @@ constexpr Word kWords[] = {
     {"objekt", ColumnRole::kLandmark},
     {"landmarke", ColumnRole::kLandmark},
     {"anchor", ColumnRole::kLandmark},
+    {"anker", ColumnRole::kLandmark},
+    {"fiducial", ColumnRole::kLandmark},
+    {"apriltag", ColumnRole::kLandmark},
     {"node", ColumnRole::kLandmark},
     {"variable", ColumnRole::kLandmark},  // As pandas melts a table of landmarks and times.
     {"balise", ColumnRole::kLandmark},
@@ -336,16 +339,21 @@ ColumnHeading column_heading(std::string_view cell, std::size_t number,
     if (is_length && (is_angle || has_angle_unit(text))) heading.unknown_unit = "angle";
     return heading;
   }
-  // A column that the user names otherwise is not sought by its usual words.
-  if (heading.role &&
-      std::ranges::find(columns, *heading.role, &NamedColumn::role) != columns.end())
+  // A column that the user names otherwise is not sought by its usual words. What is to the right
+  // stands in place of y.
+  const auto is_asked_for = [&](ColumnRole role) {
+    return std::ranges::find(columns, role, &NamedColumn::role) != columns.end();
+  };
+  if (heading.role && (is_asked_for(*heading.role) ||
+                       (heading.role == ColumnRole::kY && is_asked_for(ColumnRole::kRight))))
     return {.role = std::nullopt};
   return heading;
 }
 
 bool is_named(const NamedColumn& column, std::string_view cell, std::size_t number) {
-  const std::string header = lower_case(trimmed(column.header));
-  return header == lower_case(trimmed(cell)) || is_number(header, number + 1);
+  // A number counts columns: without a header, the first row may hold it as an ID.
+  if (is_column_number(column)) return is_number(column.header, number + 1);
+  return lower_case(trimmed(column.header)) == lower_case(trimmed(cell));
 }
 
 std::optional<double> column_factor(std::string_view cell, ColumnRole role,

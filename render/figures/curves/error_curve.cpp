@@ -167,11 +167,8 @@ Figure anchor_count_figure(const AnchorCountSpec& spec) {
   lines.y_label = spec.y_label;
   lines.quantity = spec.quantity;
   lines.record_ids = spec.record_ids;
-  lines.caption = fmt::format(
-      "Lines: {} over the number of anchors, mean over runs, one line per layout of the anchors; "
-      "bands: "
-      "its 95 % interval.",
-      spec.quantity);
+  lines.over = " over the number of anchors";
+  lines.remark = " There is one line per layout of the anchors.";
   for (const AnchorPanel& from : spec.panels) {
     ErrorPanel& panel = lines.panels.emplace_back();
     panel.title = from.title;
@@ -208,10 +205,8 @@ Figure error_by_parameter_figure(const ErrorByParameterSpec& spec) {
     for (const ParameterLine& method : group.methods)
       add_optimum(panel, method.line, method.ours, "our optimum", Marker::kCircle);
   }
-  lines.caption = fmt::format(
-      "Lines: {}, mean over runs; bands: its 95 % interval. Large open circles: our optimum; open "
-      "squares: the paper's optimum and its printed value.",
-      spec.quantity);
+  lines.remark =
+      " Large open circles: our optimum; open squares: the paper's optimum and its printed value.";
   return error_lines_figure(lines);
 }
 

@@ -11,6 +11,7 @@
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/plot/layers.hpp"
 
 namespace mapproof {
 namespace {
@@ -20,6 +21,25 @@ constexpr std::array kMarkers = {Marker::kCircle,  Marker::kSquare,       Marker
                                  Marker::kCross};
 constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDashDot, Dash::kDotted,
                                 Dash::kLongDash};
+
+constexpr double kLeastOfHeight = 0.3;  // What values take of an axis from 0.
+
+/// "; bands: its 95 % interval", or bars where bands would hide each other; empty without
+/// intervals.
+std::string interval_words(const std::vector<Panel>& panels) {
+  bool bands = false, bars = false;
+  for (const Panel& panel : panels) {
+    const bool hidden = bands_hide_each_other(panel);
+    bars |= hidden;
+    bands |= !hidden && std::ranges::any_of(panel.layers, [](const Layer& layer) {
+      return std::holds_alternative<Band>(layer);
+    });
+  }
+  if (!bands && !bars) return "";
+  return fmt::format("; {}: its 95 % interval", !bars   ? "bands"
+                                                : bands ? "bands and bars"
+                                                        : "bars");
+}
 
 void require_consistent(const ErrorLinesSpec& spec) {
   for (const ErrorPanel& panel : spec.panels)
@@ -127,9 +147,10 @@ class Builder {
     panel.y = {.label = spec_.y_label, .scale = axis_.scale, .limits = axis_.limits};
     for (const ErrorLine& line : from.lines)
       if (!line.low.empty())
-        panel.layers.push_back(Band{line.label, line.x, axis_.raised(line.low),
-                                    axis_.raised(line.high), style(line.label).colour,
-                                    Mark{prefix + line.key + "-band", {{"curve", line.label}}}});
+        panel.layers.push_back(
+            Band{line.label, line.x, axis_.raised(within_ceiling(line, line.low)),
+                 axis_.raised(within_ceiling(line, line.high)), style(line.label).colour,
+                 Mark{prefix + line.key + "-band", {{"curve", line.label}}}});
     // Below the lines, which then show through.
     for (const ErrorPoint& point : from.points) {
       Scatter one{.label = point.label,
@@ -138,7 +159,7 @@ class Builder {
                   .colour = style(point.line).colour,
                   .marker = point.marker,
                   .filled = false,
-                  .size = 2.0};
+                  .size = point.size};
       one.marks.push_back({"",
                            {{"curve", point.line},
                             {"kind", point.label},
@@ -156,6 +177,13 @@ class Builder {
   }
 
  private:
+  /// NaN where the mean lies above the ceiling: the band towards it would fill the frame.
+  std::vector<double> within_ceiling(const ErrorLine& line, std::vector<double> ends) const {
+    for (std::size_t i = 0; i < ends.size(); ++i)
+      if (line.mean[i] > spec_.ceiling) ends[i] = kNaN;
+    return ends;
+  }
+
   SeriesStyle style(const std::string& label) const {
     return series_style(labels_.series[static_cast<std::size_t>(
         std::ranges::find(labels_.labels, label) - labels_.labels.begin())]);
@@ -176,9 +204,18 @@ SeriesStyle series_style(std::size_t i) {
 
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked) {
   std::vector<std::size_t> series(asked.size());
-  const std::set<std::optional<std::size_t>> different(asked.begin(), asked.end());
-  const bool usable = different.size() == asked.size() && !different.contains(std::nullopt);
-  for (std::size_t i = 0; i < asked.size(); ++i) series[i] = usable ? *asked[i] : i;
+  std::vector<std::size_t> left;
+  std::set<std::size_t> taken;
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    if (asked[i] && taken.insert(*asked[i]).second)
+      series[i] = *asked[i];
+    else
+      left.push_back(i);
+  std::size_t next = taken.empty() ? 0 : kMethodStyles;
+  for (const std::size_t i : left) {
+    while (!taken.insert(next).second) ++next;
+    series[i] = next;
+  }
   return series;
 }
 
@@ -191,10 +228,14 @@ ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>
   if (!of_means.known()) return {Scale::kLinear, {0.0, 1.0}};
   if (of_means.low > 0.0 && of_means.high / of_means.low > log_from) {
     const double low = std::max(all.low, of_means.low / 3.0);
-    const double high = std::min(all.high, of_means.high * 10.0);
+    const double high = std::min(all.high, of_means.high * 3.0);
     const double margin = std::pow(high / low, 0.05);
     return {Scale::kLog, {low / margin, high * margin}};
   }
+  // From 0, unless all the values would lie in the frame's uppermost part.
+  const double extent = all.high - all.low;
+  if (extent > 0.0 && extent < kLeastOfHeight * all.high)
+    return {Scale::kLinear, {all.low - 0.06 * extent, all.high + 0.06 * extent}};
   const double low = std::min(all.low, 0.0);
   const double high = all.high > low ? all.high : low + 1.0;
   return {Scale::kLinear, {low, high + 0.06 * (high - low)}};
@@ -214,11 +255,6 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   figure.id = spec.id;
   figure.title = spec.title;
   figure.record_ids = spec.record_ids;
-  figure.caption = spec.caption.empty() ? fmt::format(
-                                              "Lines: {}, mean over runs; bands: its 95 % "
-                                              "interval.",
-                                              spec.quantity)
-                                        : spec.caption;
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
   note_ceiling(spec, axis, figure);
@@ -230,6 +266,10 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
     figure.panels.resize(1);
     figure.panels[0].y.label = spec.y_label;
   }
+  figure.caption = spec.caption.empty()
+                       ? fmt::format("Lines: {}{}, mean over runs{}.{}", spec.quantity, spec.over,
+                                     interval_words(figure.panels), spec.remark)
+                       : spec.caption;
   figure.shared_y = figure.panels.size() > 1;
   require_valid(figure);
   return figure;

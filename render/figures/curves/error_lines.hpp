@@ -26,8 +26,8 @@ struct ErrorLine {
   std::vector<double> mean = {};  ///< Over runs.
   std::vector<double> low = {};   ///< Of the 95 % interval; empty, with `high`: no band.
   std::vector<double> high = {};
-  /// Which style it takes (see series_style), so that a method has one style in all figures; empty,
-  /// or two labels of one figure with the same: by first appearance.
+  /// Which style it takes (see series_style), so that a method has one style in all figures. Who
+  /// asks for none, or for one that another line of the figure has, gets one that is left.
   std::optional<std::size_t> series = std::nullopt;
 };
 
@@ -38,6 +38,7 @@ struct ErrorPoint {
   double x = 0.0;
   double y = 0.0;
   Marker marker = Marker::kDiamond;
+  double size = 2.0;  ///< In units of the theme's marker size.
 };
 
 struct ErrorPanel {
@@ -53,8 +54,10 @@ struct ErrorLinesSpec {
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";  ///< In words, for caption and alt text.
   std::vector<ErrorPanel> panels;                ///< Side by side on one y axis.
-  std::string caption;
-  std::string alt;  ///< Empty: one is made of the panels' numbers.
+  std::string caption;  ///< Empty: one is made of `quantity`, `over`, the intervals and `remark`.
+  std::string over;     ///< " over the number of anchors"; may be empty.
+  std::string remark;   ///< Sentences that end the caption, with a space before; may be empty.
+  std::string alt;      ///< Empty: one is made of the panels' numbers.
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
   double ceiling = kInfinity;  ///< Means above do not widen the
@@ -62,11 +65,17 @@ struct ErrorLinesSpec {
   double log_from = 20.0;      ///< Greatest over least mean from which the y axis is logarithmic.
 };
 
-/// The style of each label, in the order of their first appearance, by what its line asks for.
+/// The styles that mapproof's own methods have, see method_series(): 0 to this, exclusive.
+inline constexpr std::size_t kMethodStyles = 10;
+
+/// The style of each label: what its line asks for if no label before it did; else the first that
+/// is left, behind those of mapproof's methods if some line asks for one.
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked);
 
-/// Lines with bands in panels that share the y axis, which is logarithmic if the means span more
-/// than `log_from`; else from 0, or from the lowest band where an interval reaches below.
+/// Lines with their 95 % intervals in panels that share the y axis. Intervals are bands, or bars
+/// where more than three bands would lie on each other. The axis is logarithmic if the means span
+/// more than `log_from`; else from 0, or from the lowest interval if that reaches below, or if the
+/// values would take less than a third of an axis from 0.
 /// @throws InvalidInput if a line's vectors disagree in length, or a key is not an id or there
 /// twice.
 Figure error_lines_figure(const ErrorLinesSpec& spec);

@@ -15,7 +15,9 @@ struct LevelCurveSpec {
   Scale x_scale = Scale::kLinear;
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";
-  std::vector<ErrorLine> methods;  ///< `x` holds the level.
+  std::vector<ErrorPoint> points = {};  ///< Such as single runs.
+  std::string remark = {};              ///< As of ErrorLinesSpec.
+  std::vector<ErrorLine> methods;       ///< `x` holds the level.
   std::vector<std::string> record_ids;
   double log_from = 20.0;  ///< As in ErrorLinesSpec.
 };

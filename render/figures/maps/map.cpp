@@ -298,7 +298,9 @@ class MapFigure {
   PointLabels labels() const {
     PointLabels labels;
     std::vector<Eigen::Index> named = view_.worst;
-    if (record_.frame == Frame::kSimilarity && rows() <= kMostLabelsOfShape)
+    // Without errors no landmark is worse than the others.
+    const bool names_all = record_.frame == Frame::kSimilarity || named.empty();
+    if (names_all && rows() <= kMostLabelsOfShape)
       for (Eigen::Index i = 0; i < rows(); ++i)
         if (view_.has_estimate[i]) named.push_back(i);
     for (const Eigen::Index i : named) {

@@ -26,7 +26,6 @@
 #include "core/studies/study_kind.hpp"
 #include "core/studies/validate.hpp"
 #include "render/decode/image_reader.hpp"
-#include "render/image/png_read.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 #include "reports/diff/diff_settings.hpp"
@@ -57,10 +56,9 @@ void add_records(ApprovalFiles& files, const std::string& id, const fs::path& lo
 void read_image(const fs::path& file, const std::string& kind) {
   const std::string bytes = read_file(file);
   if (const auto format = decoded_format(bytes)) {
-    ImageReader reader(bytes, *format);
-    while (reader.next()) continue;
+    require_readable(bytes, *format);
   } else if (kind == "png") {
-    read_png(bytes);
+    require_readable(bytes, DecodedFormat::kPng);
   } else if (kind == "svg") {
     parse_svg(bytes);
   } else {

@@ -278,6 +278,7 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
                 .mark = "",
                 .landmark = "",
                 .curve = "",
+                .panel = panel_.panel,
                 .point = point,
                 .baseline = before,
                 .current = after,

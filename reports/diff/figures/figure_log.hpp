@@ -40,6 +40,7 @@ struct MarkMove {
   std::string mark;         ///< Mark::id, "" if it has none.
   std::string landmark;     ///< Its data-landmark, "" if it has none.
   std::string curve;        ///< Its data-curve, "" if it has none.
+  std::size_t panel = 0;    ///< Its index in the figure, from 0.
   std::size_t point = 0;    ///< Its index in the layer, from 0.
   Point baseline, current;  ///< In the units of the axes.
   double distance = 0.0;    ///< In the units of the axes; NaN: a position on only one side.

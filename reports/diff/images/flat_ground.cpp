@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -68,11 +69,13 @@ class PixelsOnGround {
     parallel_for(tiles.size(), [this](std::size_t i) { find_in(i); });
   }
 
-  /// Marks the groups that are large enough.
-  void mark() {
+  /// Marks the groups that are large enough. @return Whether there is one.
+  bool mark() {
+    bool any = false;
     for (std::size_t i = 0; i < tiles_.size(); ++i)
       for (int cell = 0; cell < kTile * kTile; ++cell)
-        if (contrasts_[i][cell] != Contrast::kNone) mark_group(pixel_at(i, cell));
+        if (contrasts_[i][cell] != Contrast::kNone) any = mark_group(pixel_at(i, cell)) || any;
+    return any;
   }
 
  private:
@@ -82,7 +85,7 @@ class PixelsOnGround {
   }
   void find_in(std::size_t i);
   Contrast take(PixelAt at);
-  void mark_group(PixelAt first);
+  bool mark_group(PixelAt first);
 
   const Image& ground_;
   const Image& drawn_;
@@ -118,7 +121,7 @@ Contrast PixelsOnGround::take(PixelAt at) {
   return std::exchange(contrasts_[i][at.y % kTile * kTile + at.x % kTile], Contrast::kNone);
 }
 
-void PixelsOnGround::mark_group(PixelAt first) {
+bool PixelsOnGround::mark_group(PixelAt first) {
   std::vector<PixelAt> group{first};
   int strong = take(first) == Contrast::kStrong;
   for (std::size_t next = 0; next < group.size(); ++next)
@@ -129,19 +132,102 @@ void PixelsOnGround::mark_group(PixelAt first) {
       strong += contrast == Contrast::kStrong;
       group.push_back(at);
     }
-  if (strong < kFewestStrong && static_cast<int>(group.size()) < kFewestWeak) return;
+  if (strong < kFewestStrong && static_cast<int>(group.size()) < kFewestWeak) return false;
   for (const PixelAt at : group)
     (*marks_.tile(at.y / kTile * marks_.across() +
                   at.x / kTile))[at.y % kTile * kTile + at.x % kTile] = PixelMark::kChanged;
+  return true;
+}
+
+constexpr int kMostRounding = 4;  // Of 255: one entry of 256 in a steep colour table (jet).
+constexpr std::size_t kFewestColours = 16;
+constexpr double kLeastSteps = 0.3;   // Of the borders between cells: half and more if rounded.
+constexpr double kMostWithin = 0.05;  // Of those, borders of the difference within cells.
+constexpr double kMostMean = 1.0;  // Of 255, at these borders: floor against nearest gives a half.
+
+/// How differences are spread over cells of one colour: where a cell ends, what differs changes,
+/// and within it nothing does.
+class RoundingEvidence {
+ public:
+  RoundingEvidence(const Image& baseline, const Image& current)
+      : baseline_(baseline), current_(current) {}
+
+  void add(int x, int y) {
+    const std::uint32_t before = baseline_.row(y)[x], after = current_.row(y)[x];
+    const bool right = x + 1 < baseline_.width, below = y + 1 < baseline_.height;
+    if (right) add_border({x, y}, {x + 1, y});
+    if (below) add_border({x, y}, {x, y + 1});
+    if (!right || !below || !is_solid(baseline_, x, y) || !is_solid(current_, x, y)) return;
+    if (before != after && colours_.size() < kFewestColours) colours_.insert(before);
+  }
+
+  bool is_rounding() const {
+    const double most = std::max({std::abs(sum_[0]), std::abs(sum_[1]), std::abs(sum_[2])});
+    return colours_.size() >= kFewestColours && steps_ > kLeastSteps * borders_ &&
+           within_ <= kMostWithin * steps_ && most <= kMostMean * 2.0 * borders_;
+  }
+
+ private:
+  static bool is_solid(const Image& image, int x, int y) {
+    const std::uint32_t* row = image.row(y) + x;
+    const std::uint32_t* below = image.row(y + 1) + x;
+    return row[0] == row[1] && row[0] == below[0] && row[0] == below[1];
+  }
+  std::array<int, 3> difference(PixelAt at) const {
+    const std::uint32_t before = baseline_.row(at.y)[at.x], after = current_.row(at.y)[at.x];
+    return {channel(after, 0) - channel(before, 0), channel(after, 1) - channel(before, 1),
+            channel(after, 2) - channel(before, 2)};
+  }
+  void add_border(PixelAt one, PixelAt other) {
+    const std::array<int, 3> here = difference(one), there = difference(other);
+    if (here == std::array<int, 3>{} && there == here) return;
+    const bool is_border = baseline_.row(one.y)[one.x] != baseline_.row(other.y)[other.x];
+    borders_ += is_border;
+    if (is_border)
+      for (int c = 0; c < 3; ++c) sum_[c] += here[c] + there[c];
+    steps_ += is_border && here != there;
+    within_ += !is_border && here != there;
+  }
+
+  const Image &baseline_, &current_;
+  double borders_ = 0.0, steps_ = 0.0, within_ = 0.0;
+  std::array<double, 3> sum_{};
+  std::set<std::uint32_t> colours_;
+};
+
+bool is_within(const Image& baseline, const Image& current, const PixelBox& box, int most) {
+  for (int y = box.y; y < box.y + box.height; ++y)
+    for (int x = box.x; x < box.x + box.width; ++x)
+      if (largest_difference(baseline.row(y)[x], current.row(y)[x]) > most) return false;
+  return true;
 }
 
 }  // namespace
 
-void mark_drawing_on_flat_ground(const Image& baseline, const Image& current,
+std::vector<bool> rounded_tiles(const Image& baseline, const Image& current,
+                                const std::vector<int>& tiles, int across) {
+  const auto box_of = [&](int tile) -> PixelBox {
+    const int x0 = tile % across * kTile, y0 = tile / across * kTile;
+    return {x0, y0, std::min(kTile, baseline.width - x0), std::min(kTile, baseline.height - y0)};
+  };
+  std::vector<bool> is_rounded(tiles.size(), false);
+  RoundingEvidence evidence(baseline, current);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const PixelBox box = box_of(tiles[i]);
+    is_rounded[i] = is_within(baseline, current, box, kMostRounding);
+    for (int y = box.y; is_rounded[i] && y < box.y + box.height; ++y)
+      for (int x = box.x; x < box.x + box.width; ++x) evidence.add(x, y);
+  }
+  if (!evidence.is_rounding()) is_rounded.assign(is_rounded.size(), false);
+  return is_rounded;
+}
+
+bool mark_drawing_on_flat_ground(const Image& baseline, const Image& current,
                                  const std::vector<int>& tiles, const ImageOptions& options,
                                  ChangeMap& marks) {
-  PixelsOnGround(baseline, current, tiles, options, marks).mark();
-  PixelsOnGround(current, baseline, tiles, options, marks).mark();
+  const bool any_new = PixelsOnGround(baseline, current, tiles, options, marks).mark();
+  const bool any_lost = PixelsOnGround(current, baseline, tiles, options, marks).mark();
+  return any_new || any_lost;
 }
 
 }  // namespace mapproof

@@ -19,9 +19,11 @@
 #include "render/decode/image_reader.hpp"
 #include "render/image/png_check.hpp"
 #include "render/image/png_chunks.hpp"
+#include "render/image/png_colour.hpp"
 #include "render/image/png_read.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/images/flat_ground.hpp"
+#include "reports/diff/images/pixel_diff.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
@@ -89,14 +91,18 @@ std::string words(const PixelDiff& found, bool finer_differs) {
     return sizes + "; in the part that both have " + words(common, false);
   }
   if (found.changed > 0)
-    return fmt::format("{} pixels changed ({:.3g} %), the largest cluster at {}, {}", found.changed,
-                       100.0 * found.changed_share, found.largest_cluster.x,
-                       found.largest_cluster.y);
+    return fmt::format("{} changed ({:.3g} %), the largest cluster at {}, {}",
+                       counted(found.changed, "pixel"), 100.0 * found.changed_share,
+                       found.largest_cluster.x, found.largest_cluster.y);
   if (found.differing > 0)
     return fmt::format("{} pixels differ by no more than noise and anti-aliasing explain",
                        found.differing);
   if (finer_differs) return kFinerAlone;
   return "the pixels are equal";
+}
+
+std::string words_of_ignored(const PixelDiff& found) {
+  return fmt::format("{} ignored, which differ", counted(found.ignored, "pixel"));
 }
 
 /// The chunks of a PNG file without texts and other metadata.
@@ -157,7 +163,7 @@ void compare_decoded(std::string_view before, std::string_view after, const Imag
   diff.reason = words(found.pixels, finer_differs);
   if (hidden && found.pixels.differing == 0) {
     diff.state = std::max(diff.state, ImageState::kWithinTolerance);
-    diff.reason = fmt::format("{} ignored, which differ", counted(found.pixels.ignored, "pixel"));
+    diff.reason = words_of_ignored(found.pixels);
   }
   if (heat && found.pixels.differing > 0) *heat = heat_of(baseline.png.image, found);
 }
@@ -170,12 +176,19 @@ class DecodedSide {
   }
 
   /// Empty after the last, and if it cannot be read.
-  std::optional<DecodedImage> next() {
-    std::optional<DecodedImage> image;
-    if (reader_) guarded([&] { image = reader_->next(); });
-    return image;
+  std::optional<ImageHead> next() {
+    std::optional<ImageHead> head;
+    if (reader_) guarded([&] { head = reader_->next(); });
+    return head;
+  }
+  /// Empty if they cannot be read.
+  std::optional<ImageStrip> rows(int count) {
+    std::optional<ImageStrip> strip;
+    if (reader_) guarded([&] { strip = reader_->rows(count); });
+    return strip;
   }
 
+  std::uint64_t finer_digest() const { return reader_ ? reader_->finer_digest() : 0; }
   const std::string& reason() const { return reason_; }
 
  private:
@@ -196,96 +209,125 @@ class DecodedSide {
 /// What two images show, over white or over black, whichever differs more.
 struct DecodedComparison {
   ImageState state = ImageState::kIdentical;
-  PixelComparison found;
-  Image baseline;  ///< Over that ground.
+  PixelDiff pixels;
+  std::string reason;
+  Image heat;
 };
 
-DecodedComparison compared_over(Image baseline, Image current, const ImageOptions& options) {
-  PixelComparison found = pixel_diff(baseline, std::move(current), options);
-  const ImageState state = state_of(found.pixels, options);
-  return {state, std::move(found), std::move(baseline)};
+DecodedComparison comparison_of(StripDiff strips, const ImageOptions& options) {
+  DecodedComparison found{.pixels = strips.pixels(), .reason = {}, .heat = {}};
+  found.state = state_of(found.pixels, options);
+  found.reason = words(found.pixels, false);
+  if (strips.differs_where_ignored()) {
+    found.state = std::max(found.state, ImageState::kWithinTolerance);
+    found.reason = words_of_ignored(found.pixels);
+  }
+  found.heat = std::move(strips).heat();
+  return found;
 }
 
 /// What a viewer shows over black: an opaque image is the same there.
-Image over_black(const DecodedImage& image) {
-  return image.over_black ? *image.over_black : image.over_white;
+Image over_black(const ImageStrip& strip) {
+  return strip.over_black ? *strip.over_black : strip.over_white;
 }
 
-DecodedComparison compared(DecodedImage baseline, DecodedImage current,
-                           const ImageOptions& options) {
-  std::optional<DecodedComparison> black;
-  if (baseline.over_black || current.over_black)
-    black = compared_over(over_black(baseline), over_black(current), options);
-  DecodedComparison white =
-      compared_over(std::move(baseline.over_white), std::move(current.over_white), options);
-  return black && differs_more(black->state, black->found.pixels, white.state, white.found.pixels)
-             ? *std::move(black)
-             : std::move(white);
+/// Compares the next image of both sides. @return What was read, if a side cannot be read.
+DecodedComparison compared(const ImageHead& was, const ImageHead& is, DecodedSide& baseline,
+                           DecodedSide& current, const ImageOptions& options, bool with_heat) {
+  StripDiff white({was.width, was.height}, {is.width, is.height}, options, with_heat);
+  std::optional<StripDiff> black;
+  while (const int count = white.next_rows()) {
+    std::optional<ImageStrip> before, after;
+    parallel_invoke([&] { before = baseline.rows(count); }, [&] { after = current.rows(count); });
+    if (!before || !after) break;
+    // Rows above are opaque: over black they are what they are over white.
+    if (!black && (before->over_black || after->over_black)) black = white;
+    if (black) black->add(over_black(*before), over_black(*after));
+    white.add(std::move(before->over_white), std::move(after->over_white));
+  }
+  DecodedComparison on_white = comparison_of(std::move(white), options);
+  if (!black) return on_white;
+  DecodedComparison on_black = comparison_of(*std::move(black), options);
+  if (!differs_more(on_black.state, on_black.pixels, on_white.state, on_white.pixels))
+    return on_white;
+  on_black.reason += ", seen over black";
+  return on_black;
 }
 
 /// Compares files image by image, and keeps the result of the one that differs most.
 class ImageComparer {
  public:
-  ImageComparer(const ImageOptions& options, DecodedFormat format)
-      : options_(options), noun_(format == DecodedFormat::kPdf ? "page" : "frame") {}
+  ImageComparer(DecodedSide& baseline, DecodedSide& current, const ImageOptions& options,
+                bool with_heat)
+      : baseline_(baseline), current_(current), options_(options), with_heat_(with_heat) {}
 
-  void add(DecodedImage baseline, DecodedImage current) {
+  void add(const ImageHead& was, const ImageHead& is) {
     ++count_;
-    if (baseline.duration_ms != current.duration_ms && durations_.empty())
-      durations_ = fmt::format("frame {} is shown for {} ms, and was for {} ms", count_,
-                               current.duration_ms, baseline.duration_ms);
-    DecodedComparison next = compared(std::move(baseline), std::move(current), options_);
-    if (count_ == 1 ||
-        differs_more(next.state, next.found.pixels, worst_.state, worst_.found.pixels)) {
+    if (was.duration_ms != is.duration_ms && other_.empty())
+      other_ = fmt::format("frame {} is shown for {} ms, and was for {} ms", count_, is.duration_ms,
+                           was.duration_ms);
+    if (was.profile != is.profile && other_.empty()) other_ = "its colour profile changed";
+    DecodedComparison next = compared(was, is, baseline_, current_, options_, with_heat_);
+    if (count_ == 1 || differs_more(next.state, next.pixels, worst_.state, worst_.pixels)) {
       worst_ = std::move(next);
       worst_number_ = count_;
     }
   }
 
+  /// @param noun  Of an image: "frame".
   /// @param more  Images that the baseline alone has, less those that the current alone has.
-  void conclude(int more, Image* heat, ImageDiff& diff) {
-    diff.pixels = worst_.found.pixels;
+  void conclude(const char* noun, int more, Image* heat, ImageDiff& diff) {
+    diff.pixels = worst_.pixels;
     diff.state = worst_.state;
-    diff.reason = words(worst_.found.pixels, false);
+    diff.reason = std::move(worst_.reason);
+    if (baseline_.finer_digest() != current_.finer_digest() &&
+        diff.state == ImageState::kIdentical) {
+      diff.state = ImageState::kWithinTolerance;
+      diff.reason = kFinerAlone;
+    }
     if (count_ > 1 && diff.state != ImageState::kIdentical)
-      diff.reason = fmt::format("{} {} of {}: {}", noun_, worst_number_, count_, diff.reason);
-    std::string others = durations_;
+      diff.reason = fmt::format("{} {} of {}: {}", noun, worst_number_, count_, diff.reason);
     if (more != 0)
-      others = fmt::format("{} became {}", counted(count_ + std::max(more, 0), noun_),
-                           counted(count_ + std::max(-more, 0), noun_));
-    if (!others.empty()) {
-      diff.reason = diff.state == ImageState::kIdentical ? others : others + "; " + diff.reason;
+      other_ = fmt::format("{} became {}", counted(count_ + std::max(more, 0), noun),
+                           counted(count_ + std::max(-more, 0), noun));
+    if (!other_.empty()) {
+      diff.reason = diff.state == ImageState::kIdentical ? other_ : other_ + "; " + diff.reason;
       diff.state = ImageState::kDifferent;
     }
-    if (heat && worst_.found.pixels.differing > 0) *heat = heat_of(worst_.baseline, worst_.found);
+    if (heat) *heat = std::move(worst_.heat);
   }
 
  private:
+  DecodedSide &baseline_, &current_;
   const ImageOptions& options_;
-  const char* noun_;
+  bool with_heat_;
   int count_ = 0;
   DecodedComparison worst_;
   int worst_number_ = 0;
-  std::string durations_;
+  std::string other_;  ///< What else changed.
 };
 
 /// The state, the reason and the pixels of a comparison by decoded images.
 ImageDiff frame_diff(std::string_view before, std::string_view after, DecodedFormat format,
                      const ImageOptions& options, Image* heat) {
-  DecodedSide baseline(before, format), current(after, format);
-  ImageComparer comparer(options, format);
-  int more = 0;
-  while (true) {
-    std::optional<DecodedImage> was = baseline.next(), is = current.next();
-    if (!was && !is) break;
-    if (was && is)
-      comparer.add(*std::move(was), *std::move(is));
-    else
-      more += was ? 1 : -1;
-  }
   ImageDiff diff;
-  diff.reason = unreadable(baseline.reason(), current.reason());
-  if (diff.reason.empty()) comparer.conclude(more, heat, diff);
+  // A waiting thread takes no other pair meanwhile: it would hold the pixels of both.
+  run_isolated([&] {
+    DecodedSide baseline(before, format), current(after, format);
+    ImageComparer comparer(baseline, current, options, heat != nullptr);
+    int more = 0;
+    while (true) {
+      const std::optional<ImageHead> was = baseline.next(), is = current.next();
+      if (!was && !is) break;
+      if (was && is)
+        comparer.add(*was, *is);
+      else
+        more += was ? 1 : -1;
+    }
+    diff.reason = unreadable(baseline.reason(), current.reason());
+    if (diff.reason.empty())
+      comparer.conclude(format == DecodedFormat::kPdf ? "page" : "frame", more, heat, diff);
+  });
   return diff;
 }
 
@@ -300,17 +342,48 @@ void take(ImageDiff found, ImageDiff& diff) {
 void compare_over_black(std::string_view before, std::string_view after,
                         const ImageOptions& options, Image* heat, ImageDiff& diff) {
   ImageDiff on_black = frame_diff(before, after, DecodedFormat::kPng, options, heat);
-  if (on_black.state != ImageState::kDifferent) return;
-  on_black.reason += ", seen over black";
-  take(std::move(on_black), diff);
+  if (on_black.state == ImageState::kDifferent) take(std::move(on_black), diff);
+}
+
+/// Whether the pixels of both are held whole; sets the renderers.
+/// @throws InvalidInput if a file cannot be read.
+bool are_held_whole(std::string_view before, std::string_view after, ImageDiff& diff) {
+  const PngFile baseline = read_png_remarks(before), current = read_png_remarks(after);
+  diff.baseline_renderer = renderer(baseline);
+  diff.current_renderer = renderer(current);
+  return is_held_whole(baseline.header) && is_held_whole(current.header);
+}
+
+bool may_be_held_whole(std::string_view before, std::string_view after, ImageDiff& diff) {
+  try {
+    return are_held_whole(before, after, diff);
+  } catch (const InvalidInput&) {
+    return true;  // Its side gets the reason.
+  }
+}
+
+/// Files in other colour spaces are different: what their values show is.
+void compare_colours(std::string_view before, std::string_view after, ImageDiff& diff) {
+  if (diff.state == ImageState::kUnreadable) return;
+  const PngColour was = read_png_remarks(before).colour, is = read_png_remarks(after).colour;
+  if (was.content == is.content) return;
+  std::string other = fmt::format("the colour space changed: {} \u2192 {}", was.label,
+                                  was.label == is.label ? "another of this name" : is.label);
+  diff.reason = diff.state == ImageState::kIdentical ? other : other + "; " + diff.reason;
+  diff.state = ImageState::kDifferent;
 }
 
 void compare_pngs(std::string_view before, std::string_view after, const ImageOptions& options,
                   Image* heat, ImageDiff& diff) {
-  if (are_same_pngs(before, after, diff)) return;
-  // A waiting thread takes no other pair meanwhile: it would hold the pixels of both.
-  run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
-  if (diff.reason == kFinerAlone) compare_over_black(before, after, options, heat, diff);
+  if (!are_same_pngs(before, after, diff)) {
+    if (may_be_held_whole(before, after, diff)) {
+      run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
+      if (diff.reason == kFinerAlone) compare_over_black(before, after, options, heat, diff);
+    } else {
+      take(frame_diff(before, after, DecodedFormat::kPng, options, heat), diff);
+    }
+  }
+  compare_colours(before, after, diff);
 }
 
 enum class ImageFormat { kPng, kSvg, kDecoded, kEmpty, kPointer, kOther };
@@ -409,8 +482,12 @@ void compare_svgs(std::string_view before, std::string_view after, const ImageOp
                : diff.svg->total == diff.svg->tolerated ? ImageState::kWithinTolerance
                                                         : ImageState::kDifferent;
   diff.reason = words(*diff.svg);
-  if (diff.state == ImageState::kDifferent && may_be_drawn_the_same(*diff.svg))
+  if (diff.state == ImageState::kDifferent && may_be_drawn_the_same(*diff.svg)) {
     compare_drawn(before, after, options, heat, diff);
+  } else if (heat && diff.state != ImageState::kIdentical) {
+    ImageDiff drawn;  // The elements decide.
+    compare_drawn(before, after, options, heat, drawn);
+  }
 }
 
 void set_equal(ImageDiff& diff) {
@@ -448,6 +525,7 @@ ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesyste
       set_equal(diff);
     else
       take(frame_diff(before, after, *decoded_format(before), options, heat), diff);
+    if (*decoded_format(before) == DecodedFormat::kApng) compare_colours(before, after, diff);
   } else if (first == ImageFormat::kPng) {
     compare_pngs(before, after, options, heat, diff);
   } else {

@@ -8,23 +8,22 @@
 
 namespace mapproof {
 
-/// Compares two PNG or two SVG files. Invalid content is not an error: the state is then
+/// Compares two image files of one format. Invalid content is not an error: the state is then
 /// kUnreadable.
 ///
-/// @param heat  If given, gets heat_map of two PNGs of one size that are not identical, else
-/// nothing.
+/// @param heat  If given, gets heat_map of two images that are not identical, else nothing.
 /// @throws IoError if a file cannot be opened or exceeds 2^28 bytes.
 /// @throws InvalidInput if the options cannot be used.
 /// @note Files with equal bytes, and PNGs that differ only in their texts, are not decoded.
-/// Otherwise memory holds two images of 4 bytes per pixel, and one byte per pixel where they
-/// differ. Uses
-///       oneTBB's threads; the result does not depend on them.
+/// Otherwise memory holds two images of 4 bytes per pixel, or of a large image two strips
+/// (StripDiff), and one byte per pixel where they differ. Uses oneTBB's threads; the result
+/// does not depend on them.
 ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
                      const ImageOptions& options = {}, Image* heat = nullptr);
 
 /// The baseline in pale grey, changed pixels in red, pixels explained by noise or anti-aliasing in
-/// yellow. Empty (0 x 0) if the files are not PNGs, cannot be read, are identical or differ in
-/// size.
+/// yellow; of a large image as StripDiff::heat(), of SVGs as they are drawn at twice their size.
+/// Empty (0 x 0) if the files cannot be read, are identical or differ much in size.
 /// @throws as image_diff.
 Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
                const ImageOptions& options = {});

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/parallel.hpp"
 #include "reports/diff/diff_settings.hpp"
+#include "reports/diff/images/change_map.hpp"
 #include "reports/diff/images/flat_ground.hpp"
 #include "reports/diff/images/pixel_judgement.hpp"
 #include "reports/diff/images/tile_evidence.hpp"
@@ -118,42 +118,6 @@ void sum_up(std::span<const int> tiles, std::span<const TileEvidence> evidence,
   pixels.changed_share = all > 0.0 ? static_cast<double>(pixels.changed) / all : 0.0;
 }
 
-/// The changed pixels of a group of tiles.
-struct Cluster {
-  std::int64_t pixels = 0;
-  int left = INT_MAX, top = INT_MAX, right = 0, bottom = 0;
-
-  PixelBox box() const { return {left, top, right - left, bottom - top}; }
-};
-
-Cluster cluster_of(const std::vector<int>& group, const ChangeMap& marks) {
-  Cluster found;
-  for (const int tile : group)
-    for (int i = 0; i < kTile * kTile; ++i) {
-      if ((*marks.tile(tile))[i] != PixelMark::kChanged) continue;
-      const int x = tile % marks.across() * kTile + i % kTile;
-      const int y = tile / marks.across() * kTile + i / kTile;
-      found.left = std::min(found.left, x), found.right = std::max(found.right, x + 1);
-      found.top = std::min(found.top, y), found.bottom = std::max(found.bottom, y + 1);
-      ++found.pixels;
-    }
-  return found;
-}
-
-void find_clusters(std::span<const int> tiles, const ChangeMap& marks, PixelDiff& pixels) {
-  std::vector<bool> is_changed(static_cast<std::size_t>(marks.across()) * marks.down(), false);
-  for (const int tile : tiles)
-    is_changed[tile] =
-        std::ranges::find(*marks.tile(tile), PixelMark::kChanged) != marks.tile(tile)->end();
-  for (const std::vector<int>& group : tile_groups(marks.across(), is_changed)) {
-    ++pixels.clusters;
-    const Cluster cluster = cluster_of(group, marks);
-    if (cluster.pixels <= pixels.largest_cluster_pixels) continue;
-    pixels.largest_cluster_pixels = cluster.pixels;
-    pixels.largest_cluster = cluster.box();
-  }
-}
-
 // The tolerances at which a judgement is made, from the defaults on.
 constexpr std::array kNoiseSteps{
     ImageTolerances::kNoise, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0};
@@ -214,10 +178,28 @@ void apply_tolerance(const Image& baseline, const Image& current, const PixelBox
     }
 }
 
+/// Leaves no evidence of a change in tiles that rounding of colours explains.
+void forget_rounding(const Image& baseline, const Image& current, const std::vector<int>& tiles,
+                     int across, std::vector<TileEvidence>& evidence) {
+  if (std::ranges::none_of(evidence, [](const auto& tile) { return tile.flat_shift > 0.0; }))
+    return;
+  const std::vector<bool> rounded = rounded_tiles(baseline, current, tiles, across);
+  for (std::size_t i = 0; i < evidence.size(); ++i) {
+    if (!rounded[i]) continue;
+    TileEvidence rest;
+    rest.differing = evidence[i].differing;
+    rest.least_structure = evidence[i].least_structure;
+    rest.least_structure_at = evidence[i].least_structure_at;
+    rest.largest_colour_difference = evidence[i].largest_colour_difference;
+    evidence[i] = rest;
+  }
+}
+
 /// Fills in the marks and the sums of two images of one size.
 /// @param judged  The tolerances of the judgement; what else the options allow is applied to its
 ///                marks.
-void judge_pixels(const Image& baseline, const Image& current, const ImageOptions& options,
+/// @return Whether something is drawn on flat ground, which is a change whatever the judgement.
+bool judge_pixels(const Image& baseline, const Image& current, const ImageOptions& options,
                   const ImageOptions& judged, PixelComparison& diff) {
   diff.marks = ChangeMap(baseline.width, baseline.height);
 
@@ -245,15 +227,19 @@ void judge_pixels(const Image& baseline, const Image& current, const ImageOption
     const PixelBox tile = box_of(diff.marks, baseline, tiles[i]);
     evidence[i] = tile_evidence(baseline, current, tile, bounds, *diff.marks.tile(tiles[i]));
   });
+  forget_rounding(baseline, current, tiles, diff.marks.across(), evidence);
   judge(tiles, evidence, texture, judged, diff.marks);
   if (options.noise != judged.noise || options.displacement_px != judged.displacement_px)
     parallel_for(tiles.size(), [&](std::size_t i) {
       apply_tolerance(baseline, current, box_of(diff.marks, baseline, tiles[i]),
                       {options, judged, evidence[i]}, *diff.marks.tile(tiles[i]));
     });
-  mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
+  const bool any_drawn = mark_drawing_on_flat_ground(baseline, current, tiles, options, diff.marks);
   sum_up(tiles, evidence, diff.marks, diff.pixels);
-  find_clusters(tiles, diff.marks, diff.pixels);
+  ChangedClusters clusters(diff.pixels.baseline);
+  clusters.add(diff.marks, 0, diff.marks.down(), 0);
+  clusters.sum_up(diff.pixels);
+  return any_drawn;
 }
 
 }  // namespace
@@ -298,11 +284,180 @@ PixelComparison pixel_diff(const Image& baseline, Image current, const ImageOpti
       ImageOptions judged = options;
       judged.noise = noise, judged.displacement_px = displacement_px;
       PixelComparison found = diff;
-      judge_pixels(baseline, current, options, judged, found);
+      const bool is_change = judge_pixels(baseline, current, options, judged, found);
       if (!least || found.pixels.changed < least->pixels.changed) least = std::move(found);
-      if (least->pixels.changed == 0) return *std::move(least);
+      // No other step can find none; how many pixels changed matters if a share of them may.
+      if (least->pixels.changed == 0 || (is_change && options.changed_share == 0.0))
+        return *std::move(least);
     }
   return *std::move(least);
+}
+
+namespace {
+
+constexpr int kAbove = 2 * kTile;       // Rows above a strip. The lower half of them is judged with
+constexpr int kOwnedAbove = kTile;      // it, the upper half with the strip before.
+constexpr int kFewestRows = 4 * kTile;  // Of a strip.
+
+std::int64_t pixels_of(const ImageSize& size) { return std::int64_t{size.width} * size.height; }
+
+ImageSize size_of(const Image& image) { return {image.width, image.height}; }
+
+Image cut(Image image, const ImageSize& size) {
+  return size_of(image) == size ? std::move(image) : upper_left(image, size);
+}
+
+/// Puts an image below another of its width. @param above  Or of no rows.
+Image below(Image above, Image image) {
+  if (above.height == 0) return image;
+  above.pixels.insert(above.pixels.end(), image.pixels.begin(), image.pixels.end());
+  above.height += image.height;
+  return above;
+}
+
+Image last_rows(const Image& image, int count) {
+  const int rows = std::min(count, image.height);
+  Image part{image.width, rows, {}};
+  part.pixels.assign(image.row(image.height - rows), image.row(0) + image.pixels.size());
+  return part;
+}
+
+/// The options of a strip that begins at row `from`.
+ImageOptions moved(ImageOptions options, int from) {
+  for (PixelBox& box : options.ignored) {
+    const int hidden = std::clamp(from - box.y, 0, std::max(box.height, 0));
+    box.height -= hidden;
+    box.y = std::max(box.y - from, 0);
+  }
+  std::erase_if(options.ignored, [](const PixelBox& box) { return box.height == 0; });
+  return options;
+}
+
+/// The pixels in any box, in rows `from` to `to` - 1 of an image.
+std::int64_t pixels_in(const std::vector<PixelBox>& boxes, int width, int from, int to) {
+  std::int64_t count = 0;
+  for (int y = from; !boxes.empty() && y < to; ++y) {
+    std::vector<bool> is_in(static_cast<std::size_t>(width), false);
+    for (const PixelBox& box : boxes) {
+      if (y < box.y || y - box.y >= box.height) continue;
+      const std::int64_t right = std::min<std::int64_t>(std::int64_t{box.x} + box.width, width);
+      for (std::int64_t x = std::max(box.x, 0); x < right; ++x) is_in[x] = true;
+    }
+    count += std::ranges::count(is_in, true);
+  }
+  return count;
+}
+
+/// The colour of a square of a heat map: that of a change before that of noise before the mean
+/// grey.
+std::uint32_t colour_of_square(const Image& part, int x0, int y0, int side) {
+  std::uint32_t grey = 0, count = 0;
+  bool is_noise = false;
+  for (int y = y0; y < std::min(y0 + side, part.height); ++y)
+    for (int x = x0; x < std::min(x0 + side, part.width); ++x) {
+      const std::uint32_t pixel = part.row(y)[x];
+      if (pixel == kChangedColour) return pixel;
+      is_noise = is_noise || pixel == kNoiseColour;
+      grey += pixel & 0xFF;
+      ++count;
+    }
+  return is_noise ? kNoiseColour : grey / count * 0x010101u;
+}
+
+}  // namespace
+
+StripDiff::StripDiff(const ImageSize& baseline, const ImageSize& current,
+                     const ImageOptions& options, bool with_heat, const StripLimits& limits)
+    : size_{std::min(baseline.width, current.width), std::min(baseline.height, current.height)},
+      options_(&options),
+      with_heat_(with_heat),
+      limits_(limits),
+      clusters_(size_) {
+  pixels_.baseline = baseline, pixels_.current = current;
+  if (baseline != current && !have_common_part(baseline, current)) {
+    with_heat_ = false;
+    return;
+  }
+  while (pixels_of(size_) > limits.whole && heat_scale_ < kTile &&
+         pixels_of(size_) / (heat_scale_ * heat_scale_) > limits.heat)
+    heat_scale_ *= 2;
+  plan();
+}
+
+void StripDiff::plan() {
+  const int left = size_.height - rows_done_;
+  if (pixels_of(size_) <= limits_.whole) {
+    next_rows_ = left;
+    return;
+  }
+  const auto rows = static_cast<int>(limits_.strip / size_.width) / kTile * kTile;
+  next_rows_ = std::min(left, std::max(rows, kFewestRows));
+  // A last strip of few rows joins the one before.
+  if (left - next_rows_ < kFewestRows) next_rows_ = left;
+}
+
+void StripDiff::add(Image baseline, Image current) {
+  const ImageSize taken{size_.width, next_rows_};
+  rows_done_ += next_rows_;
+  Image before = below(std::move(above_baseline_), cut(std::move(baseline), taken));
+  Image after = below(std::move(above_current_), cut(std::move(current), taken));
+  const int top = rows_done_ - before.height;  // Of the strip, in the image.
+  const bool is_last = rows_done_ == size_.height;
+  above_baseline_ = is_last ? Image{} : last_rows(before, kAbove);
+  above_current_ = is_last ? Image{} : last_rows(after, kAbove);
+  const ImageOptions options = moved(*options_, top);
+  is_hidden_ = is_hidden_ || (!options.ignored.empty() && before.pixels != after.pixels);
+  const PixelComparison found = pixel_diff(before, std::move(after), options);
+  const int owned_to = is_last ? size_.height : rows_done_ - kOwnedAbove;
+  take_over(found, top, owned_to);
+  if (with_heat_ && found.pixels.differing > 0) any_heat_ = true;
+  if (with_heat_)
+    add_heat(heat_map(std::move(before), found.marks), rows_owned_ - top, owned_to - top);
+  rows_owned_ = owned_to;
+  plan();
+}
+
+void StripDiff::take_over(const PixelComparison& part, int top, int owned_to) {
+  const int from = (rows_owned_ - top) / kTile, to = (owned_to - top + kTile - 1) / kTile;
+  for (int tile = from * part.marks.across(); tile < to * part.marks.across(); ++tile)
+    if (const TileMarks* marks = part.marks.tile(tile)) {
+      pixels_.differing += kTile * kTile - std::ranges::count(*marks, PixelMark::kEqual);
+      pixels_.changed += std::ranges::count(*marks, PixelMark::kChanged);
+      pixels_.antialiased += std::ranges::count(*marks, PixelMark::kSmoothed);
+    }
+  clusters_.add(part.marks, from, to, top / kTile);
+  pixels_.ignored += pixels_in(options_->ignored, size_.width, rows_owned_, owned_to);
+  const PixelDiff& found = part.pixels;
+  pixels_.largest_colour_difference =
+      std::max(pixels_.largest_colour_difference, found.largest_colour_difference);
+  pixels_.largest_mean_shift = std::max(pixels_.largest_mean_shift, found.largest_mean_shift);
+  pixels_.largest_displacement_px =
+      std::max(pixels_.largest_displacement_px, found.largest_displacement_px);
+  if (found.least_structure >= pixels_.least_structure) return;
+  pixels_.least_structure = found.least_structure;
+  pixels_.least_structure_at = found.least_structure_at;
+  pixels_.least_structure_at.y += top;
+}
+
+PixelDiff StripDiff::pixels() const {
+  PixelDiff all = pixels_;
+  const auto count = static_cast<double>(pixels_of(size_));
+  all.changed_share = count > 0.0 ? static_cast<double>(all.changed) / count : 0.0;
+  clusters_.sum_up(all);
+  return all;
+}
+
+Image StripDiff::heat() && { return any_heat_ ? std::move(heat_) : Image{}; }
+
+void StripDiff::add_heat(Image part, int from, int to) {
+  if (heat_scale_ == 1 && from == 0 && to == part.height) {
+    heat_ = std::move(part);
+    return;
+  }
+  heat_.width = (size_.width + heat_scale_ - 1) / heat_scale_;
+  for (int y = from; y < to; y += heat_scale_, ++heat_.height)
+    for (int x = 0; x < size_.width; x += heat_scale_)
+      heat_.pixels.push_back(colour_of_square(part, x, y, heat_scale_));
 }
 
 }  // namespace mapproof

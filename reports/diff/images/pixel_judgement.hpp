@@ -37,10 +37,6 @@ struct Texture {
 std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const TileEvidence> evidence,
                                 const Texture& texture, int across, double allowed_px);
 
-/// Groups of tiles that touch, corners too; each group in ascending order of its tiles' indices.
-/// @param is_in  One value per tile, row by row.
-std::vector<std::vector<int>> tile_groups(int across, std::vector<bool> is_in);
-
 /// Decides which differences are changes, and marks their pixels so.
 ///
 /// Different anti-aliasing, different hinting or a small shift of everything affect edges

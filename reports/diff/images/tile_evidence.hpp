@@ -5,48 +5,11 @@
 #include <cstdint>
 
 #include "reports/diff/images/change_map.hpp"
+#include "reports/diff/images/filter_fit.hpp"
 #include "reports/diff/images/image_changes.hpp"
+#include "reports/diff/images/patch.hpp"
 
 namespace mapproof {
-
-inline constexpr int kPatchMargin = 6;  ///< Pixels around a tile.
-inline constexpr int kPatchSide = kTile + 2 * kPatchMargin;
-inline constexpr int kPatchCells = kPatchSide * kPatchSide;
-
-/// One value per pixel, row by row.
-using Plane = std::array<std::int16_t, kPatchCells>;
-
-/// The index in a Plane of the pixel (x, y) of the tile.
-constexpr int cell_at(int x, int y) { return (y + kPatchMargin) * kPatchSide + x + kPatchMargin; }
-
-/// A tile and its surroundings, channel by channel, red first. Outside the image the values of its
-/// edge continue. The outermost cells of smoothed planes, to the radius of the smoothing, have no
-/// meaning.
-struct Patch {
-  std::array<Plane, 3> raw;       ///< 0 to 255.
-  std::array<Plane, 3> smooth;    ///< 16 times the binomial mean of 3 x 3.
-  std::array<Plane, 3> low;       ///< The minimum of `smooth` in 3 x 3.
-  std::array<Plane, 3> high;      ///< The maximum of `smooth` in 3 x 3.
-  std::array<Plane, 3> smoother;  ///< 64 times the binomial mean of 5 x 5.
-};
-
-inline constexpr int kSmoothScale = 16;
-inline constexpr int kSmootherScale = 64;
-
-/// @param x0, y0  The tile's upper left corner.
-void load_patch(const Image& image, int x0, int y0, Patch& patch);
-
-/// The minimum and the maximum of each cell and its eight neighbours.
-void neighbour_bounds(const Plane& plane, Plane& low, Plane& high);
-
-/// Both images around a tile.
-struct PatchPair {
-  Patch before, after;
-
-  /// The largest difference of a channel.
-  int difference(int cell) const;
-  bool is_beyond(int cell, double noise) const { return difference(cell) > noise; }
-};
 
 /// Normal equations of the movement that explains a difference best by least squares [lucas1981].
 struct MovementFit {
@@ -92,8 +55,11 @@ struct TileEvidence {
   /// columns, less the part that noise explains; at most 0 if noise explains all.
   double flat_shift = -1.0;
   double flat_shift_in_noise = -1.0;  ///< The same, assuming noise everywhere.
-  /// Of the pixels beyond noise: those with the former colour of the neighbour at each of
-  /// kNeighbourSteps.
+  /// Of the pixels beyond noise: those beyond it twice. A colour that differs less is within noise
+  /// of that of a neighbour, too.
+  int clear = 0;
+  int sided = 0;  ///< Pixels that may show a direction: where there is noise, the clear ones.
+  /// Of the clear pixels: those with the former colour of the neighbour at each of kNeighbourSteps.
   std::array<int, 8> copied{};
   std::array<double, 3> sum{};           ///< Of the differences beyond noise, per channel.
   std::array<double, 3> absolute_sum{};  ///< Of their absolute values.
@@ -104,6 +70,7 @@ struct TileEvidence {
   /// The same after a movement by whole pixels and a fraction; 1 if the movement is below half a
   /// pixel.
   double left_by_whole = 1.0;
+  FilterFit filter;               ///< Of the raw difference.
   KeptShape kept;                 ///< Default where few pixels are beyond noise.
   double recoloured_share = 0.0;  ///< Of the raw energy, what a change of colours alone explains.
   double recolouring = 0.0;      ///< Of 255: distance of pixels from the line background to colour.

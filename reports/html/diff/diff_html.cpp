@@ -16,16 +16,10 @@
 #include <kainjow/mustache.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/files/byte_source.hpp"
-#include "core/base/parallel.hpp"
-#include "core/base/text/base64.hpp"
 #include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
-#include "render/image/png.hpp"
 #include "reports/diff/approvals/approvals.hpp"
 #include "reports/diff/diff_result.hpp"
-#include "reports/diff/diff_settings.hpp"
-#include "reports/diff/images/image_diff.hpp"
 #include "reports/diff/shared_causes.hpp"
 #include "reports/diff/tables/image_tables.hpp"
 #include "reports/diff/tables/item_blocks.hpp"
@@ -40,237 +34,28 @@ namespace fs = std::filesystem;
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
-
-bool has_both(const ImageFile& file) { return !file.baseline.empty() && !file.current.empty(); }
-
-/// The type of an image that browsers show; empty: none.
-std::string_view media_type(std::string_view format) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
-      {{"png", "image/png"},
-       {"svg", "image/svg+xml"},
-       {"jpg", "image/jpeg"},
-       {"jpeg", "image/jpeg"},
-       {"gif", "image/gif"},
-       {"webp", "image/webp"},
-       {"bmp", "image/bmp"}}};
-  for (const auto& [known, type] : kTypes)
-    if (known == format) return type;
-  return {};
-}
-
-/// The priority of an image on the page; 0: nothing to show.
-int interest(const ImageFile& file) {
-  const int of_format = file.format == "png" ? 1 : 0;
-  if (media_type(file.format).empty()) return 0;
-  if (!has_both(file)) return 2 + of_format;
-  switch (file.diff.state) {
-    case ImageState::kDifferent:
-      return 6 + of_format;
-    case ImageState::kWithinTolerance:
-      return 4 + of_format;
-    default:
-      return 0;
-  }
-}
-
-const ImageFile* most_telling(const DiffItem& item) {
-  const ImageFile* best = nullptr;
-  for (const ImageFile& file : item.images)
-    if (interest(file) > (best == nullptr ? 0 : interest(*best))) best = &file;
-  return best;
-}
-
-std::uint32_t number_at(std::string_view bytes, std::size_t at) {
-  std::uint32_t number = 0;
-  for (std::size_t i = 0; i < 4; ++i)
-    number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return number;
-}
-
-/// Reads the size from the header; a browser reads the rest.
-ImageSize png_size(const std::string& bytes, const fs::path& path) {
-  constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
-  if (bytes.size() < 24 || !bytes.starts_with(kSignature))
-    throw IoError(path.string(), "is not a PNG");
-  const std::int64_t width = number_at(bytes, 16), height = number_at(bytes, 20);
-  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels / width)
-    throw IoError(path.string(), fmt::format("{} x {} pixels are not shown", width, height));
-  return {static_cast<int>(width), static_cast<int>(height)};
-}
-
-ShownImage read_image(const fs::path& path, const std::string& format, const std::string& renderer,
-                      std::size_t limit) {
-  const std::string bytes = read_input(path, limit);
-  ShownImage image;
-  image.renderer = renderer;
-  if (format == "png") image.size = png_size(bytes, path);
-  image.uri = fmt::format("data:{};base64,{}", media_type(format), base64(bytes));
-  return image;
-}
-
-/// The files to read for one item.
-struct Plan {
-  const ImageFile* file = nullptr;
-  bool heat = false;
-  std::string absent;
-};
-
-std::string unreadable_reason(const DiffItem& item) {
-  for (const ImageFile& file : item.images)
-    if (has_both(file) && file.diff.state == ImageState::kUnreadable)
-      return "Not shown: " + file.format + " cannot be read.";
-  for (const ImageFile& file : item.images)
-    if (media_type(file.format).empty())
-      return "Not shown: browsers show no " + file.format + " in a page.";
-  return "";
-}
-
-std::uintmax_t bytes_of(const ImageFile& file) {
-  std::uintmax_t bytes = 0;
-  for (const fs::path& path : {file.baseline, file.current}) {
-    std::error_code error;
-    const std::uintmax_t size = path.empty() ? 0 : fs::file_size(path, error);
-    if (!error) bytes += size;
-  }
-  return bytes;
-}
-
-/// Of a cause that several items share, the first items are shown in full.
-constexpr std::ptrdiff_t kExamples = 3;
-
-/// Whether the item has a cause that others before it, shown in full, have as well.
-bool is_repeated(const DiffResult& result, const DiffItem& item) {
-  const SharedCause* shared = shared_cause_of(result, item);
-  return shared != nullptr &&
-         std::ranges::find(shared->ids, item.id) - shared->ids.begin() >= kExamples;
-}
-
-/// The parts of a page that images and tables may fill; styles, scripts and the rest of the markup
-/// need what is left.
-constexpr double kImageShare = 0.6;
-constexpr double kTableShare = 0.32;
-
-std::string full_text(const ImageBudget& budget) {
-  return fmt::format("Not shown: this page already has its {:.3g} MB (--page-size).",
-                     static_cast<double>(budget.page_bytes) / 1e6);
-}
-
-std::vector<Plan> plans(const DiffResult& result, const ImageBudget& budget) {
-  constexpr double kBase64 = 4.0 / 3.0;
-  const double most = kImageShare * static_cast<double>(budget.page_bytes) / kBase64;
-  std::vector<Plan> all;
-  double used = 0.0;
-  std::size_t heat_maps = 0;
-  for (const DiffItem& item : result.items) {
-    Plan plan;
-    if (item.judgement.verdict != Verdict::kIdentical) {
-      plan.file = most_telling(item);
-      if (plan.file == nullptr) plan.absent = unreadable_reason(item);
-    }
-    if (plan.file != nullptr && is_repeated(result, item)) {
-      plan.absent = "Not shown: others above have the same cause.";
-      plan.file = nullptr;
-    }
-    if (plan.file != nullptr && used + static_cast<double>(bytes_of(*plan.file)) > most) {
-      plan.absent = full_text(budget);
-      plan.file = nullptr;
-    }
-    if (plan.file != nullptr) {
-      used += static_cast<double>(bytes_of(*plan.file));
-      plan.heat =
-          plan.file->format != "svg" && has_both(*plan.file) && heat_maps < budget.heat_maps;
-      heat_maps += plan.heat ? 1 : 0;
-    }
-    all.push_back(std::move(plan));
-  }
-  return all;
-}
-
-/// Why two images are shown without a heat map.
-std::string no_heat_reason(const Plan& plan) {
-  if (plan.file->format == "svg") return "No heat map: SVGs have none.";
-  return plan.heat ? "No heat map: the sizes differ."
-                   : "No heat map: the page already holds its maximum number of heat maps.";
-}
-
-std::optional<ShownImage> heat_image(const ImageFile& file, const ImageOptions& options) {
-  const Image image = heat_map(file.baseline, file.current, options);
-  if (image.width < 1 || image.height < 1) return std::nullopt;
-  return ShownImage{"data:image/png;base64," + base64(encode_png(image)),
-                    ImageSize{image.width, image.height}, ""};
-}
-
-ShownImages read_all(const Plan& plan, const ImageOptions& options, std::size_t limit) {
-  ShownImages shown;
-  shown.absent = plan.absent;
-  if (plan.file == nullptr) return shown;
-  const ImageFile& file = *plan.file;
-  try {
-    if (!file.baseline.empty())
-      shown.baseline = read_image(file.baseline, file.format, file.diff.baseline_renderer, limit);
-    if (!file.current.empty())
-      shown.current = read_image(file.current, file.format, file.diff.current_renderer, limit);
-    if (plan.heat) shown.heat = heat_image(file, options);
-  } catch (const IoError& error) {
-    shown = {};
-    shown.absent = std::string("Not shown: ") + error.what();
-    return shown;
-  }
-  shown.format = file.format;
-  if (has_both(file) && !shown.heat) shown.no_heat = no_heat_reason(plan);
-  if (file.diff.pixels && file.diff.pixels->largest_cluster_pixels > 0)
-    shown.cluster = file.diff.pixels->largest_cluster;
-  return shown;
-}
-
-/// Leaves out the heat maps for which the page has no room.
-void drop_heat_maps(std::vector<ShownImages>& shown, const ImageBudget& budget) {
-  std::size_t room = static_cast<std::size_t>(kImageShare * static_cast<double>(budget.page_bytes));
-  for (const ShownImages& images : shown)
-    for (const auto* image : {&images.baseline, &images.current})
-      if (*image) room -= std::min(room, (*image)->uri.size());
-  for (ShownImages& images : shown) {
-    if (!images.heat) continue;
-    if (images.heat->uri.size() <= room) {
-      room -= images.heat->uri.size();
-      continue;
-    }
-    images.heat.reset();
-    images.no_heat = "No heat map: the page has no room for it (--page-size).";
-  }
-}
-
-/// Reads the images of each item, in order, and makes the heat maps of PNGs that differ, also
-/// within tolerance. Identical and unreadable images are not shown. Images are embedded as the
-/// bytes of their files.
-/// @note Reads several items at a time, by oneTBB; the result does not depend on it. Holds all
-/// images in memory.
-std::vector<ShownImages> shown_images(const DiffResult& result, const DiffSettings& settings,
-                                      const ImageBudget& budget = {}) {
-  const std::vector<Plan> all = plans(result, budget);
-  std::vector<ShownImages> shown(all.size());
-  parallel_for(all.size(), [&](std::size_t i) {
-    shown[i] = read_all(all[i], settings.images_of(result.items[i].id), budget.largest_bytes);
-  });
-  drop_heat_maps(shown, budget);
-  return shown;
-}
-
 constexpr std::size_t kMostName = 300;    // Characters.
+constexpr std::size_t kMostPath = 80;     // Characters.
 constexpr std::size_t kMostCause = 2000;  // Characters.
 
-/// One image; `side` is "baseline", "current" or "heat".
-data pane_data(const ShownImage& image, const std::string& side, const std::string& title,
-               const std::string& id) {
+/// What a page calls one side.
+struct SideName {
+  std::string side;   ///< "baseline", "current", "heat" or "change".
+  std::string title;  ///< For readers.
+  std::string path;   ///< As the user named the side; empty: it is neither.
+};
+
+/// One image.
+data pane_data(const ShownImage& image, const SideName& name, const std::string& id) {
+  const std::string& title = name.title;
   data out;
-  out.set("side", side);
+  out.set("side", name.side);
   out.set("title", title);
+  out.set("path", text_or_false(printable(name.path, kMostPath)));
   out.set("uri", image.uri);
   out.set("alt", title + " of " + id);
   std::string note = image.size ? size_text(*image.size) : "";
-  if (!image.renderer.empty())
-    note += (note.empty() ? "" : ", ") + printable(image.renderer, kMostName);
+  if (!image.note.empty()) note += (note.empty() ? "" : ", ") + printable(image.note, kMostName);
   out.set("note", note);
   out.set("sized", image.size.has_value());
   out.set("width", fmt::format("{}", image.size ? image.size->width : 0));
@@ -278,18 +63,25 @@ data pane_data(const ShownImage& image, const std::string& side, const std::stri
   return out;
 }
 
-data stage_data(const ShownImages& shown, const std::string& id) {
+data stage_data(const ShownImages& shown, const std::string& id, const DiffResult& all) {
   if (shown.format.empty()) return data(false);
   list panes;
-  if (shown.baseline) panes.push_back(pane_data(*shown.baseline, "baseline", "Baseline", id));
-  if (shown.current) panes.push_back(pane_data(*shown.current, "current", "Current", id));
+  if (shown.baseline)
+    panes.push_back(pane_data(*shown.baseline, {"baseline", "Baseline", all.baseline}, id));
+  if (shown.current)
+    panes.push_back(pane_data(*shown.current, {"current", "Current", all.current}, id));
   data out;
   out.set("both", shown.baseline.has_value() && shown.current.has_value());
   out.set("has_heat", shown.heat.has_value());
-  if (shown.heat) panes.push_back(pane_data(*shown.heat, "heat", "Heat map", id));
+  if (shown.heat) panes.push_back(pane_data(*shown.heat, {"heat", "Heat map", ""}, id));
   out.set("panes", panes);
   out.set("format", shown.format);
   return out;
+}
+
+data change_data(const ShownImages& shown, const std::string& id) {
+  if (!shown.change) return data(false);
+  return pane_data(*shown.change, {"change", "What changed", ""}, id);
 }
 
 data cluster_data(const ShownImages& shown) {
@@ -297,6 +89,7 @@ data cluster_data(const ShownImages& shown) {
   const PixelBox& box = *shown.cluster;
   data out;
   out.set("box", fmt::format("{} {} {} {}", box.x, box.y, box.width, box.height));
+  out.set("size", fmt::format("{} {}", shown.cluster_in.width, shown.cluster_in.height));
   out.set("text", fmt::format("Largest cluster of changed pixels: {} at ({}, {})",
                               size_text({box.width, box.height}), box.x, box.y));
   return out;
@@ -307,22 +100,29 @@ std::string anchor_of(const DiffItem& item) {
   return (item.kind == ItemKind::kRecords ? "records-" : "figure-") + percent_encoded(item.id);
 }
 
-/// The data of an item in lists: its name, verdict and link target.
-data entry_data(const DiffItem& item) {
+/// "1.2 %": how much of the images changed; empty if no image shows it.
+std::string share_text(double share) {
+  return share > 0.0 ? fmt::format("{:.2g} %", 100.0 * share) : "";
+}
+
+/// The data of an item in lists: its name, verdict, link target and size.
+data entry_data(const DiffItem& item, double changed_share) {
   data out;
   out.set("anchor", anchor_of(item));
   out.set("id", printable(item.id, kMostName));
   out.set("verdict", std::string(name(item.judgement.verdict)));
   out.set("label", std::string(label(item.judgement.verdict)));
+  out.set("share", fmt::format("{:.6g}", changed_share));
+  out.set("share_text", text_or_false(share_text(changed_share)));
   return out;
 }
 
 /// The data for diff_item.mustache.
 /// @param refusal  Why the item cannot be approved by itself; null: it can.
 /// @param number   Distinguishes ids on the page.
-data item_data(const DiffItem& item, const ShownImages& shown, const ApprovalRefusal* refusal,
-               std::size_t number) {
-  data out = entry_data(item);
+data item_data(const DiffItem& item, const ShownImages& shown, const DiffResult& all,
+               const ApprovalRefusal* refusal, std::size_t number) {
+  data out = entry_data(item, shown.changed_share);
   const std::string id = printable(item.id, kMostName);
   out.set("number", fmt::format("{}", number));
   out.set("code", percent_encoded(item.id));
@@ -332,7 +132,8 @@ data item_data(const DiffItem& item, const ShownImages& shown, const ApprovalRef
   out.set("refused", refusal != nullptr);
   out.set("with_records", refusal != nullptr && refusal->goes_with_records);
   out.set("refusal", refusal ? printable(refusal->why, kMostCause) : std::string());
-  out.set("stage", stage_data(shown, id));
+  out.set("stage", stage_data(shown, id, all));
+  out.set("change", change_data(shown, id));
   out.set("no_heat", text_or_false(shown.no_heat));
   out.set("cluster", cluster_data(shown));
   out.set("absent", text_or_false(shown.absent));
@@ -420,20 +221,20 @@ std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
 }
 
 void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown,
-               const ImageBudget& budget) {
-  auto room = static_cast<std::size_t>(kTableShare * static_cast<double>(budget.page_bytes));
+               std::size_t page_bytes) {
+  auto room = static_cast<std::size_t>(kTableShare * static_cast<double>(page_bytes));
   const auto refusals = refusals_of(result);
   list changed, items, identical;
   for (std::size_t i = 0; i < result.items.size(); ++i) {
     const DiffItem& item = result.items[i];
     if (item.judgement.verdict == Verdict::kIdentical) {
-      identical.push_back(entry_data(item));
+      identical.push_back(entry_data(item, 0.0));
       continue;
     }
-    changed.push_back(entry_data(item));
+    changed.push_back(entry_data(item, shown[i].changed_share));
     const auto refused = refusals.find(item.id);
-    items.push_back(
-        item_data(item, shown[i], refused == refusals.end() ? nullptr : &refused->second, i + 1));
+    items.push_back(item_data(item, shown[i], result,
+                              refused == refusals.end() ? nullptr : &refused->second, i + 1));
     set_blocks(items.back(), item, result, i + 1, room);
   }
   page.set("identical_count", fmt::format("{}", identical.size()));
@@ -446,9 +247,8 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
 
 }  // namespace
 
-std::string diff_html(const DiffResult& result, const DiffSettings& settings,
-                      const Templates& templates, const ImageBudget& budget) {
-  const std::vector<ShownImages> shown = shown_images(result, settings, budget);
+std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& shown,
+                      const Templates& templates, std::size_t page_bytes) {
   data page;
   set_page_frame(page, "diff", templates);
   page.set("passes", result.passes);
@@ -456,6 +256,8 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("label", std::string(label(result.judgement.verdict)));
   page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
+  page.set("baseline_name", printable(result.baseline, kMostPath));
+  page.set("current_name", printable(result.current, kMostPath));
   page.set("baseline", percent_encoded(result.baseline));
   page.set("current", percent_encoded(result.current));
   std::error_code error;
@@ -464,7 +266,7 @@ std::string diff_html(const DiffResult& result, const DiffSettings& settings,
   page.set("counts", counts_data(result));
   page.set("notes", notes_data(result, shown));
   page.set("version", std::string(version()));
-  set_items(page, result, shown, budget);
+  set_items(page, result, shown, page_bytes);
   return rendered("diff", templates, page);
 }
 

@@ -1,15 +1,17 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
-#include "render/figures/maps/occlusion.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
@@ -91,7 +93,16 @@ Figure grid_figure(const Study& study, const Variation& variation) {
   return error_lines_figure(spec);
 }
 
-Figure level_figure(const Study& study, const Variation& variation) {
+/// Whether nothing is to be seen: one line that changes by less than this, which the table says.
+bool is_flat(const LevelCurveSpec& spec) {
+  constexpr double kLeastChange = 0.02;
+  if (spec.methods.size() != 1 || spec.methods.front().mean.empty()) return false;
+  const auto [least, greatest] = std::ranges::minmax(spec.methods.front().mean);
+  return greatest - least < kLeastChange * greatest;
+}
+
+/// Empty if there is nothing to be seen.
+std::optional<Figure> level_figure(const Study& study, const Variation& variation) {
   if (has_grids(variation)) return grid_figure(study, variation);
   LevelCurveSpec spec;
   spec.id = "level-" + variation.id;
@@ -99,10 +110,13 @@ Figure level_figure(const Study& study, const Variation& variation) {
   spec.x_label = level_words(variation);
   for (const VariedSetting& setting : summarize(study, variation))
     spec.methods.push_back(line_over_levels(study.experiment, variation, setting));
+  if (const std::string best = best_over(spec.methods, {}, line_axis(spec.x_label)); !best.empty())
+    spec.title = fmt::format("{}: {}", title_of(variation.sensor), best);
   spec.record_ids = {record_of(variation)};
   const bool is_fall =
       variation.factor == Factor::kSmacofKnnFall || variation.factor == Factor::kSmacofFall;
   if (is_fall && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
+  if (is_flat(spec)) return std::nullopt;
   return level_curve_figure(spec);
 }
 
@@ -130,40 +144,6 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
   if (!spec.panels.empty()) figures.push_back(anchor_count_figure(spec));
 }
 
-void add_occlusion(FigureSource& source, std::vector<Figure>& figures) {
-  const Study& study = source.study();
-  const SensorStudy* sensor = find_sensor(study.experiment, Sensor::kVisibility);
-  if (sensor == nullptr) return;
-  OcclusionSpec spec;
-  spec.id = "occlusion-visibility";
-  spec.title = "Visibility: scans within reach that occlusion decides";
-  std::vector<const Run*> runs;
-  for (const Run& run : study.runs)
-    if (run.occlusion && run.occlusion->within_reach > 0) {
-      runs.push_back(&run);
-      spec.hidden_share.push_back(static_cast<double>(run.occlusion->hidden) /
-                                  static_cast<double>(run.occlusion->within_reach));
-    }
-  if (runs.empty()) return;
-  for (const SettingSummary& best : source.best(*sensor)) {
-    OcclusionMethod method{.label = label(best.setting),
-                           .key = std::string(info(best.setting.method).name),
-                           .mpe_m = {},
-                           .series = series_of_method(study.experiment, best.setting.method)};
-    for (const Run* run : runs) {
-      const auto found = std::ranges::find_if(run->records, [&](const RunRecord& record) {
-        return record.sensor == best.sensor && record.setting == best.setting &&
-               record.step == best.step;
-      });
-      method.mpe_m.push_back(found != run->records.end() && found->score ? found->score->mpe_m
-                                                                         : kNaN);
-    }
-    spec.methods.push_back(std::move(method));
-    spec.record_ids.push_back(source_of(best));
-  }
-  figures.push_back(occlusion_figure(spec));
-}
-
 }  // namespace
 
 std::vector<Figure> condition_figures(FigureSource& source) {
@@ -171,9 +151,9 @@ std::vector<Figure> condition_figures(FigureSource& source) {
   std::vector<Figure> figures;
   for (const SensorStudy& sensor : study.experiment.sensors)
     add_anchors(study, sensor.sensor.sensor, figures);
-  add_occlusion(source, figures);
   for (const Variation& variation : study.experiment.variations)
-    if (variation.factor != Factor::kAnchors) figures.push_back(level_figure(study, variation));
+    if (variation.factor != Factor::kAnchors)
+      if (auto figure = level_figure(study, variation)) figures.push_back(std::move(*figure));
   return figures;
 }
 

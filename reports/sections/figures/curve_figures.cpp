@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
@@ -96,6 +97,10 @@ void add_curves(FigureSource& source, const SensorStudy& sensor, const Measure& 
     spec.curves.push_back(curve(source.study().experiment, steps, measure));
     for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
   }
+  if (const std::string best =
+          best_at_end(spec.curves, {measure.name, measure.unit}, "after {} observations");
+      !best.empty())
+    spec.title = fmt::format("{}: {}", title_of(shown.front().front().sensor), best);
   figures.push_back(error_curve_figure(spec));
 }
 

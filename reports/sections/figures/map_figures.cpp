@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "render/figures/maps/error_map.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/scatter_map.hpp"
@@ -57,6 +58,14 @@ void add_pair(FigureSource& source, const PaperFigure& wanted, std::vector<Figur
   figures.push_back(std::move(figure));
 }
 
+/// Whether each of the maps has an error somewhere.
+bool has_errors(const std::vector<TitledMap>& maps) {
+  return std::ranges::all_of(maps, [](const TitledMap& one) {
+    return one.map.ground_truth_m && one.map.ground_truth_m->rows() == one.map.estimate.rows() &&
+           (*one.map.ground_truth_m - one.map.estimate).rowwise().norm().array().isFinite().any();
+  });
+}
+
 /// All methods on one run, the best first: the median run of the best method.
 void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
   std::vector<SettingSummary> methods = source.best(sensor);
@@ -76,6 +85,16 @@ void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figur
   Figure figure = map_wall_figure(spec);
   figure.columns = kWallColumns;
   figures.push_back(std::move(figure));
+  const double side_m = source.study().experiment.world.side_m;
+  if (!has_errors(spec.maps) || !(side_m > 0.0)) return;
+  Figure errors =
+      error_map_figure({.id = fmt::format("errors-{}", name(sensor.sensor.sensor)),
+                        .title = fmt::format("{}: where the maps of {} are wrong",
+                                             title_of(sensor.sensor.sensor), words_of(*run)),
+                        .side_m = side_m,
+                        .maps = spec.maps});
+  errors.columns = kWallColumns;
+  figures.push_back(std::move(errors));
 }
 
 /// The method of least mean MPE that has maps to show.

@@ -6,6 +6,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
@@ -39,6 +40,13 @@ ParameterLine parameter_line(const Experiment& experiment,
   if (const auto& published = values.front().published; published && published->setting.parameter)
     line.published = ParameterValue{*published->setting.parameter, (*published).*printed};
   return line;
+}
+
+/// Which method is best, and at which value.
+std::string best_setting(const ParameterGroup& group, bool of_mpe) {
+  std::vector<ErrorLine> lines;
+  for (const ParameterLine& method : group.methods) lines.push_back(method.line);
+  return best_of_all(lines, of_mpe ? LineQuantity{} : LineQuantity{"MOE", "%"}, {group.symbol});
 }
 
 /// The figure of all methods with that parameter: methods of different ones err on different
@@ -78,6 +86,8 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
   if (group.methods.empty()) return std::nullopt;
+  if (const std::string best = best_setting(group, of_mpe); !best.empty())
+    spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), best);
   spec.groups.push_back(std::move(group));
   if (of_mpe) spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;
   return error_by_parameter_figure(spec);

@@ -6,7 +6,6 @@
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
-#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -24,8 +23,8 @@ void add_scan(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
     }
 }
 
-/// The median run of the best method: its room from the side and from above, and where its
-/// landmarks lie in the space of their observations.
+/// The median run of the best method: its room, and where its landmarks lie in the space of their
+/// observations.
 void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scene>& scenes) {
   const auto id = median_run(source.study(), best);
   if (!id) return;
@@ -43,9 +42,6 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
                       .path_m = source.details(*id)->path.positions_m,
                       .map = *map};
   scenes.push_back(world_scene(spec, WorldView::kPerspective));
-  spec.id += "-plan";
-  spec.title += ", from above";
-  scenes.push_back(world_scene(spec, WorldView::kPlan));
   if (!details->manifold || !has_manifold_scene(*details->manifold)) return;
   scenes.push_back(manifold_scene(
       {.id = fmt::format("scene-manifold-{}", name(best.sensor)),
@@ -82,24 +78,6 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
   return spec;
 }
 
-void add_error_field(FigureSource& source, const SensorStudy& sensor, std::vector<Scene>& scenes) {
-  const Study& study = source.study();
-  ErrorFieldSpec spec{
-      .id = fmt::format("scene-error-{}", name(sensor.sensor.sensor)),
-      .title = fmt::format("{}: where maps are wrong", title_of(sensor.sensor.sensor)),
-      .side_m = study.experiment.world.side_m,
-      .maps = {},
-      .columns = 3};
-  for (const SettingSummary& best : source.best(sensor)) {
-    const auto run = median_run(study, best);
-    if (!run) continue;
-    const MapRecord* map = source.map(*run, best.sensor, best.setting, best.step);
-    if (map != nullptr && has_error_field(*map, spec.side_m))
-      spec.maps.push_back({short_label(best.setting), *map});
-  }
-  if (!spec.maps.empty()) scenes.push_back(error_field_scene(spec));
-}
-
 }  // namespace
 
 std::vector<Scene> study_scenes(FigureSource& source) {
@@ -109,7 +87,6 @@ std::vector<Scene> study_scenes(FigureSource& source) {
     const std::vector<SettingSummary> all = source.best(sensor);
     if (const SettingSummary* best = best_of(all)) add_best(source, *best, scenes);
     if (const auto forming = forming_of(source, sensor)) scenes.push_back(forming_scene(*forming));
-    add_error_field(source, sensor, scenes);
   }
   return scenes;
 }

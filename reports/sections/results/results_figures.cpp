@@ -11,6 +11,8 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
@@ -100,6 +102,11 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
 
 /// Bands of more lines than these hide each other.
 constexpr std::size_t kMostBands = 4;
+/// With fewer groups of runs an interval of the mean is a guess: the runs themselves are shown.
+constexpr std::size_t kFewestGroups = 5;
+constexpr const char* kSingleRuns = "single runs";
+constexpr const char* kSingleRunsRemark =
+    " Small circles: single runs, which are too few for an interval.";
 /// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
 constexpr double kWideSpan = 20.0;
 /// More panels than these are too narrow to be read.
@@ -158,7 +165,7 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
   ErrorLine curve;
   curve.label = line.label;
   curve.key = key_of(index);
-  if (line.run.empty()) curve.series = line.index;
+  if (line.run.empty()) curve.series = line.series;
   for (std::size_t i = 0; i < block.levels.size(); ++i) {
     const auto mean = view.mean(block.conditions[i], line, quantity);
     const auto interval = view.interval(mean, quantity);
@@ -180,7 +187,8 @@ std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& bl
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
-    if (lines.size() > kMostBands || std::ranges::none_of(curve.low, is_known)) {
+    if (lines.size() > kMostBands || view.groups() < kFewestGroups ||
+        std::ranges::none_of(curve.low, is_known)) {
       curve.low.clear();
       curve.high.clear();
     }
@@ -188,6 +196,45 @@ std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& bl
     curves.push_back(std::move(curve));
   }
   return curves;
+}
+
+/// "Regret with anchors" as "regret with anchors", but "MPE" as it is.
+std::string in_sentence(std::string label) {
+  if (label.size() < 2 || lower_case(label.substr(1, 1)) != label.substr(1, 1)) return label;
+  return lower_case(label.substr(0, 1)) + label.substr(1);
+}
+
+/// Which method is best over the axis; empty of a quantity that has no better side.
+std::string finding_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
+                       const std::string& x_label) {
+  if (quantity.better == Better::kNeither) return "";
+  return best_over(lines,
+                   {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower},
+                   line_axis(x_label));
+}
+
+/// The values of the runs that the curves are means of, if these are too few for intervals; none
+/// of many curves.
+std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& block,
+                                const Quantity& quantity) {
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  std::vector<ErrorPoint> points;
+  if (view.groups() >= kFewestGroups || lines.size() > kMostBands) return points;
+  const bool is_log = scale_of(block.levels) == Scale::kLog;
+  for (const ResultsLine& line : lines)
+    for (std::size_t i = 0; i < block.levels.size(); ++i) {
+      const double x = std::get<double>(block.levels[i].value);
+      const auto values = view.numbers(block.conditions[i], line, quantity).values;
+      if (values.size() < 2 || (is_log && x == 0.0)) continue;
+      for (const auto& [run, value] : values)
+        points.push_back({.label = kSingleRuns,
+                          .line = line.label,
+                          .x = x,
+                          .y = value,
+                          .marker = Marker::kCircle,
+                          .size = 0.6});
+    }
+  return points;
 }
 
 std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
@@ -201,7 +248,11 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.quantity = quantity.label;
   spec.record_ids = {record_of(block)};
   spec.methods = curves_of(view, block, quantity);
+  spec.points = runs_of(view, block, quantity);
+  if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
   if (!distinguishes(spec.methods)) return std::nullopt;
+  if (const std::string best = finding_of(spec.methods, quantity, spec.x_label); !best.empty())
+    spec.title = block.title + ": " + best;
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   Figure figure = level_curve_figure(spec);
   if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
@@ -220,7 +271,6 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
   spec.record_ids = {record_of(*overview.blocks.front())};
-  bool banded = false;
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
     const ResultsBlock& block = *overview.blocks[i];
     ErrorPanel& panel = spec.panels.emplace_back();
@@ -228,13 +278,13 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
     panel.x.label = view.factor_label(block.factor);
     panel.x.scale = scale_of(block.levels);
     panel.lines = curves_of(view, block, quantity);
-    for (const ErrorLine& line : panel.lines) banded |= !line.low.empty();
+    panel.points = runs_of(view, block, quantity);
+    if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
-  spec.caption = fmt::format("Lines: {} over {} by {}, mean over runs{}", quantity.label,
-                             view.factor_label(overview.blocks.front()->factor), overview.factors,
-                             banded ? "; bands: its 95 % interval." : ".");
+  spec.over = fmt::format(" over {} by {}", view.factor_label(overview.blocks.front()->factor),
+                          overview.factors);
   return error_lines_figure(spec);
 }
 
@@ -292,7 +342,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       values.insert(values.end(), curve.x.begin(), curve.x.end());
       curve.label = lines[k].label;
       curve.key = key_of(k);
-      curve.series = lines[k].index;
+      curve.series = lines[k].series;
       panel.lines.push_back(std::move(curve));
     }
   }

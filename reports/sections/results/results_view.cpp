@@ -12,6 +12,7 @@
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/curves/method_series.hpp"
 
 namespace mapproof {
 namespace {
@@ -43,6 +44,9 @@ bool ResultsBlock::has_axis() const {
 }
 
 ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
+  std::vector<std::string> ids;
+  for (const Label& method : study.methods) ids.push_back(method.id);
+  series_ = series_of_methods(ids);
   for (const Result& row : study.results.rows) {
     const Key key{row.at, {row.method, row.quantity}};
     groups_[row.run] = row.group;
@@ -216,7 +220,8 @@ std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
                        .label = run.empty() || groups_.size() < 2
                                     ? method.label
                                     : method.label + ", " + label_of(study_.runs, run),
-                       .index = i});
+                       .index = i,
+                       .series = series_[i]});
   }
   return lines;
 }

@@ -42,9 +42,10 @@ struct ResultsOverview {
 /// repeats of each other, in one run.
 struct ResultsLine {
   std::string method;
-  std::string run = {};   ///< Empty: all.
-  std::string label;      ///< "EKF", "EKF, plaza-1".
-  std::size_t index = 0;  ///< Of the method, in the order of the study.
+  std::string run = {};    ///< Empty: all.
+  std::string label;       ///< "EKF", "EKF, plaza-1".
+  std::size_t index = 0;   ///< Of the method, in the order of the study.
+  std::size_t series = 0;  ///< Its style in all figures, see series_style().
 };
 
 /// The value of each run, and how many runs lost theirs.
@@ -113,6 +114,7 @@ class ResultsView {
   std::string short_words(const Level& level) const;
 
   const ResultsStudy& study_;
+  std::vector<std::size_t> series_;                                    ///< Of its methods.
   std::map<std::string, Quantity> quantities_;                         ///< By id.
   std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
   std::map<Key, std::set<std::string>> lost_;                          ///< By run.

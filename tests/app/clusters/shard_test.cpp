@@ -238,7 +238,7 @@ TEST(Shards, OfAnotherStudyAreRefusedInOneLineEach) {
   const Words seed = run_shards({kSmall, "--seed", "8"}, 1, folder / "seed");
   replace_in(fs::path(folders[1]) / "study.json", R"("solver_digest": "[0-9a-f]{4})",
              R"("solver_digest": "0000)");
-  replace_in(fs::path(folders[2]) / "study.json", R"("version": "0\.1)", R"("version": "99.1)");
+  replace_in(fs::path(folders[2]) / "study.json", R"("version": "1\.0\.0")", R"("version": "99.1.0")");
   const Outcome outcome = merge(folders + seed, folder / "study");
   EXPECT_EQ(outcome.exit_code, 2);
   expect_lines(outcome.error, {folders[1] + ": is of another study", "/provenance/solver_digest",

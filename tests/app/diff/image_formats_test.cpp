@@ -81,15 +81,60 @@ INSTANTIATE_TEST_SUITE_P(OfOthers, ImageFormats,
 
 TEST(AnimatedImages, AreComparedFrameByFrame) {
   if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
-  for (const char* film : {"film.gif", "film.png"}) {
+  for (const char* film : {"film.gif", "film.png", "film.webp"}) {
     const nlohmann::json item = compared(kFormats / "before" / film, kFormats / "after" / film);
     EXPECT_EQ(item.at("verdict"), "changed") << film;
     EXPECT_NE(cause(item).find("frame 2 of 3"), std::string::npos) << cause(item);
   }
 }
 
-TEST(TransparentImages, AreComparedOnBlackToo) {
+TEST(AnimatedImages, OfTheSameFramesAtOtherTimesAreChanged) {
   if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  const nlohmann::json item =
+      compared(kFormats / "before/slower.webp", kFormats / "after/slower.webp");
+  EXPECT_EQ(item.at("verdict"), "changed");
+  EXPECT_NE(cause(item).find("frame 2 is shown for 500 ms, and was for 300 ms"), std::string::npos)
+      << cause(item);
+}
+
+TEST(AnimatedImages, OfWebPAreUnreadableIfTheyAreCut) {
+  if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "film.webp";
+  const std::string whole = read_file(kFormats / "before/film.webp");
+  write_file(file, whole.substr(0, whole.size() * 2 / 3));
+  EXPECT_EQ(compared(kFormats / "before/film.webp", file).at("verdict"), "unreadable");
+}
+
+TEST(LargeImages, AreComparedInStrips) {
+  const nlohmann::json item = compared(kFormats / "before/large.png", kFormats / "after/large.png");
+  EXPECT_EQ(item.at("verdict"), "changed") << item;
+  EXPECT_NE(cause(item).find("4 pixels changed"), std::string::npos) << cause(item);
+  EXPECT_NE(cause(item).find("the largest cluster at 8001, 931"), std::string::npos) << cause(item);
+}
+
+TEST(ColourSpaces, ThatDifferAreAChangeAndOtherWordsForOneAreNone) {
+  for (const char* name : {"gamma.png", "wide.png", "profile.png"}) {
+    const nlohmann::json item = compared(kFormats / "before" / name, kFormats / "after" / name);
+    EXPECT_EQ(item.at("verdict"), "changed") << name;
+    EXPECT_NE(cause(item).find("the colour space changed: "), std::string::npos) << cause(item);
+  }
+  for (const char* name : {"srgb.png", "dated.png"})
+    EXPECT_EQ(compared(kFormats / "before" / name, kFormats / "after" / name).at("verdict"),
+              "identical")
+        << name;
+}
+
+TEST(ColourSpaces, OfOtherFormatsAreTheirProfiles) {
+  if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  for (const char* name : {"profile.jpg", "profile.webp", "profile.tiff"}) {
+    const nlohmann::json item = compared(kFormats / "before" / name, kFormats / "after" / name);
+    EXPECT_EQ(item.at("verdict"), "changed") << name;
+    EXPECT_NE(cause(item).find("its colour profile changed"), std::string::npos) << cause(item);
+  }
+}
+
+TEST(TransparentImages, AreComparedOnBlackToo) {
   const nlohmann::json item =
       compared(kFormats / "before/transparent.png", kFormats / "after/transparent.png");
   EXPECT_EQ(item.at("verdict"), "changed");

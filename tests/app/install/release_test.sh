@@ -46,6 +46,6 @@ diff -r "$work/first" out/release || fail "two runs differ"
 [ "$(tail -n +3 out/release/NOTES.md)" = $'### Added\n\n- A thing.' ] || fail "the notes are wrong"
 (cd out/release && sha256sum --check --quiet SHA256SUMS) || fail "SHA256SUMS is wrong"
 [ "$(wc -l <out/release/SHA256SUMS)" -eq 5 ] || fail "SHA256SUMS does not name all files"
-tar -tf out/release/mapproof-9.8.7.tar.xz | grep -qx mapproof-9.8.7/CITATION.cff ||
+[[ $(tar -tf out/release/mapproof-9.8.7.tar.xz) == *mapproof-9.8.7/CITATION.cff* ]] ||
   fail "the source is not whole"
 exit $failed

@@ -1,4 +1,4 @@
-#include "core/linalg/packed_product.hpp"
+#include "core/linalg/cholesky.hpp"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
@@ -10,7 +10,8 @@ namespace mapproof {
 namespace {
 
 // Leaves, one over, several levels of the recursion, more columns than a block of the product has.
-constexpr Eigen::Index kCholeskySizes[] = {1, 2, 7, 23, 24, 25, 47, 48, 49, 96, 97, 150, 333};
+constexpr Eigen::Index kCholeskySizes[] = {1,  2,  7,  23,  24,  25,  47,  48,
+                                           49, 96, 97, 150, 333, 650, 1010};
 
 Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed) {
   Random random(seed);
@@ -59,6 +60,28 @@ TEST(Cholesky, SolvesAsEigenDoes) {
     const Eigen::VectorXd x = solve_cholesky(L, b);
     EXPECT_LT((A * x - b).norm(), 1e-11 * b.norm()) << n;
     EXPECT_LT((x - A.llt().solve(b)).norm(), 1e-10 * x.norm()) << n;
+  }
+}
+
+TEST(Cholesky, InvertsAFactorAndLeavesZerosAboveTheDiagonal) {
+  for (const Eigen::Index n : kCholeskySizes) {
+    Eigen::MatrixXd L = positive(n);
+    ASSERT_TRUE(factor_cholesky(L));
+    const Eigen::MatrixXd inverse = inverse_of_lower(L);
+    const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
+    EXPECT_LT((lower * inverse - Eigen::MatrixXd::Identity(n, n)).norm(), 1e-10) << n;
+    const Eigen::MatrixXd above = inverse.triangularView<Eigen::StrictlyUpper>();
+    EXPECT_TRUE(above.isZero(0.0)) << n;
+  }
+}
+
+TEST(Cholesky, MultipliesAVectorAsEigenDoes) {
+  for (const Eigen::Index rows : kCholeskySizes) {
+    const Eigen::MatrixXd A = random_matrix(rows, rows + 2, 5);
+    const Eigen::VectorXd x = random_matrix(rows + 2, 1, 6);
+    Eigen::VectorXd y(rows);
+    multiply(A, x, y);
+    EXPECT_LT((y - A * x).norm(), 1e-13 * A.norm() * x.norm()) << rows;
   }
 }
 

@@ -136,6 +136,24 @@ TEST(LogFit, NamesALateClock) {
   EXPECT_NEAR(value_in(*cause, "offset_s"), 5.0, 0.3);
 }
 
+TEST(LogFit, NamesAClockThatIsFarOffThoughRangesAloneFitAPath) {
+  const Fit fit = fit_log(drive_with({.late_s = 15.0}), {}, quick_options()).fit;
+  const FitCause* cause = cause_in(fit, FitCode::kTimeOffset);
+  ASSERT_NE(cause, nullptr);
+  EXPECT_NEAR(value_in(*cause, "offset_s"), 15.0, 0.3);
+  const auto error = std::ranges::find(fit.tests, FitCode::kOdometryResiduals, &FitTest::code);
+  ASSERT_NE(error, fit.tests.end());
+  EXPECT_TRUE(error->exceeds());
+}
+
+TEST(LogFit, ReportsOdometryOfAnotherDrive) {
+  RangeLog log = drive_with({});
+  for (std::size_t i = 0; i < log.odometry.size(); ++i)
+    log.odometry[i].heading_change_rad = (i / 40) % 2 == 0 ? 0.05 : -0.05;
+  const Fit fit = fit_log(log, {}, quick_options()).fit;
+  EXPECT_NE(fit.verdict, FitVerdict::kFits);
+}
+
 TEST(LogFit, NamesAJumpOfTheClock) {
   const Fit fit = fit_log(drive_with({.jump_s = 20.0}), {}, quick_options()).fit;
   EXPECT_NE(cause_in(fit, FitCode::kClockJump), nullptr);

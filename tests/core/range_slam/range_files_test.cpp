@@ -273,7 +273,7 @@ TEST(RangeLogFiles, WhatIsWrongInACsvIsNamedWithItsLine) {
   EXPECT_EQ(with("t,beacon,range\n1,a,2\n2,a\n"), "line 3: has 2 cells, expected 3");
   EXPECT_EQ(with("t,beacon,range\n1,a,inf\n"), "line 2: \"inf\" is not finite");
   EXPECT_EQ(with("t,beacon,range\n1,a,-2\n"),
-            "line 2: a range cannot be negative, got -2; bearings can: map --sensor bearing");
+            "line 2: a range cannot be negative, got -2: is it a bearing?");
   EXPECT_EQ(with("t,beacon,range\n1,,2\n"), "line 2: a landmark without a name");
   EXPECT_EQ(with("t,beacon,range\n1e300,a,2\n"),
             "line 2: a time in seconds is at most 1e+12, got 1e+300");

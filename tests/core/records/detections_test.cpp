@@ -116,7 +116,7 @@ TEST(Detections, NameTheLineThatIsWrong) {
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3\n"),
             "line 2: has 3 cells, expected 4");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,-3,0\n"),
-            "line 2: a range cannot be negative, got -3; bearings can: map --sensor bearing");
+            "line 2: a range cannot be negative, got -3: is it a bearing?");
   EXPECT_EQ(error_with("step,landmark,range,bearing\nx,oak,3,0\n"),
             "line 2: step: \"x\" is not a number");
   EXPECT_EQ(error_with("step,landmark,range,bearing\n0,oak,3,90\n"),

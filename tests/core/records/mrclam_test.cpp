@@ -83,7 +83,7 @@ TEST(Mrclam, NamesTheLineThatIsWrong) {
   EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 2 nan\n"),
             "line 1: \"nan\" is not finite");
   EXPECT_EQ(mrclam_error("Robot1_Measurement.dat", "1 63 -2 0\n"),
-            "line 1: a range cannot be negative, got -2; bearings can: map --sensor bearing");
+            "line 1: a range cannot be negative, got -2: is it a bearing?");
   EXPECT_EQ(mrclam_error("Robot2_Measurement.dat", "1 6.3 2 0\n"),
             "line 1: expected a number without decimals, got \"6.3\"");
   EXPECT_EQ(mrclam_error("Barcodes.dat", "6 63\n7 63\n"), "line 2: barcode 63 is there twice");

@@ -150,7 +150,7 @@ TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
             "ascending order");
   EXPECT_EQ(error("step,landmark,strength\n"),
             "f: line 1: no column is named range or bearing; there is \"strength\": --columns "
-            "ROLE=HEADER names them");
+            "ROLE=HEADER names them; a list of times and landmarks alone is read as visibility");
   EXPECT_EQ(error("step,landmark,value,robot\n"), "f: line 1: a streamed file is of one robot");
   EXPECT_EQ(error("0,a,1\n0,\"b,1\n"),
             "f: line 2: its quotes are broken, or a cell goes over its end");

@@ -107,7 +107,7 @@ TEST(WideObservations, NameTheCellThatIsWrong) {
             "within a full turn; 180 looks like degrees: "
             "--degrees");
   EXPECT_EQ(error_with("a,-1\n", Sensor::kRange),
-            "line 1, column 2: a range cannot be negative, got -1; bearings can: map --sensor bearing");
+            "line 1, column 2: a range cannot be negative, got -1: is it a bearing?");
   EXPECT_EQ(error_with("a,1,inf\n", Sensor::kRange), "line 1, column 3: an infinite value");
   EXPECT_EQ(error_with("a,1,x1\n", Sensor::kRange), "line 1, column 3: \"x1\" is not a number");
   EXPECT_EQ(error_with("a,1,\"1,5\"\n", Sensor::kRange),

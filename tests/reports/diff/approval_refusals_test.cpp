@@ -56,7 +56,8 @@ TEST(ApprovalRefusals, UnreadableFilesAreRefusedAndTheOthersApproved) {
 
 TEST(ApprovalRefusals, ThePageShowsThemAtTheCheckboxes) {
   const OtherExperiment two;
-  const std::string page = diff_html(folder_diff(two.before, two.after), {}, load_templates());
+  const DiffResult result = folder_diff(two.before, two.after);
+  const std::string page = diff_html(result, shown_images(result, {}), load_templates());
   const std::size_t item = page.find("data-code=\"map-isomap\"");
   ASSERT_NE(item, std::string::npos);
   const std::string head = page.substr(item, page.find("</header>", item) - item);

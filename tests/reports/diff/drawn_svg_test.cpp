@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/files/files.hpp"
+#include "reports/diff/images/change_map.hpp"
 #include "reports/diff/images/image_diff.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -53,6 +54,21 @@ TEST(DrawnSvg, ALostElementIsFoundAlthoughTheWholeWasWrittenAgain) {
     }
   }
   EXPECT_GT(lost, 40);
+}
+
+TEST(DrawnSvg, ThatDiffersHasAHeatMapAtTwiceItsSize) {
+  const TemporaryFolder folder;
+  const auto circle = [&](const char* name, int x) {
+    return folder.file(name,
+                       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"80\">"
+                       "<circle cx=\"" +
+                           std::to_string(x) + "\" cy=\"40\" r=\"9\"/></svg>");
+  };
+  const Image heat = heat_map(circle("a.svg", 30), circle("b.svg", 60));
+  ASSERT_EQ(heat.width, 200);
+  EXPECT_EQ(heat.height, 160);
+  EXPECT_EQ(heat.row(80)[60], kChangedColour);
+  EXPECT_EQ(heat.row(80)[120], kChangedColour);
 }
 
 }  // namespace

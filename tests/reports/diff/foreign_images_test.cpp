@@ -1,194 +1,23 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include <cairo.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/files/files.hpp"
 #include "core/base/random.hpp"
-#include "render/image/png_read.hpp"
 #include "reports/diff/images/image_diff.hpp"
+#include "tests/support/images/foreign_pairs.hpp"
 
 namespace mapproof::test {
 namespace {
 
-/// Two images of one plot by one program, drawn in ways that no reader can tell apart.
-struct HarmlessPair {
-  std::string plot;
-  Image baseline, current;
-};
-
-/// The pairs of tests/data/foreign_images, whose make.py draws them.
-std::vector<HarmlessPair> harmless_pairs() {
-  std::map<std::string, std::vector<Image>> variants;
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(
-           std::filesystem::path(MAPPROOF_TEST_DATA) / "foreign_images"))
-    if (entry.path().extension() == ".png") files.push_back(entry.path());
-  std::ranges::sort(files);
-  for (const auto& file : files)
-    variants[file.stem().stem()].push_back(read_png(read_file(file)).image);
-  std::vector<HarmlessPair> pairs;
-  for (const auto& [plot, images] : variants)
-    for (std::size_t i = 0; i < images.size(); ++i)
-      for (std::size_t j = 0; j < images.size(); ++j)
-        if (i != j) pairs.push_back({plot, images[i], images[j]});
-  return pairs;
-}
-
-/// What is planted: the share of colour at each pixel, 0 to 255, row by row.
-struct Planting {
-  std::string name;
-  int width = 0, height = 0;
-  std::vector<int> cover;
-
-  int at(int x, int y) const { return cover[static_cast<std::size_t>(y) * width + x]; }
-};
-
-Planting planted_word(const std::string& text, double size) {
-  constexpr int kWidth = 64, kHeight = 24;
-  Planting planting{fmt::format("\"{}\" at {:.0f} px", text, size), kWidth, kHeight, {}};
-  cairo_surface_t* surface = cairo_image_surface_create(CAIRO_FORMAT_A8, kWidth, kHeight);
-  cairo_t* context = cairo_create(surface);
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
-  cairo_move_to(context, 2.0, 17.0);
-  cairo_show_text(context, text.c_str());
-  cairo_destroy(context);
-  cairo_surface_flush(surface);
-  const unsigned char* data = cairo_image_surface_get_data(surface);
-  const int stride = cairo_image_surface_get_stride(surface);
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) planting.cover.push_back(data[y * stride + x]);
-  cairo_surface_destroy(surface);
-  return planting;
-}
-
-Planting planted_disc(double radius) {
-  const int side = 2 * static_cast<int>(std::ceil(radius)) + 1;
-  Planting planting{fmt::format("a disc of radius {:.1f}", radius), side, side, {}};
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      planting.cover.push_back(static_cast<int>(
-          255 * std::clamp(radius + 0.5 - std::hypot(x - side / 2, y - side / 2), 0.0, 1.0)));
-  return planting;
-}
-
-Planting planted_block(int width, int height) {
-  return {fmt::format("{} x {} pixels", width, height), width, height,
-          std::vector<int>(static_cast<std::size_t>(width) * height, 255)};
-}
-
-Planting planted_line(int length) {
-  Planting planting{fmt::format("a line of {} px", length), length, length / 3 + 2, {}};
-  planting.cover.assign(static_cast<std::size_t>(planting.width) * planting.height, 0);
-  for (int x = 0; x < length; ++x) {
-    const double y = x / 3.0;
-    const auto cell = static_cast<std::size_t>(std::floor(y)) * length + x;
-    planting.cover[cell] = static_cast<int>(255 * (1.0 - (y - std::floor(y))));
-    planting.cover[cell + length] = 255 - planting.cover[cell];
-  }
-  return planting;
-}
-
-Planting random_planting(Random& random) {
-  const auto one_of = [&](int n) { return static_cast<int>(random.uniform(0.0, n)); };
-  switch (one_of(5)) {
-    case 0:
-      return planted_word(
-          std::vector<std::string>{"no", "new", "old", "WARNING", "x", "ok?"}[one_of(6)],
-          random.uniform(7.0, 14.0));
-    case 1:
-      return planted_word(std::to_string(one_of(100)), random.uniform(7.0, 14.0));
-    case 2:
-      return planted_disc(random.uniform(1.0, 5.0));
-    case 3:
-      return planted_line(6 + one_of(40));
-    default:
-      return planted_block(2 + one_of(6), 2 + one_of(6));
-  }
-}
-
 int channel(std::uint32_t pixel, int c) { return static_cast<int>((pixel >> (8 * c)) & 0xFF); }
-
-/// Whether no channel varies by more than two levels in the box.
-bool is_flat(const Image& image, const PixelBox& box) {
-  const std::uint32_t first = image.row(box.y)[box.x];
-  for (int y = box.y; y < box.y + box.height; ++y)
-    for (int x = box.x; x < box.x + box.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        if (std::abs(channel(image.row(y)[x], c) - channel(first, c)) > 2) return false;
-  return true;
-}
-
-/// A random place for the planting that is flat in both images, with three pixels around; the width
-/// is 0 if none was found.
-PixelBox flat_place(const HarmlessPair& pair, const Planting& planting, Random& random) {
-  constexpr int kMargin = 3;
-  for (int attempt = 0; attempt < 200; ++attempt) {
-    const PixelBox box{
-        static_cast<int>(random.uniform(0.0, pair.baseline.width - planting.width - 2.0 * kMargin)),
-        static_cast<int>(
-            random.uniform(0.0, pair.baseline.height - planting.height - 2.0 * kMargin)),
-        planting.width + 2 * kMargin, planting.height + 2 * kMargin};
-    if (box.x < 0 || box.y < 0) return {};
-    if (is_flat(pair.baseline, box) && is_flat(pair.current, box))
-      return {box.x + kMargin, box.y + kMargin, planting.width, planting.height};
-  }
-  return {};
-}
-
-/// The image with the planting, `contrast` of 255 darker, or lighter on a dark ground.
-Image planted(Image image, const Planting& planting, const PixelBox& place, int contrast) {
-  for (int y = 0; y < planting.height; ++y)
-    for (int x = 0; x < planting.width; ++x) {
-      std::uint32_t& pixel = image.row(place.y + y)[place.x + x];
-      std::uint32_t colour = 0;
-      for (int c = 0; c < 3; ++c) {
-        const int ground = channel(pixel, c), to = ground >= 128 ? -contrast : contrast;
-        const int value = std::clamp(ground + to * planting.at(x, y) / 255, 0, 255);
-        colour |= static_cast<std::uint32_t>(value) << (8 * c);
-      }
-      pixel = colour;
-    }
-  return image;
-}
-
-/// The largest number of connected pixels of the planting that are at least so far from the ground.
-int connected_pixels(const Planting& planting, int contrast, int least) {
-  std::vector<bool> is_in;
-  for (const int cover : planting.cover) is_in.push_back(contrast * cover / 255 >= least);
-  int largest = 0;
-  for (int start = 0; start < static_cast<int>(is_in.size()); ++start) {
-    if (!is_in[start]) continue;
-    std::vector<int> group{start};
-    is_in[start] = false;
-    for (std::size_t next = 0; next < group.size(); ++next)
-      for (int step = 0; step < 9; ++step) {
-        const int x = group[next] % planting.width + step % 3 - 1;
-        const int y = group[next] / planting.width + step / 3 - 1;
-        if (x < 0 || y < 0 || x >= planting.width || y >= planting.height) continue;
-        const int cell = y * planting.width + x;
-        if (is_in[cell]) group.push_back(cell);
-        is_in[cell] = false;
-      }
-    largest = std::max(largest, static_cast<int>(group.size()));
-  }
-  return largest;
-}
-
-/// Whether docs/diff-images.md promises that the planting is found on flat ground.
-bool is_promised(const Planting& planting, int contrast) {
-  return connected_pixels(planting, contrast, 24) >= 4 ||
-         connected_pixels(planting, contrast, 12) >= 20;
-}
 
 TEST(ForeignImages, PairsThatNoReaderCanTellApartPass) {
   const std::vector<HarmlessPair> pairs = harmless_pairs();
@@ -222,6 +51,88 @@ TEST(ForeignImages, WhateverIsPlantedOnFlatGroundIsFoundAndSoIsItsLoss) {
                                 << (is_lost ? ", lost" : "");
   }
   EXPECT_GT(promised, 1000);
+}
+
+/// The image through a Gaussian filter of that standard deviation, in a box.
+Image blurred(const Image& image, double sigma_px, const PixelBox& box) {
+  const int reach = static_cast<int>(std::ceil(4.0 * sigma_px));
+  std::vector<double> weights;
+  for (int step = -reach; step <= reach; ++step)
+    weights.push_back(std::exp(-0.5 * step * step / (sigma_px * sigma_px)));
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  Image out = image;
+  for (int y = box.y; y < box.y + box.height; ++y)
+    for (int x = box.x; x < box.x + box.width; ++x) {
+      std::uint32_t colour = 0;
+      for (int c = 0; c < 3; ++c) {
+        double value = 0.0;
+        for (int v = -reach; v <= reach; ++v)
+          for (int u = -reach; u <= reach; ++u)
+            value +=
+                weights[v + reach] * weights[u + reach] *
+                channel(image.row(std::clamp(
+                            y + v, 0, image.height - 1))[std::clamp(x + u, 0, image.width - 1)],
+                        c);
+        colour |= static_cast<std::uint32_t>(std::lround(value / (sum * sum))) << (8 * c);
+      }
+      out.row(y)[x] = colour;
+    }
+  return out;
+}
+
+/// The image and what blur takes from it, once more.
+Image unsharp_masked(const Image& image, const Image& blurred) {
+  Image out = image;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    std::uint32_t colour = 0;
+    for (int c = 0; c < 3; ++c)
+      colour |= static_cast<std::uint32_t>(std::clamp(
+                    2 * channel(image.pixels[i], c) - channel(blurred.pixels[i], c), 0, 255))
+                << (8 * c);
+    out.pixels[i] = colour;
+  }
+  return out;
+}
+
+TEST(ForeignImages, BlurOfAllOrOfAPartAndSharpeningAreFound) {
+  for (const HarmlessPair& pair : harmless_pairs()) {
+    const Image& image = pair.baseline;
+    const PixelBox whole{0, 0, image.width, image.height};
+    const PixelBox part{image.width / 4, image.height / 4, image.width / 2, image.height / 2};
+    for (const PixelBox& box : {whole, part})
+      for (const double sigma_px : {0.7, 1.0, 2.0}) {
+        const Image soft = blurred(image, sigma_px, box);
+        const Image sharp = unsharp_masked(image, soft);
+        const std::string name = fmt::format("{}, {} px, {}", pair.plot, sigma_px, box.width);
+        EXPECT_GT(pixel_diff(image, soft).pixels.changed, 0) << name;
+        // Without anti-aliasing there is nothing to sharpen.
+        if (box != whole || sharp.pixels == image.pixels) continue;
+        EXPECT_GT(pixel_diff(image, sharp).pixels.changed, 0) << name;
+      }
+  }
+}
+
+/// Normal noise in each channel, rounded to levels.
+Image noisy(Image image, double sigma, Random& random) {
+  for (std::uint32_t& pixel : image.pixels) {
+    std::uint32_t colour = 0;
+    for (int c = 0; c < 3; ++c)
+      colour |=
+          static_cast<std::uint32_t>(std::clamp(
+              channel(pixel, c) + static_cast<int>(std::lround(sigma * random.normal())), 0, 255))
+          << (8 * c);
+    pixel = colour;
+  }
+  return image;
+}
+
+TEST(ForeignImages, NoiseOfLessThanOneLevelPasses) {
+  Random random(9);
+  for (const HarmlessPair& pair : harmless_pairs())
+    for (const double sigma : {0.3, 0.6, 0.9}) {
+      const Image other = noisy(pair.baseline, sigma, random);
+      EXPECT_EQ(pixel_diff(pair.baseline, other).pixels.changed, 0) << pair.plot << " " << sigma;
+    }
 }
 
 /// Two sets of tolerances, the second at least as large as the first in each.

@@ -17,7 +17,7 @@ class DiffBrowser : public ::testing::Test {
   }
 
   static std::string page_of(const DiffResult& result) {
-    return diff_html(result, {}, load_templates());
+    return diff_html(result, shown_images(result, {}), load_templates());
   }
 
   static Findings look_at(const std::string& page, const std::vector<std::string>& texts = {},
@@ -50,7 +50,7 @@ TEST_F(DiffBrowser, ShowsSideBySideSliderBlinkOverlayAndHeatMap) {
   EXPECT_EQ(found["opacity-moved"], "0.8");
   EXPECT_EQ(found["blend"], "difference");
   EXPECT_EQ(found["mode-5"], "heat");
-  EXPECT_EQ(found["heat-without"], "true");  // An SVG has none: its two images stay.
+  EXPECT_EQ(found["heat-without"], "true");  // Sizes differ: its two images stay.
   EXPECT_EQ(found["mode-m"], "side");
   EXPECT_EQ(found["mode-button"], "overlay");
   EXPECT_EQ(found["link-with-mode"], "true");
@@ -104,6 +104,14 @@ TEST_F(DiffBrowser, FiltersByVerdictAndSearchesById) {
   EXPECT_EQ(found["link-clears-filter"], "figure-gone true");
 }
 
+TEST_F(DiffBrowser, OrdersItemsAndShowsThumbnails) {
+  Findings found = used();
+  EXPECT_EQ(found["by-name"], "true");
+  EXPECT_EQ(found["by-share"], "true");
+  EXPECT_EQ(found["by-verdict"], "true");
+  EXPECT_EQ(found["thumbnails"], "5");  // moved, drawn, resized, gone, added.
+}
+
 TEST_F(DiffBrowser, CollectsApprovalsIntoAFileAndACommand) {
   Findings found = used();
   EXPECT_EQ(found["download-off"], "true");
@@ -132,7 +140,7 @@ TEST_F(DiffBrowser, ShowsImagesAndTablesWithoutItsScript) {
   std::string page = page_of(test::compared_folders(folder.path()));
   page.erase(page.find("<script"), page.find("</script>") - page.find("<script"));
   Findings found = look_at(page);
-  EXPECT_EQ(found["bare-images"], "9");
+  EXPECT_EQ(found["bare-images"], "10");
   EXPECT_EQ(found["bare-tables"], "1");
   EXPECT_EQ(found["bare-controls"], "0");
 }

@@ -54,7 +54,7 @@ const named = (element) => (element.textContent.trim() || element.getAttribute("
 function checkNames() {
   say("nameless", all("button, input, output, dialog, [role=toolbar], [role=group]")
     .filter((each) => !named(each) && !each.getAttribute("aria-labelledby")).length);
-  say("without-alt", all("img").filter((image) => image.alt.trim() === "").length);
+  say("without-alt", all("img:not(.thumbnail)").filter((image) => image.alt.trim() === "").length);
   say("lang", page.documentElement.lang);
   say("h1", all("h1").length);
 }
@@ -94,7 +94,7 @@ async function checkModes() {
   one("#difference").click();
   await press("5");
   say("mode-5", visible());
-  say("heat-without", seen(one(".baseline .view", item("drawn"))));
+  say("heat-without", seen(one(".baseline .view", item("resized"))));
   await press("m");
   say("mode-m", view.document.documentElement.dataset.mode);
   one(".modes [data-mode=overlay]").click();
@@ -220,6 +220,26 @@ async function checkApprovals() {
   one("#untick").click();
 }
 
+// Articles and the list are in the same order; the thumbnails are of the images on the stages.
+async function checkOrder() {
+  const names = () => all(".item").map((each) => each.dataset.name).join();
+  const listed = () => all(".index bdi").map((each) => each.textContent.trim()).join();
+  const first = names();
+  const choose = async (order) => {
+    one("#order").value = order;
+    one("#order").dispatchEvent(new view.Event("change"));
+    await pause();
+  };
+  await choose("name");
+  say("by-name", names() === names().split(",").sort().join(",") && listed() === names());
+  await choose("share");
+  const shares = all(".item").map((each) => Number(each.dataset.share));
+  say("by-share", shares.every((share, i) => i === 0 || share <= shares[i - 1]) && shares[0] > 0);
+  await choose("verdict");
+  say("by-verdict", names() === first && listed() === first);
+  say("thumbnails", all(".index .thumbnail").filter((image) => image.naturalWidth > 0).length);
+}
+
 async function checkHelp() {
   await press("?");
   say("help", one("#keys").open);
@@ -282,7 +302,7 @@ async function check(expected) {
     await pause(200);
     view.location.hash = "#figure-moved";
     await pause();
-    for (const each of [checkModes, checkZoom, checkSteps, checkFilter, checkApprovals]) await each();
+    for (const each of [checkModes, checkZoom, checkSteps, checkFilter, checkOrder, checkApprovals]) await each();
   }
   await checkHelp();
   checkLooks();

@@ -135,9 +135,6 @@ void add_errors(std::vector<Figure>& figures) {
   same.unit = "%";
   same.x_names = {hostile_names().front(), std::string(60, 'w')};
   figures.push_back(heat_map_figure(same));
-  figures.push_back(occlusion_figure(with_id(sample_occlusion(25), "occlusion-usual")));
-  figures.push_back(occlusion_figure(with_id(sample_occlusion(1), "occlusion-one-run")));
-  figures.push_back(occlusion_figure(with_id(sample_occlusion(0), "occlusion-none")));
   figures.push_back(pareto_figure(with_id(sample_costs(10), "pareto-usual")));
   figures.push_back(pareto_figure(with_id(sample_costs(40), "pareto-many")));
   figures.push_back(pareto_figure(with_id(sample_costs(0), "pareto-none")));
@@ -318,21 +315,6 @@ HeatMapSpec sample_heat(std::size_t columns, std::size_t rows) {
   spec.quantity = "MPE";
   spec.unit = "m";
   spec.missing = "no run gave a value";
-  return spec;
-}
-
-OcclusionSpec sample_occlusion(std::size_t runs) {
-  Random random(11);
-  OcclusionSpec spec;
-  spec.id = "occlusion";
-  spec.title = "How far visibility decomposes into pairs";
-  spec.methods = {{"SDE, K = 7", "sde", {}}, {"ISOMAP, K = 6", "isomap", {}}, {"LPCA", "lpca", {}}};
-  for (std::size_t run = 0; run < runs; ++run) {
-    spec.hidden_share.push_back(0.13 + 0.02 * random.normal());
-    for (std::size_t m = 0; m < 3; ++m)
-      spec.methods[m].mpe_m.push_back(0.15 + 0.3 * static_cast<double>(m * m) +
-                                      spec.hidden_share.back() + 0.02 * random.normal());
-  }
   return spec;
 }
 

@@ -10,7 +10,6 @@
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "render/figures/maps/map_grid.hpp"
-#include "render/figures/maps/occlusion.hpp"
 #include "render/figures/maps/scatter_map.hpp"
 
 namespace mapproof::test {
@@ -26,7 +25,6 @@ MapGridSpec sample_maps(std::size_t count);
 AnchorCountSpec sample_anchor_counts();
 LevelCurveSpec sample_levels(std::size_t methods);
 HeatMapSpec sample_heat(std::size_t columns, std::size_t rows);
-OcclusionSpec sample_occlusion(std::size_t runs);
 ParetoSpec sample_costs(std::size_t settings);
 IdeaSpec sample_idea(Sensor sensor);
 

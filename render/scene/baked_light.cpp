@@ -1,0 +1,315 @@
+#include "render/scene/baked_light.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kDirections = 64;  // Of the key light, a bit of a word each.
+constexpr double kLightRadius_rad = 0.08;
+constexpr double kKeyShare = 0.6, kSkyShare = 0.4;  // Of the light on an open floor.
+constexpr double kBounce = 0.4;                     // From the pale floor to what faces it.
+constexpr double kNear = 0.2;                       // Of the floor's side: what takes sky away.
+constexpr double kMargin = 0.12;                    // Of the floor's side, of the shadow around it.
+constexpr double kFloorFloat = 1e-4;                // Of the floor's side: from a surface to its rays.
+constexpr double kGamma = 2.2;
+
+struct Bounds {
+  Point3 low = Point3::Constant(HUGE_VAL), high = Point3::Constant(-HUGE_VAL);
+};
+
+Bounds bounds_of(const std::vector<Point3>& points) {
+  Bounds all;
+  for (const Point3& point : points) {
+    all.low = all.low.cwiseMin(point);
+    all.high = all.high.cwiseMax(point);
+  }
+  return all;
+}
+
+bool is_floor(const Surface& surface) {
+  if (surface.style.lit || surface.style.opacity < 1.0 || surface.points.empty()) return false;
+  const Bounds all = bounds_of(surface.points);
+  return all.low.z() == 0.0 && all.high.z() == 0.0;
+}
+
+/// Share of the sky that a pillar of that height takes from a point at that distance of its axis.
+double sky_behind_pillar(double distance, double radius, double height) {
+  if (distance <= radius) return 0.5;
+  const double gap = distance - radius;
+  return std::asin(radius / distance) / std::numbers::pi * height * height /
+         (height * height + gap * gap);
+}
+
+/// As above, for a long wall.
+double sky_behind_wall(double distance, double height) {
+  if (height <= 0.0) return 0.0;
+  return 0.5 * (1.0 - distance / std::hypot(distance, height));
+}
+
+}  // namespace
+
+std::optional<BakedLight> BakedLight::of(const Scene& scene, const Shot& view) {
+  BakedLight light;
+  for (std::size_t i = 0; i < scene.parts.size(); ++i) {
+    if (!shows(view, i)) continue;
+    if (const auto* rods = std::get_if<Rods>(&scene.parts[i])) light.add(*rods);
+    const auto* surface = std::get_if<Surface>(&scene.parts[i]);
+    if (surface == nullptr) continue;
+    if (!is_floor(*surface)) {
+      light.add(*surface);
+      continue;
+    }
+    const Bounds floor = bounds_of(surface->points);
+    const double extent = (floor.high - floor.low).maxCoeff();
+    if (extent <= light.extent_) continue;
+    light.floor_low_ = floor.low;
+    light.floor_high_ = floor.high;
+    light.extent_ = extent;
+  }
+  if (light.extent_ <= 0.0 || scene.lights.empty()) return std::nullopt;
+  light.aim(scene);
+  if (light.key_.empty()) return std::nullopt;
+  return light;
+}
+
+void BakedLight::add(const Rods& rods) {
+  if (rods.arrow || !rods.style.lit || rods.style.opacity < 1.0) return;
+  for (std::size_t i = 0; i < rods.from.size(); ++i) {
+    const Point3 &from = rods.from[i], &to = rods.to[i];
+    if (from.z() == 0.0 && to.z() > 0.0 && from.x() == to.x() && from.y() == to.y())
+      pillars_.push_back({from.x(), from.y(), rods.radius, to.z()});
+  }
+}
+
+/// Upright rectangles, each of two triangles as add_rectangle() makes them.
+void BakedLight::add(const Surface& surface) {
+  if (!surface.style.lit || surface.style.opacity < 1.0 || surface.smooth) return;
+  for (std::size_t i = 0; i + 3 < surface.points.size(); i += 4) {
+    const auto first = surface.points.begin() + static_cast<std::ptrdiff_t>(i);
+    const Bounds one = bounds_of(std::vector<Point3>(first, first + 4));
+    const Point3 size = one.high - one.low;
+    const bool upright = size.z() > 0.0 && std::min(size.x(), size.y()) == 0.0;
+    if (upright && one.low.z() == 0.0)
+      walls_.push_back(
+          {one.low.x(), one.high.x(), one.low.y(), one.high.y(), one.high.z()});
+  }
+}
+
+/// Points of the strongest light, on a Vogel spiral over its disc.
+void BakedLight::aim(const Scene& scene) {
+  const Light& key = *std::ranges::max_element(scene.lights, {}, &Light::strength);
+  const Point3 towards = key.from.normalized();
+  if (towards.z() < 0.1) return;  // Shadows without end.
+  const Point3 across = towards.unitOrthogonal(), along = towards.cross(across);
+  constexpr double kTurn = std::numbers::pi * (3.0 - 2.2360679774997896);  // The golden angle.
+  for (std::size_t k = 0; k < kDirections; ++k) {
+    const double share = (static_cast<double>(k) + 0.5) / kDirections;
+    const double radius = std::tan(kLightRadius_rad) * std::sqrt(share);
+    const double angle = kTurn * static_cast<double>(k);
+    key_.push_back((towards + radius * (std::cos(angle) * across + std::sin(angle) * along))
+                       .normalized());
+  }
+}
+
+bool BakedLight::hits(const Pillar& pillar, const Point3& from, const Point3& towards) {
+  const double x = from.x() - pillar.x, y = from.y() - pillar.y;
+  const double a = towards.x() * towards.x() + towards.y() * towards.y();
+  const double b = x * towards.x() + y * towards.y();
+  const double square = b * b - a * (x * x + y * y - pillar.radius * pillar.radius);
+  if (square <= 0.0) return false;
+  const double root = std::sqrt(square);
+  const double enter = (-b - root) / a, leave = (-b + root) / a;
+  return leave > 0.0 && std::max(enter, 0.0) < (pillar.top - from.z()) / towards.z();
+}
+
+bool BakedLight::hits(const Wall& wall, const Point3& from, const Point3& towards) {
+  double enter = 0.0, leave = (wall.top - from.z()) / towards.z();
+  const auto clip = [&](double low, double high, double at, double slope) {
+    if (slope == 0.0) {
+      if (at < low || at > high) leave = -1.0;
+      return;
+    }
+    const double a = (low - at) / slope, b = (high - at) / slope;
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  };
+  clip(wall.x0, wall.x1, from.x(), towards.x());
+  clip(wall.y0, wall.y1, from.y(), towards.y());
+  return enter <= leave && leave > 0.0;
+}
+
+bool BakedLight::is_hidden(const Point3& from, const Point3& towards) const {
+  const double near = kNear * extent_;
+  const auto is_near = [&](const Pillar& pillar) {
+    return std::abs(pillar.x - from.x()) < near + pillar.radius &&
+           std::abs(pillar.y - from.y()) < near + pillar.radius;
+  };
+  for (const Pillar& pillar : pillars_)
+    if (is_near(pillar) && hits(pillar, from, towards)) return true;
+  return std::ranges::any_of(walls_,
+                             [&](const Wall& wall) { return hits(wall, from, towards); });
+}
+
+double BakedLight::sky_at(const Point3& point) const {
+  const double near = kNear * extent_;
+  double sky = 1.0;
+  for (const Pillar& pillar : pillars_) {
+    const double distance = std::hypot(pillar.x - point.x(), pillar.y - point.y());
+    if (distance > 1.05 * pillar.radius && distance < near && pillar.top > point.z())
+      sky *= 1.0 - sky_behind_pillar(distance, pillar.radius, pillar.top - point.z());
+  }
+  for (const Wall& wall : walls_) {
+    const double x = std::max({wall.x0 - point.x(), point.x() - wall.x1, 0.0});
+    const double y = std::max({wall.y0 - point.y(), point.y() - wall.y1, 0.0});
+    const double distance = std::hypot(x, y);
+    if (distance > kFloorFloat * extent_)
+      sky *= 1.0 - sky_behind_wall(distance, wall.top - point.z());
+  }
+  return sky;
+}
+
+double BakedLight::at(const Point3& point, const Point3& normal) const {
+  const Point3 from = point + 10.0 * kFloorFloat * extent_ * normal;
+  double key = 0.0;
+  for (const Point3& towards : key_) {
+    const double facing = normal.dot(towards);
+    if (facing > 0.0 && !is_hidden(from, towards)) key += facing / towards.z();
+  }
+  const double upward = 0.55 + 0.45 * normal.z();
+  const double lift = 0.025 * extent_;
+  const double bounce = kBounce * (1.0 - upward) * (0.3 + 0.7 * (1.0 - std::exp(-point.z() / lift)));
+  return kKeyShare * key / kDirections + kSkyShare * sky_at(point) * upward + bounce;
+}
+
+BakedLight::Shadow BakedLight::shadow(int size) const {
+  const double margin = kMargin * extent_;
+  Shadow shadow;
+  shadow.corner = floor_low_ - Point3(margin, margin, 0.0);
+  shadow.side = extent_ + 2.0 * margin;
+  shadow.size = size;
+  const double texel = shadow.side / size;
+  std::vector<std::uint64_t> hidden(static_cast<std::size_t>(size) * size, 0);
+  const auto position = [&](int i, int j) {
+    return Point3(shadow.corner.x() + (i + 0.5) * texel, shadow.corner.y() + (j + 0.5) * texel, 0.0);
+  };
+  const auto index_of = [&](double at, double corner) {
+    return std::clamp(static_cast<int>((at - corner) / texel), 0, size - 1);
+  };
+  // Only texels within the longest shadow of a thing can be hidden by it.
+  const auto cast = [&](const auto& thing, double x0, double x1, double y0, double y1) {
+    const Point3& key = key_.front();
+    const double length = 1.3 * thing.top / key.z();
+    const double dx = -key.x() * length, dy = -key.y() * length;
+    const double soft = 0.3 * length * key.z() + texel;
+    const int i0 = index_of(std::min(x0, x0 + dx) - soft, shadow.corner.x());
+    const int i1 = index_of(std::max(x1, x1 + dx) + soft, shadow.corner.x());
+    const int j0 = index_of(std::min(y0, y0 + dy) - soft, shadow.corner.y());
+    const int j1 = index_of(std::max(y1, y1 + dy) + soft, shadow.corner.y());
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i)
+        for (std::size_t k = 0; k < key_.size(); ++k)
+          if (hits(thing, position(i, j), key_[k]))
+            hidden[static_cast<std::size_t>(j) * size + i] |= std::uint64_t{1} << k;
+  };
+  for (const Pillar& one : pillars_)
+    cast(one, one.x - one.radius, one.x + one.radius, one.y - one.radius, one.y + one.radius);
+  for (const Wall& one : walls_) cast(one, one.x0, one.x1, one.y0, one.y1);
+  for (int j = 0; j < size; ++j)
+    for (int i = 0; i < size; ++i) {
+      const Point3 at = position(i, j);
+      const int dark = std::popcount(hidden[static_cast<std::size_t>(j) * size + i]);
+      const double light =
+          kKeyShare * (1.0 - dark / static_cast<double>(kDirections)) + kSkyShare * sky_at(at);
+      const double outside = std::max({floor_low_.x() - at.x(), at.x() - floor_high_.x(),
+                                       floor_low_.y() - at.y(), at.y() - floor_high_.y(), 0.0});
+      const double fade = 1.0 - std::clamp(outside / (0.9 * margin), 0.0, 1.0);
+      const double alpha = fade * (1.0 - std::pow(light, 1.0 / kGamma));
+      shadow.alpha.push_back(
+          static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(alpha, 0.0, 1.0))));
+    }
+  return shadow;
+}
+
+namespace {
+
+/// Radius and height of a ring of a turned body, and its normal outward and upward.
+struct Ring {
+  double radius, height, outward, upward;
+};
+
+std::vector<Ring> pillar_rings(double radius, double height) {
+  constexpr int kSteps = 8, kEdge = 3;
+  const double bevel = std::min(0.25 * radius, 0.5 * height);
+  std::vector<Ring> rings;
+  for (int i = 0; i <= kSteps; ++i)
+    rings.push_back({radius, (height - bevel) * i / kSteps, 1.0, 0.0});
+  for (int i = 1; i <= kEdge; ++i) {
+    const double angle = std::numbers::pi / 2.0 * i / kEdge;
+    const double outward = std::cos(angle), upward = std::sin(angle);
+    rings.push_back({radius - bevel + bevel * outward, height - bevel + bevel * upward, outward,
+                     upward});
+  }
+  rings.push_back({0.0, height, 0.0, 1.0});
+  return rings;
+}
+
+}  // namespace
+
+void add_pillar(TriangleMesh& mesh, const Point3& foot, const Point3& top, double radius,
+                int sides) {
+  const double height = top.z() - foot.z();
+  if (!(height > 0.0)) return;
+  const auto base = static_cast<std::uint32_t>(mesh.points.size());
+  const auto n = static_cast<std::uint32_t>(sides);
+  const std::vector<Ring> rings = pillar_rings(radius, height);
+  for (const Ring& ring : rings)
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / sides;
+      const Point3 out(std::cos(angle), std::sin(angle), 0.0);
+      mesh.points.push_back(foot + ring.radius * out + ring.height * Point3::UnitZ());
+      mesh.normals.push_back(ring.outward * out + ring.upward * Point3::UnitZ());
+    }
+  for (std::uint32_t j = 1; j < rings.size(); ++j)
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = base + (j - 1) * n + i, b = base + (j - 1) * n + (i + 1) % n;
+      mesh.triangles.push_back({a, b, b + n});
+      mesh.triangles.push_back({a, b + n, a + n});
+    }
+}
+
+TriangleMesh fine_mesh(const Surface& surface, double longest) {
+  std::vector<std::array<Point3, 3>> left;
+  for (const auto& [a, b, c] : surface.triangles)
+    left.push_back({surface.points[a], surface.points[b], surface.points[c]});
+  TriangleMesh mesh;
+  while (!left.empty()) {
+    const std::array<Point3, 3> t = left.back();
+    left.pop_back();
+    std::size_t edge = 0;
+    const auto length = [&](std::size_t i) { return (t[(i + 1) % 3] - t[i]).norm(); };
+    for (std::size_t i = 1; i < 3; ++i)
+      if (length(i) > length(edge)) edge = i;
+    if (length(edge) > longest) {
+      const Point3 &from = t[edge], &to = t[(edge + 1) % 3], &other = t[(edge + 2) % 3];
+      const Point3 middle = (from + to) / 2.0;
+      left.push_back({from, middle, other});
+      left.push_back({middle, to, other});
+      continue;
+    }
+    const Point3 across = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (across.norm() == 0.0) continue;
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Point3& corner : t) {
+      mesh.points.push_back(corner);
+      mesh.normals.push_back(across.normalized());
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+}  // namespace mapproof

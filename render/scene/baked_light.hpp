@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+/// The light in a scene that stands on a floor, computed without a graphics library: a key light
+/// with soft shadows, and a sky that what stands around takes away (ambient occlusion).
+///
+/// Shadows are exact for upright rods and upright rectangles, seen from a disc of light; the sky is
+/// a product of closed forms, which is an approximation. Deterministic.
+class BakedLight {
+ public:
+  /// The light of the parts that the view shows; empty unless they have a floor: a level unlit
+  /// surface at the height 0.
+  static std::optional<BakedLight> of(const Scene& scene, const Shot& view);
+
+  /// The light at a point of a surface with that normal, in linear light; 1 on an open floor.
+  /// @note O(what stands near the point).
+  double at(const Point3& point, const Point3& normal) const;
+
+  /// The shadow on the floor and around it.
+  struct Shadow {
+    Point3 corner;                     ///< The least x and y of the square.
+    double side = 0.0;                 ///< Of the square.
+    int size = 0;                      ///< Texels along a side.
+    std::vector<std::uint8_t> alpha;   ///< Row by row, that of the corner first; 0 is an open floor.
+  };
+  /// @param size  Texels along a side, > 0.
+  Shadow shadow(int size) const;
+
+  /// The longer side of the floor.
+  double extent() const { return extent_; }
+
+ private:
+  struct Pillar {
+    double x = 0.0, y = 0.0, radius = 0.0, top = 0.0;
+  };
+  struct Wall {
+    double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0, top = 0.0;
+  };
+
+  void add(const Rods& rods);
+  void add(const Surface& surface);
+  void aim(const Scene& scene);
+  bool is_hidden(const Point3& from, const Point3& towards) const;
+  static bool hits(const Pillar& pillar, const Point3& from, const Point3& towards);
+  static bool hits(const Wall& wall, const Point3& from, const Point3& towards);
+  double sky_at(const Point3& point) const;
+
+  std::vector<Pillar> pillars_;
+  std::vector<Wall> walls_;
+  std::vector<Point3> key_;  ///< Directions towards points of the light.
+  Point3 floor_low_ = Point3::Zero(), floor_high_ = Point3::Zero();
+  double extent_ = 0.0;
+};
+
+/// What a rod that stands upright looks like: its side in rings, so that light can change along it,
+/// and a rounded upper edge.
+void add_pillar(TriangleMesh& mesh, const Point3& foot, const Point3& top, double radius, int sides);
+
+/// The surface's triangles with normals of their own, cut until no edge is longer than `longest`.
+TriangleMesh fine_mesh(const Surface& surface, double longest);
+
+}  // namespace mapproof

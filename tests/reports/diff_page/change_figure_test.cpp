@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/base/files/files.hpp"
+#include "render/output/write_figure.hpp"
+#include "render/plot/axis_map.hpp"
+#include "render/theme/theme.hpp"
+#include "reports/diff/figures/change_figure.hpp"
+#include "reports/diff/folder_diff.hpp"
+#include "reports/diff/item_images.hpp"
+#include "reports/html/diff/diff_html.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace mapproof::test {
+namespace {
+
+/// A line of ten landmarks, and a curve that does not change.
+Figure landmarks() {
+  Scatter points{.label = "map"};
+  for (int i = 0; i < 10; ++i) {
+    points.x.push_back(i);
+    points.y.push_back(0.1 * i);
+    points.marks.push_back({"l" + std::to_string(i), {{"landmark", "L" + std::to_string(i)}}});
+  }
+  const Polyline wall{.label = "wall", .x = {0.0, 9.0}, .y = {1.0, 0.0}};
+  Figure figure;
+  figure.id = "map";
+  figure.title = "A map";
+  figure.alt = "Ten landmarks.";
+  Panel& panel = figure.panels.emplace_back();
+  panel.x.label = "x [m]", panel.y.label = "y [m]";
+  panel.layers = {wall, points};
+  return figure;
+}
+
+Scatter& points_of(Figure& figure) { return std::get<Scatter>(figure.panels[0].layers[1]); }
+
+/// The fourth landmark is elsewhere, within the limits of the others.
+Figure moved() {
+  Figure figure = landmarks();
+  points_of(figure).y[3] = 0.8;
+  return figure;
+}
+
+/// The last landmark is so far away that the limits of the axes shift.
+Figure stretched() {
+  Figure figure = landmarks();
+  points_of(figure).y[9] = 2.5;
+  return figure;
+}
+
+template <typename Kind>
+std::vector<Kind> layers_of(const Panel& panel) {
+  std::vector<Kind> found;
+  for (const Layer& layer : panel.layers)
+    if (const Kind* one = std::get_if<Kind>(&layer)) found.push_back(*one);
+  return found;
+}
+
+TEST(ChangeFigure, JoinsTheOldAndTheNewPositionOfWhatMovedAndNamesIt) {
+  const auto figure = change_figure({landmarks(), moved()}, figure_diff(landmarks(), moved()));
+  ASSERT_TRUE(figure);
+  ASSERT_EQ(figure->panels.size(), 1U);
+  const std::vector<Segments> moves = layers_of<Segments>(figure->panels[0]);
+  ASSERT_EQ(moves.size(), 1U);
+  EXPECT_EQ(moves[0].x0, std::vector{3.0});
+  EXPECT_EQ(moves[0].x1, std::vector{3.0});
+  EXPECT_DOUBLE_EQ(moves[0].y0[0], 0.1 * 3);
+  EXPECT_EQ(moves[0].y1, std::vector{0.8});
+  const std::vector<PointLabels> names = layers_of<PointLabels>(figure->panels[0]);
+  ASSERT_EQ(names.size(), 1U);
+  EXPECT_EQ(names[0].text, std::vector<std::string>{"L3"});
+}
+
+TEST(ChangeFigure, ShowsWhatIsEqualInGreyOnce) {
+  const auto figure = change_figure({landmarks(), moved()}, figure_diff(landmarks(), moved()));
+  ASSERT_TRUE(figure);
+  const std::vector<Polyline> walls = layers_of<Polyline>(figure->panels[0]);
+  ASSERT_EQ(walls.size(), 1U);
+  EXPECT_EQ(walls[0].colour, ThemeColour::kMuted);
+  const std::vector<Scatter> both = layers_of<Scatter>(figure->panels[0]);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].label, "baseline");
+  EXPECT_EQ(both[1].label, "current");
+}
+
+TEST(ChangeFigure, OfEqualDataIsNone) {
+  Figure titled = landmarks();
+  titled.title = "Another title";
+  EXPECT_FALSE(change_figure({landmarks(), titled}, figure_diff(landmarks(), titled)));
+}
+
+TEST(ChangeFigure, ShowsCellsByTheSizeOfTheirChange) {
+  const auto with = [](double value) {
+    Figure figure;
+    figure.id = "cells";
+    figure.title = "Cells";
+    figure.panels.emplace_back().layers = {
+        Cells{.x = {0, 2}, .y = {0, 1}, .columns = 2, .values = {1.0, value}, .limits = {0, 9}}};
+    return figure;
+  };
+  const auto figure = change_figure({with(4.0), with(1.5)}, figure_diff(with(4.0), with(1.5)));
+  ASSERT_TRUE(figure);
+  const std::vector<Cells> cells = layers_of<Cells>(figure->panels[0]);
+  ASSERT_EQ(cells.size(), 1U);
+  EXPECT_EQ(cells[0].values, (std::vector{0.0, 2.5}));
+}
+
+TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
+  RecordDiff diff;
+  PointsDiff& points = diff.points.emplace_back();
+  points.record = "map";
+  points.quantity = "landmark_m";
+  PointMove& move = points.moves.emplace_back();
+  move.name = "L1";
+  move.current = {1, 1};
+  move.moved = 1.4;
+  Comparison comparison;
+  comparison.subject = "bearing/isomap";
+  comparison.quantity.label = "MPE";
+  comparison.quantity.unit = "m";
+  comparison.beyond = 2;
+  comparison.largest = {{"run-1", 0.1, 0.2}, {"run-2", 0.2, 0.1}};
+  comparison.outcome = Outcome::kChanged;
+  diff.comparisons = {comparison};
+  const auto figure = change_figure(diff);
+  ASSERT_TRUE(figure);
+  ASSERT_EQ(figure->panels.size(), 2U);
+  EXPECT_EQ(layers_of<Segments>(figure->panels[0]).size(), 1U);
+  EXPECT_EQ(figure->panels[1].x.label, "baseline: MPE [m]");
+  EXPECT_EQ(layers_of<Scatter>(figure->panels[1])[0].y, (std::vector{0.2, 0.1}));
+  EXPECT_FALSE(change_figure(RecordDiff{}));
+}
+
+TEST(CommonAxes, HoldWhatEitherFigureShows) {
+  const auto both = on_common_axes({landmarks(), stretched()});
+  ASSERT_TRUE(both);
+  const PanelLimits a = panel_limits(both->first.panels[0]);
+  const PanelLimits b = panel_limits(both->second.panels[0]);
+  EXPECT_EQ(a.y, b.y);
+  EXPECT_LE(a.y.low, 0.0);
+  EXPECT_GE(a.y.high, 2.5);
+  EXPECT_FALSE(on_common_axes({landmarks(), moved()})) << "their limits are equal";
+}
+
+/// The page on two folders with this figure, as mapproof writes it.
+std::string page_of(const Figure& baseline, const Figure& current) {
+  const TemporaryFolder folder;
+  write_figure(baseline, report_theme(), OutputFolder(folder / "a"));
+  write_figure(current, report_theme(), OutputFolder(folder / "b"));
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  return diff_html(result, shown_images(result, {}), load_templates());
+}
+
+TEST(ItemImages, HoldWhatMovedBesideAChangeOfData) {
+  const TemporaryFolder folder;
+  write_figure(landmarks(), report_theme(), OutputFolder(folder / "a"));
+  write_figure(moved(), report_theme(), OutputFolder(folder / "b"));
+  write_item_images(folder_diff(folder / "a", folder / "b"), {}, OutputFolder(folder / "images"));
+  EXPECT_TRUE(read_file(folder / "images/map.change/difference.png").starts_with("\x89PNG"));
+}
+
+/// The share of changed pixels, as the page orders its items.
+double share_on(const std::string& page) {
+  const std::string key = "data-share=\"";
+  return std::stod(page.substr(page.find(key) + key.size()));
+}
+
+TEST(DiffPage, ShowsWhatMovedBesideAChangeOfData) {
+  const std::string page = page_of(landmarks(), moved());
+  EXPECT_NE(page.find("<figure class=\"change\">"), std::string::npos);
+  EXPECT_NE(page.find("alt=\"What changed of map\""), std::string::npos);
+}
+
+TEST(DiffPage, AShiftOfLimitsDoesNotDrownTheHeatMap) {
+  const std::string page = page_of(landmarks(), stretched());
+  EXPECT_NE(page.find("values drawn on common axes"), std::string::npos);
+  const double share = share_on(page);
+  EXPECT_GT(share, 0.0);
+  EXPECT_LT(share, 0.01) << "of the pixels: two markers and a legend that found another place";
+}
+
+}  // namespace
+}  // namespace mapproof::test
