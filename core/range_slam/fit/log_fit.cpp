@@ -123,6 +123,23 @@ bool has_time(FitCode code) {
          code == FitCode::kIdsExchanged;
 }
 
+/// Where values have their lowest local minima, the ends apart: lowest first, at most kMostTried.
+std::vector<std::size_t> lowest_minima(const std::vector<double>& values) {
+  std::vector<std::size_t> lowest;
+  for (std::size_t i = 1; i + 1 < values.size(); ++i)
+    if (values[i] <= values[i - 1] && values[i] <= values[i + 1]) lowest.push_back(i);
+  std::ranges::stable_sort(lowest, {}, [&](std::size_t i) { return values[i]; });
+  if (lowest.size() > kMostTried) lowest.resize(kMostTried);
+  return lowest;
+}
+
+/// Takes the positions that were found; a landmark without one stays where it is.
+void take_positions(const Points& found, LogState& state) {
+  for (std::size_t n = 0; n < state.landmarks.size(); ++n)
+    if (found.row(static_cast<Index>(n)).allFinite())
+      state.landmarks[n] = found.row(static_cast<Index>(n)).transpose();
+}
+
 /// The plain fit, the hypotheses compared with it, and the verdict.
 class LogTester {
  public:
@@ -395,10 +412,7 @@ std::vector<LogProblem::Fit> LogTester::fits_of_parts(double before_s, double af
         {.most_keys = options_.test_keys, .breaks_s = breaks_of(gaps_), .given = given()});
     LogState start = plain_.state;
     start.poses = problem.poses_of(odometry_);
-    const Points found = trilaterated(part, odometry_, plain_.state.scale);
-    for (std::size_t n = 0; n < start.landmarks.size(); ++n)
-      if (found.row(static_cast<Index>(n)).allFinite())
-        start.landmarks[n] = found.row(static_cast<Index>(n)).transpose();
+    take_positions(trilaterated(part, odometry_, plain_.state.scale), start);
     fits.push_back(
         problem.fit({}, start, first_noise(problem, start), {.rounds = 12, .tolerance = 0.5}));
     if (!fits.back().is_usable) return {};
@@ -447,13 +461,8 @@ std::vector<double> LogTester::likely_shifts(const LogHypothesis& hypothesis, Lo
     shifts_s.push_back(fit.state.shift_s);
     costs.push_back(problem_->range_costs(hypothesis, fit).sum());
   }
-  std::vector<std::size_t> lowest;
-  for (std::size_t i = 1; i + 1 < costs.size(); ++i)
-    if (costs[i] <= costs[i - 1] && costs[i] <= costs[i + 1]) lowest.push_back(i);
-  std::ranges::stable_sort(lowest, {}, [&](std::size_t i) { return costs[i]; });
-  if (lowest.size() > kMostTried) lowest.resize(kMostTried);
   std::vector<double> likely_s;
-  for (const std::size_t i : lowest) likely_s.push_back(shifts_s[i]);
+  for (const std::size_t i : lowest_minima(costs)) likely_s.push_back(shifts_s[i]);
   return likely_s;
 }
 
@@ -461,20 +470,19 @@ std::vector<LogState> LogTester::starts_by_offset() const {
   const Eigen::VectorXd& times = odometry_.time_s;
   const double length_s = times(times.size() - 1) - times(0);
   const Index most = problem_->keys().size() / 4;
+  LogState reckoned = plain_.state;
+  reckoned.poses = problem_->poses_of(odometry_);
   std::vector<LogState> states;
   std::vector<double> misfits;
   for (Index k = -most; k <= most; ++k) {
-    LogState state = plain_.state;
+    LogState state = reckoned;
     state.shift_s = length_s * static_cast<double>(k) / static_cast<double>(4 * most);
     RangeLog part = log_;
     std::erase_if(part.ranges, [&](RangeMeasurement& range) {
       range.time_s -= state.shift_s;
       return std::abs(range.time_s - times(0) - 0.5 * length_s) > 0.125 * length_s;
     });
-    const Points found = trilaterated(part, odometry_, state.scale);
-    for (std::size_t n = 0; n < log_.landmarks.size(); ++n)
-      if (found.row(static_cast<Index>(n)).allFinite())
-        state.landmarks[n] = found.row(static_cast<Index>(n)).transpose();
+    take_positions(trilaterated(part, odometry_, state.scale), state);
     std::vector<double> errors_m;
     const std::vector<LandmarkRanges> heard =
         ranges_by_landmark(part.ranges, std::ssize(log_.landmarks), odometry_);
@@ -483,17 +491,11 @@ std::vector<LogState> LogTester::starts_by_offset() const {
         errors_m.push_back(std::abs(
             state.scale * (heard[n].positions_m.row(i).transpose() - state.landmarks[n]).norm() -
             heard[n].range_m(i)));
-    state.poses = problem_->poses_of(odometry_);
     states.push_back(std::move(state));
     misfits.push_back(errors_m.empty() ? kInfinity : median(errors_m));
   }
-  std::vector<std::size_t> lowest;
-  for (std::size_t i = 1; i + 1 < misfits.size(); ++i)
-    if (misfits[i] <= misfits[i - 1] && misfits[i] <= misfits[i + 1]) lowest.push_back(i);
-  std::ranges::stable_sort(lowest, {}, [&](std::size_t i) { return misfits[i]; });
-  if (lowest.size() > kMostTried) lowest.resize(kMostTried);
   std::vector<LogState> likely;
-  for (const std::size_t i : lowest) likely.push_back(std::move(states[i]));
+  for (const std::size_t i : lowest_minima(misfits)) likely.push_back(std::move(states[i]));
   return likely;
 }
 

@@ -274,9 +274,12 @@ struct LogProblem::Turned {
     const auto before = static_cast<std::size_t>(at.before);
     return {rotations[before] * at.ahead.head<2>(), rotations[before + 1] * at.behind.head<2>()};
   }
-  Eigen::Vector2d position(const BetweenPoses& at) const {
+  Eigen::Vector2d position(const BetweenPoses& at) const { return position(at, ways_to(at)); }
+  /// @param ways  From ways_to().
+  Eigen::Vector2d position(const BetweenPoses& at,
+                           const std::pair<Eigen::Vector2d, Eigen::Vector2d>& ways) const {
     const auto before = static_cast<std::size_t>(at.before);
-    const auto [from_first, from_second] = ways_to(at);
+    const auto& [from_first, from_second] = ways;
     return (1.0 - at.share) * (state.poses[before].head<2>() + from_first) +
            at.share * (state.poses[before + 1].head<2>() + from_second);
   }
@@ -307,8 +310,9 @@ LogProblem::Term LogProblem::term_of(const Range& range, const LogHypothesis& hy
   const BetweenPoses moved =
       term.has_shift ? keys_.at(range.time_s - state.shift_s) : BetweenPoses{};
   const BetweenPoses& at = term.has_shift ? moved : range.at;
-  const auto [from_first, from_second] = turned.ways_to(at);
-  const Eigen::Vector2d position = turned.position(at);
+  const auto ways = turned.ways_to(at);
+  const auto& [from_first, from_second] = ways;
+  const Eigen::Vector2d position = turned.position(at, ways);
   const Eigen::Vector2d gap = position - state.landmarks[static_cast<std::size_t>(term.landmark)];
   term.before = at.before;
   term.distance_m = gap.norm();
