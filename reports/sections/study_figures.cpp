@@ -90,7 +90,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "Each at its best parameter. Ranks are over layouts, since runs in one layout are not "
       "independent; distances and eigenvalues are of the median run of the best method.",
       comparison_figures(source), 3);
-  add("conditions", "Variations",
+  add("conditions", "Error over conditions",
       "What happens if one thing is changed: methods with the parameters that the experiment "
       "names. "
       "The levels of one figure share their random numbers.",

@@ -122,6 +122,10 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
   }
   const Report report = study_report({study, {}, timings, figures, ""});
   EXPECT_NO_THROW(check(report));
+  // Screen readers list sections by their titles.
+  std::set<std::string> titles;
+  for (const Section& section : report.sections)
+    EXPECT_TRUE(titles.insert(section.title).second) << section.title;
   EXPECT_EQ(
       std::ranges::count_if(tables(report),
                             [](const Table* table) { return table->id.starts_with("variation-"); }),
