@@ -61,7 +61,7 @@ void add_common_options(CLI::App& app, Common& common) {
 
 /// What is wrong with a first word that is not a command.
 std::string unknown_command(const CLI::App& app, const std::string& word) {
-  std::vector<std::string_view> commands;
+  std::vector<std::string_view> commands{"help"};
   for (const CLI::App* sub : app.get_subcommands({}))
     if (!sub->get_group().empty()) commands.push_back(sub->get_name());
   const std::string_view meant = likely_word(lower_case(word), commands);

@@ -42,7 +42,7 @@ function followReading() {
 
 const figures = document.querySelectorAll("figure[data-id]");
 const held = Array.from(figures).filter((figure) => figure.querySelector(".drawing"));
-whenPutIn.push(addTools, addSteps, followLandmarks, addCurveBoxes);
+whenPutIn.push(addTools, addSteps, stackOnNarrowPages, followLandmarks, addCurveBoxes);
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);
@@ -51,10 +51,10 @@ addOpeningImages();
 addEventListener("themechange", addOpeningImages);
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
+foldDetails();
 putInWhenNear(held);
 addDecisions();
 followReading();
-foldDetails();
 (globalThis.requestIdleCallback ?? setTimeout)(
   () => addMethodList(document.querySelector(".search")));
 addSearch(document.querySelector(".contents"));

@@ -14,18 +14,18 @@ function isDarkPage() {
 }
 
 // The style of the drawings in the page follows the theme by itself, and paper has the light one.
+// The rules name no ancestors: markers, which <use> repeats, have none there.
 function addFigureColours() {
-  const sheet = new CSSStyleSheet();
+  const { sheet } = document.querySelector("style");
+  const add = (rule) => sheet.insertRule(rule, sheet.cssRules.length);
   for (const [light, dark] of Object.entries(kDarkColours)) {
     for (const name of ["fill", "stroke"]) {
-      sheet.insertRule(
-        `.drawing svg [${name}="${light}"] { ${name}: light-dark(${light}, ${dark}); }`);
+      add(`[${name}="${light}"] { ${name}: light-dark(${light}, ${dark}); }`);
     }
   }
   // A 3-D figure is an image with labels on it: both keep the colours of light paper.
-  sheet.insertRule(".drawing:has(svg image) { color-scheme: light; }");
-  sheet.insertRule(".drawing { background: light-dark(#ffffff, #15181c); }");
-  document.adoptedStyleSheets.push(sheet);
+  add(".drawing:has(svg image) { color-scheme: light; }");
+  add(".drawing { background: light-dark(#ffffff, #15181c); }");
 }
 
 // The text of an SVG in the colours of the page, for images.

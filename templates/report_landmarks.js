@@ -15,7 +15,7 @@ function readLandmarks(svg) {
     const key = mark.id.replace(`-${kind}-`, "#");
     const entry = found.get(key) ?? { name, marks: [] };
     found.set(key, entry);
-    entry.marks.push({ x: Number(mark.getAttribute("x")), y: Number(mark.getAttribute("y")) });
+    entry.marks.push({ element: mark });
     if (kind === "true" || kind === "anchor") entry.groundTruth = [x, y];
     if (kind === "anchor") entry.isAnchor = true;
     if (kind === "estimate") entry.estimate = [x, y];
@@ -30,11 +30,14 @@ function keyOf(svg, entry) {
   return `${entry.name}\n${entry.groundTruth?.join() ?? svg.id}`;
 }
 
+const kGreatestError_m = 1000;  // The error of a map that diverged is said in words.
+
 // Three significant digits.
-function metres(text) {
+function errorWords(text) {
   const value = Number(text);
-  if (value === 0) return "0";
-  return value.toFixed(clamp(2 - Math.floor(Math.log10(Math.abs(value))), 0, 6));
+  if (value > kGreatestError_m) return "over 1\u00a0km";
+  if (value === 0) return "0 m";
+  return `${value.toFixed(clamp(2 - Math.floor(Math.log10(Math.abs(value))), 0, 6))} m`;
 }
 
 function linesOf(entry) {
@@ -43,7 +46,7 @@ function linesOf(entry) {
   const lines = [];
   if (entry.groundTruth) lines.push(`ground truth ${point(entry.groundTruth)} m`);
   if (entry.estimate) lines.push(`estimate ${point(entry.estimate)}${unit}`);
-  if (entry.error !== undefined) lines.push(`error ${metres(entry.error)} m`);
+  if (entry.error !== undefined) lines.push(`error ${errorWords(entry.error)}`);
   if (entry.isAnchor) lines.push("an anchor: its position is given");
   else if (entry.groundTruth && !entry.estimate) lines.push("not in the map");
   return lines;
@@ -53,18 +56,25 @@ function isWithin({ x, y, width, height }, point) {
   return point.x >= x && point.x <= x + width && point.y >= y && point.y <= y + height;
 }
 
+// Whether a mark is in sight: in the panel that is shown, and not zoomed away.
+function isShown(svg, { element }) {
+  if (element.classList.contains("outside") || element.closest(".off")) return false;
+  return isWithin(zoomedParts.has(svg) ? panelOf(svg) : viewOf(svg).now,
+    positionOfMark({ element }));
+}
+
 // The landmark with that key, in the visible panel if that panel has it.
 function entryOf(svg, key) {
   const all = landmarks.get(svg).filter((entry) => keyOf(svg, entry) === key);
-  return all.find((entry) => isWithin(panelOf(svg), entry.marks.at(-1))) ?? all[0];
+  return all.find((entry) => isShown(svg, entry.marks.at(-1))) ?? all[0];
 }
 
 function addRings(svg, entry) {
   const layer = svg.querySelector("g.lit") ??
     svg.appendChild(document.createElementNS(svg.namespaceURI, "g"));
   layer.setAttribute("class", "lit");
-  const panel = panelOf(svg);
-  for (const { x, y } of entry.marks.filter((mark) => isWithin(panel, mark))) {
+  const marks = entry.marks.filter((mark) => isShown(svg, mark));
+  for (const { x, y } of marks.map(positionOfMark)) {
     const ring = document.createElementNS(svg.namespaceURI, "circle");
     for (const [name, value] of [["cx", x], ["cy", y], ["r", 6]]) ring.setAttribute(name, value);
     layer.append(ring);
@@ -83,7 +93,7 @@ function showTip(svg, entry) {
     part.textContent = line;
     tip.append(part);
   }
-  const { x, y } = entry.marks.at(-1);
+  const { x, y } = positionOfMark(entry.marks.at(-1));
   const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM());
   const frame = box.getBoundingClientRect();
   const right = at.x - frame.left > frame.width / 2, low = at.y - frame.top > frame.height / 2;
@@ -121,7 +131,7 @@ function followView(svg) {
   svg.parentElement.querySelector(".tip")?.remove();
   if (tipIn !== svg) return;
   const entry = entryOf(svg, lit);
-  if (entry && isWithin(viewOf(svg).now, entry.marks.at(-1))) showTip(svg, entry);
+  if (entry && isShown(svg, entry.marks.at(-1))) showTip(svg, entry);
 }
 
 function nearest(svg, event) {
@@ -129,7 +139,8 @@ function nearest(svg, event) {
   const reach = kReach / svg.getScreenCTM().a;
   let best = null, least = reach;
   for (const entry of landmarks.get(svg)) {
-    for (const { x, y } of entry.marks.filter((mark) => isWithin(panelOf(svg), mark))) {
+    const marks = entry.marks.filter((mark) => isShown(svg, mark));
+    for (const { x, y } of marks.map(positionOfMark)) {
       const distance = Math.hypot(x - at.x, y - at.y);
       if (distance < least) [best, least] = [entry, distance];
     }

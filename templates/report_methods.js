@@ -101,9 +101,26 @@ function addTitle(part, text) {
   part.append(title);
 }
 
+// "1.3e+15" as "1.3 × 10¹⁵".
+function powerWords(text) {
+  const kDigits = "-0123456789", kRaised = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
+  const raised = (digits) => [...digits].map((digit) => kRaised[kDigits.indexOf(digit)]);
+  return text.replace(/e\+?(-?)0*(\d+)$/,
+    (all, sign, power) => ` × 10${raised(sign + power).join("")}`);
+}
+
+// But "over 1 km" above the greatest error that is a number.
+function valueWords(text, greatest) {
+  return Number(text) > Number(greatest) ? errorWords(text) : powerWords(text);
+}
+
 // A marker under the pointer says its values, "SDE, K = 7: 500, 0.998".
 function addValues(part, name) {
-  const values = part.dataset.points?.split(";") ?? [];
+  const { points = "", over } = part.dataset;
+  const values = points.split(";").filter(Boolean).map((point) => {
+    const [x, y] = point.split(", ");
+    return `${x}, ${valueWords(y, over)}`;
+  });
   [...part.querySelectorAll("use.marker")].forEach((marker, i) => {
     if (values[i]) addTitle(marker, `${name}: ${values[i]}`);
   });

@@ -1,7 +1,17 @@
-// A drawing is zoomed by its viewBox, so that it stays sharp; it can also fill the screen.
+// A drawing with axes is zoomed in its frames (see report_axes.js), another by its viewBox, so that it
+// stays sharp; it can also fill the screen.
 
 const panels = new WeakMap();  // <svg> → the box of the panel that a step shows alone.
-const panelOf = (svg) => panels.get(svg) ?? viewOf(svg).home;
+const panelOf = (svg) => panels.get(svg) ?? viewBoxOf(svg);
+
+function viewBoxOf(svg) {
+  const { x, y, width, height } = svg.viewBox.baseVal;
+  return { x, y, width, height };
+}
+
+function setViewBox(svg, { x, y, width, height }) {
+  svg.setAttribute("viewBox", [x, y, width, height].join(" "));
+}
 
 // Where a client position is, in the drawing's units.
 function pointOf(svg, { x, y }) {
@@ -13,8 +23,7 @@ function drawingAdapter(box, svg) {
   return {
     most: 40,
     apply(view) {
-      const { x, y, width, height } = view.now;
-      svg.setAttribute("viewBox", [x, y, width, height].join(" "));
+      setViewBox(svg, view.now);
       box.classList.toggle("zoomed", view.isZoomed);
       box.dispatchEvent(new CustomEvent("viewchange"));
     },
@@ -28,8 +37,10 @@ function drawingAdapter(box, svg) {
 }
 
 function makeZoomable(box, svg) {
-  const { x, y, width, height } = svg.viewBox.baseVal;
-  const view = addView(svg, { x, y, width, height }, drawingAdapter(box, svg));
+  const isOfAxes = hasAxes(svg);
+  if (isOfAxes) zoomedParts.set(svg, readZoomedParts(svg));
+  const view = isOfAxes ? addView(svg, kWholeFrame, axesAdapter(box, svg))
+    : addView(svg, viewBoxOf(svg), drawingAdapter(box, svg));
   followPointers(box, view);
   followWheel(box, view);
   box.addEventListener("keydown", (event) => {
@@ -44,7 +55,9 @@ function makeZoomable(box, svg) {
 // "Fit" then shows `home`; landmarks are looked for within `panel`.
 function setHome(svg, home, panel = home) {
   panels.set(svg, panel);
-  viewOf(svg).setHome(home);
+  if (!zoomedParts.has(svg)) return viewOf(svg).setHome(home);
+  setViewBox(svg, home);
+  return viewOf(svg).fit();
 }
 
 // Where the browser has no full screen, or refuses, the figure fills the window.

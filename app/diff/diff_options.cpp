@@ -151,6 +151,14 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
     app.get_option(file)->type_name("FILE");
 }
 
+namespace {
+
+std::size_t page_bytes(const DiffOptions& options) {
+  return static_cast<std::size_t>(1e6 * options.page_size_mb);
+}
+
+}  // namespace
+
 bool asks_for_outputs(const DiffOptions& options, const Console& console) {
   return console.is_json() || !options.page.empty() || !options.junit.empty() ||
          !options.markdown.empty() || !options.images.empty();
@@ -170,6 +178,8 @@ DiffSettings diff_settings(const DiffOptions& options, const std::string& baseli
     for (const Verdict verdict : verdicts_in(options.allow)) settings.allowed.push_back(verdict);
   settings.include = options.include;
   settings.exclude = options.exclude;
+  if (!options.page.empty() || !options.images.empty())
+    settings.heat_map_bytes = page_bytes(options);
   return settings;
 }
 
@@ -202,9 +212,9 @@ int hand_out(const DiffResult& result, const DiffSettings& settings, const DiffO
   ImageLinks links;
   if (!options.images.empty()) links.images = write_item_images(result, settings, options.images);
   hand(options.page, [&] {
-    const auto page_bytes = static_cast<std::size_t>(1e6 * options.page_size_mb);
-    return diff_html(result, shown_images(result, settings, {.page_bytes = page_bytes}),
-                     load_templates(options.templates), page_bytes);
+    const std::size_t bytes = page_bytes(options);
+    return diff_html(result, shown_images(result, settings, {.page_bytes = bytes}),
+                     load_templates(options.templates), bytes);
   });
   hand(options.junit, [&] {
     if (!options.images.empty()) links.prefix = attachment_prefix(options.images);

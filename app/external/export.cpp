@@ -78,6 +78,7 @@ int export_study(const ExportArguments& arguments, const Invocation& invocation)
   const auto asks_for = [&](std::string_view what) {
     return std::ranges::find(arguments.what, what) != arguments.what.end();
   };
+  const bool with_ground_truth = asks_for("ground-truth") || asks_for("truth");
   std::size_t files = 1;
   std::string checkpoints = "run,sensor,steps,seed\r\n";
   for (const Run& run : study.runs) {
@@ -86,10 +87,10 @@ int export_study(const ExportArguments& arguments, const Invocation& invocation)
       const fs::path run_folder(slug(run.id));
       if (is_first) {
         out.write(run_folder / "anchors.csv", anchors_csv(checkpoint));
-        if (asks_for("ground-truth"))
+        if (with_ground_truth)
           out.write(run_folder / "ground-truth.csv",
                     landmarks_csv(checkpoint.history.names, checkpoint.ground_truth_m));
-        files += asks_for("ground-truth") ? 2 : 1;
+        files += with_ground_truth ? 2 : 1;
         is_first = false;
       }
       checkpoints += fmt::format("{},{},{},{}\r\n", slug(run.id), name(checkpoint.sensor),
@@ -128,8 +129,8 @@ Action export_command(CLI::App& app) {
       ->check(names_folder());
   add_out_option(app, arguments->out, "Folder for the files")->required();
   app.add_option("--what", arguments->what,
-                 "distances, features, history, ground-truth; several with commas")
-      ->transform(one_of({"distances", "features", "history", "ground-truth"}))
+                 "distances, features, history, ground-truth (or truth); several with commas")
+      ->transform(one_of({"distances", "features", "history", "ground-truth", "truth"}))
       ->delimiter(',')
       ->allow_extra_args(false)
       ->capture_default_str();

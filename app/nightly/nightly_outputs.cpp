@@ -59,7 +59,8 @@ std::vector<std::string> write_comparisons(const NightlyPair& pair, const Histor
     std::error_code error;
     if (!fs::exists(before / "study.json", error) || !fs::exists(after / "study.json", error))
       continue;
-    const DiffSettings settings;
+    DiffSettings settings;
+    settings.heat_map_bytes = kPageBytes;
     const DiffResult result = folder_diff(before, after, settings);
     const std::string file = comparison_file(pair.before, pair.after, study);
     make_folder((outputs.out / file).parent_path());

@@ -174,10 +174,12 @@ void define_histories(py::module_& module) {
              "Reads name, x, y: anchors or a ground truth, in metres.");
   module.def("features", &feature_rows, py::arg("history"), py::arg("steps") = py::none(),
              py::call_guard<py::gil_scoped_release>(),
-             "M x C: the vectors whose distances the methods keep.");
+             "M x C: the vectors whose distances the methods keep, 0 where missing; of visibility "
+             "the 0/1 entries, which distances() divides by their norm.");
   module.def("distances", &distances, py::arg("history"), py::arg("steps") = py::none(),
              py::call_guard<py::gil_scoped_release>(),
-             "M x M: Euclidean distances of the features; inf: no common step.");
+             "M x M: Euclidean distances of the features, those of visibility divided by their "
+             "norm, over the steps that both landmarks have; inf: no common step.");
   define_simulation(module);
 }
 

@@ -180,6 +180,9 @@ Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& cli
 
 namespace {
 
+/// A page that is larger with its data holds fewer drawings, but not less than these.
+constexpr std::size_t kMostPage = 8'000'000, kLeastDrawings = 2'600'000;
+
 /// The ids of the figures whose drawings the page holds.
 std::set<std::string> shown_figures(const Report& report, const SvgLookup& drawing,
                                     const HtmlOptions& options) {
@@ -211,11 +214,23 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   };
   HtmlOptions options;
   options.link_words = report.link_words;
-  const PageContent content = page_content(
-      report.folder, images_of(report), shown_figures(shown, drawing, options), outputs.disclosure);
-  const std::string html =
-      outputs.disclosure.text(report_html(shown, outputs.page, drawing, options));
-  folder.write(kReportFile, with_page_data(html, content.data));
+  PageContent content;
+  const auto page = [&] {
+    content = page_content(report.folder, images_of(report), shown_figures(shown, drawing, options),
+                           outputs.disclosure);
+    return with_page_data(
+        outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)), content.data);
+  };
+  std::string html = page();
+  while (html.size() > kMostPage && options.drawing_bytes > kLeastDrawings) {
+    // A figure that is linked takes its data along, for which others may come.
+    constexpr std::size_t kSpare = 100'000;
+    const std::size_t excess = html.size() - kMostPage + kSpare;
+    options.drawing_bytes =
+        std::max(kLeastDrawings, options.drawing_bytes - std::min(options.drawing_bytes, excess));
+    html = page();
+  }
+  folder.write(kReportFile, html);
   if (const std::string left = left_out_text(content); outputs.note && !left.empty())
     outputs.note(left);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);

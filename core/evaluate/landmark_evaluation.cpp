@@ -88,7 +88,9 @@ double default_gate(const Points& ground_truth_m) {
   return 0.5 * median(nearest_m);
 }
 
-/// Seeks the alignment under which most landmarks have a partner.
+/// Seeks the alignment of the least sum over the landmarks of the ground truth: of the squared
+/// distance to the nearest one of the map, or of the squared gate where that is farther
+/// [torr2000]. With a wide gate many alignments give every landmark a partner.
 class Registration {
  public:
   Registration(const Points& ground_truth_m, const Points& estimate_m, FrameAlignment alignment,
@@ -104,12 +106,15 @@ class Registration {
       for (Eigen::Index c = 0; c < ground_truth_m_.rows(); ++c)
         for (Eigen::Index d = 0; d < ground_truth_m_.rows(); ++d)
           if (c != d) try_pairs({c, a}, {d, b});
-      if (most_ == enough || distances_left_ < 0.0) break;
+      if (distances_ > kMostDistances || (most_ >= enough && distances_ > kEnoughDistances)) break;
     }
     return refined();
   }
 
  private:
+  /// Some 2 s; and 0.2 s, where every landmark has a partner by then.
+  static constexpr double kMostDistances = 1e9, kEnoughDistances = 1e8;
+
   static std::vector<std::pair<Eigen::Index, Eigen::Index>> longest_first(const Points& points) {
     std::vector<std::tuple<double, Eigen::Index, Eigen::Index>> all;
     for (Eigen::Index i = 0; i < points.rows(); ++i)
@@ -129,22 +134,22 @@ class Registration {
     const bool fits = alignment_ == FrameAlignment::kSimilarity
                           ? real_m > 2.0 * gate_m_ && map_m > 0.0
                           : std::abs(real_m - map_m) <= 2.0 * gate_m_;
-    if (!fits || distances_left_ < 0.0) return;
+    if (!fits || distances_ > kMostDistances) return;
     const Similarity map = fit(ground_truth_m_, estimate_m_, {first, second}, alignment_);
-    const Eigen::Index count = partners(map(estimate_m_));
-    if (count <= most_) return;
-    most_ = count;
-    best_ = map;
-  }
-
-  /// How many landmarks of the ground truth have one of the map within the gate.
-  Eigen::Index partners(const Points& map_m) {
-    distances_left_ -= static_cast<double>(ground_truth_m_.rows() * map_m.rows());
+    const Points aligned_m = map(estimate_m_);
+    distances_ += static_cast<double>(ground_truth_m_.rows() * aligned_m.rows());
     Eigen::Index count = 0;
-    for (Eigen::Index i = 0; i < ground_truth_m_.rows(); ++i)
-      count += (map_m.rowwise() - ground_truth_m_.row(i)).rowwise().squaredNorm().minCoeff() <=
-               gate_m_ * gate_m_;
-    return count;
+    double cost = 0.0;
+    for (Eigen::Index i = 0; i < ground_truth_m_.rows(); ++i) {
+      const double gap =
+          (aligned_m.rowwise() - ground_truth_m_.row(i)).rowwise().squaredNorm().minCoeff();
+      count += gap <= gate_m_ * gate_m_;
+      cost += std::min(gap, gate_m_ * gate_m_);
+    }
+    most_ = std::max(most_, count);
+    if (cost >= least_) return;
+    least_ = cost;
+    best_ = map;
   }
 
   Similarity refined() const {
@@ -165,8 +170,9 @@ class Registration {
   const Points& estimate_m_;
   FrameAlignment alignment_;
   double gate_m_;
-  double distances_left_ = 1e9;
-  Eigen::Index most_ = 0;
+  double distances_ = 0.0;
+  Eigen::Index most_ = 0;  // Landmarks of the ground truth with a partner within the gate.
+  double least_ = HUGE_VAL;
   Similarity best_;
 };
 

@@ -44,8 +44,9 @@ struct LandmarkEvaluation {
 /// Position errors of a map of landmarks.
 ///
 /// With kNearest and an alignment to be fitted, the alignment is sought over pairs of landmarks:
-/// two of the map against two of the ground truth, the longest first, scored by how many landmarks
-/// then have a partner within the gate, then refined by least squares until the association stays.
+/// two of the map against two of the ground truth, the longest first. The best has the least sum of
+/// squared distances from the ground truth to the nearest landmark of the map, each at most the
+/// gate [torr2000]. It is refined by least squares until the association stays.
 /// @throws InvalidInput if no landmark can be associated (two, if an alignment is to be fitted;
 /// three
 ///         with kNearest), if an option breaks its bounds, or kFirstPose without `known`.

@@ -7,9 +7,12 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <optional>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 extern "C" {
 #include <libavformat/avformat.h>
@@ -159,6 +162,125 @@ void decode_still(const std::string& bytes, const Traits& traits, const Take& ta
   if (source.frames() == 0) throw std::runtime_error("it holds no image");
 }
 
+// Of a TIFF, what says nothing of its pixels as FFmpeg decodes them: texts, the unit of the
+// resolution, which kind of alpha there is, EXIF and XMP data [TIFF 6.0; EXIF 2.3; XMP, part 3].
+// FFmpeg, asked to refuse what is damaged, refuses tags that it does not know as well: the TIFFs of
+// matplotlib, Pillow and R would be unreadable. Sorted.
+constexpr std::array<std::size_t, 36> kMetadata = {
+    263, 264, 265,   269,   270,   271,   272,   280,   281,   285,   286,   287,
+    288, 289, 296,   297,   305,   306,   315,   316,   318,   319,   336,   337,
+    338, 700, 33432, 33723, 34377, 34665, 34853, 37510, 37724, 42112, 42113, 50341};
+
+// Of which the value 1 is the usual one: orientation, and format of the samples.
+constexpr std::array<std::size_t, 2> kUsuallyOne = {274, 339};
+
+constexpr std::size_t kHeaderBytes = 8, kCountBytes = 2, kEntryBytes = 12, kNextBytes = 4;
+
+/// A TIFF file's numbers, in its order of bytes.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view bytes) : bytes_(bytes), is_big_(bytes.starts_with("MM")) {}
+
+  /// @pre The bytes are there.
+  std::size_t at(std::size_t position, std::size_t count) const {
+    std::size_t number = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      number = number << 8 | static_cast<unsigned char>(bytes_[position + index(i, count)]);
+    return number;
+  }
+  static void set(std::string& bytes, std::size_t position, std::size_t count, std::size_t number) {
+    const Numbers order(bytes);
+    for (std::size_t i = 0; i < count; ++i)
+      bytes[position + order.index(i, count)] =
+          static_cast<char>(number >> (8 * (count - 1 - i)) & 0xFF);
+  }
+
+  /// Where the entries of a directory end; empty if it is not whole.
+  std::optional<std::size_t> end_of(std::size_t directory) const {
+    if (directory + kCountBytes > bytes_.size()) return std::nullopt;
+    const std::size_t end = directory + kCountBytes + at(directory, kCountBytes) * kEntryBytes;
+    return end + kNextBytes > bytes_.size() ? std::nullopt : std::optional(end);
+  }
+
+  bool is_metadata(std::size_t entry) const {
+    const std::size_t tag = at(entry, 2);
+    if (std::ranges::binary_search(kMetadata, tag)) return true;
+    return std::ranges::find(kUsuallyOne, tag) != kUsuallyOne.end() && are_all_one(entry);
+  }
+
+  bool is_smaller_version(std::size_t directory, std::size_t end) const {
+    constexpr std::size_t kNewSubfileType = 254;
+    for (std::size_t entry = directory + kCountBytes; entry < end; entry += kEntryBytes)
+      if (at(entry, 2) == kNewSubfileType) return (at(entry + 8, 4) & 1) != 0;
+    return false;
+  }
+
+ private:
+  std::size_t index(std::size_t i, std::size_t count) const { return is_big_ ? i : count - 1 - i; }
+
+  /// Whether the values of an entry are of two bytes, and all 1.
+  bool are_all_one(std::size_t entry) const {
+    constexpr std::size_t kShort = 3, kMost = 16;
+    const std::size_t count = at(entry + 4, 4);
+    if (at(entry + 2, 2) != kShort || count == 0 || count > kMost) return false;
+    const std::size_t values = count <= 2 ? entry + 8 : at(entry + 8, 4);
+    if (values + 2 * count > bytes_.size()) return false;
+    for (std::size_t i = 0; i < count; ++i)
+      if (at(values + 2 * i, 2) != 1) return false;
+    return true;
+  }
+
+  std::string_view bytes_;
+  bool is_big_;
+};
+
+/// Where the directory of each page of a TIFF begins. Pages that are smaller versions of others are
+/// left out; the last may be damaged or beyond the file, which the codec reports.
+std::vector<std::size_t> tiff_pages(std::string_view tiff) {
+  constexpr std::size_t kMost = 10'000;
+  if (tiff.size() < kHeaderBytes) throw std::runtime_error("it is damaged");
+  const Numbers numbers(tiff);
+  std::vector<std::size_t> pages;
+  std::set<std::size_t> seen;
+  for (std::size_t directory = numbers.at(4, 4); directory != 0;) {
+    if (!seen.insert(directory).second) throw std::runtime_error("it is damaged");
+    if (seen.size() > kMost) throw std::runtime_error("it has more than 10,000 pages");
+    const std::optional<std::size_t> end = numbers.end_of(directory);
+    if (!end || pages.empty() || !numbers.is_smaller_version(directory, *end))
+      pages.push_back(directory);
+    if (!end) break;
+    directory = numbers.at(*end, kNextBytes);
+  }
+  if (pages.empty()) throw std::runtime_error("it holds no image");
+  return pages;
+}
+
+/// Makes a page the first of the file, and removes from its directory what is metadata.
+/// @param directory  Of tiff_pages().
+void make_first(std::string& tiff, std::size_t directory) {
+  Numbers::set(tiff, 4, 4, directory);
+  const Numbers numbers(tiff);
+  const std::optional<std::size_t> end = numbers.end_of(directory);
+  if (!end) return;
+  const std::size_t first = directory + kCountBytes;
+  std::size_t to = first;
+  for (std::size_t at = first; at < *end; at += kEntryBytes) {
+    if (numbers.is_metadata(at)) continue;
+    std::copy_n(tiff.data() + at, kEntryBytes, tiff.data() + to);
+    to += kEntryBytes;
+  }
+  std::copy_n(tiff.data() + *end, kNextBytes, tiff.data() + to);
+  Numbers::set(tiff, directory, kCountBytes, (to - first) / kEntryBytes);
+}
+
+/// FFmpeg reads the first page of a TIFF.
+void decode_pages(std::string bytes, const Traits& traits, const Take& take) {
+  for (const std::size_t page : tiff_pages(bytes)) {
+    make_first(bytes, page);
+    decode_still(bytes, traits, take);
+  }
+}
+
 int read_from_memory(void* opaque, std::uint8_t* to, int size) {
   auto& input = *static_cast<MemoryFile*>(opaque);
   const std::size_t count = std::min(static_cast<std::size_t>(size), input.bytes.size() - input.at);
@@ -265,6 +387,8 @@ void decode_image(std::string bytes, std::string_view format, const Take& take) 
   const Traits& traits = traits_of(format);
   if (format == "webp" && is_animated_webp(bytes))
     decode_animated_webp(bytes, take);
+  else if (format == "tiff")
+    decode_pages(std::move(bytes), traits, take);
   else if (traits.demuxer == nullptr)
     decode_still(bytes, traits, take);
   else

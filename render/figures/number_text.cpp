@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/error_text.hpp"
 #include "render/theme/ticks.hpp"
 
 namespace mapproof {
@@ -23,6 +24,10 @@ std::string rounded_text(double value, int decimals, int digits) {
   std::string text = number_text(value, decimals);
   if (value == 0.0 || text.find_first_of("123456789") != std::string::npos) return text;
   return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
+}
+
+std::string error_text(double error_m, int digits) {
+  return error_m > kGreatestError_m ? kGreatErrorText : significant(error_m, digits) + " m";
 }
 
 std::string data_number(double value) { return fmt::format("{:.6g}", value); }

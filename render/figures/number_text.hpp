@@ -13,6 +13,9 @@ std::string significant(double value, int digits = 3);
 /// "≈ 0"; with six decimals or more, which a quantity of small values has, significant digits.
 std::string rounded_text(double value, int decimals, int digits = 3);
 
+/// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m).
+std::string error_text(double error_m, int digits = 3);
+
 /// A number for a data attribute: six significant digits, "." for the point.
 std::string data_number(double value);
 

@@ -14,7 +14,7 @@ std::vector<ErrorWords> error_words(const Score& score) {
   const double moe = usual ? score.moe_percent : score.moe_unmirrored_percent;
   std::vector<ErrorWords> words;
   if (std::isfinite(mpe))
-    words.push_back({"MPE", significant(mpe) + " m", "mean position error",
+    words.push_back({"MPE", error_text(mpe), "mean position error",
                      usual ? "" : "after the best affine fit to all landmarks"});
   if (std::isfinite(moe))
     words.push_back({"MOE", fmt::format("{:.2f} %", moe),

@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -176,9 +177,6 @@ bool choose_palette(Histogram& histogram, std::vector<std::uint32_t>& palette) {
   return false;
 }
 
-// The ones above take longer for a few per cent.
-constexpr int kCompressionLevel = 1;
-
 // A chunk's length ends here.
 constexpr std::uint64_t kMostBytes = 0x7FFFFFFF;
 
@@ -210,9 +208,9 @@ std::string rgb_rows(const Image& image) {
   return bytes;
 }
 
-std::string compressed(std::string_view bytes) {
+std::string compressed(std::string_view bytes, int level) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
-      libdeflate_alloc_compressor(kCompressionLevel), &libdeflate_free_compressor);
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
   if (!compressor) throw std::bad_alloc();
   std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
   out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
@@ -221,12 +219,19 @@ std::string compressed(std::string_view bytes) {
   return out;
 }
 
-std::string header(const Image& image, bool indexed) {
+/// What the header and the palette say.
+struct Format {
+  int width = 0;
+  int height = 0;
+  std::span<const std::uint32_t> colours = {};  ///< Empty: RGB.
+};
+
+std::string header(const Format& format) {
   std::string data;
-  append_big_endian(data, static_cast<std::uint32_t>(image.width));
-  append_big_endian(data, static_cast<std::uint32_t>(image.height));
+  append_big_endian(data, static_cast<std::uint32_t>(format.width));
+  append_big_endian(data, static_cast<std::uint32_t>(format.height));
   data += '\x08';  // Bits a sample.
-  data += indexed ? '\x03' : '\x02';
+  data += format.colours.empty() ? '\x02' : '\x03';
   data.append(3, '\0');  // Deflate, adaptive filters, not interlaced.
   return data;
 }
@@ -271,6 +276,30 @@ std::string png_texts(const std::vector<std::pair<std::string, std::string>>& te
   return out;
 }
 
+namespace {
+
+std::string png_file(const Format& format, std::string_view rows, const PngOptions& options) {
+  std::string out = "\x89PNG\r\n\x1A\n";
+  append_chunk(out, "IHDR", header(format));
+  std::string density;
+  const auto per_metre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
+  append_big_endian(density, per_metre);
+  append_big_endian(density, per_metre);
+  append_chunk(out, "pHYs", density + '\x01');
+  out += png_texts(options.texts);
+  if (!format.colours.empty()) {
+    std::string colours;
+    for (const std::uint32_t colour : format.colours)
+      for (const int shift : {16, 8, 0}) colours += static_cast<char>(colour >> shift);
+    append_chunk(out, "PLTE", colours);
+  }
+  append_chunk(out, "IDAT", compressed(rows, options.level));
+  append_chunk(out, "IEND", "");
+  return out;
+}
+
+}  // namespace
+
 std::string encode_png(const Image& image, const PngOptions& options) {
   const bool sized =
       image.width >= 1 && image.height >= 1 && image.width <= 100000 && image.height <= 100000;
@@ -279,25 +308,18 @@ std::string encode_png(const Image& image, const PngOptions& options) {
   if (!sized || image.pixels.size() < static_cast<std::size_t>(image.width) * image.height)
     throw InvalidInput("encode_png: an image without pixels, too large, or with too few of them");
 
-  const std::optional<PaletteImage> indexed = to_palette(image);
+  if (const std::optional<PaletteImage> indexed = to_palette(image))
+    return encode_png(*indexed, image.width, options);
+  return png_file({.width = image.width, .height = image.height}, rgb_rows(image), options);
+}
 
-  std::string out = "\x89PNG\r\n\x1A\n";
-  append_chunk(out, "IHDR", header(image, indexed.has_value()));
-  std::string density;
-  const auto per_metre = static_cast<std::uint32_t>(std::lround(options.dpi / 0.0254));
-  append_big_endian(density, per_metre);
-  append_big_endian(density, per_metre);
-  append_chunk(out, "pHYs", density + '\x01');
-  out += png_texts(options.texts);
-  if (indexed) {
-    std::string colours;
-    for (const std::uint32_t colour : indexed->colours)
-      for (const int shift : {16, 8, 0}) colours += static_cast<char>(colour >> shift);
-    append_chunk(out, "PLTE", colours);
-  }
-  append_chunk(out, "IDAT", compressed(indexed ? indexed->rows : rgb_rows(image)));
-  append_chunk(out, "IEND", "");
-  return out;
+std::string encode_png(const PaletteImage& image, int width, const PngOptions& options) {
+  const std::size_t stride = static_cast<std::size_t>(std::max(width, 0)) + 1;
+  const std::size_t height = image.rows.size() / stride;
+  if (width < 1 || width > 100000 || height < 1 || height > 100000 ||
+      image.rows.size() != stride * height || image.colours.empty() || image.colours.size() > 256)
+    throw InvalidInput("encode_png: rows that are no image of this width, or no palette");
+  return png_file({width, static_cast<int>(height), image.colours}, image.rows, options);
 }
 
 }  // namespace mapproof

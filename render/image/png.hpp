@@ -26,6 +26,8 @@ std::optional<PaletteImage> to_palette(const Image& image);
 
 struct PngOptions {
   double dpi = 72.0;
+  int level = 1;  ///< Of libdeflate's compression; for figures the ones above take longer for a few
+                  ///< per cent.
   std::vector<std::pair<std::string, std::string>>
       texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
 };
@@ -35,6 +37,10 @@ struct PngOptions {
 /// @throws InvalidInput if a side is below 1 or above 100 000, the pixels are too few, or the rows
 ///         as RGB exceed 2^31 - 1 bytes.
 std::string encode_png(const Image& image, const PngOptions& options = {});
+
+/// The image as a PNG file, with its palette.
+/// @throws InvalidInput if a side is below 1 or above 100 000, or the rows are not whole.
+std::string encode_png(const PaletteImage& image, int width, const PngOptions& options = {});
 
 /// The texts of PngOptions as chunks, as encode_png() writes them after the header.
 std::string png_texts(const std::vector<std::pair<std::string, std::string>>& texts);

@@ -58,6 +58,45 @@ Lanes paeth(Lanes left, Lanes above, Lanes corner) {
   return (to_left <= to_above) & (to_left <= to_corner) ? left : other;
 }
 
+/// How many bytes are zero from the first on, in steps of 8.
+std::size_t zeros_at(const unsigned char* bytes, std::size_t count) {
+  std::size_t zeros = 0;
+  for (std::uint64_t word = 0; zeros + sizeof word <= count; zeros += sizeof word) {
+    std::memcpy(&word, bytes + zeros, sizeof word);
+    if (word != 0) break;
+  }
+  return zeros;
+}
+
+bool is_zero(const unsigned char* bytes, std::size_t count) {
+  const std::size_t zeros = zeros_at(bytes, count);
+  return count - zeros < 8 &&
+         std::all_of(bytes + zeros, bytes + count, [](auto b) { return b == 0; });
+}
+
+/// Fills in the pixels whose bytes are zero from here on, if they all repeat the one to the left,
+/// or the row above.
+/// @return Their bytes.
+/// @pre Not at the first pixel.
+template <int Step>
+std::size_t fill_zeros(int filter, const unsigned char* raw, const unsigned char* above,
+                       unsigned char* row, std::size_t count) {
+  // Paeth: what equals the one above while the one to its left does. Of filter 3 none.
+  const bool repeats_above = filter == 4 && std::memcmp(row - Step, above - Step, Step) == 0;
+  if (filter != 1 && !repeats_above) return 0;
+  const std::size_t zeros = zeros_at(raw, count) / Step * Step;
+  if (repeats_above) {
+    std::memcpy(row, above, zeros);
+    return zeros;
+  }
+  for (std::size_t done = 0; done < zeros;) {
+    const std::size_t part = std::min(std::max<std::size_t>(done, Step), zeros - done);
+    std::memcpy(row + done, done == 0 ? row - Step : row, part);
+    done += part;
+  }
+  return zeros;
+}
+
 /// Takes the filter off a row [PNG specification, 9.2], pixel by pixel: `above` is the row before.
 template <int Step>
 void unfilter(int filter, const unsigned char* raw, const unsigned char* above, unsigned char* row,
@@ -65,6 +104,14 @@ void unfilter(int filter, const unsigned char* raw, const unsigned char* above, 
   Lanes left{}, corner{};
   const auto each = [&](auto predicted) {
     for (std::size_t i = 0; i < count; i += Step) {
+      if (i > 0)
+        if (const std::size_t zeros =
+                fill_zeros<Step>(filter, raw + i, above + i, row + i, count - i)) {
+          i += zeros - Step;
+          left = load<Step>(row + i);
+          corner = load<Step>(above + i);
+          continue;
+        }
       const Lanes top = load<Step>(above + i);
       left = (load<Step>(raw + i) + predicted(top)) & 0xFF;
       store<Step>(left, row + i);
@@ -117,7 +164,12 @@ bool widen(const PngHeader& header, const unsigned char* raw, std::string_view p
   unsigned char *above = one.data(), *row = other.data();
   const auto colours = colours_of(header, palette);
   std::uint32_t alpha = 0xFF000000u;
+  constexpr int kUp = 2;
   for (std::uint32_t y = 0; y < header.height; ++y, raw += count + 1, pixels += header.width) {
+    if (y > 0 && raw[0] == kUp && is_zero(raw + 1, count)) {
+      std::memcpy(pixels, pixels - header.width, sizeof *pixels * header.width);
+      continue;
+    }
     unfilter<Step>(raw[0], raw + 1, above, row, count);
     for (std::size_t x = 0; x < header.width; ++x)
       if constexpr (Step == 1) {
@@ -125,7 +177,8 @@ bool widen(const PngHeader& header, const unsigned char* raw, std::string_view p
       } else {
         std::uint32_t word = 0;
         std::memcpy(&word, row + Step * x, 4);
-        pixels[x] = __builtin_bswap32(word) >> 8;
+        // The bytes in the opposite order, by what every processor does for several at once.
+        pixels[x] = (word & 0xFF) << 16 | (word & 0xFF00) | (word >> 16 & 0xFF);
         if constexpr (Step == 4) alpha &= word;
       }
     std::swap(above, row);

@@ -67,7 +67,9 @@ TickLabels shaped(Ticks ticks, const Theme& theme, double widest_em = kWidestNam
 
 /// Every second tick, the others without a label.
 Ticks every_second(const Ticks& ticks) {
-  Ticks left{.at = {}, .labels = {}, .minor = ticks.minor, .factor = ticks.factor};
+  Ticks left = ticks;
+  left.at.clear();
+  left.labels.clear();
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     if (i % 2 == 1) {
       left.minor.push_back(ticks.at[i]);
@@ -221,6 +223,17 @@ double AxesLayout::below_frame() const {
   const double label = has_x_label() ? kLabelLine * theme_.font_pt : 0.0;
   const double ticks = shown_.x_ticks ? tick_gap() + FontFacts::kAscent * theme_.tick_font_pt : 0.0;
   return tick_length() + ticks + label;
+}
+
+FrameNumbers AxesLayout::numbers(const Axes& axes) const {
+  const auto of = [](const Axis& axis, const Range& limits,
+                     const Ticks& ticks) -> std::optional<AxisNumbers> {
+    if (!axis.names.empty()) return std::nullopt;
+    const auto label = [&](double value) { return (value - ticks.offset) / ticks.unit; };
+    return AxisNumbers{axis.scale, {label(limits.low), label(limits.high)}};
+  };
+  if (panel_.bare) return {};
+  return {of(panel_.x, limits_.x, axes.x.ticks), of(panel_.y, limits_.y, axes.y.ticks)};
 }
 
 Ticks AxesLayout::ticks_for(const Axis& axis, Range range, int most) const {

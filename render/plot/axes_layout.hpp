@@ -77,6 +77,8 @@ class AxesLayout {
   /// Around those axes; texts at points that reach over the frame's sides count as labels.
   Margins margins(const Axes& axes) const;
   PanelMap map(const Box& frame) const;
+  /// What the labels of those axes count.
+  FrameNumbers numbers(const Axes& axes) const;
 
   double tick_length() const { return 0.6 * theme_.space_pt; }
   const Panel& panel() const { return panel_; }

@@ -91,6 +91,17 @@ struct Item {
   std::variant<Shape, Stamp, TextLine, Raster> what;
 };
 
+/// An axis as its tick labels count.
+struct AxisNumbers {
+  Scale scale = Scale::kLinear;
+  Range ends;  ///< At the left and right, or the lower and upper side of the frame.
+};
+
+/// Both axes of a frame; none where ticks are names, or where there are no axes.
+struct FrameNumbers {
+  std::optional<AxisNumbers> x, y;
+};
+
 /// A figure laid out: all that a back end needs, in points, the first item lowest.
 struct Drawing {
   std::string id, title, caption, alt;
@@ -103,6 +114,7 @@ struct Drawing {
   Colour background;
   FontHandle font = {};        ///< Of all texts; none: the embedded one.
   std::vector<Box> frames;     ///< One a panel.
+  std::vector<FrameNumbers> numbers;  ///< One a frame.
   std::vector<Shape> symbols;  ///< About the origin.
   std::vector<Mark> marks;
   std::vector<Item> items;

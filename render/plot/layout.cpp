@@ -245,7 +245,10 @@ constexpr double kLeastWidth = 14.0;       // Of a cell, in em.
 constexpr double kLowInColumn = 0.7;       // Height of panels below each other, of the theme's.
 constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
 constexpr double kArrowWidth = 5.0;        // Of an arrow and its word between cells, em.
-constexpr double kArrowGap = 2.4;          // Between panels below each other, em.
+constexpr int kMostHeights = 3;
+constexpr double kLeastHigher = 0.5;  // In points.
+constexpr double kLowestFrame = 7.0;  // Of a frame beside others: its height in em.
+constexpr double kArrowGap = 2.4;     // Between panels below each other, em.
 
 /// Cells with axes of their own, and the arrows between them.
 class CellGrid {
@@ -260,10 +263,12 @@ class CellGrid {
     const auto columns = static_cast<double>(columns_);
     const double gap = columns_ == 1 ? 0.0 : gap_across();
     const double width = (room_.width() - (columns - 1.0) * gap) / columns;
-    double top = room_.y0;
+    double top = room_.y0, of_row = 0.0;
     for (std::size_t p = 0; p < count; ++p) {
       const double left = room_.x0 + static_cast<double>(p % columns_) * (width + gap);
-      const double height = cell_height(figure_.panels[p], width);
+      if (p % columns_ == 0) of_row = row_height(p, width);
+      const Panel& panel = figure_.panels[p];
+      const double height = has_fixed_shape(panel) ? cell_height(panel, width) : of_row;
       lay_out_panel(figure_.panels[p], p, {left, top, left + width, top + height}, theme_,
                     drawing_);
       if ((p + 1) % columns_ == 0 || p + 1 == count)
@@ -291,6 +296,29 @@ class CellGrid {
     const bool low = columns_ == 1 && !(figure_.columns == 1 && panel.equal_aspect);
     const double most = low ? kLowInColumn : 1.1;
     return std::min(width * 0.86 + 4.0 * theme_.font_pt, most * theme_.height_pt);
+  }
+
+  static bool has_fixed_shape(const Panel& panel) { return panel.equal_aspect || panel.bare; }
+
+  /// The height of the cells of a row at which no frame is too low for its labels, but for panels
+  /// of a fixed shape.
+  double row_height(std::size_t first, double width) const {
+    double height = 0.0;
+    const std::size_t end = std::min(first + columns_, figure_.panels.size());
+    for (std::size_t p = first; p < end; ++p) {
+      const Panel& panel = figure_.panels[p];
+      if (has_fixed_shape(panel)) continue;
+      height = std::max(height, cell_height(panel, width));
+      for (int i = 0; i < kMostHeights; ++i) {
+        const Box cell{room_.x0, room_.y0, room_.x0 + width, room_.y0 + height};
+        Drawing attempt;
+        lay_out_panel(panel, p, cell, theme_, attempt);
+        const double lacks = kLowestFrame * theme_.font_pt - attempt.frames.back().height();
+        if (lacks <= kLeastHigher) break;
+        height += lacks;
+      }
+    }
+    return height;
   }
 
   /// The lowest drawn point of the panels from `first` on.
@@ -430,9 +458,6 @@ class Head {
   Drawing& drawing_;
   double y_;
 };
-
-constexpr int kMostHeights = 3;
-constexpr double kLeastHigher = 0.5;  // In points.
 
 /// What title and notes take of a page of the theme's height.
 double head_height(const Figure& figure, const Theme& theme) {

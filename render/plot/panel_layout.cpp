@@ -265,6 +265,7 @@ void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& a
   const Theme& theme = layout.theme();
   AxesPainter painter(axes, panel_index, layout, drawing);
   drawing.frames.push_back(axes.frame);
+  drawing.numbers.push_back(layout.numbers(axes));
   if (!panel.bare) painter.draw_grid();
   draw_layers(panel, panel_index, layout.map(axes.frame), theme, drawing);
   if (!panel.bare) painter.draw_axes();

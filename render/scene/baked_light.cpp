@@ -47,7 +47,7 @@ double sky_behind_pillar(double distance, double radius, double height) {
 /// As above, for a long wall.
 double sky_behind_wall(double distance, double height) {
   if (height <= 0.0) return 0.0;
-  return 0.5 * (1.0 - distance / std::hypot(distance, height));
+  return 0.5 * (1.0 - distance / std::sqrt(distance * distance + height * height));
 }
 
 }  // namespace
@@ -142,30 +142,31 @@ bool BakedLight::hits(const Wall& wall, const Point3& from, const Point3& toward
   return enter <= leave && leave > 0.0;
 }
 
-bool BakedLight::is_hidden(const Point3& from, const Point3& towards) const {
+std::vector<BakedLight::Pillar> BakedLight::pillars_near(const Point3& point) const {
   const double near = kNear * extent_;
-  const auto is_near = [&](const Pillar& pillar) {
-    return std::abs(pillar.x - from.x()) < near + pillar.radius &&
-           std::abs(pillar.y - from.y()) < near + pillar.radius;
-  };
+  std::vector<Pillar> found;
   for (const Pillar& pillar : pillars_)
-    if (is_near(pillar) && hits(pillar, from, towards)) return true;
-  return std::ranges::any_of(walls_,
-                             [&](const Wall& wall) { return hits(wall, from, towards); });
+    if (std::abs(pillar.x - point.x()) < near + pillar.radius &&
+        std::abs(pillar.y - point.y()) < near + pillar.radius)
+      found.push_back(pillar);
+  return found;
 }
 
 double BakedLight::sky_at(const Point3& point) const {
   const double near = kNear * extent_;
   double sky = 1.0;
   for (const Pillar& pillar : pillars_) {
-    const double distance = std::hypot(pillar.x - point.x(), pillar.y - point.y());
-    if (distance > 1.05 * pillar.radius && distance < near && pillar.top > point.z())
+    const double x = pillar.x - point.x(), y = pillar.y - point.y();
+    const double square = x * x + y * y;
+    if (square >= near * near) continue;
+    const double distance = std::sqrt(square);
+    if (distance > 1.05 * pillar.radius && pillar.top > point.z())
       sky *= 1.0 - sky_behind_pillar(distance, pillar.radius, pillar.top - point.z());
   }
   for (const Wall& wall : walls_) {
     const double x = std::max({wall.x0 - point.x(), point.x() - wall.x1, 0.0});
     const double y = std::max({wall.y0 - point.y(), point.y() - wall.y1, 0.0});
-    const double distance = std::hypot(x, y);
+    const double distance = std::sqrt(x * x + y * y);
     if (distance > kFloorFloat * extent_)
       sky *= 1.0 - sky_behind_wall(distance, wall.top - point.z());
   }
@@ -174,10 +175,13 @@ double BakedLight::sky_at(const Point3& point) const {
 
 double BakedLight::at(const Point3& point, const Point3& normal) const {
   const Point3 from = point + 10.0 * kFloorFloat * extent_ * normal;
+  const std::vector<Pillar> near = pillars_near(from);
   double key = 0.0;
   for (const Point3& towards : key_) {
     const double facing = normal.dot(towards);
-    if (facing > 0.0 && !is_hidden(from, towards)) key += facing / towards.z();
+    const auto hides = [&](const auto& thing) { return hits(thing, from, towards); };
+    if (facing > 0.0 && !std::ranges::any_of(near, hides) && !std::ranges::any_of(walls_, hides))
+      key += facing / towards.z();
   }
   const double upward = 0.55 + 0.45 * normal.z();
   const double lift = 0.025 * extent_;

@@ -47,7 +47,8 @@ class BakedLight {
   void add(const Rods& rods);
   void add(const Surface& surface);
   void aim(const Scene& scene);
-  bool is_hidden(const Point3& from, const Point3& towards) const;
+  /// The pillars that may hide the light from a point.
+  std::vector<Pillar> pillars_near(const Point3& point) const;
   static bool hits(const Pillar& pillar, const Point3& from, const Point3& towards);
   static bool hits(const Wall& wall, const Point3& from, const Point3& towards);
   double sky_at(const Point3& point) const;

@@ -118,7 +118,7 @@ class Forming {
 
   std::string error_of(std::size_t map) const {
     const auto& score = spec_.maps[map].score;
-    return score && std::isfinite(score->mpe_m) ? significant(score->mpe_m) + " m" : "no score";
+    return score && std::isfinite(score->mpe_m) ? error_text(score->mpe_m) : "no score";
   }
 
   std::string title_of(std::size_t map) const {

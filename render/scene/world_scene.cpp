@@ -238,7 +238,7 @@ class WorldScene {
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),
                     significant(side_), counted(landmarks, "landmark"), spec_.map.anchors.size());
     if (spec_.map.score)
-      scene_.alt += fmt::format("; mean position error {} m", significant(spec_.map.score->mpe_m));
+      scene_.alt += fmt::format("; mean position error {}", error_text(spec_.map.score->mpe_m));
     if (const auto order = worst(); !order.empty()) {
       const auto row = static_cast<std::size_t>(found_.drawn[order[0]]);
       scene_.alt += fmt::format("; the longest arrow, at {}, is {} m", spec_.map.names[row],

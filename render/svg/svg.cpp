@@ -133,6 +133,10 @@ class SvgWriter {
     for (std::size_t i = 0; i < drawing_.frames.size(); ++i) {
       out_ += fmt::format("<clipPath id=\"{}-c{}\"><rect", drawing_.id, i);
       box_attributes(drawing_.frames[i]);
+      if (i < drawing_.numbers.size()) {
+        axis_attribute("data-x", drawing_.numbers[i].x);
+        axis_attribute("data-y", drawing_.numbers[i].y);
+      }
       out_ += "/></clipPath>\n";
     }
     out_ += "</defs>\n";
@@ -164,6 +168,13 @@ class SvgWriter {
     attribute("y", box.y0);
     attribute("width", box.width());
     attribute("height", box.height());
+  }
+
+  /// "linear 0 2000": what a page needs to count on a part of an axis.
+  void axis_attribute(std::string_view name, const std::optional<AxisNumbers>& axis) {
+    if (axis)
+      attribute(name, fmt::format("{} {:.12g} {:.12g}", axis->scale == Scale::kLog ? "log" : "linear",
+                                  axis->ends.low, axis->ends.high));
   }
 
   void path_attribute(const Outline& path) {

@@ -128,6 +128,7 @@ Ticks linear_ticks(double low, double high, double step) {
   if (const double offset = offset_below(low, high); offset != 0.0) {
     Ticks ticks = linear_ticks(low - offset, high - offset, step);
     for (double& at : ticks.at) at += offset;
+    ticks.offset = offset;
     const int decimals = decimals_for(std::pow(10.0, std::floor(std::log10(high - low)) + 1.0));
     ticks.factor = (offset < 0.0 ? "\u2212 " : "+ ") + number_text(std::abs(offset), decimals);
     return ticks;
@@ -137,6 +138,7 @@ Ticks linear_ticks(double low, double high, double step) {
   const bool factored = exponent >= 6 || exponent <= -4;
   const double unit = factored ? std::pow(10.0, exponent) : 1.0;
   Ticks ticks;
+  ticks.unit = unit;
   if (factored) ticks.factor = power_of_ten(exponent);
   const int decimals = decimals_for(step / unit);
   const double first = std::ceil(low / step - 1e-9);

@@ -11,6 +11,8 @@ struct Ticks {
   std::vector<std::string> labels;  ///< As many; equal numbers of decimals, U+2212 for minus.
   std::vector<double> minor;        ///< Without a label, on a log axis.
   std::string factor;  ///< "×10⁶" to multiply the labels by, "+ 5821200" to add; or empty.
+  double unit = 1.0;   ///< Of the factor: a label is (value − offset) / unit.
+  double offset = 0.0;  ///< Of the factor.
 };
 
 /// The least step 1, 2 or 5 × 10^k that puts at most `most` (>= 2) marks into [low, high].

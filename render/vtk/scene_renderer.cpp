@@ -5,6 +5,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkLight.h>
 #include <vtkLogger.h>
+#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
@@ -182,24 +183,32 @@ void add_lights(const Scene& scene, vtkRenderer* renderer) {
   }
 }
 
-/// Samples along each side of a pixel, fewer than requested where the whole image would be too
-/// large for the driver.
+constexpr int kLongest = 16384;  // Side of an image of llvmpipe.
+
+/// Samples along each side of a pixel, fewer than requested where a row would be too long for the
+/// driver.
 int side_samples(const SceneRequest& request) {
-  constexpr int kLongest = 16384;                        // The limit of llvmpipe.
-  constexpr std::int64_t kMost = std::int64_t{1} << 27;  // Some 2 GiB with depth and copies.
   int side = 1;
   while (side * side < request.samples) ++side;
-  const std::int64_t pixels = std::int64_t{request.width} * request.height;
-  while (side > 1 && (side * std::max(request.width, request.height) > kLongest ||
-                      side * side * pixels > kMost))
-    --side;
+  while (side > 1 && side * request.width > kLongest) --side;
   return side;
+}
+
+/// How many rows of an image are drawn at once. What the driver keeps of their samples, some 50
+/// bytes each, is used again for the next rows and fits into a cache: with 2^17 samples an image of
+/// 2400 x 1800 takes 0.8 s of processor time and 138 MiB; at once 1.3 s and 800 MiB; with 2^15 1.2
+/// s.
+int rows_of_strip(const SceneRequest& request, int side) {
+  constexpr std::int64_t kSamples = std::int64_t{1} << 17;
+  const std::int64_t of_row = std::int64_t{side} * side * request.width;
+  const std::int64_t most = std::min(request.height, kLongest / side);
+  return static_cast<int>(std::clamp<std::int64_t>(kSamples / of_row, 1, most));
 }
 
 /// The mean of `side` x `side` samples, the first of the lowest row at `first`, in about linear
 /// light (a gamma of 2), in which thin lines keep their weight.
 std::uint32_t mean_of(const unsigned char* first, vtkIdType row_bytes, int side) {
-  const double count = side * side;
+  const float share = 1.0F / static_cast<float>(side * side);
   std::uint32_t mean = 0;
   for (vtkIdType c = 0; c < 3; ++c) {
     std::uint32_t sum = 0;
@@ -208,27 +217,43 @@ std::uint32_t mean_of(const unsigned char* first, vtkIdType row_bytes, int side)
         const std::uint32_t sample = first[row_bytes * i + 3 * j + c];
         sum += sample * sample;
       }
-    mean = mean << 8 | static_cast<std::uint32_t>(std::lround(std::sqrt(sum / count)));
+    mean =
+        mean << 8 | static_cast<std::uint32_t>(std::sqrt(share * static_cast<float>(sum)) + 0.5F);
   }
   return mean;
 }
 
-/// An image of samples whose lowest row is the first, as in OpenGL. Each pixel is the mean of
-/// `side` x `side` samples.
-Image image_of(vtkUnsignedCharArray* bytes, int width, int height, int side) {
-  Image image{width, height, std::vector<std::uint32_t>(static_cast<std::size_t>(width) * height)};
-  const auto row_bytes = static_cast<vtkIdType>(3) * side * width;
-  const unsigned char* all = bytes->GetPointer(0);
-  for (int y = 0; y < height; ++y) {
-    const unsigned char* first = all + row_bytes * side * (height - 1 - y);
+/// The rows of an image from `top` on, of samples whose lowest row is the first, as in OpenGL; rows
+/// below the image are left out. Each pixel is the mean of `side` x `side` samples.
+void take_rows(vtkUnsignedCharArray* samples, int top, int rows, int side, Image& image) {
+  const auto row_bytes = static_cast<vtkIdType>(3) * side * image.width;
+  const unsigned char* all = samples->GetPointer(0);
+  for (int y = top; y < std::min(top + rows, image.height); ++y) {
+    const unsigned char* first = all + row_bytes * side * (top + rows - 1 - y);
     std::uint32_t* row = image.row(y);
     if (side == 1)
-      for (int x = 0; x < width; ++x, first += 3)
+      for (int x = 0; x < image.width; ++x, first += 3)
         row[x] = static_cast<std::uint32_t>(first[0]) << 16 | first[1] << 8 | first[2];
     else
-      for (int x = 0; x < width; ++x, first += 3 * side) row[x] = mean_of(first, row_bytes, side);
+      for (int x = 0; x < image.width; ++x, first += 3 * side)
+        row[x] = mean_of(first, row_bytes, side);
   }
-  return image;
+}
+
+/// The projection of a camera to a strip of its image, which is `height` pixels high: the rows from
+/// `top` on.
+vtkSmartPointer<vtkMatrix4x4> projection_of_strip(vtkCamera* camera, double aspect, int height,
+                                                  int top, int rows) {
+  auto projection = vtkSmartPointer<vtkMatrix4x4>::New();
+  projection->DeepCopy(camera->GetProjectionTransformMatrix(aspect, -1.0, 1.0));
+  // Heights in the image run from -1 to 1, upwards.
+  const double stretch = static_cast<double>(height) / rows;
+  const double middle = 1.0 - (2.0 * top + rows) / height;
+  for (int column = 0; column < 4; ++column)
+    projection->SetElement(
+        1, column,
+        stretch * (projection->GetElement(1, column) - middle * projection->GetElement(3, column)));
+  return projection;
 }
 
 }  // namespace
@@ -301,18 +326,30 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   renderer->ResetCameraClippingRange();
 
   vtkRenderWindow* window = parts_->window;
+  window->SetMultiSamples(0);
+  window->AddRenderer(renderer);
   // Each sample is shaded: llvmpipe's own multisampling takes twice as long for as many samples.
   const int side = side_samples(request);
-  const int width = side * request.width, height = side * request.height;
-  window->SetMultiSamples(0);
-  window->SetSize(width, height);
-  window->AddRenderer(renderer);
-  window->Render();
-  vtkNew<vtkUnsignedCharArray> bytes;
-  window->GetPixelData(0, 0, width - 1, height - 1, 0, bytes);
+  const int rows = rows_of_strip(request, side);
+  window->SetSize(side * request.width, side * rows);
+  vtkCamera* camera = renderer->GetActiveCamera();
+  Image image{request.width, request.height,
+              std::vector<std::uint32_t>(static_cast<std::size_t>(request.width) *
+                                         static_cast<std::size_t>(request.height))};
+  const double aspect = static_cast<double>(request.width) / request.height;
+  vtkNew<vtkUnsignedCharArray> samples;
+  for (int top = 0; top < request.height; top += rows) {
+    camera->SetUseExplicitProjectionTransformMatrix(false);
+    const auto projection = projection_of_strip(camera, aspect, request.height, top, rows);
+    camera->SetExplicitProjectionTransformMatrix(projection);
+    camera->SetUseExplicitProjectionTransformMatrix(true);
+    window->Render();
+    window->GetPixelData(0, 0, side * request.width - 1, side * rows - 1, 0, samples);
+    take_rows(samples, top, rows, side, image);
+  }
   window->RemoveRenderer(renderer);
   parts_->throw_what_was_logged();
-  return image_of(bytes, request.width, request.height, side);
+  return image;
 }
 
 }  // namespace mapproof

@@ -13,12 +13,21 @@
 
 namespace mapproof {
 
+/// Where two images differ: heat_map() in image_diff.hpp.
+struct HeatMapFile {
+  std::string png;
+  ImageSize size;
+  double changed_share = 0.0;  ///< Of its pixels.
+};
+
 /// An image file of an item.
 struct ImageFile {
   std::string format;        ///< "png", "svg", "pdf".
   std::string baseline_key;  ///< Which of several valid baselines; empty: the plain one.
   std::filesystem::path baseline, current;  ///< Empty: missing.
   ImageDiff diff;                           ///< Set if both files exist.
+  /// If the comparison kept it: it would have to decode both files again (heat_map_file()).
+  std::optional<HeatMapFile> heat = {};
 };
 
 enum class ItemKind {

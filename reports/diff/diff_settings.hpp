@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -62,6 +63,8 @@ struct DiffSettings {
   std::vector<ItemSettings> items;  ///< Of several that match an item the last one counts.
   /// Patterns of what alone is compared, and of what is not: an id, or "ID.FORMAT".
   std::vector<std::string> include, exclude;
+  /// The result keeps heat maps of images of about so many bytes, for its page (ImageFile::heat).
+  std::size_t heat_map_bytes = 0;
 
   /// The options for the images of one item, with its ignored regions.
   ImageOptions images_of(const std::string& id) const;

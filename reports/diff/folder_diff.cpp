@@ -246,12 +246,13 @@ std::vector<DiffItem> image_items(const ItemList& baseline, const ItemList& curr
       if (files.documents.empty()) ids.insert(id);
   const std::vector<std::string> order(ids.begin(), ids.end());
   std::vector<DiffItem> items(order.size());
+  HeatMapRoom room(settings.heat_map_bytes);
   parallel_for(order.size(), [&](std::size_t i) {
     const auto before = baseline.find(order[i]);
     const auto after = current.find(order[i]);
-    items[i] = item_diff(order[i].empty() ? name : order[i],
-                         before == baseline.end() ? nullptr : &before->second,
-                         after == current.end() ? nullptr : &after->second, context, settings);
+    const ItemSides sides{before == baseline.end() ? nullptr : &before->second,
+                          after == current.end() ? nullptr : &after->second};
+    items[i] = item_diff(order[i].empty() ? name : order[i], sides, context, settings, room);
   });
   return items;
 }

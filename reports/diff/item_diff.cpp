@@ -215,28 +215,33 @@ ImageDiff bytes_diff(const std::string& format, const std::filesystem::path& bas
   return diff;
 }
 
-/// Compares two files. A file that cannot be read makes its image unreadable and stops nothing
+/// What the comparison of an item's images needs besides their files.
+struct ImageJob {
+  ImageOptions options;
+  bool has_value = false;  ///< Whether both sides have the figure's value.
+  HeatMapRoom* room = nullptr;
+};
+
+/// Compares both files. A file that cannot be read makes its image unreadable and stops nothing
 /// else.
-ImageDiff readable_diff(const std::string& format, const std::filesystem::path& baseline,
-                        const std::filesystem::path& current, const ImageOptions& options,
-                        bool has_value) {
+void compare_files(ImageFile& file, const ImageJob& job) {
   try {
-    if (is_not_compared(format)) return bytes_diff(format, baseline, current);
-    return format == "pdf" && has_value ? pdf_diff(baseline, current)
-                                        : image_diff(baseline, current, options);
+    if (is_not_compared(file.format))
+      file.diff = bytes_diff(file.format, file.baseline, file.current);
+    else if (file.format == "pdf" && job.has_value)
+      file.diff = pdf_diff(file.baseline, file.current);
+    else
+      compare_and_keep(file, job.options, *job.room);
   } catch (const IoError& error) {
-    ImageDiff diff;
-    diff.state = ImageState::kUnreadable;
-    diff.reason = error.what();
-    return diff;
+    file.diff = {};
+    file.diff.reason = error.what();
   }
 }
 
 /// Compares with the plain baseline and the other valid ones, and keeps the one that differs least.
 ImageFile compare_image(const std::string& format,
                         const std::map<std::string, std::filesystem::path>& baselines,
-                        const std::filesystem::path& current, const ImageOptions& options,
-                        bool has_value) {
+                        const std::filesystem::path& current, const ImageJob& job) {
   ImageFile best;
   bool first = true;
   for (const auto& [key, baseline] : baselines) {
@@ -244,7 +249,8 @@ ImageFile compare_image(const std::string& format,
                    .baseline_key = key,
                    .baseline = baseline,
                    .current = current,
-                   .diff = readable_diff(format, baseline, current, options, has_value)};
+                   .diff = {}};
+    compare_files(file, job);
     if (first || file.diff.state < best.diff.state) best = std::move(file);
     first = false;
     if (best.diff.state == ImageState::kIdentical) break;
@@ -254,8 +260,7 @@ ImageFile compare_image(const std::string& format,
 
 /// Compares the images of both sides, format by format.
 std::vector<ImageFile> compare_images(const ItemFiles& baseline, const ItemFiles& current,
-                                      const ImageOptions& options) {
-  const bool has_value = !baseline.figure.empty() && !current.figure.empty();
+                                      const ImageJob& job) {
   std::vector<ImageFile> files;
   std::set<std::string> formats;
   for (const ItemFiles* side : {&baseline, &current})
@@ -263,8 +268,7 @@ std::vector<ImageFile> compare_images(const ItemFiles& baseline, const ItemFiles
   for (const std::string& format : formats) {
     const auto before = baseline.images.find(format), after = current.images.find(format);
     if (before != baseline.images.end() && after != current.images.end())
-      files.push_back(
-          compare_image(format, before->second, after->second.begin()->second, options, has_value));
+      files.push_back(compare_image(format, before->second, after->second.begin()->second, job));
     else if (before != baseline.images.end())
       files.push_back({format, "", before->second.begin()->second, {}, {}});
     else if (after != current.images.end())
@@ -367,10 +371,11 @@ FigureDiff scene_diff(const SceneText& baseline, const SceneText& current,
   return log.take();
 }
 
-DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
-                   const RecordContext& context, const DiffSettings& settings) {
+DiffItem item_diff(const std::string& id, const ItemSides& sides, const RecordContext& context,
+                   const DiffSettings& settings, HeatMapRoom& room) {
   DiffItem item;
   item.id = id;
+  const ItemFiles *const baseline = sides.baseline, *const current = sides.current;
   if (baseline == nullptr || current == nullptr) {
     item =
         lone_item(std::move(item), baseline == nullptr ? *current : *baseline, baseline == nullptr);
@@ -380,7 +385,7 @@ DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemF
     const bool some = !baseline->figure.empty() || !current->figure.empty();
     const bool both = !baseline->figure.empty() && !current->figure.empty();
     item.kind = some ? ItemKind::kFigure : ItemKind::kImage;
-    item.images = compare_images(*baseline, *current, settings.images_of(id));
+    item.images = compare_images(*baseline, *current, {settings.images_of(id), both, &room});
     if (both) compare_values(item, context, settings);
     leave_pdf_to_value(item);
     if (item.figure && item.figure->masked > 0) leave_to_value(item.images);

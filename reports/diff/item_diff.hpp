@@ -7,6 +7,7 @@
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/items.hpp"
+#include "reports/diff/kept_heat_maps.hpp"
 #include "reports/diff/records/record_tie.hpp"
 
 namespace mapproof {
@@ -30,9 +31,15 @@ struct SceneWords {
 FigureDiff scene_diff(const SceneText& baseline, const SceneText& current,
                       const FigureOptions& options, SceneWords& words);
 
+/// The files of an item. Null if a side does not have it.
+struct ItemSides {
+  const ItemFiles* baseline = nullptr;
+  const ItemFiles* current = nullptr;
+};
+
 /// Compares one figure or image: its value, then its images; then finds the cause.
-/// @param baseline, current  Null if that side does not have the item.
-DiffItem item_diff(const std::string& id, const ItemFiles* baseline, const ItemFiles* current,
-                   const RecordContext& context, const DiffSettings& settings);
+/// @param room  For the heat maps of its images.
+DiffItem item_diff(const std::string& id, const ItemSides& sides, const RecordContext& context,
+                   const DiffSettings& settings, HeatMapRoom& room);
 
 }  // namespace mapproof

@@ -11,11 +11,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/text/percent.hpp"
-#include "render/image/png.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
-#include "reports/diff/images/image_diff.hpp"
+#include "reports/diff/kept_heat_maps.hpp"
 
 namespace mapproof {
 namespace {
@@ -75,14 +74,14 @@ std::string write_difference(const ImageFile& file, const ImageOptions& options,
   if (file.baseline.empty() || file.current.empty() || file.diff.state == ImageState::kUnreadable ||
       file.diff.state == ImageState::kIdentical)
     return "";
-  Image heat;
+  std::optional<HeatMapFile> heat;
   try {
-    heat = heat_map(file.baseline, file.current, options);
+    heat = heat_map_file(file, options);
   } catch (const IoError&) {
     return "";
   }
-  if (heat.width == 0) return "";
-  folder.write(to, encode_png(heat));
+  if (!heat) return "";
+  folder.write(to, heat->png);
   return to;
 }
 

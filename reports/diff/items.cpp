@@ -89,6 +89,20 @@ bool is_decoded(std::string_view kind) { return class_of(kind) == KindClass::kIm
 
 bool is_not_compared(std::string_view kind) { return class_of(kind) == KindClass::kOther; }
 
+std::string_view media_type(std::string_view format) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
+      {{"png", "image/png"},
+       {"svg", "image/svg+xml"},
+       {"jpg", "image/jpeg"},
+       {"jpeg", "image/jpeg"},
+       {"gif", "image/gif"},
+       {"webp", "image/webp"},
+       {"bmp", "image/bmp"}}};
+  for (const auto& [known, type] : kTypes)
+    if (known == format) return type;
+  return {};
+}
+
 ItemName item_name(const fs::path& file, const fs::path& folder) {
   std::string path = file.lexically_relative(folder).generic_string();
   constexpr std::string_view kFigures = "figures/";

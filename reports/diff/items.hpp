@@ -40,6 +40,9 @@ bool is_decoded(std::string_view kind);
 /// Formats of images that are compared by their bytes alone, as nothing here decodes them.
 bool is_not_compared(std::string_view kind);
 
+/// The type of an image that browsers show: "image/png"; empty: they show none of this format.
+std::string_view media_type(std::string_view format);
+
 /// The id of a file below `folder` and its kind, in lower case: "png", "svg", "figure.json", "pdf",
 /// "scene.json", of tables (in a folder "tables") "csv", "md", "tex", of reports "html"; an empty
 /// kind if the file does not belong to an item.

@@ -545,9 +545,11 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   if (auto worse = worse_section(facts, summary, links)) report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, links));
   page.figures = course(facts);
-  if (!page.figures.empty())
+  if (!page.figures.empty()) {
+    report.opening.main_figure = page.figures.front().id;
     report.sections.push_back(
         {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
+  }
   report.sections.push_back(
       {"nightly-runs",
        "All nightly runs",

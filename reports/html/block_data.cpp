@@ -179,7 +179,7 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const std::string link = text == nullptr ? "" : link_of(emphasis, text->text);
   const bool is_file = !link.empty();
   out.set("value",
-          is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index].unit));
+          is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]));
   out.set("curve", has_curve(row, index) ? data(curve_svg(row.curve)) : data(false));
   out.set("heads", index == 0);
   out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));

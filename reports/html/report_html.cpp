@@ -14,6 +14,9 @@
 namespace mapproof {
 namespace {
 
+constexpr std::size_t kFindingsOfFirstScreen =
+    3;  ///< The others are folded: the figure comes next.
+
 using kainjow::mustache::data;
 using kainjow::mustache::list;
 
@@ -112,9 +115,10 @@ std::string provenance_of(const Report& report) {
 void set_opening(data& page, const Report& report, const std::string& linked,
                  const HtmlOptions& options) {
   const Opening& opening = report.opening;
-  list findings;
+  list findings, folded;
   for (const Paragraph& finding : opening.findings)
-    findings.push_back(data("phrases", phrases_data(finding, options)));
+    (findings.size() < kFindingsOfFirstScreen ? findings : folded)
+        .push_back(data("phrases", phrases_data(finding, options)));
   page.set("any_opening", data(!opening.findings.empty() || !opening.figure_ids.empty() ||
                                !opening.numbers.items.empty() || !opening.main_figure.empty() ||
                                opening.standing || !linked.empty()));
@@ -123,6 +127,9 @@ void set_opening(data& page, const Report& report, const std::string& linked,
                              : data("items", highlight_items(opening.numbers)));
   page.set("standing", opening.standing ? standing_data(*opening.standing) : data(false));
   page.set("findings", findings);
+  page.set("folded", folded);
+  page.set("any_folded", data(!folded.empty()));
+  page.set("folded_words", counted(static_cast<long long>(folded.size()), "more finding"));
   const FigureBlock* main_figure = figure_of(report, opening.main_figure);
   page.set("main_figure", main_figure == nullptr ? data(false) : figure_link(*main_figure));
   page.set("any_thumbnails", data(!opening.figure_ids.empty()));

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
 
@@ -46,11 +47,10 @@ std::string with_power(const std::string& text) {
   return text.substr(0, at) + "\u00A0×\u00A010" + power;
 }
 
-/// @param text  The number as format_number() writes it.
-std::string page_number(double value, std::string_view unit, const std::string& text) {
-  if (!std::isfinite(value)) return text;
-  if (unit == "m" && std::abs(value) >= kLargest) return "over 1\u00A0km";
-  return with_power(text);
+/// What is said instead of an error that is no use as a number; empty if it is one.
+std::string great_error(double error_m) {
+  if (error_m > kGreatestError_m) return kGreatErrorText;
+  return error_m < -kGreatestError_m ? kGreatGainText : "";
 }
 
 }  // namespace
@@ -71,15 +71,32 @@ std::string format_number(double value, int decimals, bool with_sign) {
 
 std::string format_cell(const Cell& cell) { return std::visit(CellFormatter{}, cell); }
 
-std::string page_cell(const Cell& cell, std::string_view unit) {
-  if (const auto* number = std::get_if<NumberCell>(&cell))
-    return page_number(number->value, unit, format_cell(cell));
-  const auto* interval = std::get_if<IntervalCell>(&cell);
-  if (interval == nullptr || !(std::abs(interval->high) >= kLargest)) return format_cell(cell);
-  const auto end = [&](double value) {
-    return page_number(value, unit, format_number(value, interval->decimals));
+std::string page_number(double value, int decimals, bool with_sign) {
+  return with_power(format_number(value, decimals, with_sign));
+}
+
+std::string page_metres(double error_m, int decimals) {
+  const std::string great = great_error(error_m);
+  return great.empty() ? page_number(error_m, decimals) + " m" : great;
+}
+
+std::string page_cell(const Cell& cell, const Column& column) {
+  const bool errors_m = column.errors_m.value_or(column.unit == "m");
+  const auto shown = [&](double value, int decimals, bool with_sign) {
+    const std::string great = errors_m ? great_error(value) : "";
+    return great.empty() ? page_number(value, decimals, with_sign) : great;
   };
-  return end(interval->low) + " to " + end(interval->high);
+  if (const auto* number = std::get_if<NumberCell>(&cell))
+    return shown(number->value, number->decimals, number->with_sign);
+  const auto* interval = std::get_if<IntervalCell>(&cell);
+  if (interval == nullptr || !std::isfinite(interval->low) || !std::isfinite(interval->high))
+    return format_cell(cell);
+  const auto end = [&](double value) { return shown(value, interval->decimals, false); };
+  const std::string low = end(interval->low), high = end(interval->high);
+  const bool is_plain = low == format_number(interval->low, interval->decimals) &&
+                        high == format_number(interval->high, interval->decimals);
+  if (is_plain) return format_cell(cell);
+  return low == high ? low : low + " to " + high;
 }
 
 std::string full_heading(const Column& column) {

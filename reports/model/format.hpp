@@ -18,9 +18,16 @@ std::string format_number(double value, int decimals, bool with_sign = false);
 /// As a reader sees it: "0.219", "0.191–0.247", "–".
 std::string format_cell(const Cell& cell);
 
-/// As a page shows it in a column of that unit: powers of ten are set as such, "2.8 × 10¹⁴", and
-/// metres of maps that diverged (from 1e9 on) are "over 1 km".
-std::string page_cell(const Cell& cell, std::string_view unit);
+/// As a page shows it in prose: as format_number(), with powers of ten set as such, "2.8 × 10¹⁴".
+std::string page_number(double value, int decimals, bool with_sign = false);
+
+/// An error with its unit in prose: "0.123 m"; of a map that diverged "over 1 km" (see
+/// kGreatestError_m).
+std::string page_metres(double error_m, int decimals = 3);
+
+/// As a page shows it in that column: powers of ten are set as such, and errors of maps that
+/// diverged are "over 1 km".
+std::string page_cell(const Cell& cell, const Column& column);
 
 /// "MPE: Mean [m]": group, title and unit of a column.
 std::string full_heading(const Column& column);

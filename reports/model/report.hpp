@@ -87,6 +87,9 @@ struct Column {
   std::string unit;     ///< "m"; empty if none.
   std::string group;    ///< Neighbouring columns of one group share a heading; empty if none.
   std::string tooltip;  ///< One sentence on what the column holds; may be empty.
+  /// Whether cells are errors in metres, of which a page says "over 1 km" if they are larger;
+  /// unset: if the unit is m.
+  std::optional<bool> errors_m = std::nullopt;
 };
 
 struct Row {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -19,12 +20,10 @@ namespace {
 
 constexpr std::size_t kMostNamed = 4;
 
-std::string percent(double value, int decimals = 2) {
-  return format_number(value, decimals) + " %";
-}
+std::string percent(double value, int decimals = 2) { return page_number(value, decimals) + " %"; }
 
 std::string relative(double ours, double paper) {
-  return format_number(100.0 * (ours - paper) / paper, 0, true) + " %";
+  return page_number(100.0 * (ours - paper) / paper, 0, true) + " %";
 }
 
 std::string method_label(Method method) { return std::string(info(method).label); }
@@ -33,9 +32,11 @@ std::string with_interval(const MeanEstimate& mpe) {
   const auto interval = interval_of(mpe);
   if (!interval) return metres(mpe.mean);
   const int decimals = mpe.mean < 0.1 ? 4 : 3;
-  return fmt::format("{} (95 % interval {} to {} m)", metres(mpe.mean),
-                     format_number(interval->low, decimals),
-                     format_number(interval->high, decimals));
+  const std::string high = page_metres(interval->high, decimals);
+  const bool is_great = interval->high > kGreatestError_m;
+  return fmt::format(
+      "{} (95 % interval {} to {})", metres(mpe.mean),
+      is_great ? page_metres(interval->low, decimals) : page_number(interval->low, decimals), high);
 }
 
 /// "Bearing: SMACOF, kNN weights, K = 7 is best, …"
@@ -167,7 +168,7 @@ std::string other_parameter_words(std::span<const SettingSummary> methods) {
 
 }  // namespace
 
-std::string metres(double value) { return format_number(value, value < 0.1 ? 4 : 3) + " m"; }
+std::string metres(double value) { return page_metres(value, value < 0.1 ? 4 : 3); }
 
 const SettingSummary* best_published(std::span<const SettingSummary> methods) {
   const SettingSummary* best = nullptr;

@@ -96,11 +96,12 @@ void add_ground_truth(const MapRecord& record, Index row, int decimals, std::vec
 }
 
 std::vector<Column> point_columns(const MapRecord& record) {
-  std::vector<Column> columns = {
-      {"Landmark", "", "", ""}, {"x", unit(record), "Map", ""}, {"y", unit(record), "Map", ""}};
+  std::vector<Column> columns = {{"Landmark", "", "", ""},
+                                 {"x", unit(record), "Map", "", false},
+                                 {"y", unit(record), "Map", "", false}};
   if (!any_ground_truth(record)) return columns;
-  columns.push_back({"x", "m", "Ground truth", ""});
-  columns.push_back({"y", "m", "Ground truth", ""});
+  columns.push_back({"x", "m", "Ground truth", "", false});
+  columns.push_back({"y", "m", "Ground truth", "", false});
   if (record.frame == Frame::kGroundTruth)
     columns.push_back({"Error", "m", "", "Distance from the true position."});
   return columns;
@@ -182,7 +183,7 @@ Paragraph worst_finding(const MapRecord& record) {
   if (worst < 0) return {};
   return {{{"Farthest from its true position is ", Emphasis::kPlain},
            {record.names[static_cast<std::size_t>(worst)], Emphasis::kData},
-           {fmt::format(", by {} m.", format_number(largest, 3)), Emphasis::kPlain}}};
+           {fmt::format(", by {}.", page_metres(largest)), Emphasis::kPlain}}};
 }
 
 /// Why a map has a shape alone, and what that leaves undetermined.

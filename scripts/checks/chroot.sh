@@ -11,6 +11,7 @@ make_chroot() {
   local base=$1/base suite mirror
   [ -f "$base/made" ] && return 0
   rm -rf "$base"
+  mkdir -p "$1"
   suite=$(. /etc/os-release && echo "$VERSION_CODENAME")
   mirror=$(apt-get indextargets --format '$(REPO_URI) $(RELEASE)' | awk -v suite="$suite" \
     '$2 == suite { print $1; exit }')

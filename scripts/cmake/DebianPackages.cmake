@@ -92,9 +92,9 @@ The static library mapproof::core with its headers: reading observations,
 simulation, the mapping methods, range-only SLAM, alignment and scores.
 Use it by find_package(mapproof COMPONENTS core)."
   core)
-set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "libblas-dev, libboost-dev, libceres-dev, libeigen3-dev, \
-libfmt-dev, libgfortran5, liblapack-dev, liblzma-dev, libmatio-dev, libmd-dev, libsdp-dev, \
-libtbb-dev, libzip-dev, nlohmann-json3-dev, pkg-config | pkgconf, zlib1g-dev")
+set(CPACK_DEBIAN_CORE_PACKAGE_DEPENDS "libblas-dev, libboost-dev, libceres-dev, libdeflate-dev, \
+libeigen3-dev, libfmt-dev, libgfortran5, liblapack-dev, liblzma-dev, libmatio-dev, libmd-dev, \
+libsdp-dev, libtbb-dev, libzip-dev, nlohmann-json3-dev, pkg-config | pkgconf, zlib1g-dev")
 
 mapproof_package(libraries libmapproof-dev libdevel
 "figures and reports of maps, libraries render and reports
@@ -113,8 +113,14 @@ The module mapproof: observation histories, distances, all mapping methods,
 alignment, scores, studies as pandas frames, and figures in notebooks."
     python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${Python3_VERSION_MAJOR}.\
-${Python3_VERSION_MINOR}), python3-numpy, python3:any")
+  # The extension loads in the Python that it was compiled for, and in no other minor version.
+  foreach(number IN ITEMS MAJOR MINOR)
+    get_directory_property(python_${number} DIRECTORY ${PROJECT_SOURCE_DIR}/app/python
+      DEFINITION Python3_VERSION_${number})
+  endforeach()
+  math(EXPR python_next "${python_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= ${python_MAJOR}.${python_MINOR}~), \
+python3 (<< ${python_MAJOR}.${python_next}), python3-numpy, python3:any")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-pandas)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
     ${PROJECT_SOURCE_DIR}/scripts/deb/postinst ${PROJECT_SOURCE_DIR}/scripts/deb/prerm)

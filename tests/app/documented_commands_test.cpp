@@ -32,6 +32,8 @@ const std::map<std::string, std::string> kNotRun = {
     {"mapproof reproduce yairi2007 --out out", "takes minutes; other tests run its profile quick"},
     {"mapproof render out --animate scene-forming-bearing --out docs/images", "needs that study"},
     {"mapproof render out --figure published-errors --out docs/images", "needs that study"},
+    {"mapproof render out/plaza1 --figure path-own --dpi 84 --as png --out docs/images",
+     "needs the log Plaza 1"},
     {"mapproof render out/yairi2007 --theme paper --figure fig-7 --as pdf,eps,latex",
      "needs the study of scripts/report, of 12 minutes"},
     {"mapproof render out/yairi2007 --animate scene-forming-bearing --as mp4",

@@ -341,7 +341,7 @@ TEST_F(ExternalMethods, AreComparedInNightlyRuns) {
 TEST_F(ExternalMethods, ExportedDistancesGiveTheSameMapsWhenImported) {
   ASSERT_EQ(mapproof({"run", experiment(), "--out", at("study")}).exit_code, 0);
   const Outcome exported =
-      mapproof({"export", at("study"), "--what", "distances,features,history,ground-truth",
+      mapproof({"export", at("study"), "--what", "distances,features,history,truth",
                 "--format", "csv", "--out", at("files"), "--json"});
   ASSERT_EQ(exported.exit_code, 0) << exported.error;
   EXPECT_EQ(json::parse(exported.out).at("schema").at("name"), "mapproof.result.export");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -120,9 +121,10 @@ void make_errors(const fs::path& folder) {
 }
 
 void compare(const fs::path& baseline, const fs::path& current, const fs::path& heat) {
-  Image map;
+  HeatMap map;
   const ImageDiff diff = image_diff(baseline, current, {}, &map);
-  if (diff.state == ImageState::kDifferent && map.width > 0) write_file(heat, encode_png(map));
+  if (diff.state == ImageState::kDifferent && map.width > 0)
+    write_file(heat, encode_png(std::move(map)));
 }
 
 void compare_folders(const fs::path& baseline, const fs::path& current, const fs::path& heat) {

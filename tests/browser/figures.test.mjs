@@ -9,6 +9,12 @@ const kFilm = "forming-bearing";
 const viewBox = async (shown) =>
   (await shown.locator("svg").getAttribute("viewBox")).split(" ").map(Number);
 
+// What share of its frames a figure shows.
+const viewShown = (shown) => shown.locator("svg").evaluate((svg) => {
+  const { x, y, width, height } = viewOf(svg).now;
+  return [x, y, width, height];
+});
+
 test("drawings are inserted when the reader comes near, and all of them for paper", async () => {
   const { page, close } = await open();
   const held = await page.locator("figure .drawing").count();
@@ -34,24 +40,30 @@ test("nothing moves when a drawing is inserted", async () => {
   await close();
 });
 
+// The point of the frame that is shown at a position of the window.
+const pointUnder = (shown, at) => shown.locator("svg").evaluate((svg, event) => {
+  const { adapter } = viewOf(svg);
+  return adapter.point(adapter.position(event));
+}, at);
+
 test("buttons and keys zoom, arrows move, and Fit shows the whole", async () => {
   const { page, close } = await open();
   const shown = await figure(page, kMap);
-  const whole = await viewBox(shown);
+  const whole = await viewShown(shown);
   await shown.getByRole("button", { name: "Zoom in" }).click();
-  assert.ok((await viewBox(shown))[2] < whole[2]);
+  assert.ok((await viewShown(shown))[2] < whole[2]);
   await shown.getByRole("button", { name: "Zoom out" }).click();
-  assert.deepEqual(await viewBox(shown), whole);
+  assert.deepEqual(await viewShown(shown), whole);
   await shown.locator(".drawing").focus();
   await page.keyboard.press("+");
-  const zoomed = await viewBox(shown);
+  const zoomed = await viewShown(shown);
   await page.keyboard.press("ArrowRight");
-  assert.ok((await viewBox(shown))[0] > zoomed[0]);
+  assert.ok((await viewShown(shown))[0] > zoomed[0]);
   await page.keyboard.press("0");
-  assert.deepEqual(await viewBox(shown), whole);
+  assert.deepEqual(await viewShown(shown), whole);
   await page.keyboard.press("+");
   await shown.getByRole("button", { name: "Fit the whole figure" }).click();
-  assert.deepEqual(await viewBox(shown), whole);
+  assert.deepEqual(await viewShown(shown), whole);
   await close();
 });
 
@@ -59,21 +71,22 @@ test("the wheel zooms at the pointer after a click, and else scrolls the page", 
   const { page, close } = await open();
   const shown = await figure(page, kMap);
   const box = await shown.locator(".drawing").boundingBox();
-  await page.mouse.move(box.x + box.width / 4, box.y + box.height / 4);
-  const whole = await viewBox(shown);
+  const pointer = { clientX: box.x + box.width / 2.5, clientY: box.y + box.height / 2.5 };
+  await page.mouse.move(pointer.clientX, pointer.clientY);
+  const before = await pointUnder(shown, pointer);
+  const whole = await viewShown(shown);
   const at = await page.evaluate(() => scrollY);
   await page.mouse.wheel(0, -120);
   await page.waitForFunction((from) => scrollY !== from, at);
-  assert.deepEqual(await viewBox(shown), whole);
+  assert.deepEqual(await viewShown(shown), whole);
   await page.mouse.wheel(0, 120);
   await page.waitForFunction((from) => scrollY === from, at);
   await shown.locator(".drawing").focus();
   await page.mouse.wheel(0, -240);
   await page.waitForFunction(() => document.querySelector("#figure-map-bearing-isomap .zoomed"));
-  const [x, y, width, height] = await viewBox(shown);
   // The point under the pointer stays there.
-  assert.ok(Math.abs(x + width / 4 - whole[2] / 4) < 3, `${x} ${width}`);
-  assert.ok(Math.abs(y + height / 4 - whole[3] / 4) < 3, `${y} ${height}`);
+  const after = await pointUnder(shown, pointer);
+  assert.ok(Math.abs(after.x - before.x) < .01 && Math.abs(after.y - before.y) < .01);
   await close();
 });
 
@@ -81,21 +94,21 @@ test("a drag moves what is zoomed, and two fingers pinch", async () => {
   const { page, close } = await open({ hasTouch: true });
   const shown = await figure(page, kMap);
   const box = await shown.locator(".drawing").boundingBox();
-  const whole = await viewBox(shown);
+  const whole = await viewShown(shown);
   await shown.getByRole("button", { name: "Zoom in" }).click();
-  const zoomed = await viewBox(shown);
+  const zoomed = await viewShown(shown);
   await page.mouse.move(box.x + 200, box.y + 150);
   await page.mouse.down();
   await page.mouse.move(box.x + 140, box.y + 120, { steps: 3 });
   await page.mouse.up();
-  const moved = await viewBox(shown);
+  const moved = await viewShown(shown);
   assert.ok(moved[0] > zoomed[0] && moved[1] > zoomed[1], `${zoomed} became ${moved}`);
   await shown.getByRole("button", { name: "Fit the whole figure" }).click();
   await shown.locator(".drawing").evaluate((drawing) => {
     const frame = drawing.getBoundingClientRect();
     const finger = (type, pointerId, x) => drawing.dispatchEvent(new PointerEvent(type, {
       pointerId, pointerType: "touch", bubbles: true, button: 0, buttons: 1,
-      clientX: frame.x + x, clientY: frame.y + 100 }));
+      clientX: frame.x + x, clientY: frame.y + 150 }));
     drawing.setPointerCapture = () => {};
     finger("pointerdown", 11, 150);
     finger("pointerdown", 12, 200);
@@ -103,7 +116,7 @@ test("a drag moves what is zoomed, and two fingers pinch", async () => {
     finger("pointerup", 11, 150);
     finger("pointerup", 12, 300);
   });
-  assert.ok((await viewBox(shown))[2] < whole[2] / 2);
+  assert.ok((await viewShown(shown))[2] < whole[2] / 2);
   await close();
 });
 
@@ -117,10 +130,86 @@ test("a drag that ends outside of the drawing is over", async () => {
   await page.mouse.up();
   await shown.locator(".drawing").focus();
   await page.keyboard.press("+");
-  const zoomed = await viewBox(shown);
+  const zoomed = await viewShown(shown);
   await page.mouse.move(box.x + 100, box.y + 100);
   await page.mouse.move(box.x + 160, box.y + 120, { steps: 3 });
-  assert.deepEqual(await viewBox(shown), zoomed);
+  assert.deepEqual(await viewShown(shown), zoomed);
+  await close();
+});
+
+// What the ticks of one side of a zoomed frame count, and where they are on the screen.
+const ticksShown = (shown, anchor) => shown.locator(`.zoom-ticks text[text-anchor="${anchor}"]`)
+  .evaluateAll((all) => all.map((text) => {
+    const { left, right, top, bottom } = text.getBoundingClientRect();
+    return { value: Number(text.textContent), x: (left + right) / 2, y: (top + bottom) / 2 };
+  }));
+
+test("zoom changes what the axes count, and lines, marks and words keep their size", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "fig-4");
+  const sizes = () => shown.locator("svg").evaluate((svg) => {
+    const mark = svg.querySelector("use.marker:not(.outside)").getBoundingClientRect();
+    const title = svg.querySelector("g.title").getBoundingClientRect();
+    const line = svg.querySelector("path.line[clip-path]");
+    return [mark.width, mark.height, title.width, line.getCTM().a *
+      Number(line.getAttribute("stroke-width"))].map((size) => size.toFixed(1)).join();
+  });
+  const before = await sizes();
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  await page.keyboard.press("+");
+  assert.equal(await sizes(), before);
+  assert.ok(await shown.locator("g.unzoomed").count() >= 3);
+  const across = await ticksShown(shown, "middle"), up = await ticksShown(shown, "end");
+  assert.ok(across.length >= 2 && up.length >= 2, `${across.length} ${up.length}`);
+  // A marker stands where the ticks count its values, on both axes.
+  const marks = await shown.locator("[data-points]").evaluateAll((curves) => curves.flatMap(
+    (curve) => [...curve.querySelectorAll("use.marker")].map((mark, i) => {
+      const { left, right, top, bottom } = mark.getBoundingClientRect();
+      const [x, y] = curve.dataset.points.split(";")[i].split(", ").map(Number);
+      return { x, y, right: (left + right) / 2, down: (top + bottom) / 2,
+        isShown: !mark.classList.contains("outside") };
+    })).filter((mark) => mark.isShown));
+  assert.ok(marks.length >= 1);
+  const isLog = await shown.locator("svg rect[data-y^=log]").count() > 0;
+  const scaled = (value) => (isLog ? Math.log(value) : value);
+  const between = (first, last, value, from, to) =>
+    from + (value - first) / (last - first) * (to - from);
+  for (const mark of marks) {
+    const x = between(across[0].value, across.at(-1).value, mark.x, across[0].x, across.at(-1).x);
+    const y = between(scaled(up[0].value), scaled(up.at(-1).value), scaled(mark.y), up[0].y,
+      up.at(-1).y);
+    assert.ok(Math.abs(x - mark.right) < 3, `x ${mark.x}: ${x}, ${mark.right}`);
+    assert.ok(Math.abs(y - mark.down) < 3, `y ${mark.y}: ${y}, ${mark.down}`);
+  }
+  await page.keyboard.press("0");
+  assert.equal(await shown.locator(".zoom-ticks, .zoom-grid, .unzoomed, .outside").count(), 0);
+  await close();
+});
+
+test("ticks of a part of an axis count in ones, twos and fives, on logarithmic axes as well", async () => {
+  const { page, close } = await open();
+  const ticks = (scale, low, high) => page.evaluate((axis) => {
+    const found = ticksOf(axis);
+    return found.map((tick) => tickWords(tick, found)).join(" ");
+  }, { scale, low, high });
+  assert.equal(await ticks("linear", 0, 2000), "0 500 1000 1500 2000");
+  assert.equal(await ticks("linear", -.0312, .0105), "\u22120.03 \u22120.02 \u22120.01 0 0.01");
+  assert.equal(await ticks("log", .02, 3), "0.02 0.05 0.1 0.2 0.5 1 2");
+  assert.equal(await ticks("log", .021, .028), "0.022 0.024 0.026 0.028");
+  assert.equal(await ticks("log", 1e-6, 1e12), "1 × 10⁻⁶ 0.001 1 1000 1 × 10⁶ 1 × 10⁹ 1 × 10¹²");
+  await close();
+});
+
+test("all panels of a figure show the same part, with the names of an axis beside it", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, "published-errors");
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  assert.equal(await shown.locator(".zoom-ticks").count(), 2);
+  const names = await shown.locator(".zoom-ticks [data-words]").evaluateAll(
+    (all) => all.map((name) => name.dataset.words));
+  assert.ok(names.length >= 4 && names.length < 20, `${names}`);
   await close();
 });
 
@@ -233,6 +322,15 @@ test("Play goes through the steps of a map forming and stops at the last", async
   await film.getByRole("button", { name: "Play" }).click();
   assert.equal(await slider.inputValue(), "1");
   assert.equal(await film.getByRole("button", { name: "Stop" }).count(), 1);
+  await close();
+});
+
+test("a marker tells errors of maps that diverged in words, and powers of ten", async () => {
+  const { page, close } = await open();
+  const words = await page.evaluate(() => [valueWords("1.3e+15", "1000"), valueWords("1.3e+15"),
+    valueWords("0.998", "1000"), errorWords("1000.5"), errorWords("0.0123")]);
+  assert.deepEqual(words,
+    ["over 1\u00a0km", "1.3 × 10¹⁵", "0.998", "over 1\u00a0km", "0.0123 m"]);
   await close();
 });
 

@@ -84,10 +84,8 @@ test("the tip of a chosen landmark is there while the landmark is in view", asyn
   for (let i = 0; i < 12; ++i) {
     await shown.getByRole("button", { name: "Zoom in" }).click();
     const { inView, tips } = await shown.locator("svg").evaluate((svg) => {
-      const { x, y, width, height } = svg.viewBox.baseVal;
-      const at = svg.querySelector("g.lit circle:last-child");
-      const [cx, cy] = ["cx", "cy"].map((name) => Number(at.getAttribute(name)));
-      return { inView: cx >= x && cx <= x + width && cy >= y && cy <= y + height,
+      const inView = svg.querySelectorAll("g.lit circle").length > 0;
+      return { inView,
         tips: svg.parentElement.querySelectorAll(".tip").length };
     });
     assert.equal(tips, inView ? 1 : 0);

@@ -45,6 +45,19 @@ test("the first screen has the verdict, the figure it rests on, what is wrong an
   await close();
 });
 
+test("the first screen of a phone has the verdict and the figure it rests on", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  const { numbers, figure, words } = await page.evaluate(() => {
+    const box = (selector) => document.querySelector(selector).getBoundingClientRect().toJSON();
+    return { numbers: box(".opening .highlights"), figure: box(".main-figure img"),
+      words: box(".opening .finding") };
+  });
+  assert.ok(numbers.bottom < 500, `${numbers.bottom}`);
+  assert.ok(figure.top >= numbers.bottom && figure.bottom <= 844, `${figure.top} ${figure.bottom}`);
+  assert.ok(words.top >= figure.bottom);
+  await close();
+});
+
 test("a report opens at 16 screens or less, and folds the rest, whole on paper", async () => {
   const { page, close } = await open({ viewport: { width: 1440, height: 900 } });
   const height = await page.evaluate(() => document.documentElement.scrollHeight);
@@ -120,6 +133,17 @@ test("a note of several tables is said once, and the others link to it", async (
   await close();
 });
 
+// How white the whitest pixel of an image is, 0 to 255.
+const whitest = (page, image) => page.evaluate(async (bytes) => {
+  const bitmap = await createImageBitmap(new Blob([new Uint8Array(bytes)], { type: "image/png" }));
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+  let most = 0;
+  for (let i = 0; i < data.length; i += 4) most = Math.max(most, Math.min(...data.slice(i, i + 3)));
+  return most;
+}, [...image]);
+
 test("a theme that was chosen is there after a reload, and figures follow it", async () => {
   const { page, close } = await open();
   await page.getByRole("button", { name: "Use dark colours" }).click();
@@ -132,6 +156,15 @@ test("a theme that was chosen is there after a reload, and figures follow it", a
   });
   assert.ok(await brightness("g.title") > 0.7);
   assert.ok(await brightness("svg > path") < 0.3);
+  // Markers are as dark inside as the paper: on a screen, since <use> has styles of its own.
+  const wall = await figure(page, "maps-bearing");
+  const inside = await wall.locator("svg").evaluate((svg) => {
+    const mark = svg.querySelector('use[data-kind="true"]');
+    const { left, right, top, bottom } = mark.getBoundingClientRect();
+    return { x: (left + right) / 2 - 1, y: (top + bottom) / 2 - 1, width: 2, height: 2 };
+  });
+  const image = await page.screenshot({ clip: inside });
+  assert.ok(await whitest(page, image) < 100, "a marker is white inside");
   const text = await map.evaluate((each) => sourceOf(each));
   assert.match(text, /fill="#ffffff"/);  // Files keep their colours.
   await page.emulateMedia({ media: "print" });
@@ -151,6 +184,48 @@ test("on a phone the words of a figure have 10 px at least", async () => {
     });
     assert.ok(least >= 10, `${id}: ${least}`);
   }
+  await close();
+});
+
+test("on a phone the panels of a figure stand below each other, and no figure is cut", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  for (const id of ["published-errors", "forming-bearing", "maps-bearing"]) {
+    const shown = await figure(page, id);
+    const { frames, box, inner, words } = await shown.evaluate((each) => {
+      const svg = each.querySelector("svg"), drawing = each.querySelector(".drawing");
+      const right = drawing.getBoundingClientRect().right + 1;
+      const words = [...svg.querySelectorAll("[data-words]")].map(
+        (word) => word.getBoundingClientRect()).filter((word) => word.width > 0);
+      return { frames: [...svg.querySelectorAll(":scope > g.frame")].map(
+        (frame) => frame.getBoundingClientRect().toJSON()), box: drawing.clientWidth,
+        inner: drawing.scrollWidth, words: words.filter((word) => word.right > right).length };
+    });
+    assert.equal(inner, box, id);
+    assert.equal(words, 0, id);
+    const rows = new Set(frames.map((frame) => Math.round(frame.top)));
+    assert.ok(rows.size >= frames.length / 2, `${id}: ${rows.size} of ${frames.length}`);
+    assert.ok(await shown.locator(".drawn-title").isVisible());
+  }
+  // A landmark is lit in the panels where they stand now.
+  const wall = await figure(page, "maps-bearing");
+  await wall.getByRole("combobox").selectOption({ label: "L10" });
+  const off = await wall.locator("svg").evaluate((svg) => {
+    const middle = (each) => {
+      const { left, right, top, bottom } = each.getBoundingClientRect();
+      return [(left + right) / 2, (top + bottom) / 2];
+    };
+    const marks = [...svg.querySelectorAll('use[data-landmark="L10"]')].map(middle);
+    return [...svg.querySelectorAll("g.lit circle")].map(middle).map(([x, y]) =>
+      Math.min(...marks.map((mark) => Math.hypot(mark[0] - x, mark[1] - y))));
+  });
+  assert.ok(off.length >= 10 && off.every((distance) => distance < 1), `${off}`);
+  // A step fills the width.
+  const film = await figure(page, "forming-bearing");
+  await film.getByRole("slider").fill("2");
+  assert.equal(await film.locator(".drawing").evaluate((box) => box.scrollWidth - box.clientWidth), 0);
+  await page.setViewportSize({ width: 1200, height: 844 });
+  await film.getByRole("slider").fill("0");
+  assert.equal(await page.locator(".stacked, .drawn-title, .step-axes").count(), 0);
   await close();
 });
 

@@ -4,6 +4,7 @@
 
 #include "render/plot/layout.hpp"
 #include "render/plot/panel_layout.hpp"
+#include "tests/support/images/figure_rules.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -129,6 +130,57 @@ TEST_F(FigureChecks, FindAGlyphThatTheFontLacks) {
 TEST_F(FigureChecks, FindAMarkerOutsideThePage) {
   std::get<Stamp>(item_of(ItemClass::kMarker).what).at = {1.0, 200.0};
   EXPECT_NE(found().find("marker is cut"), std::string::npos);
+}
+
+Polyline straight(std::string label, double from, double to) {
+  return {.label = std::move(label), .x = {0.0, 10.0}, .y = {from, to}};
+}
+
+Figure plot_of(std::vector<Panel> panels) {
+  return {.id = "plot",
+          .title = "Plot",
+          .caption = "Plot",
+          .alt = "A plot.",
+          .panels = std::move(panels)};
+}
+
+std::string rules_broken_by(std::vector<Panel> panels) {
+  return joined(broken_rules(plot_of(std::move(panels)), report_theme()));
+}
+
+TEST(FigureRules, KeepAPlotOfLinesThatDiffer) {
+  Polyline other = straight("b", 10.0, 0.0);
+  other.colour = ThemeColour::kSeries2;
+  other.dash = Dash::kDashed;
+  EXPECT_EQ(rules_broken_by({{.title = "", .layers = {straight("a", 0.0, 10.0), other}}}), "");
+}
+
+TEST(FigureRules, FindLinesThatCrossInColoursThatAreAlike) {
+  Theme theme = report_theme();
+  theme.series[1] = theme.series[0];
+  theme.series[1].red ^= 8;
+  const auto broken = [&](const Polyline& first, Polyline second) {
+    second.colour = ThemeColour::kSeries2;
+    return joined(broken_rules(plot_of({{.title = "", .layers = {first, second}}}), theme));
+  };
+  const char* const rule = "'a' and 'b' touch and are alike";
+  EXPECT_NE(broken(straight("a", 0.0, 10.0), straight("b", 10.0, 0.0)).find(rule),
+            std::string::npos);
+  EXPECT_EQ(broken(straight("a", 0.0, 1.0), straight("b", 9.0, 10.0)).find(rule),
+            std::string::npos);
+}
+
+TEST(FigureRules, FindFramesThatTakeLittleOfThePage) {
+  Panel named{.title = "", .layers = {}};
+  for (int i = 0; i < 60; ++i)
+    named.layers.push_back(straight("line " + std::to_string(i), 0.0, i));
+  EXPECT_NE(rules_broken_by({named, named}).find("the panels take"), std::string::npos);
+}
+
+TEST(FigureRules, FindALineThatIsLostOnItsPage) {
+  Panel empty{.title = "", .layers = {Polyline{.label = "", .x = {4.9, 5.0}, .y = {5.0, 5.0}}}};
+  empty.x.limits = empty.y.limits = Range{0.0, 10.0};
+  EXPECT_NE(rules_broken_by({empty}).find("of the coloured pixels"), std::string::npos);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "render/image/png.hpp"
 
@@ -108,18 +109,42 @@ std::uint32_t expected(const Kind& kind, const std::vector<unsigned char>& row, 
   return pixel;
 }
 
+/// Rows of a drawing: runs of few colours on flat ground, most rows nearly as the one above.
+std::vector<std::vector<unsigned char>> drawn_rows(const Kind& kind, int width, int height,
+                                                   std::uint64_t seed) {
+  Random random(seed);
+  const auto step = static_cast<std::size_t>(channels(kind.colour));
+  std::vector<std::vector<unsigned char>> rows(
+      1, std::vector<unsigned char>(step * static_cast<std::size_t>(width), 0xFF));
+  while (rows.size() < static_cast<std::size_t>(height)) {
+    std::vector<unsigned char> row = random.uniform() < 0.1 ? rows.front() : rows.back();
+    for (int runs = static_cast<int>(random.uniform(0.0, 4.0)); runs > 0; --runs) {
+      const int start = static_cast<int>(random.uniform(0.0, width));
+      const int end = std::min(width, start + static_cast<int>(random.uniform(1.0, 60.0)));
+      const auto colour = static_cast<unsigned char>(85 * static_cast<int>(random.uniform(0., 4.)));
+      for (std::size_t i = step * start; i < step * end; ++i)
+        if (step < 4 || i % step != 3) row[i] = static_cast<unsigned char>(colour + i % step);
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void expect_rows(const Kind& kind, int width, const std::vector<std::vector<unsigned char>>& rows) {
+  const PngFile file = read_png(written(kind, width, rows));
+  ASSERT_EQ(file.image.width, width);
+  ASSERT_EQ(file.image.height, static_cast<int>(rows.size()));
+  int wrong = 0;
+  for (int y = 0; y < file.image.height; ++y)
+    for (int x = 0; x < width; ++x) wrong += file.image.row(y)[x] != expected(kind, rows[y], x);
+  EXPECT_EQ(wrong, 0);
+}
+
 void expect_read(const Kind& kind, int width, int height, bool is_clear) {
   SCOPED_TRACE(testing::Message() << "colour " << kind.colour << " depth " << kind.depth << " "
                                   << width << " x " << height << " filters " << kind.filters
                                   << " interlaced " << kind.is_interlaced);
-  const auto rows = random_rows(kind, width, height, 7, is_clear);
-  const PngFile file = read_png(written(kind, width, rows));
-  ASSERT_EQ(file.image.width, width);
-  ASSERT_EQ(file.image.height, height);
-  int wrong = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) wrong += file.image.row(y)[x] != expected(kind, rows[y], x);
-  EXPECT_EQ(wrong, 0);
+  expect_rows(kind, width, random_rows(kind, width, height, 7, is_clear));
 }
 
 TEST(PngReader, FindsWhatTheEncoderWrote) {
@@ -150,6 +175,27 @@ TEST(PngReader, TakesEveryFilterOff) {
        {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG, PNG_FILTER_PAETH})
     for (const int colour : {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA})
       expect_read({colour, 8, false, filter}, 50, 40, false);
+}
+
+TEST(PngReader, TakesEveryFilterOffFlatGroundAndRepeatedRows) {
+  for (const int filter : {PNG_FILTER_NONE, PNG_FILTER_SUB, PNG_FILTER_UP, PNG_FILTER_AVG,
+                           PNG_FILTER_PAETH, PNG_ALL_FILTERS})
+    for (const int colour : {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGBA})
+      for (const int width : {1, 7, 50, 203}) {
+        const Kind kind{colour, 8, false, filter};
+        SCOPED_TRACE(testing::Message()
+                     << "colour " << colour << " width " << width << " filter " << filter);
+        expect_rows(kind, width, drawn_rows(kind, width, 120, 22));
+      }
+}
+
+TEST(PngReader, ReadsAPaletteWithItsNumbers) {
+  const PaletteImage three{{0xFF0000, 0x00FF00, 0x0000FF}, std::string("\0\0\1\2\0\2\1\0", 8)};
+  const PngFile file = read_png(encode_png(three, 3));
+  EXPECT_EQ(file.image.pixels, (std::vector<std::uint32_t>{0xFF0000, 0x00FF00, 0x0000FF, 0x0000FF,
+                                                           0x00FF00, 0xFF0000}));
+  EXPECT_THROW(encode_png(three, 4), InvalidInput);
+  EXPECT_THROW(encode_png({{}, three.rows}, 3), InvalidInput);
 }
 
 TEST(PngReader, TellsSamplesApartThatEightBitsCannot) {

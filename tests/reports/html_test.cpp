@@ -150,6 +150,19 @@ TEST(ReportHtml, LinksTheNumbersOfItsOpeningToTheirSections) {
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
 }
 
+TEST(ReportHtml, FoldsFindingsThatWouldPushTheFigureOffTheFirstScreen) {
+  Report report;
+  for (const char* words : {"one", "two", "three", "four", "five"})
+    report.opening.findings.push_back({{phrase(words)}});
+  const std::string page = report_html(report, load_templates(), {});
+  const std::size_t fold = page.find("<summary>2 more findings</summary>");
+  ASSERT_NE(fold, std::string::npos);
+  EXPECT_LT(page.find("three"), fold);
+  EXPECT_GT(page.find("four"), fold);
+  report.opening.findings.resize(3);
+  EXPECT_EQ(report_html(report, load_templates(), {}).find("more finding"), std::string::npos);
+}
+
 TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
   Report report = with_figures(2);
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);

@@ -27,13 +27,37 @@ TEST(FormatNumber, GivesZeroNoSign) {
   EXPECT_EQ(format_number(0.001, 2, true), "0.00");
 }
 
-TEST(PageCell, HasPowersOfTenAndWordsForMapsThatDiverged) {
-  EXPECT_EQ(page_cell(NumberCell{8.04e15, 1, true}, "%"), "+8.04\u00A0×\u00A010¹⁵");
-  EXPECT_EQ(page_cell(NumberCell{2.79e14, 4}, "m"), "over 1\u00A0km");
-  EXPECT_EQ(page_cell(NumberCell{1900.25, 2}, "m"), "1900.25");
-  EXPECT_EQ(page_cell(NumberCell{-2e-9, 6}, ""), "\u22122.00\u00A0×\u00A010⁻⁹");
-  EXPECT_EQ(page_cell(IntervalCell{0.5, 1e15, 1}, "m"), "0.5 to over 1\u00A0km");
-  EXPECT_EQ(page_cell(IntervalCell{0.5, 1.5, 1}, "m"), "0.5\u20131.5");
+std::string shown(const Cell& cell, const std::string& unit) {
+  return page_cell(cell, {"Title", unit, "", ""});
+}
+
+TEST(PageCell, HasPowersOfTen) {
+  EXPECT_EQ(shown(NumberCell{8.04e15, 1, true}, "%"), "+8.04\u00A0×\u00A010¹⁵");
+  EXPECT_EQ(shown(NumberCell{-2e-9, 6}, ""), "\u22122.00\u00A0×\u00A010⁻⁹");
+  EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "%"), "0.5 to 1.00\u00A0×\u00A010¹⁵");
+}
+
+TEST(PageCell, HasWordsForMapsThatDiverged) {
+  EXPECT_EQ(shown(NumberCell{2.79e14, 4}, "m"), "over 1\u00A0km");
+  EXPECT_EQ(shown(NumberCell{1900.25, 2}, "m"), "over 1\u00A0km");
+  EXPECT_EQ(shown(NumberCell{-1900.25, 2}, "m"), "below \u22121\u00A0km");
+  EXPECT_EQ(shown(NumberCell{900.25, 2}, "m"), "900.25");
+  EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "m"), "0.5 to over 1\u00A0km");
+  EXPECT_EQ(shown(IntervalCell{1500, 1e15, 1}, "m"), "over 1\u00A0km");
+  EXPECT_EQ(shown(IntervalCell{0.5, 1.5, 1}, "m"), "0.5\u20131.5");
+}
+
+TEST(PageCell, HasPositionsOfAnySizeAsNumbers) {
+  const Column easting{"x", "m", "Map", "", false};
+  EXPECT_EQ(page_cell(NumberCell{652310.25, 2}, easting), "652310.25");
+  const Column level{"0.1", "", "noise [m]", "", true};
+  EXPECT_EQ(page_cell(NumberCell{1900.25, 2}, level), "over 1\u00A0km");
+}
+
+TEST(PageMetres, SaysThatAMapDiverged) {
+  EXPECT_EQ(page_metres(0.12345), "0.123 m");
+  EXPECT_EQ(page_metres(1000.0, 0), "1000 m");
+  EXPECT_EQ(page_metres(1001.0), "over 1\u00A0km");
 }
 
 TEST(FormatNumber, TurnsHugeNumbersIntoPowersAndMissingOnesIntoADash) {

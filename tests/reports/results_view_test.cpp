@@ -7,8 +7,10 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/statistics/paired_change.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -398,6 +400,45 @@ TEST(ResultsView, IntervalsEndWhereNoValueCanLie) {
   EXPECT_GT(interval("moe_percent", 90.0, 101.0).high, 100.0);
   EXPECT_GT(interval("mpe_m", 90.0, 99.0).high, 100.0);
   EXPECT_LT(interval("mpe_m", -1.0, 9.0).low, 0.0);
+}
+
+/// The page's text of a table's cell.
+std::string shown(const Table& table, std::size_t row, std::size_t column) {
+  return page_cell(table.rows.at(row).cells.at(column), table.columns.at(column));
+}
+
+TEST(ResultsTables, SayOfMethodsThatDivergedOnlyWhereOthersDidNot) {
+  const std::vector<Level> levels = {{"noise", 0.1}};
+  const ResultsStudy some =
+      Rows().add("good", "a1", 0.5, levels).add("lost", "a1", 4e12, levels).study();
+  const ResultsView view(some);
+  const Table table = results_tables(view, view.blocks()[0]).at(0);
+  EXPECT_EQ(shown(table, 0, 1), "0.500");
+  EXPECT_EQ(shown(table, 1, 1), "over 1\u00A0km");
+
+  const ResultsStudy all = Rows().add("a", "a1", 4000.0).add("b", "a1", 9000.0).study();
+  const ResultsView far(all);
+  EXPECT_EQ(shown(results_tables(far, far.blocks()[0]).at(0), 0, 1).substr(0, 4), "4000");
+}
+
+TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
+  ResultsStudy study = Rows()
+                           .add("even", "a1", 0.2)
+                           .add("even", "b1", 0.1)
+                           .add("even", "c1", 0.3)
+                           .add("uneven", "a1", 0.05)
+                           .add("uneven", "b1", 0.9)
+                           .add("uneven", "c1", 0.8)
+                           .add("once", "a1", 0.01)
+                           .study(false);
+  study.runs = {{"a1", "a1"}, {"b1", "b1"}, {"c1", "c1"}};
+  const ResultsView view(study);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+  const Highlights::Item& first = report.opening.numbers.items.at(0);
+  EXPECT_EQ(first.value, "0.20\u00a0m");
+  EXPECT_EQ(first.label, "median MPE of the best method");
+  EXPECT_EQ(first.detail, "even, over 3 data sets");
 }
 
 TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {

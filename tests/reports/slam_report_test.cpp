@@ -184,6 +184,14 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   EXPECT_LT(all.size(), 900U) << all;
 }
 
+TEST(SlamOpening, WithoutDrivesShowsHowErrorsConverge) {
+  SlamStudy study = sample_slam_study();
+  std::erase_if(study.runs, [](const SlamRun& run) { return !run.simulated; });
+  const Opening opening = slam_opening(study, slam_figures(study, {}));
+  EXPECT_EQ(opening.main_figure, "fig-1b");
+  EXPECT_EQ(words(opening).find("recorded"), std::string::npos) << words(opening);
+}
+
 TEST(SlamOpening, OfNothingSaysNothing) { EXPECT_EQ(words(slam_opening({}, {})), ""); }
 
 TEST(SlamSummary, ClaimsNoErrorWithoutAGroundTruthAndNothingOfAPaperThatIsNot) {

@@ -11,14 +11,23 @@ constexpr std::string_view kDigits =
 }  // namespace
 
 void append_base64(std::string& out, std::string_view bytes) {
-  out.reserve(out.size() + (bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? kDigits[group >> (18 - 6 * k) & 63U] : '=';
+  const std::size_t start = out.size();
+  out.resize(start + (bytes.size() + 2) / 3 * 4, '=');
+  char* to = out.data() + start;
+  const auto byte = [&](std::size_t i) {
+    return std::uint32_t{static_cast<std::uint8_t>(bytes[i])};
+  };
+  std::size_t i = 0;
+  for (; i + 3 <= bytes.size(); i += 3) {
+    const std::uint32_t group = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
+    for (const int shift : {18, 12, 6, 0}) *to++ = kDigits[group >> shift & 63U];
   }
+  if (i == bytes.size()) return;
+  const bool has_two = i + 2 == bytes.size();
+  const std::uint32_t group = byte(i) << 16 | (has_two ? byte(i + 1) << 8 : 0U);
+  *to++ = kDigits[group >> 18];
+  *to++ = kDigits[group >> 12 & 63U];
+  if (has_two) *to = kDigits[group >> 6 & 63U];
 }
 
 std::string base64(std::string_view bytes) {

@@ -47,7 +47,7 @@ struct TestRule {
   double price;
 };
 constexpr std::array kTestRules = {
-    TestRule{FitCode::kCommonOffset, 20.0, 0.0},   TestRule{FitCode::kLandmarkOffset, 20.0, 2.0},
+    TestRule{FitCode::kCommonOffset, 20.0, 0.0},   TestRule{FitCode::kLandmarkOffset, 13.0, 2.0},
     TestRule{FitCode::kTimeOffset, 20.0, 0.0},     TestRule{FitCode::kClockJump, 22.0, 4.0},
     TestRule{FitCode::kLandmarkMoved, 40.0, 10.0}, TestRule{FitCode::kIdsExchanged, 22.0, 4.0},
     TestRule{FitCode::kOdometryFrozen, 22.0, 0.0}};

@@ -11,10 +11,14 @@
 namespace mapproof {
 namespace {
 
-constexpr std::array<std::string_view, 12> kMonths = {"jan", "feb", "mar", "apr", "may", "jun",
-                                                      "jul", "aug", "sep", "oct", "nov", "dec"};
+constexpr std::array<std::string_view, 12> kMonths = {
+    "january", "february", "march",     "april",   "may",      "june",
+    "july",    "august",   "september", "october", "november", "december"};
+constexpr std::array<std::string_view, 7> kDays = {"monday", "tuesday",  "wednesday", "thursday",
+                                                   "friday", "saturday", "sunday"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// Reads a date from its start to its end.
 class DateCursor {
@@ -23,13 +27,16 @@ class DateCursor {
 
   std::optional<double> read() {
     double seconds = 0.0;
+    const bool has_day_of_week = skip_day_of_week();
     const bool is_time_alone = text_.size() > 2 && (text_[1] == ':' || text_[2] == ':');
+    if (is_time_alone && has_day_of_week) return std::nullopt;
     if (!is_time_alone) {
       const std::optional<double> days = date();
       if (!days) return std::nullopt;
       seconds = *days * 86400.0;
       if (text_.empty()) return seconds;
-      if (!take('T') && !take('t') && !take(' ')) return std::nullopt;
+      const bool has_comma = take(',');
+      if (!take(' ') && (has_comma || (!take('T') && !take('t')))) return std::nullopt;
       while (take(' ')) {
       }
     }
@@ -63,12 +70,43 @@ class DateCursor {
     return value;
   }
 
+  /// The number, from 0 on, of the name that begins the text, in full or by three letters or more;
+  /// -1 if there is none.
+  template <std::size_t kCount>
+  int by_name(const std::array<std::string_view, kCount>& names) {
+    const std::string word = lower_case(text_.substr(
+        0, static_cast<std::size_t>(std::ranges::find_if_not(text_, is_letter) - text_.begin())));
+    const auto* found = std::ranges::find_if(
+        names, [&](std::string_view name) { return word.size() >= 3 && name.starts_with(word); });
+    if (found == names.end()) return -1;
+    text_.remove_prefix(word.size());
+    return static_cast<int>(found - names.begin());
+  }
+
   int month_by_name() {
-    const std::string word = lower_case(text_.substr(0, 3));
-    const auto* month = std::ranges::find(kMonths, word);
-    if (month == kMonths.end()) return -1;
-    text_.remove_prefix(3);
-    return static_cast<int>(month - kMonths.begin()) + 1;
+    const int month = by_name(kMonths);
+    return month < 0 ? -1 : month + 1;
+  }
+
+  /// @return Whether there was one.
+  bool skip_day_of_week() {
+    if (text_.empty() || !is_letter(text_.front()) || by_name(kDays) < 0) return false;
+    take('.');
+    take(',');
+    while (take(' ')) {
+    }
+    return true;
+  }
+
+  /// Nov 3, 2026.
+  std::optional<double> date_by_month() {
+    const int month = month_by_name();
+    take('.');
+    if (!take(' ')) return std::nullopt;
+    const int day = number(1, 2);
+    take(',');
+    if (!take(' ') || digits() != 4) return std::nullopt;
+    return days_of(number(4, 4), month, day);
   }
 
   static std::optional<double> days_of(int year, int month, int day) {
@@ -81,6 +119,7 @@ class DateCursor {
   }
 
   std::optional<double> date() {
+    if (!text_.empty() && is_letter(text_.front())) return date_by_month();
     const std::size_t count = digits();
     if (count == 8) {
       const int year = number(4, 4), month = number(2, 2);
@@ -89,10 +128,12 @@ class DateCursor {
     if (count != 4 && count != 1 && count != 2) return std::nullopt;
     const int first = number(1, 4);
     const char separator = text_.empty() ? '\0' : text_.front();
-    if (std::string_view("-/.").find(separator) == std::string_view::npos || !take(separator))
+    if (std::string_view("-/. ").find(separator) == std::string_view::npos || !take(separator))
       return std::nullopt;
     const bool is_named = !text_.empty() && !is_digit(text_.front());
+    if (separator == ' ' && !is_named) return std::nullopt;
     const int second = is_named ? month_by_name() : number(1, 2);
+    if (is_named && separator == ' ') take('.');
     if (!take(separator)) return std::nullopt;
     if (count == 4) return days_of(first, second, number(1, 2));
     // With points the day comes first, even with a year of two digits: 03.11.26.
@@ -179,7 +220,8 @@ bool are_spreadsheet_days(std::span<const double> times) {
 
 std::optional<double> date_in(std::string_view cell) {
   cell = trimmed(cell);
-  if (cell.size() < 4 || cell.size() > 64 || !is_digit(cell.front())) return std::nullopt;
+  if (cell.size() < 4 || cell.size() > 64 || (!is_digit(cell.front()) && !is_letter(cell.front())))
+    return std::nullopt;
   return DateCursor(cell).read();
 }
 

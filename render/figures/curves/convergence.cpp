@@ -131,8 +131,8 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   for (const std::size_t i : by_length(windows)) {
     const double length = windows.lengths_s[i], error = windows.held_out_m[i];
     const bool predicts = std::isfinite(error);
-    figure.alt += fmt::format(" {:.3g} s {};", length,
-                              predicts ? significant(error) + " m" : "predicts nothing");
+    figure.alt +=
+        fmt::format(" {:.3g} s {};", length, predicts ? error_text(error) : "predicts nothing");
     const Point at{length, predicts ? axis.raised({error}).front() : top};
     if (!predicts)
       add_point(failed, at);

@@ -52,7 +52,7 @@ std::string label_with_error(const SlamRecord& record) {
   std::string label(info(record.method).label);
   if (record.errors.empty()) return label;
   const TrajectoryError& error = record.errors.front();
-  return fmt::format("{}: {} m, {}", label, significant(error.mean_m, 2),
+  return fmt::format("{}: {}, {}", label, error_text(error.mean_m, 2),
                      alignment_words(error.alignment));
 }
 

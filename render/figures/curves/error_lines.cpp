@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/number_text.hpp"
@@ -170,13 +171,22 @@ class Builder {
     for (const ErrorLine& line : from.lines) {
       const SeriesStyle style = this->style(line.label);
       panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(line.mean), style.colour,
-                                      style.dash, 1.0, style.marker,
-                                      Mark{prefix + line.key + "-mean", {{"curve", line.label}}}});
+                                      style.dash, 1.0, style.marker, mark_of(line, prefix)});
     }
     return panel;
   }
 
  private:
+  /// With `over`, above which the page says "over 1 km", where the line has such errors.
+  Mark mark_of(const ErrorLine& line, const std::string& prefix) const {
+    Mark mark{prefix + line.key + "-mean", {{"curve", line.label}}};
+    const auto is_great = [](double mean) { return mean > kGreatestError_m; };
+    if (spec_.great_errors && spec_.y_label.ends_with("[m]") &&
+        std::ranges::any_of(line.mean, is_great))
+      mark.data.emplace_back("over", data_number(kGreatestError_m));
+    return mark;
+  }
+
   /// NaN where the mean lies above the ceiling: the band towards it would fill the frame.
   std::vector<double> within_ceiling(const ErrorLine& line, std::vector<double> ends) const {
     for (std::size_t i = 0; i < ends.size(); ++i)

@@ -63,6 +63,9 @@ struct ErrorLinesSpec {
   double ceiling = kInfinity;  ///< Means above do not widen the
                                ///< frame; a note counts them.
   double log_from = 20.0;      ///< Greatest over least mean from which the y axis is logarithmic.
+  /// Whether values in m above kGreatestError_m are of maps that diverged: pages then say so in
+  /// words.
+  bool great_errors = true;
 };
 
 /// The styles that mapproof's own methods have, see method_series(): 0 to this, exclusive.

@@ -12,6 +12,7 @@ Figure level_curve_figure(const LevelCurveSpec& spec) {
   lines.over = " over " + spec.x_label;
   lines.remark = spec.remark;
   lines.log_from = spec.log_from;
+  lines.great_errors = spec.great_errors;
   ErrorPanel& panel = lines.panels.emplace_back();
   panel.x.label = spec.x_label;
   panel.x.scale = spec.x_scale;

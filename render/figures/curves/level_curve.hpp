@@ -19,7 +19,8 @@ struct LevelCurveSpec {
   std::string remark = {};              ///< As of ErrorLinesSpec.
   std::vector<ErrorLine> methods;       ///< `x` holds the level.
   std::vector<std::string> record_ids;
-  double log_from = 20.0;  ///< As in ErrorLinesSpec.
+  double log_from = 20.0;    ///< As in ErrorLinesSpec.
+  bool great_errors = true;  ///< As in ErrorLinesSpec.
 };
 
 /// Error over the level of a disturbance, a line with its 95 % band a method.

@@ -283,7 +283,7 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
     add_setting(layers.best, one, i);
     add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
     layers.words.push_back(
-        fmt::format("{} ({} m in {})", one.label, significant(one.mpe_m), duration(one.seconds)));
+        fmt::format("{} ({} in {})", one.label, error_text(one.mpe_m), duration(one.seconds)));
   }
   const bool crowded = std::ranges::count_if(settings, usable) > kMostNamedSettings;
   for (std::size_t i = 0; i < settings.size(); ++i) {

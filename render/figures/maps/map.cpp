@@ -184,7 +184,7 @@ class MapFigure {
     double farthest = 0.0;
     for (const Eigen::Index i : view_.outside)
       if (view_.error_m[i] > farthest) farthest = view_.error_m[i];
-    return farthest > 0.0 ? text + ", up to " + significant(farthest) + " m off." : text + ".";
+    return farthest > 0.0 ? text + ", up to " + error_text(farthest) + " off." : text + ".";
   }
 
   void add_words() {
@@ -219,7 +219,7 @@ class MapFigure {
   std::string worst_text() const {
     std::vector<std::string> parts;
     for (const Eigen::Index i : view_.worst)
-      parts.push_back(record_.names[i] + " " + significant(view_.error_m[i]) + " m");
+      parts.push_back(record_.names[i] + " " + error_text(view_.error_m[i]));
     return listed(parts, kMostNamed);
   }
 

@@ -317,9 +317,11 @@ std::set<fs::path> records_of(const Figure& figure, const fs::path& study) {
 
 class Planner {
  public:
-  Planner(const fs::path& baseline, const fs::path& current)
+  /// @param decoded  Files of the current that need no reading.
+  Planner(const fs::path& baseline, const fs::path& current, std::set<fs::path> decoded = {})
       : baseline_(baseline),
         current_(current),
+        decoded_(std::move(decoded)),
         before_(approval_files(baseline)),
         after_(approval_files(current)) {}
 
@@ -390,7 +392,7 @@ class Planner {
     const fs::path from = current_ / relative, to = baseline_ / relative;
     require_plain(current_, relative);
     if (!planned_.insert(relative).second || same_bytes(from, to)) return false;
-    require_readable(from);
+    if (!decoded_.contains(from)) require_readable(from);
     require_no_folder(to);
     steps_.push_back({from, relative});
     return true;
@@ -460,6 +462,7 @@ class Planner {
   }
 
   fs::path baseline_, current_;
+  std::set<fs::path> decoded_;
   ApprovalFiles before_, after_;
   std::set<fs::path> planned_;
   std::vector<ApprovalStep> steps_;
@@ -487,12 +490,12 @@ ApprovalPlan approval_plan(const fs::path& baseline, const fs::path& current,
 
 std::map<std::string, ApprovalRefusal> approval_refusals(const fs::path& baseline,
                                                          const fs::path& current,
-                                                         const std::vector<std::string>& ids) {
+                                                         const ApprovalQuestion& question) {
   std::map<std::string, ApprovalRefusal> refusals;
   std::error_code error;
   if (!fs::is_directory(current, error)) return refusals;
-  Planner planner(baseline, current);
-  for (const std::string& id : ids)
+  Planner planner(baseline, current, question.decoded);
+  for (const std::string& id : question.ids)
     if (const std::string why = planner.refusal(id, false); !why.empty())
       refusals[id] = {why, planner.has_records() && planner.refusal(id, true).empty()};
   return refusals;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,12 +52,18 @@ struct ApprovalRefusal {
   bool goes_with_records = false;  ///< It can be approved together with all records.
 };
 
+/// Which items are asked about.
+struct ApprovalQuestion {
+  std::vector<std::string> ids;
+  std::set<std::filesystem::path> decoded;  ///< Files that need no reading: they can be read.
+};
+
 /// The items that cannot be approved by themselves; none if the current is not a folder.
 /// @throws IoError if a folder cannot be listed.
 /// @note Reads the items' files of the current, as approval_plan() does.
 std::map<std::string, ApprovalRefusal> approval_refusals(const std::filesystem::path& baseline,
                                                          const std::filesystem::path& current,
-                                                         const std::vector<std::string>& ids);
+                                                         const ApprovalQuestion& question);
 
 /// Applies a plan in one step: after a kill at any moment the baseline is wholly the old one or
 /// wholly the new one (see FolderReplacement). The caller holds its lock, if it exists. Where

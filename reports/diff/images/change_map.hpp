@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "render/image/image.hpp"
@@ -92,9 +93,33 @@ class ChangedClusters {
 // Of heat maps, whose other pixels are grey.
 inline constexpr std::uint32_t kChangedColour = 0xD00000, kNoiseColour = 0xF0C000;
 
-/// The image in pale grey, changes in red, differences explained by noise or anti-aliasing in
+/// An image in pale grey, changes in red, differences explained by noise or anti-aliasing in
 /// yellow.
-/// @param baseline  Consumed.
-Image heat_map(Image baseline, const ChangeMap& marks);
+struct HeatMap {
+  int width = 0;  ///< 0: there is none.
+  int height = 0;
+  std::string rows = {};  ///< As PaletteImage::rows, with the numbers of heat_colours().
+
+  /// As 0x00RRGGBB.
+  std::uint32_t colour(int x, int y) const;
+  double changed_share() const;  ///< Of its pixels.
+};
+
+/// The colours of every heat map, by their numbers.
+const std::vector<std::uint32_t>& heat_colours();
+
+/// @param marks  Of the upper left part of the image that is shown: as large as both have.
+/// @note Parallel over rows of tiles.
+HeatMap heat_map(const Image& baseline, const ImageSize& size, const ChangeMap& marks);
+
+/// One pixel for each square of `side` pixels, which is red if one of its pixels is, else yellow if
+/// one is, else of their mean grey.
+HeatMap reduced(const HeatMap& map, int side);
+
+/// Adds rows `from` to `to` - 1 of a part below `map`, or to an empty one.
+void append_rows(const HeatMap& part, int from, int to, HeatMap& map);
+
+/// As a PNG file. @param map  Consumed.
+std::string encode_png(HeatMap map);
 
 }  // namespace mapproof

@@ -76,6 +76,7 @@ struct ImageDiff {
   std::string reason;  ///< One line for readers.
   std::optional<PixelDiff> pixels;
   std::optional<SvgDiff> svg;
+  bool is_decoded = false;  ///< Whether all pixels of both files were decoded, and none is damaged.
   std::uintmax_t baseline_bytes = 0, current_bytes = 0;
   /// The renderers, as stored in the files ("mapproof:renderer" or "Software" of a PNG, the
   /// generator's comment of an SVG); empty if not stored.

@@ -137,21 +137,23 @@ bool differ(const Image& a, const Image& b) {
 }
 
 /// The heat map of the part that both images have.
-Image heat_of(const Image& baseline, const PixelComparison& found) {
+HeatMap heat_of(const Image& baseline, const PixelComparison& found) {
   const PixelDiff& pixels = found.pixels;
-  return heat_map(upper_left(baseline, {std::min(pixels.baseline.width, pixels.current.width),
-                                        std::min(pixels.baseline.height, pixels.current.height)}),
+  return heat_map(baseline,
+                  {std::min(pixels.baseline.width, pixels.current.width),
+                   std::min(pixels.baseline.height, pixels.current.height)},
                   found.marks);
 }
 
 void compare_decoded(std::string_view before, std::string_view after, const ImageOptions& options,
-                     Image* heat, ImageDiff& diff) {
+                     HeatMap* heat, ImageDiff& diff) {
   Side baseline, current;
   parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = renderer(baseline.png);
   diff.current_renderer = renderer(current.png);
   diff.reason = unreadable(baseline.reason, current.reason);
   if (!diff.reason.empty()) return;
+  diff.is_decoded = true;
   const bool hidden = !options.ignored.empty() && differ(baseline.png.image, current.png.image);
   const PixelComparison found =
       pixel_diff(baseline.png.image, std::move(current.png.image), options);
@@ -211,7 +213,7 @@ struct DecodedComparison {
   ImageState state = ImageState::kIdentical;
   PixelDiff pixels;
   std::string reason;
-  Image heat;
+  HeatMap heat;
 };
 
 DecodedComparison comparison_of(StripDiff strips, const ImageOptions& options) {
@@ -276,7 +278,7 @@ class ImageComparer {
 
   /// @param noun  Of an image: "frame".
   /// @param more  Images that the baseline alone has, less those that the current alone has.
-  void conclude(const char* noun, int more, Image* heat, ImageDiff& diff) {
+  void conclude(const char* noun, int more, HeatMap* heat, ImageDiff& diff) {
     diff.pixels = worst_.pixels;
     diff.state = worst_.state;
     diff.reason = std::move(worst_.reason);
@@ -307,9 +309,13 @@ class ImageComparer {
   std::string other_;  ///< What else changed.
 };
 
+bool has_pages(DecodedFormat format) {
+  return format == DecodedFormat::kPdf || format == DecodedFormat::kTiff;
+}
+
 /// The state, the reason and the pixels of a comparison by decoded images.
 ImageDiff frame_diff(std::string_view before, std::string_view after, DecodedFormat format,
-                     const ImageOptions& options, Image* heat) {
+                     const ImageOptions& options, HeatMap* heat) {
   ImageDiff diff;
   // A waiting thread takes no other pair meanwhile: it would hold the pixels of both.
   run_isolated([&] {
@@ -325,8 +331,9 @@ ImageDiff frame_diff(std::string_view before, std::string_view after, DecodedFor
         more += was ? 1 : -1;
     }
     diff.reason = unreadable(baseline.reason(), current.reason());
-    if (diff.reason.empty())
-      comparer.conclude(format == DecodedFormat::kPdf ? "page" : "frame", more, heat, diff);
+    diff.is_decoded = diff.reason.empty();
+    if (diff.is_decoded)
+      comparer.conclude(has_pages(format) ? "page" : "frame", more, heat, diff);
   });
   return diff;
 }
@@ -336,11 +343,12 @@ void take(ImageDiff found, ImageDiff& diff) {
   diff.state = found.state;
   diff.reason = std::move(found.reason);
   diff.pixels = found.pixels;
+  diff.is_decoded = found.is_decoded;
 }
 
 /// What is seen over black only, where PNGs of equal pixels over white differ in transparency.
 void compare_over_black(std::string_view before, std::string_view after,
-                        const ImageOptions& options, Image* heat, ImageDiff& diff) {
+                        const ImageOptions& options, HeatMap* heat, ImageDiff& diff) {
   ImageDiff on_black = frame_diff(before, after, DecodedFormat::kPng, options, heat);
   if (on_black.state == ImageState::kDifferent) take(std::move(on_black), diff);
 }
@@ -374,7 +382,7 @@ void compare_colours(std::string_view before, std::string_view after, ImageDiff&
 }
 
 void compare_pngs(std::string_view before, std::string_view after, const ImageOptions& options,
-                  Image* heat, ImageDiff& diff) {
+                  HeatMap* heat, ImageDiff& diff) {
   if (!are_same_pngs(before, after, diff)) {
     if (may_be_held_whole(before, after, diff)) {
       run_isolated([&] { compare_decoded(before, after, options, heat, diff); });
@@ -450,7 +458,7 @@ bool may_be_drawn_the_same(const SvgDiff& svg) {
 
 /// Draws both SVGs, and takes equal images for equal.
 void compare_drawn(std::string_view before, std::string_view after, ImageOptions options,
-                   Image* heat, ImageDiff& diff) {
+                   HeatMap* heat, ImageDiff& diff) {
   // Rounded outlines of letters, as svgo writes them, differ by up to 17 of 255 in some pixels. A
   // mark on flat ground is found from 12 on, whatever the noise.
   options.noise = std::max(options.noise, 12.0);
@@ -469,7 +477,7 @@ void compare_drawn(std::string_view before, std::string_view after, ImageOptions
 }
 
 void compare_svgs(std::string_view before, std::string_view after, const ImageOptions& options,
-                  Image* heat, ImageDiff& diff) {
+                  HeatMap* heat, ImageDiff& diff) {
   SvgSide baseline, current;
   parallel_invoke([&] { read_side(before, baseline); }, [&] { read_side(after, current); });
   diff.baseline_renderer = printable(baseline.tree.generator, 200);
@@ -504,7 +512,7 @@ std::string_view words(ImageFormat kind, std::string_view bytes) {
 }  // namespace
 
 ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesystem::path& current,
-                     const ImageOptions& options, Image* heat) {
+                     const ImageOptions& options, HeatMap* heat) {
   if (const std::string problem = problem_of(options); !problem.empty())
     throw InvalidInput(problem);
   const std::string before = read_input(baseline, kMostImageBytes);
@@ -534,9 +542,9 @@ ImageDiff image_diff(const std::filesystem::path& baseline, const std::filesyste
   return diff;
 }
 
-Image heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
-               const ImageOptions& options) {
-  Image heat;
+HeatMap heat_map(const std::filesystem::path& baseline, const std::filesystem::path& current,
+                 const ImageOptions& options) {
+  HeatMap heat;
   image_diff(baseline, current, options, &heat);
   return heat;
 }

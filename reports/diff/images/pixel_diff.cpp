@@ -348,22 +348,6 @@ std::int64_t pixels_in(const std::vector<PixelBox>& boxes, int width, int from, 
   return count;
 }
 
-/// The colour of a square of a heat map: that of a change before that of noise before the mean
-/// grey.
-std::uint32_t colour_of_square(const Image& part, int x0, int y0, int side) {
-  std::uint32_t grey = 0, count = 0;
-  bool is_noise = false;
-  for (int y = y0; y < std::min(y0 + side, part.height); ++y)
-    for (int x = x0; x < std::min(x0 + side, part.width); ++x) {
-      const std::uint32_t pixel = part.row(y)[x];
-      if (pixel == kChangedColour) return pixel;
-      is_noise = is_noise || pixel == kNoiseColour;
-      grey += pixel & 0xFF;
-      ++count;
-    }
-  return is_noise ? kNoiseColour : grey / count * 0x010101u;
-}
-
 }  // namespace
 
 StripDiff::StripDiff(const ImageSize& baseline, const ImageSize& current,
@@ -412,7 +396,7 @@ void StripDiff::add(Image baseline, Image current) {
   take_over(found, top, owned_to);
   if (with_heat_ && found.pixels.differing > 0) any_heat_ = true;
   if (with_heat_)
-    add_heat(heat_map(std::move(before), found.marks), rows_owned_ - top, owned_to - top);
+    add_heat(heat_map(before, size_of(before), found.marks), rows_owned_ - top, owned_to - top);
   rows_owned_ = owned_to;
   plan();
 }
@@ -447,17 +431,19 @@ PixelDiff StripDiff::pixels() const {
   return all;
 }
 
-Image StripDiff::heat() && { return any_heat_ ? std::move(heat_) : Image{}; }
+HeatMap StripDiff::heat() && { return any_heat_ ? std::move(heat_) : HeatMap{}; }
 
-void StripDiff::add_heat(Image part, int from, int to) {
-  if (heat_scale_ == 1 && from == 0 && to == part.height) {
+void StripDiff::add_heat(HeatMap part, int from, int to) {
+  if (heat_scale_ == 1 && from == 0 && to == part.height && heat_.height == 0) {
     heat_ = std::move(part);
-    return;
+  } else if (heat_scale_ == 1) {
+    append_rows(part, from, to, heat_);
+  } else {
+    HeatMap owned;
+    append_rows(part, from, to, owned);
+    const HeatMap small = reduced(owned, heat_scale_);
+    append_rows(small, 0, small.height, heat_);
   }
-  heat_.width = (size_.width + heat_scale_ - 1) / heat_scale_;
-  for (int y = from; y < to; y += heat_scale_, ++heat_.height)
-    for (int x = 0; x < size_.width; x += heat_scale_)
-      heat_.pixels.push_back(colour_of_square(part, x, y, heat_scale_));
 }
 
 }  // namespace mapproof

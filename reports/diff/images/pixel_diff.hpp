@@ -57,12 +57,12 @@ class StripDiff {
 
   /// As heat_map(); of an image of several strips and too many pixels one pixel for each square of
   /// 2, 4, 8 or 16 pixels a side, which is red if one of its pixels is. Empty if nothing differs.
-  Image heat() &&;
+  HeatMap heat() &&;
 
  private:
   void plan();
   void take_over(const PixelComparison& part, int top, int owned_to);
-  void add_heat(Image part, int from, int to);
+  void add_heat(HeatMap part, int from, int to);
 
   ImageSize size_;  ///< Of the part that both have.
   const ImageOptions* options_;
@@ -77,7 +77,7 @@ class StripDiff {
   bool is_hidden_ = false;  ///< Whether pixels differed before boxes were ignored.
   int heat_scale_ = 1;
   bool any_heat_ = false;
-  Image heat_;
+  HeatMap heat_;
 };
 
 }  // namespace mapproof

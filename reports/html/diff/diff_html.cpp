@@ -212,12 +212,17 @@ list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown)
   return out;
 }
 
-/// The items that differ, without identical ones.
+/// Of the items that differ, without identical ones.
 std::map<std::string, ApprovalRefusal> refusals_of(const DiffResult& result) {
-  std::vector<std::string> ids;
-  for (const DiffItem& item : result.items)
-    if (item.judgement.verdict != Verdict::kIdentical) ids.push_back(item.id);
-  return approval_refusals(result.baseline, result.current, ids);
+  ApprovalQuestion question;
+  for (const DiffItem& item : result.items) {
+    if (item.judgement.verdict == Verdict::kIdentical) continue;
+    question.ids.push_back(item.id);
+    // A file whose name is of another format than its content is not approved.
+    for (const ImageFile& file : item.images)
+      if (file.format == "png" && file.diff.is_decoded) question.decoded.insert(file.current);
+  }
+  return approval_refusals(result.baseline, result.current, question);
 }
 
 void set_items(data& page, const DiffResult& result, const std::vector<ShownImages>& shown,

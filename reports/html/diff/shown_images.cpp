@@ -1,7 +1,6 @@
 #include "reports/html/diff/shown_images.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -14,13 +13,13 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/text/base64.hpp"
-#include "render/image/png.hpp"
 #include "render/image/png_read.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
-#include "reports/diff/images/image_diff.hpp"
 #include "reports/diff/images/pixel_diff.hpp"
+#include "reports/diff/items.hpp"
+#include "reports/diff/kept_heat_maps.hpp"
 #include "reports/diff/shared_causes.hpp"
 
 namespace mapproof {
@@ -31,21 +30,6 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 bool has_both(const ImageFile& file) { return !file.baseline.empty() && !file.current.empty(); }
-
-/// The type of an image that browsers show; empty: none.
-std::string_view media_type(std::string_view format) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
-      {{"png", "image/png"},
-       {"svg", "image/svg+xml"},
-       {"jpg", "image/jpeg"},
-       {"jpeg", "image/jpeg"},
-       {"gif", "image/gif"},
-       {"webp", "image/webp"},
-       {"bmp", "image/bmp"}}};
-  for (const auto& [known, type] : kTypes)
-    if (known == format) return type;
-  return {};
-}
 
 /// The priority of an image on the page; 0: nothing to show.
 int interest(const ImageFile& file) {
@@ -173,10 +157,6 @@ std::string no_heat_reason(const Plan& plan) {
   return "No heat map: no pixel differs.";
 }
 
-ShownImage as_png(const Image& image, const std::string& note) {
-  return {"data:image/png;base64," + base64(encode_png(image)), std::nullopt, note};
-}
-
 Image drawn(const Figure& figure) { return read_png(figure_png(figure, report_theme())).image; }
 
 /// A heat map, and the share of its pixels that changed.
@@ -185,9 +165,8 @@ struct Heat {
   double changed_share = 0.0;
 };
 
-Heat heat_of(const Image& image, const std::string& note) {
-  const auto changed = static_cast<double>(std::ranges::count(image.pixels, kChangedColour));
-  return {as_png(image, note), changed / static_cast<double>(image.pixels.size())};
+Heat shown_heat(const HeatMapFile& file, const std::string& note) {
+  return {{"data:image/png;base64," + base64(file.png), std::nullopt, note}, file.changed_share};
 }
 
 /// Of values whose limits differ: drawn again on common axes, as a shifted limit moves everything.
@@ -200,18 +179,19 @@ std::optional<Heat> heat_on_common_axes(const FigureValues& values, const ImageO
   const PixelComparison found = pixel_diff(baseline, drawn(both->second), whole);
   if (found.pixels.baseline != found.pixels.current || found.pixels.differing == 0)
     return std::nullopt;
-  return heat_of(heat_map(baseline, found.marks), "values drawn on common axes");
+  return shown_heat(*heat_map_file(heat_map(baseline, found.pixels.baseline, found.marks)),
+                    "values drawn on common axes");
 }
 
 std::optional<Heat> heat_image(const ImageFile& file, const ImageOptions& options) {
-  const Image image = heat_map(file.baseline, file.current, options);
-  if (image.width < 1 || image.height < 1) return std::nullopt;
+  const std::optional<HeatMapFile> map = heat_map_file(file, options);
+  if (!map) return std::nullopt;
   const auto& pixels = file.diff.pixels;
-  if (file.format == "svg") return heat_of(image, "drawn by librsvg");
-  if (pixels && !have_common_part(pixels->baseline, {image.width, image.height}))
-    return heat_of(image, "one pixel for several");
-  Heat heat = heat_of(image, "");
-  heat.image.size = ImageSize{image.width, image.height};
+  if (file.format == "svg") return shown_heat(*map, "drawn by librsvg");
+  if (pixels && !have_common_part(pixels->baseline, map->size))
+    return shown_heat(*map, "one pixel for several");
+  Heat heat = shown_heat(*map, "");
+  heat.image.size = map->size;
   return heat;
 }
 

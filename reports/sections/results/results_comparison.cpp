@@ -10,10 +10,12 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/sections/method_ranks.hpp"
 
 namespace mapproof {
@@ -170,8 +172,11 @@ std::vector<MethodComparison> compare_at_last(const ResultsView& view, const Res
   return {};
 }
 
-std::string value_words(double value, const Quantity& quantity) {
-  return with_unit(fmt::format("{:.3g}", value), quantity.unit);
+std::string value_words(double value, const Quantity& quantity, const ResultsView& view) {
+  if (view.has_great_errors(quantity) && value > kGreatestError_m) return kGreatErrorText;
+  const std::string digits = fmt::format("{:.3g}", value);
+  const bool has_power = digits.find('e') != std::string::npos;
+  return with_unit(has_power ? significant(value) : digits, quantity.unit);
 }
 
 std::string p_words(double p) { return p < 1e-3 ? "p < 0.001" : fmt::format("p = {:.2g}", p); }
@@ -279,8 +284,8 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
   std::string text = fmt::format("{}: {} has the {} mean {}, {}; {} follows with {}",
                                  where_of(comparison), label_of(best, view), best_word(quantity),
-                                 quantity.label, value_words(best.mean, quantity),
-                                 label_of(next, view), value_words(next.mean, quantity));
+                                 quantity.label, value_words(best.mean, quantity, view),
+                                 label_of(next, view), value_words(next.mean, quantity, view));
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));

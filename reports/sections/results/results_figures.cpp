@@ -246,6 +246,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.x_scale = scale_of(block.levels);
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
+  spec.great_errors = view.has_great_errors(quantity);
   spec.record_ids = {record_of(block)};
   spec.methods = curves_of(view, block, quantity);
   spec.points = runs_of(view, block, quantity);
@@ -270,6 +271,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.title = fmt::format("{}: {}", overview.title, quantity.label);
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
+  spec.great_errors = view.has_great_errors(quantity);
   spec.record_ids = {record_of(*overview.blocks.front())};
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
     const ResultsBlock& block = *overview.blocks[i];

@@ -1,12 +1,16 @@
 #include "reports/sections/results/results_report.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/median.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
@@ -319,10 +323,72 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
   }
 }
 
+/// The method that is the best over data sets that are no repeats of each other.
+struct BestOverRuns {
+  const Quantity* quantity = nullptr;
+  std::size_t method = 0;
+  double median = kNaN;
+  std::string run = {};  ///< Where it is best.
+};
+
+/// The values of each method, by run, in the study's first block.
+std::map<std::size_t, std::map<std::string, double>> values_over_runs(const ResultsView& view,
+                                                                      const Quantity& quantity) {
+  std::map<std::size_t, std::map<std::string, double>> values;
+  const ResultsBlock& block = view.blocks().front();
+  for (const ResultsLine& line : view.lines(block, quantity))
+    for (const Condition& at : block.conditions)
+      values[line.index].merge(view.numbers(at, line, quantity).values);
+  return values;
+}
+
+/// By the median of its values; only methods with a value in as many runs as any.
+/// @return Empty where runs are repeats, or no quantity has a better way.
+std::optional<BestOverRuns> best_over_runs(const ResultsView& view) {
+  const ResultsStudy& study = view.study();
+  if (study.runs.empty() || view.blocks().empty()) return std::nullopt;
+  const auto id = std::ranges::find_if(study.quantities, [&](const std::string& one) {
+    return view.quantity(one).better != Better::kNeither;
+  });
+  if (id == study.quantities.end()) return std::nullopt;
+  BestOverRuns best{.quantity = &view.quantity(*id)};
+  const double sign = best.quantity->better == Better::kLower ? 1.0 : -1.0;
+  std::size_t most = 1;
+  for (const auto& [method, values] : values_over_runs(view, *best.quantity)) {
+    if (values.size() < most) continue;
+    std::vector<double> numbers;
+    for (const auto& [run, value] : values) numbers.push_back(value);
+    const double middle = median(numbers);
+    if (values.size() == most && !(std::isnan(best.median) || sign * middle < sign * best.median))
+      continue;
+    most = values.size();
+    best.method = method;
+    best.median = middle;
+    best.run = std::ranges::min_element(values, {}, [sign](const auto& one) {
+                 return sign * one.second;
+               })->first;
+  }
+  return std::isnan(best.median) ? std::nullopt : std::optional(best);
+}
+
+/// Its median as the first number.
+void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
+  const auto best = best_over_runs(input.view);
+  if (!best) return;
+  const ResultsStudy& study = input.view.study();
+  const std::string& unit = best->quantity->unit;
+  numbers.items.push_back({fmt::format("median {} of the best method", best->quantity->label),
+                           significant(best->median, 2) + (unit.empty() ? "" : "\u00a0" + unit),
+                           fmt::format("{}, over {}", study.methods[best->method].label,
+                                       counted(std::ssize(study.runs), "data set")),
+                           input.view.blocks().front().id});
+}
+
 Highlights numbers_of(const ResultsReportInput& input) {
   const ResultsStudy& study = input.view.study();
   Highlights numbers;
   add_best_values(input, numbers);
+  if (numbers.items.empty()) add_best_over_runs(input, numbers);
   numbers.items.push_back({"methods compared", fmt::format("{}", study.methods.size()),
                            counted(static_cast<long long>(input.view.runs()),
                                    study.runs.empty() ? "run" : "data set")});
@@ -337,9 +403,13 @@ Highlights numbers_of(const ResultsReportInput& input) {
 }
 
 /// Where a map or a path is, it is what a reader wants to open: it comes before curves, one of each
-/// group first.
-std::vector<std::string> figure_ids_of(const StudyFigures& figures) {
+/// group first, and before all the best method's map where it is best.
+std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
   std::vector<std::string> first, rest;
+  if (const auto best = best_over_runs(view))
+    first.push_back(fmt::format("{}-map-{}-{}", view.study().name,
+                                slug_of(view.study().methods[best->method].id),
+                                slug_of(best->run)));
   for (const FigureGroup& group : figures.groups) {
     for (const Figure& figure : group.figures)
       (&figure == &group.figures.front() ? first : rest).push_back(figure.id);
@@ -374,7 +444,7 @@ Report results_report(const ResultsReportInput& input) {
   if (!input.incomplete.empty())
     report.opening.findings.push_back(
         {{strong("Warnings"), phrase(": incomplete: " + input.incomplete)}});
-  choose_figures(figure_ids_of(input.figures), input.figures, report.opening);
+  choose_figures(figure_ids_of(input.view, input.figures), input.figures, report.opening);
   report.footer = input.footer;
   report.date = input.date;
   return report;

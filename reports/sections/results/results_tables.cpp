@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/sections/tables/cells.hpp"
 
@@ -58,10 +59,14 @@ class CellMaker {
                                          where, counted(lost, "value")));
   }
 
-  void add_column(const std::string& title, const std::string& unit, const std::string& group) {
-    table_.columns.push_back({title, unit, group, ""});
+  /// @param title  Of the column; empty: the quantity and its unit.
+  void add_column(const Quantity& quantity, const std::string& title = "",
+                  const std::string& group = "") {
+    const std::string unit = title.empty() ? quantity.unit : "";
+    const bool errors_m = view_.has_great_errors(quantity);
+    table_.columns.push_back({title.empty() ? quantity.label : title, unit, group, "", errors_m});
     if (view_.study().results.are_repeats)
-      table_.columns.push_back({"95 %", unit, group, kIntervalHint});
+      table_.columns.push_back({"95 %", unit, group, kIntervalHint, errors_m});
   }
 
  private:
@@ -69,13 +74,20 @@ class CellMaker {
   Table& table_;
 };
 
+/// Without those of methods that diverged, of which a page shows no digits.
+int decimals_shown(const ResultsView& view, const Quantity& quantity, std::vector<double> means) {
+  if (view.has_great_errors(quantity))
+    std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
+  return decimals_of(std::move(means));
+}
+
 int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
              const std::vector<Condition>& conditions, const Quantity& quantity) {
   std::vector<double> means;
   for (const ResultsLine& line : lines)
     for (const Condition& at : conditions)
       if (const auto mean = view.mean(at, line, quantity)) means.push_back(mean->mean);
-  return decimals_of(std::move(means));
+  return decimals_shown(view, quantity, std::move(means));
 }
 
 void add_note(const ResultsView& view, Table& table) {
@@ -122,7 +134,7 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   table.columns.push_back({"Method", "", "", ""});
   CellMaker cells(view, table);
   for (std::size_t i = 0; i < block.levels.size(); ++i)
-    cells.add_column(column_title(block.levels[i]), "", view.factor_label(block.factor));
+    cells.add_column(quantity, column_title(block.levels[i]), view.factor_label(block.factor));
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const int places = decimals(view, lines, block.conditions, quantity);
   for (const ResultsLine& line : lines) {
@@ -166,7 +178,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   std::vector<int> places;
   for (const Quantity* quantity : quantities) {
     places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
-    cells.add_column(quantity->label, quantity->unit, "");
+    cells.add_column(*quantity);
   }
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
@@ -196,7 +208,7 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
   CellMaker cells(view, table);
   for (const Quantity* quantity : quantities) {
     places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
-    cells.add_column(quantity->label, quantity->unit, "");
+    cells.add_column(*quantity);
   }
   for (ResultsLine& line : lines) {
     line.label = view.study().methods[line.index].label;  // The caption names the run.
@@ -246,7 +258,8 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
                                 overview.level ? ", at " + view.level_words(*overview.level) : "");
     table.columns.push_back({"Method", "", "", ""});
     CellMaker cells(view, table);
-    for (const std::string& name : overview.names) cells.add_column(name, "", overview.factors);
+    for (const std::string& name : overview.names)
+      cells.add_column(quantity, name, overview.factors);
     const int places = decimals(view, lines, overview.conditions, quantity);
     for (const ResultsLine& line : lines) {
       Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
@@ -264,18 +277,20 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
   const Quantity& quantity = *comparison.quantity;
   std::vector<double> means;
   for (const ComparedMethod& method : comparison.methods) means.push_back(method.mean);
-  const int places = decimals_of(means);
+  const int places = decimals_shown(view, quantity, means);
+  const bool errors_m = view.has_great_errors(quantity);
   Table table;
   table.id = table_id(comparison.id, "paired-" + quantity.id);
   table.caption = fmt::format("{}: {} compared with the best method", where_of(comparison),
                               label_with_unit(quantity));
-  table.columns = {{"Method", "", "", ""},
-                   {"Mean", quantity.unit, "", "Over the runs that all of these methods have."},
-                   {"Mean rank", "", "", "1 is best; methods are ranked in each group."},
-                   {"Difference", quantity.unit, "",
-                    "From the best method: of the same runs, each group counted once."},
-                   {"95 %", quantity.unit, "", "Interval of the difference."},
-                   {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
+  table.columns = {
+      {"Method", "", "", ""},
+      {"Mean", quantity.unit, "", "Over the runs that all of these methods have.", errors_m},
+      {"Mean rank", "", "", "1 is best; methods are ranked in each group."},
+      {"Difference", quantity.unit, "",
+       "From the best method: of the same runs, each group counted once.", errors_m},
+      {"95 %", quantity.unit, "", "Interval of the difference.", errors_m},
+      {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
   for (std::size_t i = 0; i < comparison.methods.size(); ++i) {
     const ComparedMethod& method = comparison.methods[i];
     Row row{{TextCell{view.study().methods[method.method].label, Emphasis::kData},

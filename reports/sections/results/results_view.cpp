@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -197,6 +198,13 @@ std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) 
     if (!lines(block, quantity).empty()) found.push_back(&quantity);
   }
   return found;
+}
+
+bool ResultsView::has_great_errors(const Quantity& quantity) const {
+  return quantity.unit == "m" && quantity.better == Better::kLower &&
+         std::ranges::any_of(study_.results.rows, [&](const Result& row) {
+           return row.quantity == quantity.id && row.value <= kGreatestError_m;
+         });
 }
 
 std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,

@@ -77,6 +77,9 @@ class ResultsView {
   const Quantity& quantity(const std::string& id) const { return quantities_.at(id); }
   /// The quantities that a block has, in the order of the study.
   std::vector<const Quantity*> quantities(const ResultsBlock& block) const;
+  /// Whether large values of a quantity are those of methods that diverged: it is an error in m,
+  /// and the least value of the study is a usual one.
+  bool has_great_errors(const Quantity& quantity) const;
   /// The lines that a block has of a quantity, in the order of methods and runs.
   std::vector<ResultsLine> lines(const ResultsBlock& block, const Quantity& quantity) const;
 

@@ -27,7 +27,7 @@
 namespace mapproof {
 namespace {
 
-std::string metres_of(double value) { return significant(value, 2) + " m"; }
+std::string metres_of(double value) { return error_text(value, 2); }
 
 /// ".58 m for spectral, 4-D (rigid)"; empty if the method has no error.
 std::string error_words_of(const SlamRun& run, SlamMethod method) {
@@ -220,7 +220,8 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
 
 std::string subtitle(const SlamStudy& study) {
   const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
-  std::string text = fmt::format("{}, {}", study.experiment.name, counted(real, "recorded drive"));
+  std::string text = study.experiment.name;
+  if (real > 0) text += ", " + counted(real, "recorded drive");
   if (std::ssize(study.runs) > real || !study.convergence.empty())
     text += fmt::format(", simulation with seed {}", study.experiment.seed);
   return text;
@@ -340,7 +341,7 @@ Paragraph what_was_done(const SlamStudy& study) {
   if (std::ssize(study.runs) > real)
     extent.push_back(counted(std::ssize(study.runs) - real, "simulated drive"));
   if (!study.convergence.empty())
-    extent.push_back(counted(std::ssize(study.convergence), "simulation of convergence"));
+    extent.push_back(counted(std::ssize(study.convergence), "convergence simulation"));
   return plain(
       fmt::format("Positions of landmarks and the path of a robot from ranges, and "
                   "odometry where there is any: {}.",
@@ -491,11 +492,12 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   std::vector<std::string> ids = {"fig-2b", "fig-2c"};
   for (const SlamRun& run : study.runs)
     if (!run.simulated) ids.push_back(path_figure_id(run));
-  ids.insert(ids.end(), {"fig-1b", "fig-1a"});
-  for (const FigureGroup& group : figures.groups) {
+  ids.emplace_back("fig-1b");
+  for (const FigureGroup& group : figures.groups)
+    if (!group.scenes.empty()) ids.push_back(group.scenes.front().id);
+  ids.emplace_back("fig-1a");
+  for (const FigureGroup& group : figures.groups)
     if (!group.figures.empty()) ids.push_back(group.figures.front().id);
-    if (!group.scenes.empty()) ids.insert(ids.begin() + 1, group.scenes.front().id);
-  }
   choose_figures(ids, figures, opening);
   return opening;
 }

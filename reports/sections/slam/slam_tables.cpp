@@ -189,14 +189,15 @@ std::optional<Table> slam_landmark_table(const SlamRun& run) {
   Table table;
   table.id = "slam-landmarks-" + run.id;
   table.caption = fmt::format("Landmarks, {}", info(record->method).label);
-  table.columns = {{"Landmark", "", "", ""}, {"x", "m", "Map", ""}, {"y", "m", "Map", ""}};
+  table.columns = {
+      {"Landmark", "", "", ""}, {"x", "m", "Map", "", false}, {"y", "m", "Map", "", false}};
   if (has_covariances) {
     table.columns.push_back({"x", "m", "Standard deviation", ""});
     table.columns.push_back({"y", "m", "Standard deviation", ""});
   }
   if (ground_truth) {
-    table.columns.push_back({"x", "m", "Ground truth", ""});
-    table.columns.push_back({"y", "m", "Ground truth", ""});
+    table.columns.push_back({"x", "m", "Ground truth", "", false});
+    table.columns.push_back({"y", "m", "Ground truth", "", false});
     table.columns.push_back({"Error", "m", "", "Distance from the true position."});
   }
   for (Index i = 0; i < estimate.landmarks_m.rows(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -34,13 +35,13 @@ std::vector<std::string> association_conclusions(const TopicStudy& study) {
         continue;
       levels.push_back(fmt::format("{:g}", level));
       right.push_back(fmt::format("{:.0f}", mean("estimated", "correct_percent")));
-      given.push_back(fmt::format("{:.3f}", mean("given", "mpe_m")));
-      estimated.push_back(fmt::format("{:.3f}", mean("estimated", "mpe_m")));
+      given.push_back(page_metres(mean("given", "mpe_m")));
+      estimated.push_back(page_metres(mean("estimated", "mpe_m")));
     }
     if (levels.empty()) continue;
     sentences.push_back(
-        fmt::format("{}: of {} % of wrong landmark IDs, {} % are corrected; the mean MPE is {} m "
-                    "with the IDs as given and {} m with those estimated.",
+        fmt::format("{}: of {} % of wrong landmark IDs, {} % are corrected; the mean MPE is {} "
+                    "with the IDs as given and {} with those estimated.",
                     setup.title, all_listed(levels), all_listed(right), all_listed(given),
                     all_listed(estimated)));
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -48,11 +49,11 @@ std::string choice_sentence(const TopicStudy& study, const char* quantity, const
     best = method.label;
   }
   return fmt::format(
-      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {:.3f} m "
-      "worse than the best map on average; a fixed method is {:.3f} m worse and a random pick "
-      "{:.3f} m.",
-      when, best, least, mean_over_all(study, kFixedMethod, quantity),
-      mean_over_all(study, kRandomPick, quantity));
+      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {} "
+      "worse than the best map on average; a fixed method is {} worse and a random pick "
+      "{}.",
+      when, best, page_metres(least), page_metres(mean_over_all(study, kFixedMethod, quantity)),
+      page_metres(mean_over_all(study, kRandomPick, quantity)));
 }
 
 std::vector<std::string> choice_conclusions(const TopicStudy& study) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -41,11 +42,11 @@ std::string ranking(const TopicStudy& study, const Condition& at) {
   for (std::size_t k = 0; k < means.size(); ++k) {
     const bool last = k + 1 == means.size();
     if (k >= kBest && !last) continue;
-    words += fmt::format("{}{} {:.3f} m",
+    words += fmt::format("{}{} {}",
                          k == 0               ? ""
                          : last && k >= kBest ? "; worst: "
                                               : "; ",
-                         means[k].second, means[k].first);
+                         means[k].second, page_metres(means[k].first));
   }
   return words;
 }
@@ -69,11 +70,12 @@ double regret_m(const TopicStudy& study, const std::string& method) {
 
 std::string advice_words(const TopicStudy& study) {
   return fmt::format(
-      "Choosing the strategy by the pattern of missing data costs {:.3f} m of MPE over the best "
+      "Choosing the strategy by the pattern of missing data costs {} of MPE over the best "
       "map of each outcome "
-      "on average; pairwise-complete distances always cost {:.3f} m, PPCA always {:.3f} m.",
-      regret_m(study, "auto"), regret_m(study, "pairwise-complete-smacof-knn"),
-      regret_m(study, "ppca-smacof-knn"));
+      "on average; pairwise-complete distances always cost {}, PPCA always {}.",
+      page_metres(regret_m(study, "auto")),
+      page_metres(regret_m(study, "pairwise-complete-smacof-knn")),
+      page_metres(regret_m(study, "ppca-smacof-knn")));
 }
 
 std::vector<std::string> missing_conclusions(const TopicStudy& study) {

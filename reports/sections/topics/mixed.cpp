@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -50,9 +51,10 @@ std::string mixed_words_at(const TopicStudy& study, const TopicSetup& setup, con
   const BestSeries mix = best_series(study, at, kMixes);
   if (single.method == nullptr || mix.method == nullptr) return "";
   const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
-  return fmt::format("at {}, {} has a mean MPE of {:.3f} m and {} one of {:.3f} m ({})",
-                     level_words(setup, at), mix.method->label, mix.mean_m, single.method->label,
-                     single.mean_m, difference ? verdict_words(*difference) : "no run has both");
+  return fmt::format("at {}, {} has a mean MPE of {} and {} one of {} ({})", level_words(setup, at),
+                     mix.method->label, page_metres(mix.mean_m), single.method->label,
+                     page_metres(single.mean_m),
+                     difference ? verdict_words(*difference) : "no run has both");
 }
 
 /// What it costs to take the map that keeps most neighbourhoods: its MPE less that of the best map,
@@ -76,9 +78,9 @@ std::string choice_words(const TopicStudy& study, const TopicSetup& setup) {
     }
   if (count == 0.0) return "";
   return fmt::format(
-      "{}: the map that keeps most neighbourhoods of all sensors has an MPE {:.3f} m above the "
-      "best map's, the joint map one of {:.3f} m above it.",
-      setup.title, picked / count, joint / count);
+      "{}: the map that keeps most neighbourhoods of all sensors has an MPE {} above the "
+      "best map's, the joint map one of {} above it.",
+      setup.title, page_metres(picked / count), page_metres(joint / count));
 }
 
 std::vector<std::string> mixed_conclusions(const TopicStudy& study) {

@@ -8,6 +8,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -36,14 +37,17 @@ std::string best_alone(const TopicStudy& study, const TopicPart& part, std::stri
     if (!method.id.starts_with(start) || std::isnan(error)) continue;
     if (best == nullptr || error < method_value(part, best->id, "mpe_m")) best = &method;
   }
-  return best == nullptr
-             ? std::string()
-             : fmt::format("{} ({:.3f} m)", best->label, method_value(part, best->id, "mpe_m"));
+  return best == nullptr ? std::string()
+                         : fmt::format("{} ({})", best->label,
+                                       page_metres(method_value(part, best->id, "mpe_m")));
 }
 
 std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   for (const TopicPart& part : study.parts) {
+    const auto metres_of = [&part](const char* method) {
+      return page_metres(method_value(part, method, "mpe_m"));
+    };
     const double error = method_value(part, "pairs", "mpe_m");
     if (std::isnan(error)) {
       sentences.push_back(fmt::format(
@@ -51,10 +55,10 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
           part.id, std::max(0.0, method_value(part, "pairs", "mapped"))));
       continue;
     }
-    sentences.push_back(
-        fmt::format("{}: range and bearing together put the landmarks {:.3f} m off (MPE), {:.3f} m "
-                    "after a rigid fit; the error is over distances of pairs, without poses.",
-                    part.id, error, method_value(part, "pairs", "rigid_m")));
+    sentences.push_back(fmt::format(
+        "{}: range and bearing together put the landmarks {} off (MPE), {} "
+        "after a rigid fit; the error is over distances of pairs, without poses.",
+        part.id, page_metres(error), page_metres(method_value(part, "pairs", "rigid_m"))));
     std::vector<std::string> others;
     for (const char* start : {"visibility", "bearing", "range"})
       if (const std::string best = best_alone(study, part, start); !best.empty())
@@ -64,13 +68,10 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
                                       listed(others, others.size() + 1)));
     if (const double swapped = method_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
       sentences.push_back(fmt::format(
-          "{}: with two landmark IDs swapped in half of the scans the map is {:.3f} m off, "
-          "corrected "
-          "{:.3f} "
-          "m; with a landmark called by another's name in all scans {:.3f} m, corrected {:.3f} m.",
-          part.id, swapped, method_value(part, "swapped-corrected", "mpe_m"),
-          method_value(part, "misnamed", "mpe_m"),
-          method_value(part, "misnamed-corrected", "mpe_m")));
+          "{}: with two landmark IDs swapped in half of the scans the map is {} off, "
+          "corrected {}; with a landmark called by another's name in all scans {}, corrected {}.",
+          part.id, page_metres(swapped), metres_of("swapped-corrected"), metres_of("misnamed"),
+          metres_of("misnamed-corrected")));
   }
   return sentences;
 }

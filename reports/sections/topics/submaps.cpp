@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -37,15 +38,15 @@ std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
     const auto difference = topic_difference(study, at, parts, whole, "mpe_m");
     if (!difference) continue;
     levels.push_back(fmt::format("{:g}", level));
-    of_parts.push_back(fmt::format("{:.3f}", topic_mean(study, at, parts, "mpe_m")));
-    of_whole.push_back(fmt::format("{:.3f}", topic_mean(study, at, whole, "mpe_m")));
+    of_parts.push_back(page_metres(topic_mean(study, at, parts, "mpe_m")));
+    of_whole.push_back(page_metres(topic_mean(study, at, whole, "mpe_m")));
     if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
       (difference->mean > 0.0 ? worse : better).push_back(levels.back());
   }
   if (levels.empty()) return "";
   const std::set<std::string> wholes(of_whole.begin(), of_whole.end());
   std::string words = fmt::format(
-      "{}, {}: at {} ({}) the mean MPE of the parts joined is {} m, of the whole {} m", setup.title,
+      "{}, {}: at {} ({}) the mean MPE of the parts joined is {}, of the whole {}", setup.title,
       label(setting), all_listed(levels), label_with_unit(setup.factors.front()),
       all_listed(of_parts), wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
   if (!worse.empty()) words += "; significantly worse at " + all_listed(worse);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/unit_text.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -56,7 +57,7 @@ std::string ends_words(const TopicStudy& study, const TopicSetup& setup,
   const double first = topic_mean(study, conditions.front(), method.id, "mpe_m");
   const double last = topic_mean(study, conditions.back(), method.id, "mpe_m");
   if (std::isnan(first) || std::isnan(last)) return "";
-  const auto metres = [](double value) { return with_unit(fmt::format("{:.3g}", value), "m"); };
+  const auto metres = [](double value) { return error_text(value); };
   if (metres(first) == metres(last))
     return fmt::format("of {} stays at {}", in_sentence(method.label), metres(first));
   return fmt::format("of {} {} from {} to {}", in_sentence(method.label),

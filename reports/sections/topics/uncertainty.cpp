@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -49,8 +50,9 @@ std::vector<std::string> uncertainty_conclusions(const TopicStudy& study) {
     const auto [bias_low, bias_high] = range_of(study, setup, "bias_m");
     sentences.push_back(fmt::format(
         "{}: they hold the ground truth for {:.1f} to {:.1f} % of them, since the mean map itself "
-        "is {:.3f} to {:.3f} m off: ellipses measure random errors, not the bias of a method.",
-        setup.title, ground_truth_low, ground_truth_high, bias_low, bias_high));
+        "is {} to {} off: ellipses measure random errors, not the bias of a method.",
+        setup.title, ground_truth_low, ground_truth_high, page_metres(bias_low),
+        page_metres(bias_high)));
   }
   return sentences;
 }

@@ -49,6 +49,15 @@ def test_distances_are_those_of_the_features():
     assert numpy.allclose(mapproof.distances(history), pairs, rtol=1e-9, atol=1e-6)
 
 
+def test_distances_of_visibility_are_those_of_the_features_divided_by_their_norm():
+    history = mapproof.simulate("visibility", seed=3, landmarks=10, steps=400).history
+    rows = mapproof.features(history)
+    assert set(numpy.unique(rows)) == {0, 1} and rows.any(axis=1).all()
+    unit = rows / numpy.linalg.norm(rows, axis=1, keepdims=True)
+    pairs = numpy.linalg.norm(unit[:, None] - unit[None], axis=2)
+    assert numpy.allclose(mapproof.distances(history), pairs, rtol=1e-9, atol=1e-7)
+
+
 @pytest.mark.parametrize("method", mapproof.methods(), ids=lambda method: method.name)
 def test_every_method_maps_a_circle_from_its_distances(method):
     points = circle(24)

@@ -91,7 +91,7 @@ const std::map<std::string, Modules>& linked_in() {
       {"PkgConfig::CAIRO", {"render/cairo"}},
       {"PkgConfig::FREETYPE", {"render/theme", "render/cairo"}},
       {"PkgConfig::HARFBUZZ", {"render/theme", "render/cairo"}},
-      {"PkgConfig::DEFLATE", {"render/image", "render/cairo"}},
+      {"PkgConfig::DEFLATE", {"core/base", "render/image", "render/cairo"}},
       {"PkgConfig::PNG", {"render/image"}},
       {"PkgConfig::FFMPEG", {"render/animation"}},
       {"VTK_LIBRARIES", {"render/vtk"}},

@@ -68,6 +68,27 @@ TEST(LandmarkEvaluation, FindsLandmarksWithoutIdsUnderAnyMotion) {
   }
 }
 
+TEST(LandmarkEvaluation, OfAFewFarApartTheBestAlignmentIsFoundWithinAWideGate) {
+  // A ring: within half the distance of neighbours, turned maps pair all six landmarks, too.
+  LandmarkPositions ground_truth{.names = {"a", "b", "c", "d", "e", "f"},
+                                 .positions_m = Points(6, 2)};
+  ground_truth.positions_m << -24.0, -15.0, 2.0, -18.0, 25.0, -10.0, 22.0, 14.0, -3.0, 17.0, -25.0,
+      12.0;
+  LandmarkPositions map = ground_truth;
+  map.positions_m << -24.01, -15.01, 2.01, -18.01, 25.03, -9.99, 22.0, 14.0, -3.0, 17.04, -25.0,
+      12.01;
+  const LandmarkEvaluation by_id = evaluate_landmarks(ground_truth, map, {});
+  EXPECT_LT(by_id.error_m.maxCoeff(), 0.05);
+  for (const double angle : {0.0, 1.0, 3.0}) {
+    LandmarkPositions turned = map;
+    turned.positions_m = moved(map.positions_m, angle);
+    const LandmarkEvaluation result =
+        evaluate_landmarks(ground_truth, turned, {.association = LandmarkAssociation::kNearest});
+    ASSERT_EQ(result.error_m.size(), 6);
+    EXPECT_NEAR(result.error_m.norm(), by_id.error_m.norm(), 1e-9);
+  }
+}
+
 TEST(LandmarkEvaluation, NearestLandmarksAreOneToOne) {
   LandmarkPositions ground_truth{.names = {"a", "b"}, .positions_m = Points(2, 2)};
   ground_truth.positions_m << 0.0, 0.0, 1.0, 0.0;

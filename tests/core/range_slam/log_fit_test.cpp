@@ -129,6 +129,20 @@ TEST(LogFit, NamesTheLandmarkWhoseRangesAreTooLong) {
   EXPECT_EQ(cause->landmarks, std::vector<std::string>{"0"});
 }
 
+TEST(LogFit, ReportsAnOffsetOfFourStandardDeviations) {
+  const RangeDriveOptions noisy{.landmarks = 4, .steps = 1500, .range_sigma_m = 1.4};
+  for (const double offset_m : {0.0, 5.0}) {
+    Random random(11);
+    const RangeLog log = simulate_drive(noisy, {.landmark_offset_m = offset_m}, random);
+    const Fit fit = fit_log(log, {}, quick_options()).fit;
+    const FitCause* cause = cause_in(fit, FitCode::kLandmarkOffset);
+    ASSERT_EQ(cause != nullptr, offset_m > 0.0);
+    if (cause == nullptr) continue;
+    EXPECT_EQ(cause->landmarks, std::vector<std::string>{"0"});
+    EXPECT_LT(cause->statistic, 17.0);
+  }
+}
+
 TEST(LogFit, NamesALateClock) {
   const Fit fit = fit_log(drive_with({.late_s = 5.0}), {}, quick_options()).fit;
   const FitCause* cause = cause_in(fit, FitCode::kTimeOffset);

@@ -110,12 +110,13 @@ TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(with_plain_spaces(found[1]),
             "Maps from bearing by side of the room: as the side of the room goes from 1.5 m to 4 "
-            "m, the mean MPE of LPCA grows from 0.1 m to 0.4 m and that of SMACOF (kNN weights, K "
-            "= 6) stays at 0.2 m.");
+            "m, the mean MPE of LPCA grows from 0.100 m to 0.400 m and that of SMACOF (kNN "
+            "weights, K = 6) stays at 0.200 m.");
   EXPECT_EQ(with_plain_spaces(found[2]),
             "Maps from bearing by anchors and noise of bearings: as the number of anchors goes "
             "from 3 to 6 and the noise of bearings from 0\u00B0 to 5\u00B0, the mean MPE of LPCA "
-            "grows from 0.1 m to 1 m and that of SMACOF (kNN weights, K = 6) stays at 0.2 m.");
+            "grows from 0.100 m to 1.00 m and that of SMACOF (kNN weights, K = 6) stays at "
+            "0.200 m.");
 }
 
 TEST(SweepTopic, SpellsMethodsAsAllStudiesDo) {

@@ -30,6 +30,8 @@ for name, moved in (("before", False), ("after", True)):
     image.save(out / name / "plot.jpg", quality=85)
     image.save(out / name / "plot.webp", quality=85)
     image.save(out / name / "plot.tiff", compression="tiff_lzw")
+    # As matplotlib writes it: with alpha and a resolution.
+    Image.open(png).save(out / name / "plot.tif", compression="tiff_lzw", dpi=(100, 100), software="a program")
     image.quantize(16).save(out / name / "plot.gif")
     image.resize((96, 72)).quantize(8).save(out / name / "plot.bmp")
     draw(out / name / "plot.pdf", moved, metadata={"CreationDate": None})
@@ -56,6 +58,8 @@ for name, shade in (("before", 200), ("after", 60)):
     frames[0].save(out / name / "film.gif", save_all=True, append_images=frames[1:], duration=300)
     frames[0].save(out / name / "film.png", save_all=True, append_images=frames[1:], duration=300, format="PNG")
     frames[0].save(out / name / "film.webp", save_all=True, append_images=frames[1:], duration=300, lossless=True)
+    # As pages.
+    frames[0].save(out / name / "film.tif", save_all=True, append_images=frames[1:])
     # The same frames; the second is shown longer.
     frames[0].save(out / name / "slower.webp", save_all=True, append_images=[frames[2]],
                    duration=[300, 300 if name == "before" else 500], lossless=True)

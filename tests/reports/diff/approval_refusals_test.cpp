@@ -27,8 +27,8 @@ struct OtherExperiment {
 
 TEST(ApprovalRefusals, AFigureOfAnotherExperimentGoesWithTheRecordsAlone) {
   const OtherExperiment two;
-  const auto refusals =
-      approval_refusals(two.before, two.after, {"map-isomap", "records", "of-neither-side"});
+  const auto refusals = approval_refusals(two.before, two.after,
+                                          {.ids = {"map-isomap", "records", "of-neither-side"}});
   ASSERT_TRUE(refusals.contains("map-isomap"));
   EXPECT_TRUE(refusals.at("map-isomap").goes_with_records);
   EXPECT_NE(refusals.at("map-isomap").why.find("of another experiment"), std::string::npos);
@@ -48,10 +48,20 @@ TEST(ApprovalRefusals, UnreadableFilesAreRefusedAndTheOthersApproved) {
   fs::resize_file(folder / "after/figures/map-isomap.png", 100);
   write_file(folder / "after/figures/map-lpca.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
   const auto refusals =
-      approval_refusals(folder / "before", folder / "after", {"map-isomap", "map-lpca"});
+      approval_refusals(folder / "before", folder / "after", {.ids = {"map-isomap", "map-lpca"}});
   ASSERT_TRUE(refusals.contains("map-isomap"));
   EXPECT_FALSE(refusals.at("map-isomap").goes_with_records);
   EXPECT_FALSE(refusals.contains("map-lpca"));
+}
+
+TEST(ApprovalRefusals, AFileThatWasDecodedIsNotReadAgain) {
+  const TemporaryFolder folder;
+  for (const char* side : {"before", "after"}) write_base_study(folder / side);
+  const fs::path image = folder / "after/figures/map-isomap.png";
+  fs::resize_file(image, 100);
+  const auto refusals = approval_refusals(folder / "before", folder / "after",
+                                          {.ids = {"map-isomap"}, .decoded = {image}});
+  EXPECT_FALSE(refusals.contains("map-isomap"));
 }
 
 TEST(ApprovalRefusals, ThePageShowsThemAtTheCheckboxes) {

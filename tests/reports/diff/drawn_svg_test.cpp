@@ -64,11 +64,11 @@ TEST(DrawnSvg, ThatDiffersHasAHeatMapAtTwiceItsSize) {
                        "<circle cx=\"" +
                            std::to_string(x) + "\" cy=\"40\" r=\"9\"/></svg>");
   };
-  const Image heat = heat_map(circle("a.svg", 30), circle("b.svg", 60));
+  const HeatMap heat = heat_map(circle("a.svg", 30), circle("b.svg", 60));
   ASSERT_EQ(heat.width, 200);
   EXPECT_EQ(heat.height, 160);
-  EXPECT_EQ(heat.row(80)[60], kChangedColour);
-  EXPECT_EQ(heat.row(80)[120], kChangedColour);
+  EXPECT_EQ(heat.colour(60, 80), kChangedColour);
+  EXPECT_EQ(heat.colour(120, 80), kChangedColour);
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_F(ImageDiffTest, ComparesTheCommonPartOfSizesThatDifferByAFewPixels) {
   EXPECT_EQ(found.pixels->changed, 400);
   EXPECT_NE(found.reason.find("in the part that both have 400 pixels changed"), std::string::npos)
       << found.reason;
-  const Image heat = heat_map(a, b);
+  const HeatMap heat = heat_map(a, b);
   EXPECT_EQ((ImageSize{heat.width, heat.height}), (ImageSize{100, 90}));
 }
 
@@ -169,10 +169,10 @@ TEST_F(ImageDiffTest, ComparesSvgsByTheirElements) {
 TEST_F(ImageDiffTest, AHeatMapShowsWhatChanged) {
   const auto a = folder_.file("a.png", encode_png(white(100, 90)));
   const auto b = folder_.file("b.png", encode_png(with_square()));
-  const Image map = heat_map(a, b);
+  const HeatMap map = heat_map(a, b);
   EXPECT_EQ(map.width, 100);
-  EXPECT_EQ(map.row(40)[40], 0xD00000u);
-  EXPECT_EQ(map.row(10)[10], 0xFFFFFFu);
+  EXPECT_EQ(map.colour(40, 40), 0xD00000u);
+  EXPECT_EQ(map.colour(10, 10), 0xFFFFFFu);
   EXPECT_EQ(heat_map(a, a).width, 0);
 }
 

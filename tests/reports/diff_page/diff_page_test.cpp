@@ -5,6 +5,7 @@
 
 #include "core/base/files/files.hpp"
 #include "core/base/text/base64.hpp"
+#include "reports/diff/folder_diff.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/sha256.hpp"
@@ -67,6 +68,40 @@ TEST(DiffPage, MakesAHeatMapOfPngsAndSvgsThatDifferUnlessTheirSizesDo) {
   EXPECT_NE(page.find("alt=\"Heat map of moved\""), std::string::npos);
   EXPECT_EQ(page.find("alt=\"Heat map of drawn\"") != std::string::npos, draws_svg);
   EXPECT_EQ(count_of(page, "No heat map: the sizes differ."), 1);
+}
+
+TEST(DiffPage, IsTheSameWhetherTheComparisonKeptTheHeatMapsOrNot) {
+  const test::TemporaryFolder folder;
+  for (const int i : {1, 2, 3})
+    for (const bool is_current : {false, true})
+      write_file(folder / (is_current ? "b" : "a") / fmt::format("{}.png", i),
+                 test::square_png(160, 120, is_current ? 60 + 20 * i : 10, 30));
+  const auto one_pair = std::filesystem::file_size(folder / "a/1.png") +
+                        std::filesystem::file_size(folder / "b/1.png");
+  const std::string none = page_of(folder_diff(folder / "a", folder / "b"));
+  EXPECT_EQ(count_of(none, "class=\"pane heat\""), 3);
+  for (const auto& [bytes, kept] :
+       {std::pair{std::size_t{1}, 0}, {std::size_t{one_pair}, 1}, {kPageBytes, 3}}) {
+    DiffSettings settings;
+    settings.heat_map_bytes = bytes;
+    const DiffResult result = folder_diff(folder / "a", folder / "b", settings);
+    const auto has_heat = [](const DiffItem& item) { return item.images.at(0).heat.has_value(); };
+    // Pairs that are compared at the same time may both take the last room.
+    EXPECT_GE(std::ranges::count_if(result.items, has_heat), kept);
+    EXPECT_EQ(page_of(result), none) << bytes;
+  }
+}
+
+TEST(DiffPage, RefusesAnImageThatWasComparedAndIsNotWhatItsNameSays) {
+  const test::TemporaryFolder folder;
+  for (const auto& [side, x] : {std::pair{"a", 20}, {"b", 90}}) {
+    write_file(folder / side / "named.jpg", test::square_png(160, 120, x, 30));
+    write_file(folder / side / "plain.png", test::square_png(160, 120, x, 30));
+  }
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  for (const DiffItem& item : result.items) EXPECT_TRUE(item.images.at(0).diff.is_decoded);
+  const std::string page = page_of(result);
+  EXPECT_NE(page.find("is not an image that can be read as jpg"), std::string::npos);
 }
 
 TEST(DiffPage, NamesBothSidesInItsTitleAndAboveEachImage) {

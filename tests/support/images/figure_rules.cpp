@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "render/cairo/cairo_backend.hpp"
 #include "render/plot/axis_map.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/layout.hpp"
@@ -16,10 +17,16 @@ namespace mapproof::test {
 namespace {
 
 constexpr std::size_t kFewestLabels = 2, kFewestLogLabels = 3;
-constexpr double kRoomOfThree = 12.0;   // For three labels of numbers side by side, em.
-constexpr double kUppermost = 0.7;      // Of an axis from 0: lines above it alone.
-constexpr double kLeastOfPaper = 0.65;  // Of the height, for the frame of a narrow paper figure.
-constexpr double kLeastOfReport = 0.5;  // Of the height below the title, on a screen.
+constexpr double kRoomOfThree = 12.0;    // For three labels of numbers side by side, em.
+constexpr double kUppermost = 0.7;       // Of an axis from 0: lines above it alone.
+constexpr double kLeastOfPaper = 0.65;   // Of the height, for the frame of a narrow paper figure.
+constexpr double kLeastOfReport = 0.5;   // Of the height below the title, on a screen.
+constexpr std::size_t kMostLabels = 12;  // Of numbers on an axis.
+constexpr double kLeastOfPanels = 0.2;   // Of the page below its title, for all frames.
+// Of the coloured pixels, for lines, bands and cells of data; few runs have 2.9 % in quick
+// profiles.
+constexpr double kLeastOfData = 0.02;
+constexpr double kLeastDifference = 0.1;  // Of two colours side by side, in OKLab.
 
 std::string style_of(const Polyline& line) {
   return fmt::format("{}/{}/{}", static_cast<int>(line.colour), static_cast<int>(line.dash),
@@ -30,6 +37,45 @@ std::string style_of(const Polyline& line) {
 /// panel without data.
 bool has_scale(const Axis& axis, Range limits) {
   return axis.names.empty() && !(axis.whole && limits.high - limits.low < 2.5);
+}
+
+bool is_coloured(const Image& image, int x, int y, Colour background) {
+  const std::uint32_t paper = background.red << 16 | background.green << 8 | background.blue;
+  return (image.row(y)[x] & 0xFFFFFF) != paper;
+}
+
+/// The pixels that are not paper.
+double coloured_pixels(const Image& image, Colour background) {
+  double count = 0.0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) count += is_coloured(image, x, y, background) ? 1.0 : 0.0;
+  return count;
+}
+
+bool shows_data(ItemClass item_class) {
+  constexpr std::array kData = {ItemClass::kBand,     ItemClass::kCells, ItemClass::kLine,
+                                ItemClass::kMarker,   ItemClass::kImage, ItemClass::kCellText,
+                                ItemClass::kMarkLabel};
+  return std::ranges::find(kData, item_class) != kData.end();
+}
+
+/// Of two colours, in the space OKLab, where 1 is black from white.
+double difference(Colour a, Colour b) {
+  const auto lab = [](Colour colour) {
+    const auto linear = [](std::uint8_t value) {
+      const double v = value / 255.0;
+      return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    };
+    const double r = linear(colour.red), g = linear(colour.green), b = linear(colour.blue);
+    const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
+    const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
+    const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
+    return std::array{0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+                      1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+                      0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
+  };
+  const auto one = lab(a), two = lab(b);
+  return std::hypot(one[0] - two[0], one[1] - two[1], one[2] - two[2]);
 }
 
 class Rules {
@@ -44,8 +90,11 @@ class Rules {
       check_labels(i);
       check_start(panel);
       check_styles(panel);
+      check_colours(i);
     }
     check_share();
+    check_panels();
+    check_data_share();
     return std::move(broken_);
   }
 
@@ -72,7 +121,8 @@ class Rules {
     const bool has_room = length >= kRoomOfThree * theme_.font_pt;
     const std::size_t fewest =
         axis.scale == Scale::kLog && has_room ? kFewestLogLabels : kFewestLabels;
-    if (labels > 0 && labels < fewest && has_scale(axis, limits))
+    const bool too_many = axis.names.empty() && labels > kMostLabels;
+    if (too_many || (labels > 0 && labels < fewest && has_scale(axis, limits)))
       add(fmt::format("{} labels on the {} axis '{}'", labels, name, axis.label));
   }
 
@@ -111,6 +161,79 @@ class Rules {
       add(fmt::format("the frame takes {:.0f} % of the height", 100.0 * share));
   }
 
+  /// What the frames of all panels take of the page below its title.
+  void check_panels() {
+    if (figure_.panels.size() < 2) return;
+    double area = 0.0, top = drawing_.height;
+    for (const Box& frame : drawing_.frames) {
+      area += frame.width() * frame.height();
+      top = std::min(top, frame.y0);
+    }
+    const double share = area / (drawing_.width * (drawing_.height - top));
+    if (share < kLeastOfPanels)
+      add(fmt::format("the panels take {:.0f} % of the page", 100.0 * share));
+  }
+
+  /// What of all that is drawn shows data.
+  void check_data_share() {
+    // Of few points the share says nothing.
+    const auto has_points_alone = [](const Panel& panel) {
+      return std::ranges::all_of(panel.layers, [](const Layer& layer) {
+        return !std::holds_alternative<Polyline>(layer) && !std::holds_alternative<Band>(layer) &&
+               !std::holds_alternative<Segments>(layer);
+      });
+    };
+    if (std::ranges::any_of(figure_.panels, &Panel::bare) ||
+        std::ranges::any_of(figure_.panels, has_points_alone))
+      return;
+    const auto pixels = [&](auto wanted) {
+      Drawing part = drawing_;
+      std::erase_if(part.items, [&](const Item& item) { return !wanted(item.item_class); });
+      return coloured_pixels(to_image(part), drawing_.background);
+    };
+    const double all = pixels([](ItemClass) { return true; });
+    const double share = all > 0.0 ? pixels(shows_data) / all : 1.0;
+    if (share < kLeastOfData)
+      add(fmt::format("data are {:.1f} % of the coloured pixels", 100.0 * share));
+  }
+
+  /// Lines of two names whose colours are alike, and their dashes too, where they touch.
+  void check_colours(std::size_t index) {
+    std::vector<const Polyline*> lines;
+    for (const Layer& layer : figure_.panels[index].layers)
+      if (const auto* line = std::get_if<Polyline>(&layer); line != nullptr && !line->label.empty())
+        lines.push_back(line);
+    for (std::size_t a = 0; a < lines.size(); ++a)
+      for (std::size_t b = a + 1; b < lines.size(); ++b) {
+        const Colour one = theme_.of(lines[a]->colour), two = theme_.of(lines[b]->colour);
+        if (one != two && lines[a]->dash == lines[b]->dash &&
+            difference(one, two) < kLeastDifference && touch(one, two, index))
+          add(fmt::format("the colours of '{}' and '{}' touch and are alike", lines[a]->label,
+                          lines[b]->label));
+      }
+  }
+
+  bool touch(Colour a, Colour b, std::size_t index) const {
+    const auto mask = [&](Colour colour) {
+      Drawing part = drawing_;
+      std::erase_if(part.items, [&](const Item& item) {
+        const auto* shape = std::get_if<Shape>(&item.what);
+        return item.panel != index || item.item_class != ItemClass::kLine || shape == nullptr ||
+               !shape->stroke || shape->stroke->colour != colour;
+      });
+      return to_image(part);
+    };
+    const Image of_a = mask(a), of_b = mask(b);
+    for (int y = 0; y + 1 < of_a.height; ++y)
+      for (int x = 0; x + 1 < of_a.width; ++x)
+        if (is_coloured(of_a, x, y, drawing_.background) &&
+            (is_coloured(of_b, x, y, drawing_.background) ||
+             is_coloured(of_b, x + 1, y, drawing_.background) ||
+             is_coloured(of_b, x, y + 1, drawing_.background)))
+          return true;
+    return false;
+  }
+
   const Figure& figure_;
   const Theme& theme_;
   Drawing drawing_;
@@ -118,8 +241,8 @@ class Rules {
 };
 
 /// How the ids of figures begin whose curves are quantities, sizes or noises of one method.
-constexpr std::array<std::string_view, 5> kOfOneMethod = {"angle-", "factorization-cost", "fig-1b",
-                                                          "noise-", "positions-"};
+constexpr std::array<std::string_view, 6> kOfOneMethod = {
+    "anchors-", "angle-", "factorization-cost", "fig-1b", "noise-", "positions-"};
 
 /// The method that a label names, whatever the value of its parameter.
 std::string method_in(const std::string& label) {

@@ -1,0 +1,13 @@
+#pragma once
+
+namespace mapproof {
+
+/// The greatest error that pages and figures print as a number, m: a map that is farther off
+/// diverged, and by how much says nothing.
+inline constexpr double kGreatestError_m = 1000.0;
+
+/// What is said of a greater error, and of a difference below its negative.
+inline constexpr const char* kGreatErrorText = "over 1\u00A0km";
+inline constexpr const char* kGreatGainText = "below \u22121\u00A0km";
+
+}  // namespace mapproof

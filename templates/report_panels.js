@@ -1,0 +1,188 @@
+// The parts of a drawing by panel, for what shows panels alone, one below the other, or zoomed.
+
+const kNoShift = { x: 0, y: 0 };
+const kShared = /^(title|note|legend-|panel-arrow)/;  // Classes of what belongs to no panel.
+const partsOfDrawings = new WeakMap();  // <svg> → its parts.
+const shifts = new WeakMap();  // A part of a panel → how far it was moved, { x, y }.
+
+// The frames of the panels in their order, with what their axes count: "linear 0 2000".
+function framesOf(svg) {
+  return [...svg.querySelectorAll(":scope > defs > clipPath > rect")].map((rect) => {
+    const [x, y, width, height] = ["x", "y", "width", "height"].map(
+      (name) => Number(rect.getAttribute(name)));
+    const axis = (text) => {
+      const [scale, low, high] = (text ?? "").split(" ");
+      return text ? { scale, low: Number(low), high: Number(high) } : null;
+    };
+    return { x, y, width, height, right: x + width, bottom: y + height, clip: rect,
+      axes: [axis(rect.dataset.x), axis(rect.dataset.y)] };
+  });
+}
+
+// What a part is: "tick-label"; other classes say how it is shown.
+const kindOf = (part) => part.classList[0] ?? "";
+
+function clipOf(part) {
+  const clipped = part.hasAttribute("clip-path") ? part : part.querySelector("[clip-path]");
+  const number = /-c(\d+)\)$/.exec(clipped?.getAttribute("clip-path") ?? "")?.[1];
+  return number === undefined ? -1 : Number(number);
+}
+
+// What is drawn in each panel, from its heading on; the labels of the axes, which panels may share;
+// and others. `panels` is empty where it is open which panel a part belongs to.
+function partsOf(svg) {
+  if (partsOfDrawings.has(svg)) return partsOfDrawings.get(svg);
+  const frames = framesOf(svg);
+  const parts = { frames, panels: [], axes: [], rest: [], whole: viewBoxOf(svg) };
+  let isFramed = true;
+  for (const part of svg.querySelectorAll(":scope > g:not(.lit)")) {
+    const kind = kindOf(part);
+    if (kind === "axis-label") parts.axes.push(...part.children);
+    else if (kShared.test(kind)) parts.rest.push(part);
+    else {
+      const starts = isFramed && (kind === "panel-title" || kind === "grid");
+      if (starts) {
+        parts.panels.push([]);
+        isFramed = false;
+      }
+      isFramed ||= kind === "frame";
+      parts.panels.at(-1)?.push(part);
+      if (clipOf(part) >= 0 && clipOf(part) !== parts.panels.length - 1) parts.isMixed = true;
+    }
+  }
+  if (parts.isMixed || parts.panels.length !== frames.length) parts.panels = [];
+  partsOfDrawings.set(svg, parts);
+  return parts;
+}
+
+// Where an element is, in the units of the drawing before anything was moved.
+function boxIn(svg, element) {
+  const { left, top, width, height } = element.getBoundingClientRect();
+  const { a } = svg.getScreenCTM(), { x, y } = pointOf(svg, { x: left, y: top });
+  const shift = shiftOf(element);
+  return { x: x - shift.x, y: y - shift.y, width: width / a, height: height / a };
+}
+
+function shiftOf(element) {
+  return shifts.get(element.closest("svg > g")) ?? kNoShift;
+}
+
+function setTransform(part, text) {
+  if (text) part.setAttribute("transform", text);
+  else part.removeAttribute("transform");
+}
+
+// Moves all parts of a panel; what is zoomed in it stays so.
+function movePanel(panel, shift) {
+  for (const part of panel) {
+    shifts.set(part, shift);
+    placePart(part);
+  }
+}
+
+function placePart(part) {
+  const { x, y } = shifts.get(part) ?? kNoShift;
+  const moved = x === 0 && y === 0 ? "" : `translate(${x} ${y})`;
+  setTransform(part, [moved, part.dataset.zoom ?? ""].filter(Boolean).join(" "));
+}
+
+// Where a mark is shown, in the units of the drawing.
+function positionOfMark({ element }) {
+  const shift = shiftOf(element);
+  return { x: Number(element.getAttribute("x")) + shift.x,
+    y: Number(element.getAttribute("y")) + shift.y };
+}
+
+function positionOf(label) {
+  const pattern = /translate\(([-\d.]+)(?:[ ,]([-\d.]+))?\)/;
+  const [, x, y] = pattern.exec(label.getAttribute("transform")) ?? [];
+  return { x: Number(x ?? 0), y: Number(y ?? 0) };
+}
+
+const isUpright = (label) => /rotate/.test(label.getAttribute("transform"));
+
+// The tick labels of a panel: those left of its frame, and those below it.
+function tickLabelsOf(panel, frame) {
+  const all = panel.filter((part) => part.classList.contains("tick-label"))
+    .flatMap((part) => [...part.children]);
+  const isBelow = (label) => positionOf(label).y > frame.bottom + 8;
+  return { left: all.filter((label) => !isBelow(label)), below: all.filter(isBelow) };
+}
+
+function addCopy(layer, label, right, down) {
+  const moved = layer.appendChild(document.createElementNS(layer.namespaceURI, "g"));
+  moved.setAttribute("transform", `translate(${right} ${down})`);
+  moved.setAttribute("fill", label.parentElement.getAttribute("fill") ?? "currentColor");
+  moved.append(label.cloneNode(true));
+  return moved;
+}
+
+// The frame that a label of an axis belongs to, among those of its row or column the nearest one.
+function frameOfLabel(label, frames) {
+  const { x, y } = positionOf(label);
+  const gap = (frame) => (isUpright(label) ? frame.x - x : y - frame.bottom);
+  return frames.filter((frame) => gap(frame) > 0).sort((a, b) => gap(a) - gap(b))[0];
+}
+
+// The label of each axis of a panel: of several, the one that is nearest to the panel.
+function axisLabelsOf(svg, parts, frame) {
+  const middle = (label) => {
+    const box = boxIn(svg, label);
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+  };
+  const off = (label) => {
+    const at = middle(label);
+    return Math.hypot(at.x - frame.x - frame.width / 2, at.y - frame.y - frame.height / 2);
+  };
+  return [true, false].flatMap((upright) => parts.axes
+    .filter((label) => isUpright(label) === upright && frameOfLabel(label, parts.frames))
+    .sort((a, b) => off(a) - off(b)).slice(0, 1)
+    .map((label) => ({ label, upright, middle: middle(label) })));
+}
+
+// The labels of the axes that a panel shares with others, moved to this panel.
+function sharedAxes(svg, parts, step, shift = kNoShift) {
+  const layer = document.createElementNS(svg.namespaceURI, "g");
+  layer.setAttribute("class", "step-axes");
+  const { frames } = parts, frame = frames[step];
+  const numbers = parts.panels.map((panel, i) => tickLabelsOf(panel, frames[i]));
+  for (const side of ["left", "below"]) {
+    const from = numbers.findIndex((each) => each[side].length > 0);
+    if (from < 0 || numbers[step][side].length > 0) continue;
+    for (const label of numbers[from][side]) {
+      addCopy(layer, label, frame.x - frames[from].x, frame.y - frames[from].y)
+        .classList.add("tick-copy");
+    }
+  }
+  for (const { label, upright, middle } of axisLabelsOf(svg, parts, frame)) {
+    const from = frameOfLabel(label, frames);
+    addCopy(layer, label, upright ? frame.x - from.x : frame.x + frame.width / 2 - middle.x,
+      upright ? frame.y + frame.height / 2 - middle.y : frame.bottom - from.bottom);
+  }
+  shifts.set(layer, shift);
+  placePart(layer);
+  return layer;
+}
+
+// What a panel needs around its frame, the greatest of all panels, for headings and labels.
+function roomsOf(svg, parts) {
+  const rooms = { left: 4, above: 4, right: 6, below: 6 };
+  const see = (box, frame) => {
+    rooms.left = Math.max(rooms.left, frame.x - box.x + 4);
+    rooms.above = Math.max(rooms.above, frame.y - box.y + 4);
+    rooms.right = Math.max(rooms.right, box.x + box.width - frame.right + 4);
+    rooms.below = Math.max(rooms.below, box.y + box.height - frame.bottom);
+  };
+  parts.panels.forEach((panel, i) => {
+    const seen = panel.filter(
+      (part) => /^(panel-title|tick-label|tick|mark-label)$/.test(kindOf(part)));
+    for (const part of seen) see(boxIn(svg, part), parts.frames[i]);
+  });
+  for (const label of parts.axes) {
+    const box = boxIn(svg, label), frame = frameOfLabel(label, parts.frames);
+    if (!frame) return null;  // Of a colour bar.
+    if (isUpright(label)) rooms.left = Math.max(rooms.left, frame.x - box.x + 4);
+    else rooms.below = Math.max(rooms.below, box.y + box.height - frame.bottom + 4);
+  }
+  return rooms;
+}
