@@ -246,9 +246,10 @@ constexpr double kLowInColumn = 0.7;       // Height of panels below each other,
 constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
 constexpr double kArrowWidth = 5.0;        // Of an arrow and its word between cells, em.
 constexpr int kMostHeights = 3;
-constexpr double kLeastHigher = 0.5;  // In points.
-constexpr double kLowestFrame = 7.0;  // Of a frame beside others: its height in em.
-constexpr double kArrowGap = 2.4;     // Between panels below each other, em.
+constexpr double kLeastHigher = 0.5;                 // In points.
+constexpr double kTooLow = 6.0, kLowestFrame = 7.0;  // Height of a frame beside others, em: below
+                                                     // the first it gets the second.
+constexpr double kArrowGap = 2.4;                    // Between panels below each other, em.
 
 /// Cells with axes of their own, and the arrows between them.
 class CellGrid {
@@ -313,9 +314,9 @@ class CellGrid {
         const Box cell{room_.x0, room_.y0, room_.x0 + width, room_.y0 + height};
         Drawing attempt;
         lay_out_panel(panel, p, cell, theme_, attempt);
-        const double lacks = kLowestFrame * theme_.font_pt - attempt.frames.back().height();
-        if (lacks <= kLeastHigher) break;
-        height += lacks;
+        const double frame = attempt.frames.back().height();
+        if (frame >= kTooLow * theme_.font_pt) break;
+        height += kLowestFrame * theme_.font_pt - frame;
       }
     }
     return height;
