@@ -158,7 +158,7 @@ PageData page_data(const fs::path& folder, const std::vector<Figure>& figures,
     images.figures.push_back(&figure);
     shown.insert(figure.id);
   }
-  return page_content(folder, images, shown, disclosure).data;
+  return page_content(page_records(folder, disclosure), images, shown, disclosure).data;
 }
 
 }  // namespace

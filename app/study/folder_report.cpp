@@ -214,9 +214,10 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   };
   HtmlOptions options;
   options.link_words = report.link_words;
+  const PageData records = page_records(report.folder, outputs.disclosure);
   PageContent content;
   const auto page = [&] {
-    content = page_content(report.folder, images_of(report), shown_figures(shown, drawing, options),
+    content = page_content(records, images_of(report), shown_figures(shown, drawing, options),
                            outputs.disclosure);
     return with_page_data(
         outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)), content.data);

@@ -83,7 +83,7 @@ struct ReportOutputs {
 };
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes and carries the
-/// records of the report's folder (see page_content()), into that folder.
+/// records of the report's folder (see page_records()), into that folder.
 /// @param of_folder  The lock of that folder.
 /// @return The path of the report.
 /// @throws IoError.

@@ -69,10 +69,15 @@ void add_records(const fs::path& folder, const Disclosure& disclosure, PageData&
 
 }  // namespace
 
-PageContent page_content(const fs::path& folder, const Images& images,
-                         const std::set<std::string>& shown, const Disclosure& disclosure) {
-  PageContent content;
-  add_records(folder, disclosure, content.data);
+PageData page_records(const fs::path& folder, const Disclosure& disclosure) {
+  PageData records;
+  add_records(folder, disclosure, records);
+  return records;
+}
+
+PageContent page_content(PageData records, const Images& images, const std::set<std::string>& shown,
+                         const Disclosure& disclosure) {
+  PageContent content{.data = std::move(records)};
   FigureFiles files(shown, disclosure, content.data);
   for (const Figure* figure : images.figures)
     files.add(figure->id, ".figure.json", figure_to_json(*figure));

@@ -29,13 +29,16 @@ struct PageContent {
   std::size_t figures_left = 0;  ///< Those that are in the folder alone.
 };
 
-/// The records of a folder — of a study, of studies below it, of a map or a range-only map — and
-/// the figures that its page shows: of a study study.json and results.csv, of a map map.json, of a
-/// range-only map slam.json. Figures that need more than kMostFigureData are left out, 3-D figures
-/// first.
-/// @param shown  Ids of the figures in the page. @throws IoError if records cannot be read.
-PageContent page_content(const std::filesystem::path& folder, const Images& images,
-                         const std::set<std::string>& shown, const Disclosure& disclosure);
+/// The records of a folder, of a study, of studies below it, of a map or a range-only map: of a
+/// study study.json and results.csv, of a map map.json, of a range-only map slam.json.
+/// @throws IoError if they cannot be read.
+PageData page_records(const std::filesystem::path& folder, const Disclosure& disclosure);
+
+/// The records, and the figures that the page shows. Figures that need more than kMostFigureData
+/// are left out, 3-D figures first.
+/// @param shown  Ids of the figures in the page.
+PageContent page_content(PageData records, const Images& images, const std::set<std::string>& shown,
+                         const Disclosure& disclosure);
 
 /// "report.html carries … 30 figures; those of 4 more … are in figures/ alone"; empty if it carries
 /// all.

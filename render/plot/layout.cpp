@@ -246,7 +246,6 @@ constexpr double kLowInColumn = 0.7;       // Height of panels below each other,
 constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
 constexpr double kArrowWidth = 5.0;        // Of an arrow and its word between cells, em.
 constexpr int kMostHeights = 3;
-constexpr double kLeastHigher = 0.5;                 // In points.
 constexpr double kTooLow = 6.0, kLowestFrame = 7.0;  // Height of a frame beside others, em: below
                                                      // the first it gets the second.
 constexpr double kArrowGap = 2.4;                    // Between panels below each other, em.
@@ -492,6 +491,8 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
     lay_out_grid(figure, room, theme, drawing);
   return drawing;
 }
+
+constexpr double kLeastHigher = 0.5;  // In points.
 
 /// The height of the page at which the only frame has its share of it.
 double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
