@@ -47,8 +47,8 @@ for (const table of document.querySelectorAll("main table")) makeSortable(table)
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);
 addFigureColours();
-addOpeningImages();
 addEventListener("themechange", addOpeningImages);
+narrowPage.addEventListener("change", addOpeningImages);
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 foldDetails();
@@ -58,3 +58,4 @@ followReading();
 (globalThis.requestIdleCallback ?? setTimeout)(
   () => addMethodList(document.querySelector(".search")));
 addSearch(document.querySelector(".contents"));
+addOpeningImages();  // As large as what is above them leaves room for.

@@ -18,7 +18,7 @@ async function pngOf(text) {
 }
 
 async function saveDrawing(figure, format) {
-  const text = sourceOf(figure);
+  const text = withoutDarkPalettes(sourceOf(figure));
   const blob = format === "png" ? await pngOf(text) : new Blob([text], { type: "image/svg+xml" });
   save(`${figure.dataset.id}.${format}`, blob);
 }

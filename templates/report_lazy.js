@@ -18,18 +18,24 @@ function reserveSpace(figure) {
   if (size) figure.querySelector(".drawing").style.setProperty("--aspect", size[1] / size[2]);
 }
 
-function putIn(figure) {
-  const holder = figure.querySelector(".drawing > noscript");
-  if (!holder) return;
-  const text = sourceOf(figure);
+// The text of an SVG as an element of the page.
+function drawingOf(text) {
   const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-  if (svg.localName !== "svg") return;
   // A drawing is one image with a title and a description; its texts are not separate elements.
   for (const words of svg.querySelectorAll("g[aria-label]")) {
     words.dataset.words = words.getAttribute("aria-label");
     words.removeAttribute("aria-label");
   }
-  holder.replaceWith(document.adoptNode(svg));
+  addDarkImages(svg);
+  return document.adoptNode(svg);
+}
+
+function putIn(figure) {
+  const holder = figure.querySelector(".drawing > noscript");
+  if (!holder) return;
+  const svg = drawingOf(sourceOf(figure));
+  if (svg.localName !== "svg") return;
+  holder.replaceWith(svg);
   for (const each of whenPutIn) each(figure, svg);
 }
 

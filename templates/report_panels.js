@@ -28,26 +28,57 @@ function clipOf(part) {
   return number === undefined ? -1 : Number(number);
 }
 
+// The frame that a point is in, or that is nearest to it, among several.
+function frameNear(frames, { x, y }) {
+  const off = (frame) => Math.hypot(Math.max(0, frame.x - x, x - frame.right),
+    Math.max(0, frame.y - y, y - frame.bottom));
+  return frames.reduce((best, frame, i) => (off(frame) < off(frames[best]) ? i : best), 0);
+}
+
+// Names of marks are drawn last, those of all panels in one group: each panel gets its own.
+function splitByFrame(part, frames) {
+  const own = new Map();
+  for (const child of [...part.children]) {
+    const frame = frameNear(frames, positionOf(child));
+    if (own.size === 0) own.set(frame, part);
+    if (!own.has(frame)) {
+      const group = part.cloneNode(false);
+      part.after(group);
+      own.set(frame, group);
+    }
+    if (own.get(frame) !== part) own.get(frame).append(child);
+  }
+  return own;
+}
+
 // What is drawn in each panel, from its heading on; the labels of the axes, which panels may share;
 // and others. `panels` is empty where it is open which panel a part belongs to.
 function partsOf(svg) {
   if (partsOfDrawings.has(svg)) return partsOfDrawings.get(svg);
   const frames = framesOf(svg);
-  const parts = { frames, panels: [], axes: [], rest: [], whole: viewBoxOf(svg) };
-  let isFramed = true;
+  const parts = { frames, panels: frames.length === 1 ? [[]] : [], axes: [], rest: [],
+    whole: viewBoxOf(svg) };
+  let hasBody = true, isLate = false;  // Whether a panel has more than its heading.
   for (const part of svg.querySelectorAll(":scope > g:not(.lit)")) {
-    const kind = kindOf(part);
+    const kind = kindOf(part), clip = clipOf(part);
     if (kind === "axis-label") parts.axes.push(...part.children);
-    else if (kShared.test(kind)) parts.rest.push(part);
+    else if (kShared.test(kind)) {
+      parts.rest.push(part);
+      isLate ||= kind.startsWith("legend-");
+    } else if (frames.length === 1) parts.panels[0].push(part);
     else {
-      const starts = isFramed && (kind === "panel-title" || kind === "grid");
-      if (starts) {
+      const isHead = kind === "panel-title", isFirst = /^(grid|image)$/.test(kind);
+      if ((isHead || isFirst) && hasBody) {
         parts.panels.push([]);
-        isFramed = false;
+        isLate = false;
       }
-      isFramed ||= kind === "frame";
-      parts.panels.at(-1)?.push(part);
-      if (clipOf(part) >= 0 && clipOf(part) !== parts.panels.length - 1) parts.isMixed = true;
+      hasBody = !isHead;
+      if (isLate && kind === "mark-label") {
+        for (const [frame, own] of splitByFrame(part, frames)) parts.panels[frame]?.push(own);
+        continue;
+      }
+      parts.panels[isLate && clip >= 0 ? clip : parts.panels.length - 1]?.push(part);
+      if (clip >= 0 && clip !== parts.panels.length - 1 && !isLate) parts.isMixed = true;
     }
   }
   if (parts.isMixed || parts.panels.length !== frames.length) parts.panels = [];

@@ -1,5 +1,6 @@
 // On a narrow page the panels of a drawing stand one below the other, or as many side by side as
-// have words of a readable size. Its heading is text of the page, its legend is below.
+// have words of a readable size; those that are too wide get narrower (see report_narrow.js). The
+// heading is text of the page, the legend is below.
 
 const kLeastWords_px = 10;
 const narrowPage = matchMedia("(max-width: 36rem)");
@@ -60,18 +61,25 @@ function addDrawnTitle(svg, parts) {
   svg.parentElement.before(title);
 }
 
-// How the panels are arranged in a box of that width; null if they are to stay as they are drawn.
-function arrangementOf(svg, parts, width_px) {
-  if (parts.panels.length < 2 || !(width_px > 0)) return null;
+// How the panels are arranged in a box of that width, and if they can be in one of that height; null
+// if they are to stay as they are drawn.
+function arrangementOf(svg, parts, width_px, height_px = Infinity) {
+  if (parts.panels.length === 0 || !(width_px > 0)) return null;
+  const most = width_px * leastWords(svg) / kLeastWords_px;
+  if (parts.whole.width <= most) return null;
   const rooms = roomsOf(svg, parts);
   if (!rooms) return null;
-  const widest = Math.max(...parts.frames.map((frame) => frame.width));
-  const width = widest + rooms.left + rooms.right;
-  const most = width_px * leastWords(svg) / kLeastWords_px;
-  if (width > most) return null;
-  const columns = Math.min(parts.panels.length, Math.floor(most / width));
-  return { rooms, columns, width, height: Math.max(...parts.frames.map((frame) => frame.height)) +
-    rooms.above + rooms.below };
+  const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
+  const around = { width: rooms.left + rooms.right, height: rooms.above + rooms.below };
+  const width = Math.min(most, greatest("width") + around.width);
+  const columns = Math.max(1, Math.min(parts.panels.length, Math.floor(most / width)));
+  const rows = Math.ceil(parts.panels.length / columns);
+  const kLegend_px = 60;
+  const row = (height_px - kLegend_px) * columns * width / width_px / rows;
+  if (greatest("width") + around.width > most || greatest("height") + around.height > row) {
+    narrowFrames(svg, parts, rooms, most, row - around.height);
+  }
+  return { rooms, columns, width, height: greatest("height") + around.height };
 }
 
 // Makes the drawing as wide as its box, in place of a box to be moved sideways.
@@ -88,6 +96,7 @@ function unstack(svg, parts) {
   for (const panel of [...parts.panels, parts.rest]) movePanel(panel, kNoShift);
 }
 
+// Returns the box of the drawing that holds all.
 function stack(svg, parts, { rooms, columns, width, height }) {
   const layers = [];
   parts.frames.forEach((frame, i) => {
@@ -105,8 +114,7 @@ function stack(svg, parts, { rooms, columns, width, height }) {
     part.classList.toggle("off", !isLegend);
   }
   svg.append(...layers);
-  addDrawnTitle(svg, parts);
-  return fillWidth(svg, { x: 0, y: 0, width: columns * width, height: foot });
+  return { x: 0, y: 0, width: columns * width, height: foot };
 }
 
 // Shows the whole drawing: as it was drawn, or on a narrow page with its panels in a column.
@@ -116,16 +124,33 @@ function showWhole(svg, whole) {
   for (const part of [...parts.panels.flat(), ...parts.rest,
     ...parts.axes.map((label) => label.parentElement)]) part.classList.remove("off");
   setHome(svg, whole);
-  if (!narrowPage.matches) return;
-  const arrangement = arrangementOf(svg, parts, svg.parentElement.clientWidth);
-  if (arrangement) setHome(svg, stack(svg, parts, arrangement));
+  const wasNarrow = widths.has(svg);
+  widenFrames(svg, parts);
+  const arrangement = narrowPage.matches
+    ? arrangementOf(svg, parts, svg.parentElement.clientWidth) : null;
+  if (zoomedParts.has(svg) && (wasNarrow || widths.has(svg))) {
+    zoomedParts.set(svg, readZoomedParts(svg));
+  }
+  if (!arrangement) return;
+  addDrawnTitle(svg, parts);
+  setHome(svg, fillWidth(svg, stack(svg, parts, arrangement)));
 }
 
+// A drawing is arranged again whenever its box has another width, as when a phone is turned.
 function stackOnNarrowPages(figure, svg) {
-  const { whole } = partsOf(svg);
+  const { whole } = partsOf(svg), box = svg.parentElement;
+  let width = 0, wasNarrow = false;
   const show = () => {
-    if (Number(figure.querySelector(".step input")?.value ?? 0) === 0) showWhole(svg, whole);
+    const isNarrow = narrowPage.matches;
+    if (box.clientWidth === 0 || (box.clientWidth === width && isNarrow === wasNarrow)) return;
+    const isOther = isNarrow || wasNarrow;
+    width = box.clientWidth;
+    wasNarrow = isNarrow;
+    const slider = figure.querySelector(".step input");
+    if (!isOther) return;
+    if (Number(slider?.value ?? 0) === 0) showWhole(svg, whole);
+    else slider.dispatchEvent(new Event("input"));
   };
-  narrowPage.addEventListener("change", show);
-  if (narrowPage.matches) show();
+  show();
+  new ResizeObserver(show).observe(box);
 }

@@ -21,6 +21,7 @@
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/csv.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "core/records/evaluations/pose_errors_csv.hpp"
@@ -246,25 +247,32 @@ void write_records(const ResultsStudy& study, const std::vector<EvaluatedRun>& r
   }
 }
 
+/// "over 1 km" of an estimate that diverged, if some did not: else distances are that large.
 std::string text_of(const std::vector<EvaluatedRun>& runs) {
+  const bool has_great_errors = std::ranges::any_of(runs, [](const EvaluatedRun& run) {
+    return (run.path && error_statistics(run.path->poses.error_m).rmse <= kGreatestError_m) ||
+           (run.landmarks && run.landmarks->error_m.mean() <= kGreatestError_m);
+  });
+  const auto metres = [&](double error_m) {
+    return has_great_errors ? error_text(error_m, 4) : significant(error_m, 4) + " m";
+  };
   std::string text;
   for (const EvaluatedRun& run : runs) {
     text += fmt::format("{}, {}:", run.method, run.run);
     if (run.path) {
       const ErrorStatistics errors = error_statistics(run.path->poses.error_m);
-      text += fmt::format(" ATE {} m RMSE, {} m mean, {} m median, {} m greatest; {} poses",
-                          significant(errors.rmse, 4), significant(errors.mean, 4),
-                          significant(errors.median, 4), significant(errors.maximum, 4),
-                          run.path->poses.size());
+      text += fmt::format(" ATE {} RMSE, {} mean, {} median, {} greatest; {} poses",
+                          metres(errors.rmse), metres(errors.mean), metres(errors.median),
+                          metres(errors.maximum), run.path->poses.size());
       if (run.path->alignment.scale != 1.0)
         text += fmt::format("; scale {}", significant(run.path->alignment.scale, 5));
     }
     if (run.landmarks)
-      text += fmt::format(
-          "{} landmarks {} m mean, {} m greatest; {} of {} found, {} spurious", run.path ? ";" : "",
-          significant(run.landmarks->error_m.mean(), 4),
-          significant(run.landmarks->error_m.maxCoeff(), 4), run.landmarks->error_m.size(),
-          run.landmarks->error_m.size() + run.landmarks->missed, run.landmarks->spurious);
+      text += fmt::format("{} landmarks {} mean, {} greatest; {} of {} found, {} spurious",
+                          run.path ? ";" : "", metres(run.landmarks->error_m.mean()),
+                          metres(run.landmarks->error_m.maxCoeff()), run.landmarks->error_m.size(),
+                          run.landmarks->error_m.size() + run.landmarks->missed,
+                          run.landmarks->spurious);
     if (!run.path && !run.landmarks) text += " lost";
     text += "\n";
   }
@@ -420,7 +428,8 @@ Action evaluate_command(CLI::App& app) {
       "  mapproof evaluate --ground-truth landmarks.csv map.csv --landmarks nearest --out out\n\n"
       "Trajectories are TUM, KITTI, EuRoC (CSV) or g2o, in space, or CSV with t, x, y, heading;\n"
       "maps are CSV with name, x [m], y [m], or g2o. Several files of one system are its runs.\n"
-      "With a folder of ground truths, estimates belong to the file whose name theirs begins with.\n"
+      "With a folder of ground truths, estimates belong to the file whose name theirs begins "
+      "with.\n"
       "The folder is a study: report, diff and nightly take it. The exit code is 1 if nothing\n"
       "could be compared.\n");
   app.add_option("ESTIMATE", arguments->estimates,
@@ -440,12 +449,11 @@ Action evaluate_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_jobs_option(app, arguments->jobs);
-  group_options(app,
-                {{"Input", {"ESTIMATE", "--ground-truth"}},
-                 {"Comparison",
-                  {"--align", "--offset", "--largest-gap", "--relative", "--all-pairs", "--plane",
-                   "--landmarks", "--gate"}},
-                 {"Output", {"--name", "--title", "--templates"}}});
+  group_options(app, {{"Input", {"ESTIMATE", "--ground-truth"}},
+                      {"Comparison",
+                       {"--align", "--offset", "--largest-gap", "--relative", "--all-pairs",
+                        "--plane", "--landmarks", "--gate"}},
+                      {"Output", {"--name", "--title", "--templates"}}});
   return [arguments](const Invocation& invocation) { return evaluate(*arguments, invocation); };
 }
 

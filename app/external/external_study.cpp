@@ -187,7 +187,7 @@ std::string text_of(const ResultsStudy& study, const MethodLabels& methods,
       });
       text += fmt::format("{}, {}: MPE {}{}\n", setup.id, method.label,
                           error != errors.end() && std::isfinite(error->second)
-                              ? significant(error->second, 4) + " m"
+                              ? error_text(error->second, 4)
                               : std::string("not known"),
                           lost > 0 ? fmt::format(", {} lost", counted(lost, "map")) : "");
     }

@@ -31,6 +31,10 @@ void add_method_options(CLI::App& app, MapJob& job) {
   parameter->add_option("--sigma2", job.variance,
                         "Variance of the Gaussian kernel (default: the median squared distance)");
   parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
+  app.add_option("--references", job.references,
+                 "Landmark ISOMAP: number of reference landmarks, from which paths are searched "
+                 "(default: 200; all if there are fewer)")
+      ->check(CLI::Range(3, 100000));
   app.add_option("--stress-fall", job.stress_fall,
                  "SMACOF stops when a step reduces the stress by less than this share of it "
                  "(default: 1e-10; 0.01 with kNN weights, where stopping early makes better maps)")
@@ -158,7 +162,8 @@ void add_map_options(CLI::App& app, MapJob& job) {
       app, {{"Input",
              {"OBSERVATIONS", "--sensor", "--with", "--with-sensor", "--steps", "--drop-unseen"}},
             {"Method",
-             {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--stress-fall",
+             {"--method", "--parameter", "--neighbours", "--sigma2", "--degree", "--references",
+              "--stress-fall",
               "--only-seen-together", "--submaps", "--overlap"}},
             {"Known positions", {"--anchors", "--ground-truth", "--fit"}},
             {"Missing data", {"--missing", "--dimensions"}},

@@ -45,6 +45,7 @@ struct MapJob {
   std::optional<double> neighbours;
   std::optional<double> variance;
   std::optional<double> degree;
+  std::optional<int> references;      ///< Of Landmark ISOMAP; empty: its own number.
   std::optional<double> stress_fall;  ///< SMACOF's stop rule; empty: the method's own.
   EmbedderOptions embedder;
 

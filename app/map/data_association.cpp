@@ -196,6 +196,7 @@ std::string ids_csv(const EstimatedIds& ids) {
 }
 
 MapDraft associate(MapDraft draft, const MapJob& job) {
+  if (!job.uncertain_ids.empty()) hold_array(draft);
   auto* source = std::get_if<ObservationSource>(&draft.observed);
   if (source == nullptr || (source->unassociated.empty() && job.uncertain_ids.empty()))
     return draft;

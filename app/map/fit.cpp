@@ -18,6 +18,8 @@ namespace {
 /// Pairs of detections times landmarks up to which landmark IDs are checked without being asked:
 /// about a second.
 constexpr double kCheapCheck = 6e5;
+/// Landmarks of a map that is tested: a test holds several arrays of landmarks x landmarks.
+constexpr Eigen::Index kMostTested = 5000;
 constexpr double kMostHistory = 2e7;  ///< Entries of a long table that are tested.
 
 bool is_cheap(const DetectionLog& log) {
@@ -67,6 +69,8 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
   const Points& known_m = draft.reference.positions_m;
   if (const auto* gone = std::get_if<NotKept>(&draft.observed))
     return {.verdict = FitVerdict::kNotTestable, .why = {gone->fit_lacks}};
+  if (map.rows() > kMostTested && !job.is_range_bearing())
+    return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
   if (const auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
     const DetectionLog& log = scans->log;
     if (job.is_range_bearing()) {
@@ -79,6 +83,8 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
       return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
     return history_fit(history_of(log, *sensor_named(job.sensor)), log.steps, map, known_m);
   }
+  if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+    return history_fit(packed->history.blocks(), draft.result.record.step, map, known_m);
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed)) {
     const bool is_real = is_folder(source->path) && is_mrclam(source->path);
     const Fit fit = history_fit(source->history, draft.result.record.step, map, known_m,

@@ -205,6 +205,7 @@ MapDraft check_ids(MapDraft draft, const MapJob& job) {
     scans->log = checked_log(*scans, scans->log, job, draft);
     return draft;
   }
+  hold_array(draft);
   auto& source = std::get<ObservationSource>(draft.observed);
   if (!is_folder(source.path) || !is_mrclam(source.path))
     throw IoError(source.path,

@@ -12,8 +12,8 @@
 #include "app/map/option_table.hpp"
 #include "app/map/outputs.hpp"
 #include "app/map/pipeline.hpp"
-#include "app/map/stop_rules.hpp"
 #include "app/map/reference.hpp"
+#include "app/map/stop_rules.hpp"
 #include "app/understood.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
@@ -40,9 +40,11 @@ MethodSetting chosen_setting(const MapJob& job) {
   return {method, given->value};
 }
 
-/// SMACOF's stop rules: near the minimum of the stress, unless it is to stop early.
-void set_stop_rules(MapJob& job) {
+/// The methods' own options. SMACOF's stop rules: near the minimum of the stress, unless it is to
+/// stop early.
+void set_method_options(MapJob& job) {
   job.embedder.smacof = near_minimum();
+  if (job.references) job.embedder.landmark_isomap.references = *job.references;
   if (!job.stress_fall) return;
   const bool is_weighted = method_of(job) == Method::kSmacofKnn;
   if (!is_weighted) job.embedder.smacof.relative_fall = *job.stress_fall;
@@ -96,7 +98,7 @@ void complete(MapJob& job) {
   require_known_method(job);
   require_compatible(job);
   if (!job.is_range_bearing()) job.setting = chosen_setting(job);
-  set_stop_rules(job);
+  set_method_options(job);
   read_known_positions(job);
 }
 

@@ -120,24 +120,27 @@ nlohmann::ordered_json choice_json(const MethodChoice& choice) {
 
 /// Whether the choice takes at most some 5 s of one processor. Measured: 2.1 s for 200 landmarks x
 /// 4000 steps, 2.4 s for 60 x 600, where SDE is a candidate.
-bool is_quick(const ObservationHistory& history, Eigen::Index steps) {
+bool is_quick(Eigen::Index count, Eigen::Index steps) {
   constexpr Eigen::Index kMostLandmarks = 200;
   constexpr double kMostProducts = 3e8;  // Landmarks squared times steps.
-  const auto landmarks = static_cast<double>(history.landmarks());
-  return history.landmarks() <= kMostLandmarks &&
+  const auto landmarks = static_cast<double>(count);
+  return count <= kMostLandmarks &&
          landmarks * landmarks * static_cast<double>(steps) <= kMostProducts;
 }
 
 MapDraft choose(MapDraft draft, const MapJob& job) {
-  const auto* source = std::get_if<ObservationSource>(&draft.observed);
-  const bool is_open = job.may_choose_method() && source != nullptr;
-  if (is_open && !is_quick(source->history, draft.result.record.step)) {
+  const bool is_open =
+      job.may_choose_method() && (std::holds_alternative<ObservationSource>(draft.observed) ||
+                                  std::holds_alternative<PackedSource>(draft.observed));
+  if (is_open && !is_quick(std::ssize(draft.landmarks.names), draft.result.record.step)) {
     draft.result.remarks.emplace_back(
         "The method is isomap, since none is named and the choice would take long: --method auto "
         "may give a better map");
     return draft;
   }
   if (!job.chooses_method() && !is_open) return draft;
+  hold_array(draft);
+  const auto* source = std::get_if<ObservationSource>(&draft.observed);
   const MethodChoice choice = choose_method(
       source->history, draft.result.record.step,
       {draft.reference.positions_m, draft.reference.anchors},

@@ -106,21 +106,17 @@ struct MissingChoice {
 
 /// Warns if the pattern of missing data advises another strategy, and chooses one for "auto".
 /// Entries that are all there, or too many to be judged in short, are not judged.
-/// @param history  Landmarks that were never observed count for nothing.
+/// @param history  Of landmarks that were all observed.
 /// @return The choice with a strategy other than "auto".
-MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& history,
-                            Eigen::Index steps, MapResult& result) {
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
-    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
-  const double work = static_cast<double>(rows.size()) * static_cast<double>(rows.size()) *
-                      static_cast<double>(steps);
+MissingChoice judged_choice(MissingChoice choice, const HistoryBlocks& history, Eigen::Index steps,
+                            MapResult& result) {
+  const auto landmarks = static_cast<double>(history.landmarks());
+  const double work = landmarks * landmarks * static_cast<double>(steps);
   const bool is_auto = choice.strategy == kAuto;
   if (is_auto) choice.strategy = name(MissingStrategy::kPairwiseComplete);
-  if (rows.size() < 2 || (!is_auto && work > kMostWork)) return choice;
-  const MissingPattern pattern = missing_pattern(with_rows(history, rows), steps);
-  const StrategyAdvice advice = advised_strategy(pattern, history.sensor);
+  if (history.landmarks() < 2 || (!is_auto && work > kMostWork)) return choice;
+  const MissingPattern pattern = missing_pattern(history, steps);
+  const StrategyAdvice advice = advised_strategy(pattern, history.sensor());
   if (is_auto) {
     choice.strategy = name(advice.strategy);
     if (choice.dimensions && advice.strategy != MissingStrategy::kPpca) choice.dimensions.reset();
@@ -129,7 +125,7 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   } else if (const bool both_fill =
                  advice.strategy == MissingStrategy::kPpca && choice.strategy == "pca";
              choice.strategy != name(advice.strategy) && !both_fill && pattern.dispersion > 0.0 &&
-             history.sensor != Sensor::kVisibility && worth_a_warning(pattern, choice.strategy)) {
+             history.sensor() != Sensor::kVisibility && worth_a_warning(pattern, choice.strategy)) {
     result.warnings.push_back(fmt::format(
         "--missing {} does not suit these missing data best: {}. --missing {} is likely "
         "to give a better map.",
@@ -143,6 +139,17 @@ MissingChoice judged_choice(MissingChoice choice, const ObservationHistory& hist
   return choice;
 }
 
+/// The same of a history with landmarks that were never observed, which count for nothing.
+MissingChoice judged_of_seen(const MissingChoice& choice, const ObservationHistory& history,
+                             Eigen::Index steps, MapResult& result) {
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
+  if (unseen.empty()) return judged_choice(choice, history, steps, result);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
+    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
+  return judged_choice(choice, with_rows(history, rows), steps, result);
+}
+
 /// From observations to proximities as it was chosen; empty: as always.
 /// @param choice  Not "auto" (see judged_choice).
 DistanceRule distance_rule(const MissingChoice& choice) {
@@ -154,10 +161,15 @@ DistanceRule distance_rule(const MissingChoice& choice) {
 }
 
 MapDraft judge_missing(MapDraft draft, const MapJob& job) {
-  const auto* source = std::get_if<ObservationSource>(&draft.observed);
-  if (source == nullptr) return draft;
-  const MissingChoice choice = judged_choice({job.missing, job.dimensions}, source->history,
-                                             draft.result.record.step, draft.result);
+  if (job.missing != MapJob().missing) hold_array(draft);  // Its rule takes an array.
+  MissingChoice choice{job.missing, job.dimensions};
+  const Eigen::Index steps = draft.result.record.step;
+  if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+    choice = judged_choice(choice, packed->history.blocks(), steps, draft.result);
+  else if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
+    choice = judged_of_seen(choice, source->history, steps, draft.result);
+  else
+    return draft;
   draft.distances = distance_rule(choice);
   return draft;
 }

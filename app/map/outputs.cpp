@@ -149,16 +149,22 @@ std::string map_text(const MapResult& map, const fs::path& out) {
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 
-/// What the page carries: the map and its figures, all of which it shows.
-PageData page_data(const fs::path& folder, const std::vector<Figure>& figures,
-                   const Disclosure& disclosure) {
+/// A page with the record of more landmarks would be too large.
+constexpr std::size_t kMostLandmarksOfPage = 5000;
+
+/// What the page carries: the map, unless it is large, and its figures, all of which it shows.
+PageData page_data(const fs::path& folder, const MapRecord& map,
+                   const std::vector<Figure>& figures, const Disclosure& disclosure) {
   Images images;
   std::set<std::string> shown;
   for (const Figure& figure : figures) {
     images.figures.push_back(&figure);
     shown.insert(figure.id);
   }
-  return page_content(page_records(folder, disclosure), images, shown, disclosure).data;
+  const bool is_large = map.names.size() > kMostLandmarksOfPage;
+  return page_content(is_large ? PageData{} : page_records(folder, disclosure), images, shown,
+                      disclosure)
+      .data;
 }
 
 }  // namespace
@@ -184,7 +190,8 @@ void write_map(const MapFolder& folder, const MapOutput& location, const MapResu
   };
   const std::string html = location.disclosure.text(report_html(report, location.page, drawing));
   out.write("report.html",
-            with_page_data(html, page_data(out.path(), figures, location.disclosure)));
+            with_page_data(html, page_data(out.path(), map.record, figures,
+                                           location.disclosure)));
 }
 
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation) {

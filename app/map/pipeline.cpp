@@ -11,10 +11,14 @@
 #include "app/map/scan_sizes.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/out_of_memory.hpp"
 #include "core/base/text/words.hpp"
+#include "core/embed/pca.hpp"
 #include "core/map_fit/map_fit.hpp"
 #include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
+#include "core/records/observations/grid_table.hpp"
+#include "core/records/observations/input_kind.hpp"
 #include "reports/sections/fit_section.hpp"
 
 namespace mapproof {
@@ -48,10 +52,39 @@ std::vector<ObservationSource> read_sensors(const MapJob& job, std::optional<Sen
 
 /// Whether a table may be mapped without an array of landmarks times steps: no step asks for one.
 bool may_be_long(const MapJob& job) {
-  return job.missing == MapJob().missing && job.submaps == 0 && !job.judges_ids() &&
-         job.uncertain_ids.empty() && !job.chooses_method() && job.ellipse_replicates == 0 &&
-         !job.table.is_grid() && job.source != nullptr &&
-         is_large_long_table(*job.source, job.table_format());
+  const bool asks_for_array = job.missing != MapJob().missing || job.submaps > 0 ||
+                              job.judges_ids() || !job.uncertain_ids.empty() ||
+                              job.chooses_method() || job.ellipse_replicates > 0 ||
+                              job.table.is_grid() || job.source == nullptr;
+  if (asks_for_array) return false;
+  const TableFormat format = job.table_format();
+  // A list of what was seen may be short for its landmarks and steps.
+  return is_large_long_table(*job.source, format) ||
+         (job.setting.method == Method::kLandmarkIsomap && !is_json(*job.source) &&
+          is_detections(*job.source, format));
+}
+
+constexpr Eigen::Index kFewestSteps = 3;  ///< Of which fewer are reported.
+
+/// Entries from which a table stays packed: an array of them takes 160 MB, and as much again in
+/// the steps.
+constexpr double kPackedEntries = 2e7;
+
+/// A table of landmarks and steps; other forms have their values in an array.
+Observed read_table(const MapJob& job, std::optional<Sensor> sensor) {
+  const TableFormat format = job.table_format();
+  // Landmark ISOMAP takes its distances of an array; few steps are reported of one.
+  if (!job.source || !sensor || format.scan_window_s ||
+      job.setting.method == Method::kLandmarkIsomap ||
+      (job.steps > 0 && job.steps < kFewestSteps) || !is_grid_table(*job.source, format))
+    return read_values(job, sensor);
+  PackedSource source = read_grid(*job.source, *sensor, format);
+  const PackedHistory& history = source.history;
+  const double entries =
+      static_cast<double>(history.landmarks()) * static_cast<double>(history.steps);
+  if (entries < kPackedEntries || !unseen_landmarks(history.blocks(), history.steps).empty())
+    return unpacked(source);
+  return source;
 }
 
 Observed read(const MapJob& job) {
@@ -59,14 +92,42 @@ Observed read(const MapJob& job) {
   if (!job.with.empty()) return read_sensors(job, sensor);
   if (job.is_range_bearing()) return read_scans(job, std::nullopt);
   if (sensor && may_be_long(job)) return read_scans(job, sensor);
-  ObservationSource source = read_values(job, sensor);
+  Observed observed = read_table(job, sensor);
   MapJob known = job;
-  known.sensor = name(source.history.sensor);
+  known.sensor = std::visit(
+      [](const auto& source) -> std::string {
+        if constexpr (requires { source.history.sensor; })
+          return std::string(name(source.history.sensor));
+        else
+          return "";
+      },
+      observed);
   require_compatible(known);
-  return source;
+  return observed;
 }
 
 // Check.
+
+/// "480 GB".
+std::string gigabytes(double bytes) { return fmt::format("{:.2g} GB", bytes / 1e9); }
+
+/// Refuses a map for which there is not enough memory.
+/// @param array_bytes  Of the observations, if they will become an array.
+void require_memory(const std::string& path, std::size_t landmarks, double array_bytes,
+                    const MapJob& job) {
+  const auto M = static_cast<Eigen::Index>(landmarks);
+  const bool is_large = job.setting.method == Method::kLandmarkIsomap;
+  const double needed = needed_bytes(job.setting.method, M, job.embedder) + array_bytes;
+  const double available = available_memory_bytes();
+  if (job.is_range_bearing() || job.submaps > 0 || needed <= available) return;
+  throw IoError(
+      path, fmt::format(
+                "{} of {} landmarks needs {} of memory, and {} are available: {}",
+                info(job.setting.method).label, M, gigabytes(needed), gigabytes(available),
+                is_large ? "give fewer --references"
+                         : "use --method landmark-isomap, which needs " +
+                               gigabytes(needed_bytes(Method::kLandmarkIsomap, M, job.embedder))));
+}
 
 void require_three(const std::string& path, std::ptrdiff_t landmarks) {
   if (landmarks < 3)
@@ -90,25 +151,45 @@ void check_unseen(const ObservationSource& source, const std::vector<Eigen::Inde
                                 unseen.size(), source.history.landmarks()));
 }
 
-void check_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
-  const ObservationHistory& history = source.history;
+/// Steps, landmarks and missing entries of the values of one sensor.
+/// @return The steps to use.
+Eigen::Index check_history(const HistoryBlocks& history, const std::string& path, double missing,
+                           const MapJob& job, MapDraft& draft) {
   const Eigen::Index steps = job.steps > 0 ? job.steps : history.steps();
-  require_steps(job, source.path, history.steps());
-  require_three(source.path, history.landmarks());
-  draft.landmarks = {.path = source.path,
-                     .names = history.names,
-                     .unseen = unseen_landmarks(history, steps),
-                     .ground_truth_m = source.ground_truth_m};
+  require_steps(job, path, history.steps());
+  require_three(path, history.landmarks());
+  draft.landmarks.path = path;
+  draft.landmarks.names = history.names();
+  draft.landmarks.unseen = unseen_landmarks(history, steps);
   require_neighbours(job, draft.landmarks);
-  check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
-  draft.result.record = begin_record(FromSensor{history.sensor, job.setting}, history.names, steps);
-  const auto missing = static_cast<double>(history.values.array().isNaN().count());
-  const auto entries = static_cast<double>(history.values.size());
+  require_memory(path, history.names().size(), 0.0, job);
+  draft.result.record =
+      begin_record(FromSensor{history.sensor(), job.setting}, history.names(), steps);
+  const double entries =
+      static_cast<double>(history.landmarks()) * static_cast<double>(history.steps());
   draft.result.read = {{"Landmarks", std::to_string(history.landmarks())},
                        {"Steps used", fmt::format("{} of {}", steps, history.steps())},
                        {"Missing entries", fmt::format("{:.1f} %", 100.0 * missing / entries)}};
-  if (history.sensor == Sensor::kVisibility || missing > 0.0)
+  if (history.sensor() == Sensor::kVisibility || missing > 0.0)
     add_scan_sizes(scan_sizes(history), draft.result);
+  return steps;
+}
+
+void check_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
+  const auto missing = static_cast<double>(source.history.values.array().isNaN().count());
+  check_history(source.history, source.path, missing, job, draft);
+  draft.landmarks.ground_truth_m = source.ground_truth_m;
+  check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
+}
+
+/// Packed values, of which all landmarks were seen at some step.
+void check_packed(const PackedSource& source, const MapJob& job, MapDraft& draft) {
+  const PackedHistory& history = source.history;
+  check_history(history.blocks(), source.path, history.missing, job, draft);
+  if (draft.landmarks.unseen.empty()) return;
+  hold_array(draft);
+  check_unseen(std::get<ObservationSource>(draft.observed), draft.landmarks.unseen, job,
+               draft.result.remarks);
 }
 
 /// Reports what was understood of the files.
@@ -116,6 +197,8 @@ Observed reported(Observed observed, const MapJob& job) {
   if (!job.understood) return observed;
   if (const auto* source = std::get_if<ObservationSource>(&observed))
     job.understood(source->path, summary_of(*source));
+  else if (const auto* packed = std::get_if<PackedSource>(&observed))
+    job.understood(packed->path, summary_of(*packed));
   else if (const auto* scans = std::get_if<DetectionSource>(&observed))
     job.understood(scans->path, summary_of(*scans, job.sensor));
   else
@@ -142,6 +225,10 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
     throw IoError(source.path,
                   fmt::format("{} of {} landmarks are not in the first {} scans",
                               draft.landmarks.unseen.size(), log.names.size(), log.steps));
+  const bool makes_array =
+      job.setting.method == Method::kLandmarkIsomap && job.sensor != "visibility";
+  require_memory(source.path, log.names.size(),
+                 makes_array ? 8.0 * static_cast<double>(log.names.size()) * log.steps : 0.0, job);
   MapOrigin origin = FromPairs{};
   if (!job.is_range_bearing()) origin = FromSensor{*sensor_named(job.sensor), job.setting};
   draft.result.record = begin_record(std::move(origin), log.names, log.steps);
@@ -155,6 +242,8 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
 MapDraft check(MapDraft draft, const MapJob& job) {
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
     check_values(*source, job, draft);
+  else if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+    check_packed(*packed, job, draft);
   else if (auto* scans = std::get_if<DetectionSource>(&draft.observed))
     check_scans(*scans, job, draft);
   draft.setting = job.setting;
@@ -172,15 +261,40 @@ MapDraft refer(MapDraft draft, const MapJob& job) {
 
 // Distances, and their embedding.
 
+/// Linear PCA by the vectors alone, where it is faster and nothing of the distances is asked for.
+bool embed_by_vectors(const ObservationHistory& history, MapDraft& draft) {
+  const Eigen::Index steps = draft.result.record.step;
+  if (draft.setting.method != Method::kLpca || history.sensor == Sensor::kVisibility ||
+      draft.distances.of_map || steps < kFewestSteps ||
+      !is_faster_by_vectors(history.landmarks(), 2 * steps) ||
+      history.values.leftCols(steps).array().isNaN().any())
+    return false;
+  const Embedding map = lpca_of_vectors(features(history, steps).values);
+  // Vectors that are all alike, or on one line, are left to their distances.
+  if (!map.statuses.empty()) return false;
+  take_embedding(draft, map);
+  return true;
+}
+
 void embed_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
+  if (embed_by_vectors(source.history, draft)) return;
   DistanceNotes notes;
-  HistoryEmbedder embedder(source.history, draft.result.record.step, job.embedder,
-                           draft.distances.noting(notes));
+  const Embedding embedding = embed_history(source.history, draft.result.record.step, draft.setting,
+                                            job.embedder, draft.distances.noting(notes));
+  take_embedding(draft, embedding, notes);
+}
+
+/// Without any unseen landmark, see check_packed().
+void embed_packed(const PackedSource& source, const MapJob& job, MapDraft& draft) {
+  Embedder embedder(proximities(source.history.blocks(), draft.result.record.step), job.embedder);
   if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
-  take_embedding(draft, embedder.embed(draft.setting), notes);
+  take_embedding(draft, embedder.embed(draft.setting));
 }
 
 void embed_long_table(const DetectionSource& source, const MapJob& job, MapDraft& draft) {
+  if (draft.setting.method == Method::kLandmarkIsomap)
+    return take_embedding(
+        draft, embed_detected(source.log, *sensor_named(job.sensor), draft.setting, job.embedder));
   Embedder embedder(detected_proximities(source.log, *sensor_named(job.sensor)), job.embedder);
   if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
   take_embedding(draft, embedder.embed(draft.setting));
@@ -194,14 +308,27 @@ void embed_pairs(const DetectionSource& source, MapDraft& draft) {
                                  fmt::format("{} of {}", map.pairs.size(), M * (M - 1) / 2));
 }
 
+/// What the approximation is made of.
+void add_references(MapDraft& draft, const MapJob& job) {
+  if (draft.setting.method != Method::kLandmarkIsomap) return;
+  const auto M = std::ssize(draft.result.record.names);
+  draft.result.read.emplace_back(
+      "Reference landmarks",
+      fmt::format("{} of {}", std::min<std::ptrdiff_t>(job.embedder.landmark_isomap.references, M),
+                  M));
+}
+
 /// Embeds the distances as a whole, unless a step before has embedded them otherwise.
 MapDraft embed(MapDraft draft, const MapJob& job) {
   if (!draft.is_embedded) {
     if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
       embed_values(*source, job, draft);
+    else if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+      embed_packed(*packed, job, draft);
     else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
       job.is_range_bearing() ? embed_pairs(*scans, draft) : embed_long_table(*scans, job, draft);
   }
+  add_references(draft, job);
   std::visit(
       [&](auto& origin) {
         if constexpr (requires { origin.setting; }) origin.setting = draft.setting;
@@ -290,6 +417,8 @@ MapDraft begin_map(const MapJob& job) {
   MapDraft draft{.observed = reported(read(job), job)};
   if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
     draft.result.remarks = source->remarks;
+  else if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+    draft.result.remarks = packed->remarks;
   else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
     draft.result.remarks = scans->remarks;
   return take_steps(kSteps.begin(), kFirstSolver, std::move(draft), job);
@@ -324,6 +453,11 @@ MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::
 
 MapDraft last_steps(MapDraft draft, const MapJob& job) {
   return take_steps(kLast, kSteps.end(), std::move(draft), job);
+}
+
+void hold_array(MapDraft& draft) {
+  if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
+    draft.observed = unpacked(*packed);
 }
 
 void take_embedding(MapDraft& draft, const Embedding& embedding, const DistanceNotes& notes) {

@@ -24,11 +24,12 @@ struct NotKept {
   FitMissing fit_lacks;  ///< Why the fit cannot be tested without them.
 };
 
-/// What was observed, in the form that the map is made from: values of one sensor; detections, of
+/// What was observed, in the form that the map is made from: values of one sensor, as an array or,
+/// of a large table, packed (see hold_array()); detections, of
 /// range and bearing, or of a table of one sensor that is too long for an array of landmarks times
 /// steps; values of several sensors, in common rows once they are checked; or nothing any more.
-using Observed =
-    std::variant<ObservationSource, DetectionSource, std::vector<ObservationSource>, NotKept>;
+using Observed = std::variant<ObservationSource, PackedSource, DetectionSource,
+                              std::vector<ObservationSource>, NotKept>;
 
 /// Remarks and warnings on the distances of a history.
 struct DistanceNotes {
@@ -63,7 +64,7 @@ struct MapDraft {
   MethodSetting setting = {};  ///< Without a parameter: the usual one of these data.
   bool is_embedded = false;    ///< The result's record holds an estimate.
   std::optional<AssociationCheck> association =
-      {};                     ///< Of the log as it is mapped, if it was made.
+      {};                       ///< Of the log as it is mapped, if it was made.
   UncertaintyFrame frame = {};  ///< That other maps of the landmarks are brought to.
   MapResult result = {};
 };
@@ -107,6 +108,9 @@ MapRecord begin_record(MapOrigin origin, std::vector<std::string> names, Eigen::
 /// score, uncertainty, explanation.
 /// @param draft  With an embedding, and a reference in its rows. @throws IoError, InvalidInput.
 MapDraft last_steps(MapDraft draft, const MapJob& job);
+
+/// Makes an array of packed values, for a step that needs all of them at once.
+void hold_array(MapDraft& draft);
 
 /// Takes an embedding, its statuses after those of the distances, and its certificate.
 void take_embedding(MapDraft& draft, const Embedding& embedding, const DistanceNotes& notes = {});

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
+#include "core/observe/features.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,14 +29,17 @@ ScanSizes scan_sizes(const DetectionLog& log) {
   return sizes;
 }
 
-ScanSizes scan_sizes(const ObservationHistory& history) {
+ScanSizes scan_sizes(const HistoryBlocks& history) {
   ScanSizes sizes{.scans = history.steps()};
-  for (Eigen::Index step = 0; step < history.steps(); ++step) {
-    const auto column = history.values.col(step).array();
-    add_scan(history.sensor == Sensor::kVisibility ? (column == 1.0).count()
-                                                   : (column == column).count(),
-             sizes);
-  }
+  const auto add = [&](Eigen::Index, const Eigen::MatrixXd& values) {
+    for (Eigen::Index step = 0; step < values.cols(); ++step) {
+      const auto column = values.col(step).array();
+      add_scan(history.sensor() == Sensor::kVisibility ? (column == 1.0).count()
+                                                       : (column == column).count(),
+               sizes);
+    }
+  };
+  for_blocks(history, history.steps(), kStepsAtATime, add);
   return sizes;
 }
 

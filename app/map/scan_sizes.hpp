@@ -2,7 +2,7 @@
 
 #include "app/map/map_result.hpp"
 #include "core/model/detection_log.hpp"
-#include "core/model/observation_history.hpp"
+#include "core/model/histories/history_blocks.hpp"
 
 namespace mapproof {
 
@@ -16,7 +16,7 @@ struct ScanSizes {
 
 ScanSizes scan_sizes(const DetectionLog& log);
 /// Of a history: entries that are not missing, or of visibility those that are 1.
-ScanSizes scan_sizes(const ObservationHistory& history);
+ScanSizes scan_sizes(const HistoryBlocks& history);
 
 /// Adds a fact about the observations, and the member "scans" of --json.
 void add_scan_sizes(const ScanSizes& sizes, MapResult& result);

@@ -14,6 +14,7 @@
 #include "core/choice/mixed_quality.hpp"
 #include "core/mixed/mixed_map.hpp"
 #include "render/figures/maps/map_grid.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -245,11 +246,11 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
   if (const ComparedMap* best = best_alone([](const ComparedMap& map) { return map.mpe_m(); });
       best != nullptr && !std::isnan(joint.mpe_m()))
     words += fmt::format(
-        " By the ground truth it is {} the best map of a single sensor: MPE {} m, compared with {} "
-        "m of "
+        " By the ground truth it is {} the best map of a single sensor: MPE {}, compared with {} "
+        "of "
         "{}.",
         comparison(joint.mpe_m(), best->mpe_m(), kMuchMpe * best->mpe_m()),
-        number_words(joint.mpe_m()), number_words(best->mpe_m()), best->what);
+        page_metres(joint.mpe_m()), page_metres(best->mpe_m()), best->what);
   return words;
 }
 

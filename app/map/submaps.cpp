@@ -25,6 +25,7 @@ std::string remark_on(const SubmapEmbedding& parts, Method method) {
 /// Embeds overlapping groups of landmarks, and joins them.
 MapDraft embed_groups(MapDraft draft, const MapJob& job) {
   if (job.submaps == 0) return draft;
+  hold_array(draft);
   const ObservationHistory& history = std::get<ObservationSource>(draft.observed).history;
   const Eigen::Index steps = draft.result.record.step;
   MethodSetting& setting = draft.setting;

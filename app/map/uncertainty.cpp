@@ -33,6 +33,7 @@ MapDraft estimate_uncertainty(MapDraft draft, const MapJob& job) {
     result.remarks.emplace_back("There is no map, so there are no ellipses.");
     return draft;
   }
+  hold_array(draft);
   MapUncertainty uncertainty;
   try {
     uncertainty = uncertainty_of(draft, job);

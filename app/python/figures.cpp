@@ -21,8 +21,9 @@ namespace py = pybind11;
 
 Theme theme_of(const std::string& name, double width_in) {
   if (name == "report") return report_theme();
+  if (name == "dark") return dark_theme();
   if (name == "paper") return paper_theme(width_in);
-  throw InvalidInput(fmt::format("theme: report or paper, not {}", printable(name)));
+  throw InvalidInput(fmt::format("theme: report, dark or paper, not {}", printable(name)));
 }
 
 Figure read_figure(const std::filesystem::path& path) {

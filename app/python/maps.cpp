@@ -32,10 +32,8 @@ using Positions = std::map<std::string, std::pair<double, double>>;
 
 Embedding embed(const ObservationHistory& history, const std::string& method,
                 std::optional<double> parameter, std::optional<Eigen::Index> steps) {
-  HistoryEmbedder embedder(history, steps.value_or(history.steps()), options_for_users());
   MethodSetting setting = setting_of(method, parameter);
-  if (!parameter) setting = embedder.usual_setting(setting.method);
-  return embedder.embed(setting);
+  return embed_history(history, steps.value_or(history.steps()), setting, options_for_users());
 }
 
 /// The proximities of points with these distances: inner products by double centring.
@@ -118,8 +116,8 @@ MapRecord make_map(const ObservationHistory& history, const MethodSetting& setti
   surveyed.insert(known.anchors.begin(), known.anchors.end());
   if (!surveyed.empty()) map.ground_truth_m = points_of(surveyed, map.names);
   if (aligned.aligned && !known.ground_truth.empty())
-    map.score = score_map(map.estimate, *map.ground_truth_m, map.anchors,
-                          AffineFit::kLeastDistances);
+    map.score =
+        score_map(map.estimate, *map.ground_truth_m, map.anchors, AffineFit::kLeastDistances);
   return map;
 }
 
@@ -153,8 +151,7 @@ void define_methods(py::module_& module) {
       .def_readonly("source", &MethodInfo::source)
       .def_readonly("parameter", &MethodInfo::parameter);
   module.def(
-      "methods",
-      [] { return std::vector<MethodInfo>(all_methods().begin(), all_methods().end()); },
+      "methods", [] { return std::vector<MethodInfo>(all_methods().begin(), all_methods().end()); },
       "The mapping methods, in the order of the paper's tables.");
 }
 
@@ -232,8 +229,7 @@ std::vector<std::string> anchor_names(const MapRecord& map) {
 AffineFit affine_fit_of(const std::string& word) {
   for (const AffineFit known : {AffineFit::kLeastDistances, AffineFit::kLeastSquares})
     if (name(known) == word) return known;
-  throw InvalidInput(
-      fmt::format("fit: least_distances or least_squares, not {}", printable(word)));
+  throw InvalidInput(fmt::format("fit: least_distances or least_squares, not {}", printable(word)));
 }
 
 MethodSetting setting_of(const std::string& method, std::optional<double> parameter) {
@@ -246,8 +242,8 @@ MethodSetting setting_of(const std::string& method, std::optional<double> parame
   if (!tuned) throw InvalidInput(fmt::format("parameter: {} has none", method));
   if (!(tuned->minimum <= *parameter && *parameter <= tuned->maximum) ||
       (tuned->integer && *parameter != std::floor(*parameter)))
-    throw InvalidInput(fmt::format("parameter: {} of {} is {} from {} to {}, not {}",
-                                   tuned->symbol, method, tuned->integer ? "an integer" : "a number",
+    throw InvalidInput(fmt::format("parameter: {} of {} is {} from {} to {}, not {}", tuned->symbol,
+                                   method, tuned->integer ? "an integer" : "a number",
                                    tuned->minimum, tuned->maximum, *parameter));
   return {*known, parameter};
 }
@@ -265,13 +261,13 @@ void define_maps(py::module_& module) {
       .def_property_readonly("anchors", &anchor_names)
       .def_readonly("statuses", &MapRecord::statuses)
       .def_readonly("score", &MapRecord::score)
-      .def_property_readonly("frame",
-                             [](const MapRecord& m) { return std::string(name(m.frame)); })
+      .def_property_readonly("frame", [](const MapRecord& m) { return std::string(name(m.frame)); })
       .def_property_readonly("sensor",
                              [](const MapRecord& m) { return std::string(sensor_name(m)); })
       .def_property_readonly("method", [](const MapRecord& m) { return method_label(m); })
       .def("figure", [](const MapRecord& m) { return map_figure(m, "map"); })
-      .def("json", [](const MapRecord& m) { return map_json(m); }, "What map.json holds.")
+      .def(
+          "json", [](const MapRecord& m) { return map_json(m); }, "What map.json holds.")
       .def("_repr_svg_",
            [](const MapRecord& m) { return figure_svg(map_figure(m, "map"), report_theme()); });
   module.def("map_observations", &map_observations, py::arg("history"), py::arg("method"),

@@ -49,9 +49,10 @@ bool StyleArguments::changes_figures() const {
 void add_style_options(CLI::App& app, StyleArguments& arguments) {
   const std::string group = "Style";
   app.add_option("--theme", arguments.theme,
-                 "report: for screens, 8.33 in wide, with a title. paper: for a column of a "
-                 "journal, 3.25 in wide, 8 pt, 300 dpi, without a title. The default is report")
-      ->transform(one_of({"report", "paper"}))
+                 "report: for screens, 8.33 in wide, with a title. dark: the same in light colours "
+                 "on a dark ground. paper: for a column of a journal, 3.25 in wide, 8 pt, 300 dpi, "
+                 "without a title. The default is report")
+      ->transform(one_of({"report", "dark", "paper"}))
       ->group(group);
   app.add_option("--width", arguments.width_in,
                  "Width of the figure in inches, or with a unit, as 8cm, 82mm or 234pt")
@@ -101,7 +102,9 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
 FigureStyle style_of(const StyleArguments& arguments) {
   FigureStyle style = arguments.file ? read_figure_style(*arguments.file) : FigureStyle{};
   if (arguments.theme)
-    style.theme = *arguments.theme == "paper" ? BaseTheme::kPaper : BaseTheme::kReport;
+    style.theme = *arguments.theme == "paper"  ? BaseTheme::kPaper
+                  : *arguments.theme == "dark" ? BaseTheme::kDark
+                                               : BaseTheme::kReport;
   if (arguments.width_in) style.width_in = arguments.width_in;
   if (arguments.height_in) style.height_in = arguments.height_in;
   if (arguments.dpi) style.dpi = arguments.dpi;

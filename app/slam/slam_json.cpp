@@ -4,6 +4,7 @@
 
 #include "app/result_json.hpp"
 #include "render/figures/status_text.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 
@@ -31,7 +32,8 @@ std::string slam_record_text(const SlamRecord& record) {
                                 record.estimate.path.size());
   const TrajectoryError& error = record.errors.front();
   return method +
-         fmt::format("  mean error {:.3f} m, alignment {}", error.mean_m, name(error.alignment));
+         fmt::format("  mean error {}, alignment {}", page_metres(error.mean_m),
+                     name(error.alignment));
 }
 
 }  // namespace mapproof

@@ -55,28 +55,97 @@ std::string figure_command(const fs::path& folder) {
   return quoted_command({"mapproof", "render", folder.string(), "--figure"});
 }
 
-/// As many of each part's numbers, findings, under its title, and figures as leave room for the
-/// others'; of findings one at least. The figure of the first part that has one is the figure of
-/// all.
-void add_opening(const Report& part, std::size_t parts, Opening& all) {
-  constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
-  const auto take = [&](const auto& from, std::size_t most, auto& to) {
-    const std::size_t count = std::min(from.size(), most / parts);
-    to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
-  };
-  take(part.opening.numbers.items, kMostNumbers, all.numbers.items);
-  std::size_t left = std::max<std::size_t>(1, kMostFindings / parts);
-  for (Paragraph finding : part.opening.findings) {
-    if (left-- == 0) break;
-    finding.phrases.insert(finding.phrases.begin(), {part.title + ". ", Emphasis::kStrong});
-    all.findings.push_back(std::move(finding));
+constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
+
+/// How many of a part's figures leave room for those of the others.
+std::size_t share_of(std::size_t most, std::size_t parts) {
+  return std::max<std::size_t>(1, most / parts);
+}
+
+/// The first ones of all parts, then the second ones, and so on, up to `most`.
+template <typename T, typename Of>
+std::vector<T> in_turns(const std::vector<FolderReport>& parts, std::size_t most, Of of) {
+  std::vector<T> all;
+  for (std::size_t turn = 0; all.size() < most; ++turn) {
+    const std::size_t before = all.size();
+    for (const FolderReport& part : parts)
+      if (const std::vector<T> own = of(part.report.opening);
+          turn < own.size() && all.size() < most)
+        all.push_back(own[turn]);
+    if (all.size() == before) break;
   }
-  std::vector<std::string> ids = part.opening.figure_ids;
-  if (all.main_figure.empty())
-    all.main_figure = part.opening.main_figure;
-  else if (!part.opening.main_figure.empty())
-    ids.insert(ids.begin(), part.opening.main_figure);
-  take(ids, kMostThumbnails, all.figure_ids);
+  return all;
+}
+
+/// How many layers a panel of a part's main figure has; 0 if the part has none.
+std::size_t layers_of_main_figure(const FolderReport& part) {
+  const auto figure = std::ranges::find(part.figures, part.report.opening.main_figure, &Figure::id);
+  if (figure == part.figures.end()) return 0;
+  std::size_t layers = 0;
+  for (const Panel& panel : figure->panels) layers = std::max(layers, panel.layers.size());
+  return layers;
+}
+
+/// Of papers the first one's; of other studies the one that compares most.
+std::string main_figure_of(const std::vector<FolderReport>& parts) {
+  const auto has_one = [](const FolderReport& part) {
+    return !part.report.opening.main_figure.empty();
+  };
+  const auto first = std::ranges::find_if(parts, has_one);
+  if (first == parts.end()) return "";
+  if (first->of_paper) return first->report.opening.main_figure;
+  return std::ranges::max_element(parts, {}, layers_of_main_figure)->report.opening.main_figure;
+}
+
+/// "10 studies of 23 runs", and what is missing of them.
+std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
+  std::size_t runs = 0;
+  std::vector<std::string> incomplete;
+  for (const FolderReport& part : parts) {
+    runs += part.runs;
+    if (!part.incomplete.empty() || !part.missing.empty()) incomplete.push_back(part.report.title);
+  }
+  const std::string size = fmt::format(
+      "{} studies of {}. Each number above is of one of them, "
+      "compared with what the study sets against it.",
+      parts.size(), counted(static_cast<long long>(runs), "run"));
+  const std::string wrong = incomplete.empty()
+                                ? std::string("no run is missing.")
+                                : fmt::format("runs are missing in {}.", listed(incomplete, 3));
+  return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
+}
+
+/// As many of each part's numbers, findings, under its title, and figures as leave room for the
+/// others'; of each one at least.
+Opening joined_opening(const std::vector<FolderReport>& parts) {
+  Opening all;
+  const std::size_t count = parts.size();
+  const bool are_many = count > kMostNumbers;
+  for (const FolderReport& part : parts) {
+    const Opening& own = part.report.opening;
+    const auto& numbers = own.numbers.items;
+    const auto taken =
+        static_cast<std::ptrdiff_t>(std::min(numbers.size(), share_of(kMostNumbers, count)));
+    all.numbers.items.insert(all.numbers.items.end(), numbers.begin(), numbers.begin() + taken);
+  }
+  if (are_many) all.findings = extent_of(parts);  // The sections of each have the others.
+  for (const FolderReport& part : parts) {
+    if (are_many) break;
+    std::size_t left = share_of(kMostFindings, count);
+    for (Paragraph finding : part.report.opening.findings) {
+      if (left-- == 0) break;
+      finding.phrases.insert(finding.phrases.begin(), strong(part.report.title + ". "));
+      all.findings.push_back(std::move(finding));
+    }
+  }
+  all.main_figure = main_figure_of(parts);
+  all.figure_ids = in_turns<std::string>(parts, kMostThumbnails, [&](const Opening& own) {
+    std::vector<std::string> ids = own.figure_ids;
+    if (!own.main_figure.empty() && own.main_figure != all.main_figure)
+      ids.insert(ids.begin(), own.main_figure);
+    return ids;
+  });
+  return all;
 }
 
 }  // namespace
@@ -111,10 +180,10 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
                             : fmt::format("{} studies", parts.size());
   if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
     all.report.subtitle += ": " + parts[0].report.subtitle + "; " + parts[1].report.subtitle;
+  all.report.opening = joined_opening(parts);
   all.report.sections.push_back(contents_section(parts));
   all.report.figure_command = figure_command(folder);
   for (FolderReport& part : parts) {
-    add_opening(part.report, parts.size(), all.report.opening);
     all.runs += part.runs;
     std::ranges::move(part.figures, std::back_inserter(all.figures));
     std::ranges::move(part.scenes, std::back_inserter(all.scenes));
@@ -166,7 +235,8 @@ Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& cli
   const auto draw_scenes = [&] {
     try {
       for (const Scene* scene : images.scenes) {
-        drawn.svg.at(scene->id) = write_scene(*scene, job.theme, job.folder, client, job.formats);
+        drawn.svg.at(scene->id) = write_scene(*scene, job.theme, job.folder, client, job.formats,
+                                              job.dark ? &*job.dark : nullptr);
         count_one();
       }
     } catch (const SceneError& error) {
@@ -202,6 +272,7 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   const Drawn drawn = write_images(images_of(report),
                                    {.folder = folder / "figures",
                                     .theme = report_theme(),
+                                    .dark = dark_theme(),
                                     .jobs = outputs.jobs,
                                     .progress = outputs.progress},
                                    client);

@@ -54,7 +54,8 @@ Images images_of(const FolderReport& report);
 
 /// What was drawn.
 struct Drawn {
-  std::map<std::string, std::string> svg;  ///< The text of each SVG file by its image's id.
+  /// The text of each SVG file by its image's id; for a dark page, with dark images.
+  std::map<std::string, std::string> svg;
   std::string renderer;                    ///< What drew the scenes; empty if there are none.
   std::string scene_error;                 ///< Why scenes are missing; empty if none is.
 };
@@ -63,6 +64,7 @@ struct Drawn {
 struct DrawingJob {
   OutputFolder folder;
   Theme theme;
+  std::optional<Theme> dark = {};  ///< That of a page which shows 3-D figures in the dark.
   int jobs = 1;
   FileFormats formats = usual_formats();
   CountProgress progress = {};  ///< May be called from any thread, one call at a time.

@@ -4,6 +4,7 @@
 #include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/study_store.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_figures.hpp"
@@ -44,11 +45,6 @@ void for_each_result(const Study& study, Use use) {
       use(summary);
 }
 
-/// A map that came out arbitrary may be 1e14 m off.
-std::string plain_or_power(double metres) {
-  return metres < 1e4 ? fmt::format("{:.4f}", metres) : fmt::format("{:.4g}", metres);
-}
-
 nlohmann::ordered_json number(const std::optional<MeanEstimate>& estimate) {
   return estimate ? nlohmann::ordered_json(estimate->mean) : nlohmann::ordered_json(nullptr);
 }
@@ -78,7 +74,7 @@ std::string mapping_text(const Study& study) {
   for_each_result(study, [&](const SettingSummary& result) {
     text += fmt::format("{:<10}  {:<28}", name(result.sensor), label(result.setting));
     text += result.mpe_m && result.moe_percent
-                ? fmt::format("  MPE {} m  MOE {:5.2f} %\n", plain_or_power(result.mpe_m->mean),
+                ? fmt::format("  MPE {}  MOE {:5.2f} %\n", page_metres(result.mpe_m->mean, 4),
                               result.moe_percent->mean)
                 : std::string("  no map\n");
   });

@@ -29,6 +29,7 @@ struct FolderReport {
   std::vector<Scene> scenes = {};    ///< Likewise.
   std::vector<Film> films = {};      ///< Of some of the scenes.
   std::size_t runs = 0;
+  std::string incomplete = {};  ///< What is still to be run, a sentence; empty: nothing.
   std::vector<std::string> missing = {};               ///< Data asked for that are not there.
   std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
 };

@@ -81,11 +81,13 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
   StudyFigures figures = results_figures(view, comparisons);
   FigureGroup maps = topic_maps(study, labelled.name);
   if (!maps.empty()) figures.groups.push_back(std::move(maps));
+  const TopicHeadline headline = headline_of(study);
   ResultsReportInput input{.view = view,
                            .comparisons = comparisons,
                            .figures = figures,
                            .provenance = topic_provenance(study, sessions, command, labelled.name),
                            .conclusions = conclusions_of(study),
+                           .headline = {headline.label, headline.value, headline.detail},
                            .incomplete = topic_incomplete(study),
                            .footer = fmt::format("Made by mapproof {} ({}).",
                                                  study.provenance.version, study.provenance.commit),
@@ -97,7 +99,8 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                       .report = results_report(input),
                       .in_company = results_sections(input),
                       .group = labelled.title,
-                      .runs = study.parts.size()};
+                      .runs = study.parts.size(),
+                      .incomplete = input.incomplete};
   add_images(figures, result);
   return result;
 }

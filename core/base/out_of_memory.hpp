@@ -19,4 +19,9 @@ class OutOfMemory : public std::bad_alloc {
   std::array<char, 400> words_{};  // No memory is left for a string.
 };
 
+/// Bytes of memory that the process can still take: the least of what the machine has available, of
+/// the process's limit of address space (ulimit -v), and of its control group's limit. Infinite if
+/// none of them is known.
+double available_memory_bytes();
+
 }  // namespace mapproof

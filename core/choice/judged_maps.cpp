@@ -191,7 +191,7 @@ std::vector<MethodSetting> usual_candidates(const HistoryEmbedder& embedder,
   constexpr Eigen::Index kMostOfSde = 60;
   std::vector<MethodSetting> settings;
   for (const MethodInfo& method : all_methods()) {
-    if (method.method == Method::kSde && landmarks > kMostOfSde) continue;
+    if (method.approximates || (method.method == Method::kSde && landmarks > kMostOfSde)) continue;
     if (!method.parameter || !method.parameter->counts_neighbours) {
       settings.push_back(embedder.usual_setting(method.method));
       continue;

@@ -14,6 +14,7 @@
 #include "core/embed/pca.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/graph/shortest_paths.hpp"
+#include "core/observe/history_distances.hpp"
 
 namespace mapproof {
 namespace {
@@ -49,6 +50,22 @@ double median_beside_diagonal(const Eigen::MatrixXd& matrix) {
 double two_digits(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
   return std::round(value / unit) * unit;
+}
+
+/// Why so many landmarks are not enough; empty if they are.
+std::optional<Status> too_few(const MethodSetting& setting, Eigen::Index n) {
+  if (n < 3) return status_of<StatusReason::kTooFewLandmarks>(n);
+  if (on_graph(setting.method) && setting.parameter.value_or(0.0) >= static_cast<double>(n))
+    return status_of<StatusReason::kTooManyNeighbours>(setting.parameter.value_or(0.0), n);
+  return std::nullopt;
+}
+
+/// All landmarks at one position.
+Embedding point_map(Eigen::Index landmarks) {
+  Embedding point;
+  point.coordinates.setZero(landmarks, 2);
+  point.statuses.push_back(status_of<StatusReason::kSameObservations>());
+  return point;
 }
 
 Eigen::MatrixXd adjacency(const Graph& graph) {
@@ -92,12 +109,7 @@ const Eigen::MatrixXd& Embedder::complete_squares() const {
 Embedding Embedder::embed(const MethodSetting& setting) {
   const Eigen::Index n = size();
   if (const auto why_not = obstacle(setting)) return failed(n, *why_not);
-  if (complete_squares().maxCoeff() == 0.0) {
-    Embedding point;
-    point.coordinates.setZero(n, 2);
-    point.statuses.push_back(status_of<StatusReason::kSameObservations>());
-    return with_all_distances(point);
-  }
+  if (complete_squares().maxCoeff() == 0.0) return with_all_distances(point_map(n));
   Embedding result = solve(setting);
   for (Status& status : caveats(result, setting)) result.statuses.push_back(std::move(status));
   return result;
@@ -119,8 +131,7 @@ std::vector<Status> Embedder::caveats(const Embedding& map, const MethodSetting&
 MethodSetting Embedder::usual_setting(Method method) const {
   const std::optional<ParameterInfo>& parameter = info(method).parameter;
   if (!parameter) return {method, std::nullopt};
-  if (parameter->counts_neighbours)
-    return {method, std::clamp(static_cast<double>(size() - 1), 1.0, 6.0)};
+  if (parameter->counts_neighbours) return {method, usual_neighbours(size())};
   if (method == Method::kKpcaPolynomial) return {method, 2.0};
   const double median = median_beside_diagonal(complete_squares());
   return {method, std::clamp(two_digits(median), parameter->minimum, parameter->maximum)};
@@ -128,10 +139,7 @@ MethodSetting Embedder::usual_setting(Method method) const {
 
 /// Why the method cannot give a map of these data; empty if it can.
 std::optional<Status> Embedder::obstacle(const MethodSetting& setting) const {
-  const Eigen::Index n = size();
-  if (n < 3) return status_of<StatusReason::kTooFewLandmarks>(n);
-  if (on_graph(setting.method) && setting.parameter.value_or(0.0) >= static_cast<double>(n))
-    return status_of<StatusReason::kTooManyNeighbours>(setting.parameter.value_or(0.0), n);
+  if (auto few = too_few(setting, size())) return few;
   if (seen_apart_) return status_of<StatusReason::kNoSharedObservation>();
   return std::nullopt;
 }
@@ -153,6 +161,7 @@ Embedding Embedder::solve(const MethodSetting& setting) {
       return with_all_distances(
           kernel_pca(complete_inner_products(), PolynomialKernel{.degree = count}));
     case Method::kIsomap:
+    case Method::kLandmarkIsomap:
     case Method::kLaplacianEigenmap:
       return on_graph_of(setting.method, count);
     case Method::kLle:
@@ -186,8 +195,10 @@ Embedding Embedder::on_graph_of(Method method, int neighbours) {
   const ConnectedGraph graph =
       connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
   if (!graph.connected) return failed(size(), graph.statuses.front());
-  Embedding result =
-      method == Method::kIsomap ? isomap(graph.graph) : laplacian_eigenmap(graph.graph);
+  Embedding result = method == Method::kIsomap ? isomap(graph.graph)
+                     : method == Method::kLandmarkIsomap
+                         ? landmark_isomap(graph.graph, options_.landmark_isomap)
+                         : laplacian_eigenmap(graph.graph);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
 }
@@ -251,42 +262,137 @@ const Embedding& Embedder::equal_weights() {
   return *equal_weights_;
 }
 
+double needed_bytes(Method method, Eigen::Index landmarks, const EmbedderOptions& options) {
+  // Arrays of landmarks x landmarks that are held at the same time. Measured: ISOMAP of 5000
+  // landmarks takes 1327 MiB.
+  constexpr double kArrays = 6.0;
+  constexpr double kOfLandmark = 1000.0;  // Its neighbours, and the edges of the graph.
+  const auto M = static_cast<double>(landmarks);
+  if (method != Method::kLandmarkIsomap) return 8.0 * kArrays * M * M;
+  // Paths to the references; distances between them, their products and eigenvectors.
+  constexpr double kOfReferences = 5.0;
+  const double L = std::min<double>(options.landmark_isomap.references, M);
+  return M * (8.0 * L + kOfLandmark) + 8.0 * kOfReferences * L * L;
+}
+
+double usual_neighbours(Eigen::Index landmarks) {
+  return std::clamp(static_cast<double>(landmarks - 1), 1.0, 6.0);
+}
+
+Embedding embed_large(const HistoryDistances& distances, const MethodSetting& setting,
+                      const EmbedderOptions& options) {
+  const Eigen::Index n = distances.landmarks;
+  if (const auto few = too_few(setting, n)) return failed(n, *few);
+  const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
+  const double apart = distances.apart * (1.0 - 1e-12);
+  const ConnectedGraph graph = connected_neighbour_graph(
+      distances,
+      {.neighbours = neighbours, .cutoff = options.only_seen_together ? apart : kInfinity});
+  if (!graph.connected) return failed(n, graph.statuses.front());
+  const bool is_point = std::ranges::all_of(graph.graph, [](const std::vector<Edge>& edges) {
+    return std::ranges::all_of(edges, [](const Edge& edge) { return edge.length == 0.0; });
+  });
+  if (is_point) return point_map(n);
+  Embedding result = landmark_isomap(graph.graph, options.landmark_isomap);
+  if (distances.groups > 1)
+    result.statuses.push_back(status_of<StatusReason::kGroupsNeverTogether>(distances.groups));
+  // As of Embedder: what the graph took first, what the observations do not determine last.
+  for (const Status& status : graph.statuses)
+    result.statuses.insert(status.code == StatusCode::kArbitraryNeighbours
+                               ? result.statuses.end()
+                               : result.statuses.begin(),
+                           status);
+  return result;
+}
+
 namespace {
 
 /// One scan puts all bearings on a circle, two on a torus: too few to determine a map.
 constexpr Eigen::Index kFewestSteps = 3;
+
+/// Which landmarks of a history can be mapped, and why the others cannot.
+struct SeenLandmarks {
+  std::vector<Eigen::Index> rows;
+  bool are_all = false;
+  std::vector<Status> statuses;
+};
+
+SeenLandmarks seen_landmarks(const ObservationHistory& history, Eigen::Index steps) {
+  SeenLandmarks seen;
+  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
+  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
+    if (!std::ranges::binary_search(unseen, i)) seen.rows.push_back(i);
+  seen.are_all = unseen.empty();
+  if (!unseen.empty())
+    seen.statuses.push_back(status_of<StatusReason::kNeverObserved>(
+        names_of(history, unseen), unseen.size(), history.landmarks()));
+  if (steps < kFewestSteps)
+    seen.statuses.push_back(status_of<StatusReason::kFewSteps>(steps, kFewestSteps));
+  return seen;
+}
+
+/// The map of those rows as one of all landmarks, with those statuses.
+Embedding in_all_rows(Embedding result, const std::vector<Eigen::Index>& rows,
+                      Eigen::Index landmarks, const std::vector<Status>& statuses) {
+  if (statuses.empty()) return result;
+  const Points mapped = std::move(result.coordinates);
+  result.coordinates.setConstant(landmarks, 2, kNaN);
+  result.coordinates(rows, Eigen::all) = mapped;
+  result.statuses.insert(result.statuses.end(), statuses.begin(), statuses.end());
+  return result;
+}
 
 }  // namespace
 
 HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
                                  EmbedderOptions options, const ProximityRule& rule)
     : landmarks_(history.landmarks()) {
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  for (Eigen::Index i = 0; i < landmarks_; ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
-  if (!unseen.empty())
-    statuses_.push_back(status_of<StatusReason::kNeverObserved>(names_of(history, unseen),
-                                                                unseen.size(), landmarks_));
-  if (steps < kFewestSteps)
-    statuses_.push_back(status_of<StatusReason::kFewSteps>(steps, kFewestSteps));
+  SeenLandmarks found = seen_landmarks(history, steps);
+  seen_ = std::move(found.rows);
+  statuses_ = std::move(found.statuses);
   if (seen_.empty()) {
     embedder_.emplace(Proximities{}, options);
   } else {
     // A history of which nothing is left out is not copied: it may be most of the memory.
     const ObservationHistory subset =
-        unseen.empty() ? ObservationHistory{} : with_rows(history, seen_);
-    const ObservationHistory& seen = unseen.empty() ? history : subset;
+        found.are_all ? ObservationHistory{} : with_rows(history, seen_);
+    const ObservationHistory& seen = found.are_all ? history : subset;
     embedder_.emplace(rule ? rule(seen, steps) : proximities(seen, steps), options);
   }
 }
 
 Embedding HistoryEmbedder::embed(const MethodSetting& setting) {
-  Embedding result = embedder_->embed(setting);
-  if (statuses_.empty()) return result;
-  const Points mapped = std::move(result.coordinates);
-  result.coordinates.setConstant(landmarks_, 2, kNaN);
-  result.coordinates(seen_, Eigen::all) = mapped;
-  result.statuses.insert(result.statuses.end(), statuses_.begin(), statuses_.end());
+  return in_all_rows(embedder_->embed(setting), seen_, landmarks_, statuses_);
+}
+
+Embedding embed_history(const ObservationHistory& history, Eigen::Index steps,
+                        MethodSetting& setting, const EmbedderOptions& options,
+                        const ProximityRule& rule) {
+  if (setting.method != Method::kLandmarkIsomap || rule) {
+    HistoryEmbedder embedder(history, steps, options, rule);
+    if (!setting.parameter) setting = embedder.usual_setting(setting.method);
+    return embedder.embed(setting);
+  }
+  const SeenLandmarks found = seen_landmarks(history, steps);
+  if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(found.rows));
+  if (found.rows.empty())
+    return in_all_rows(failed(0, status_of<StatusReason::kTooFewLandmarks>(0)), found.rows,
+                       history.landmarks(), found.statuses);
+  const ObservationHistory subset =
+      found.are_all ? ObservationHistory{} : with_rows(history, found.rows);
+  const ObservationHistory& seen = found.are_all ? history : subset;
+  return in_all_rows(embed_large(history_distances(seen, steps), setting, options), found.rows,
+                     history.landmarks(), found.statuses);
+}
+
+Embedding embed_detected(const DetectionLog& log, Sensor sensor, MethodSetting& setting,
+                         const EmbedderOptions& options) {
+  if (sensor != Sensor::kVisibility)
+    return embed_history(history_of(log, sensor), log.steps, setting, options);
+  if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(log.names));
+  Embedding result = embed_large(visibility_distances(log), setting, options);
+  if (log.steps < kFewestSteps)
+    result.statuses.push_back(status_of<StatusReason::kFewSteps>(log.steps, kFewestSteps));
   return result;
 }
 

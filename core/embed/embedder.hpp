@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/embed/landmark_isomap.hpp"
 #include "core/embed/lle.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
@@ -22,6 +23,7 @@ struct EmbedderOptions {
   /// Weighted SMACOF is stopped early: full convergence makes worse maps.
   SmacofOptions smacof_knn{.relative_fall = 1e-2, .max_iterations = 1000};
   LleOptions lle;
+  LandmarkIsomapOptions landmark_isomap;
 };
 
 /// Every mapping method over the same proximities; starts that several of them share are computed
@@ -75,6 +77,27 @@ class Embedder {
   std::optional<Embedding> equal_weights_;
 };
 
+/// Landmark ISOMAP of histories whose distances are no array, with what the observations do not
+/// determine: equal to that of Embedder but for rounding.
+/// @param setting  Of Method::kLandmarkIsomap.
+/// @note See landmark_isomap() and connected_neighbour_graph().
+Embedding embed_large(const HistoryDistances& distances, const MethodSetting& setting,
+                      const EmbedderOptions& options = {});
+
+/// The same of what one sensor detected of landmarks that were all seen: visibility without any
+/// array, others by the array of landmarks and steps.
+/// @param setting  Without a parameter: it is set to the usual one of these data.
+/// @throws InvalidInput as visibility_distances().
+Embedding embed_detected(const DetectionLog& log, Sensor sensor, MethodSetting& setting,
+                         const EmbedderOptions& options = {});
+
+/// The memory that a map of so many landmarks takes at most besides its observations, bytes: for
+/// the array of all distances and its copies, or for the paths to the references.
+double needed_bytes(Method method, Eigen::Index landmarks, const EmbedderOptions& options = {});
+
+/// K = 6, or as many as there can be.
+double usual_neighbours(Eigen::Index landmarks);
+
 /// An alternative to proximities(): takes a history of landmarks that were all observed, and how
 /// many steps to use.
 using ProximityRule = std::function<Proximities(const ObservationHistory&, Eigen::Index)>;
@@ -100,5 +123,13 @@ class HistoryEmbedder {
   std::vector<Status> statuses_;
   std::optional<Embedder> embedder_;
 };
+
+/// One map of a history, by the array of all distances only where the method needs it: Landmark
+/// ISOMAP without a rule does not.
+/// @param setting  Without a parameter: it is set to the usual one of these data.
+/// @throws InvalidInput as HistoryEmbedder.
+Embedding embed_history(const ObservationHistory& history, Eigen::Index steps,
+                        MethodSetting& setting, const EmbedderOptions& options = {},
+                        const ProximityRule& rule = {});
 
 }  // namespace mapproof

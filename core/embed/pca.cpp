@@ -43,11 +43,15 @@ Embedding of_kernel(Eigen::MatrixXd K) {
 
 }  // namespace
 
-Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
-  const EigenPairs pairs = largest_eigenpairs(B, std::min<Eigen::Index>(B.rows(), 10));
+namespace {
+
+constexpr Eigen::Index kSpectrum = 10;  // Eigenvalues that a map keeps.
+
+/// @param pairs  Three or more of n.
+Embedding coordinates_of(const EigenPairs& pairs, double size) {
   Embedding result;
   result.spectrum = pairs.values;
-  result.coordinates.setZero(B.rows(), 2);
+  result.coordinates.setZero(pairs.vectors.rows(), 2);
   const double floor = kCoordinateRounding * std::max(pairs.values(0), size);
   int rank = 0;
   for (; rank < 2 && pairs.values(rank) > floor; ++rank)
@@ -60,6 +64,40 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
     result.statuses.push_back(status_of<StatusReason::kEqualEigenvalues>(pairs.values(1)));
   }
   return result;
+}
+
+}  // namespace
+
+Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
+  constexpr Eigen::Index kFewestByBlocks = 512;  // Above that the matrix is not in the cache.
+  if (B.rows() >= kFewestByBlocks) {
+    const EigenPairs pairs =
+        largest_eigenpairs([&](const Eigen::MatrixXd& V) { return product_of_eight(B, V); },
+                           B.rows(), {.exact = 3, .count = kSpectrum});
+    if (pairs.converged) return coordinates_of(pairs, size);
+  }
+  return coordinates_of(largest_eigenpairs(B, std::min(B.rows(), kSpectrum)), size);
+}
+
+Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors) {
+  constexpr Eigen::Index kFewest = 100;
+  if (vectors.rows() < kFewest || !vectors.allFinite())
+    throw InvalidInput("LPCA needs finite vectors of at least 100 landmarks");
+  const auto center = [](Eigen::MatrixXd& columns) {
+    columns.rowwise() -= columns.colwise().mean().eval();
+  };
+  const BlockProduct product = [&](const Eigen::MatrixXd& V) {
+    Eigen::MatrixXd centred = V;
+    center(centred);
+    Eigen::MatrixXd result = gram_product(vectors, centred);
+    center(result);
+    return result;
+  };
+  const double size =
+      4.0 *
+      (vectors.rowwise() - vectors.colwise().mean().eval()).rowwise().squaredNorm().maxCoeff();
+  return coordinates_of(
+      largest_eigenpairs(product, vectors.rows(), {.exact = 3, .count = kSpectrum}), size);
 }
 
 Embedding lpca(const Eigen::MatrixXd& squared_distances) {

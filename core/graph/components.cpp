@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -202,29 +204,92 @@ std::vector<Eigen::Index> largest_component(const Graph& graph) {
   return *std::ranges::max_element(groups, {}, [](const auto& group) { return group.size(); });
 }
 
-std::optional<Bridging> bridge_components(Graph& graph, const Eigen::MatrixXd& distances) {
-  std::vector<int> piece = components(graph);
-  Bridging result{.pieces = piece.empty() ? 0 : *std::ranges::max_element(piece) + 1};
-  if (result.pieces <= 1) return result;
+namespace {
 
-  // Kruskal over the components: a number for each, merged as bridges are added.
-  std::vector<int> label(static_cast<std::size_t>(result.pieces));
-  std::iota(label.begin(), label.end(), 0);
-  std::vector<Bridge> laid;
-  for (const Bridge& bridge : shortest_bridges(piece, result.pieces, distances)) {
-    const int a = label[static_cast<std::size_t>(piece[static_cast<std::size_t>(bridge.from)])];
-    const int b = label[static_cast<std::size_t>(piece[static_cast<std::size_t>(bridge.to)])];
-    if (a == b) continue;
-    std::ranges::replace(label, b, a);
-    laid.push_back(bridge);
+/// The shortest finite edge between each two components that are given one, ascending.
+std::vector<Bridge> shortest_bridges(const std::vector<int>& piece,
+                                     const VisitedDistances& distances) {
+  std::map<std::pair<int, int>, Bridge> best;
+  std::mutex mutex;
+  distances.visit([&](Eigen::Index i, std::span<const Edge> others) {
+    const int here = piece[static_cast<std::size_t>(i)];
+    for (const Edge& edge : others) {
+      const int there = piece[static_cast<std::size_t>(edge.to)];
+      // Each pair comes at both of its nodes.
+      if (here == there || edge.to < i || !std::isfinite(edge.length)) continue;
+      const Bridge bridge{edge.length, i, edge.to};
+      const std::lock_guard lock(mutex);
+      const auto [found, is_new] = best.emplace(std::minmax(here, there), bridge);
+      if (!is_new) found->second = std::min(found->second, bridge);
+    }
+  });
+  std::vector<Bridge> bridges;
+  for (const auto& [pieces, bridge] : best) bridges.push_back(bridge);
+  std::ranges::sort(bridges);
+  return bridges;
+}
+
+/// Of components, as bridges join them (Kruskal).
+class JoinedComponents {
+ public:
+  explicit JoinedComponents(const std::vector<int>& piece)
+      : piece_(piece), sets_(static_cast<std::size_t>(std::ranges::max(piece) + 1)) {}
+
+  /// Keeps a bridge between components that no others join.
+  void offer(const Bridge& bridge) {
+    const std::size_t a = of(bridge.from), b = of(bridge.to);
+    if (a == b) return;
+    sets_.merge(b, a);
+    joining_.push_back(bridge);
   }
-  if (std::ssize(laid) != result.pieces - 1) return std::nullopt;
-  for (const Bridge& bridge : laid) {
+
+  std::size_t of(Eigen::Index node) {
+    return sets_.of(static_cast<std::size_t>(piece_[static_cast<std::size_t>(node)]));
+  }
+
+  const std::vector<Bridge>& bridges() const { return joining_; }
+
+ private:
+  const std::vector<int>& piece_;
+  Sets sets_;
+  std::vector<Bridge> joining_;
+};
+
+/// Adds the bridges, if they join all components.
+std::optional<Bridging> lay_bridges(Graph& graph, int pieces, const std::vector<Bridge>& bridges) {
+  if (std::ssize(bridges) != pieces - 1) return std::nullopt;
+  Bridging result{.pieces = pieces};
+  for (const Bridge& bridge : bridges) {
     insert_edge(graph, bridge.from, bridge.to, bridge.length);
     insert_edge(graph, bridge.to, bridge.from, bridge.length);
     result.longest = std::max(result.longest, bridge.length);
   }
   return result;
+}
+
+}  // namespace
+
+std::optional<Bridging> bridge_components(Graph& graph, const Eigen::MatrixXd& distances) {
+  const std::vector<int> piece = components(graph);
+  const int pieces = piece.empty() ? 0 : std::ranges::max(piece) + 1;
+  if (pieces <= 1) return Bridging{.pieces = pieces};
+  JoinedComponents joined(piece);
+  for (const Bridge& bridge : shortest_bridges(piece, pieces, distances)) joined.offer(bridge);
+  return lay_bridges(graph, pieces, joined.bridges());
+}
+
+std::optional<Bridging> bridge_components(Graph& graph, const VisitedDistances& distances) {
+  const std::vector<int> piece = components(graph);
+  const int pieces = piece.empty() ? 0 : std::ranges::max(piece) + 1;
+  if (pieces <= 1) return Bridging{.pieces = pieces};
+  JoinedComponents joined(piece);
+  for (const Bridge& bridge : shortest_bridges(piece, distances)) joined.offer(bridge);
+  // Of bridges of one length those between the lowest nodes come first: from the first node to the
+  // first of each other group.
+  if (std::isfinite(distances.others))
+    for (Eigen::Index node = 1; node < std::ssize(graph); ++node)
+      joined.offer({distances.others, 0, node});
+  return lay_bridges(graph, pieces, joined.bridges());
 }
 
 }  // namespace mapproof

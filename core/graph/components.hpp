@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/graph/neighbours.hpp"
@@ -40,5 +42,22 @@ struct Bridging {
 /// @param distances  n x n, symmetric; infinite entries cannot be bridges.
 /// @return Empty if no finite bridge exists between some of them; the graph is then left as it was.
 std::optional<Bridging> bridge_components(Graph& graph, const Eigen::MatrixXd& distances);
+
+/// Distances of pairs of n nodes that come piece by piece: see bridge_components().
+struct VisitedDistances {
+  /// Takes distances of node i to some others.
+  using Take = std::function<void(Eigen::Index i, std::span<const Edge> others)>;
+
+  /// Calls `take` until it has given all of them: of each pair at both of its nodes. Several calls
+  /// may be made at the same time, but not of one node.
+  std::function<void(const Take& take)> visit;
+  /// The length of all pairs that are not given; infinite: they cannot be bridges.
+  double others = kInfinity;
+};
+
+/// The same bridges where the distances are no array.
+/// @note One visit of all distances if there are several components; memory for each pair of
+///       components that some distance joins.
+std::optional<Bridging> bridge_components(Graph& graph, const VisitedDistances& distances);
 
 }  // namespace mapproof

@@ -11,6 +11,15 @@
 namespace mapproof {
 namespace {
 
+void require_neighbours(int neighbours, Eigen::Index n) {
+  if (neighbours < 1 || neighbours >= n)
+    throw InvalidInput(
+        fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", neighbours, n));
+}
+
+/// Distances that differ by rounding alone are at most this many times each other.
+constexpr double kRounding = 1.0 + 1e-11;
+
 /// 40 bits, some 12 significant digits: distances that differ by rounding alone become ties.
 double rounded(double distance) {
   if (distance == 0.0 || !std::isfinite(distance)) return distance;
@@ -24,10 +33,7 @@ double rounded(double distance) {
 NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
                                   const NeighbourOptions& options) {
   const Eigen::Index n = distances.rows();
-  if (options.neighbours < 1 || options.neighbours >= n)
-    throw InvalidInput(
-        fmt::format("K = {} nearest neighbours need 1 <= K < {} landmarks", options.neighbours, n));
-
+  require_neighbours(options.neighbours, n);
   NeighbourLists nearest(static_cast<std::size_t>(n));
   std::vector<double> finite;
   std::vector<std::pair<double, Eigen::Index>> order;
@@ -43,7 +49,7 @@ NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
     if (count == 0) continue;
     // Rounding is slow: only what may be among the nearest is rounded.
     std::nth_element(finite.begin(), finite.begin() + (count - 1), finite.end());
-    const double farthest = finite[static_cast<std::size_t>(count - 1)] * (1.0 + 1e-11);
+    const double farthest = finite[static_cast<std::size_t>(count - 1)] * kRounding;
     order.clear();
     for (Eigen::Index j = 0; j < n; ++j)
       if (row(j) <= farthest && usable(j)) order.emplace_back(rounded(row(j)), j);
@@ -56,6 +62,41 @@ NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
     }
   }
   return nearest;
+}
+
+NearestLists::NearestLists(Eigen::Index n, const NeighbourOptions& options)
+    : options_(options), nearest_(static_cast<std::size_t>(n)) {
+  require_neighbours(options.neighbours, n);
+}
+
+void NearestLists::take(Eigen::Index i, std::span<const Edge> others) {
+  std::vector<Candidate>& heap = nearest_[static_cast<std::size_t>(i)];
+  const auto most = static_cast<std::size_t>(options_.neighbours);
+  double bound = heap.size() < most ? kInfinity : heap.front().edge.length * kRounding;
+  for (const Edge& edge : others) {
+    if (edge.length > bound || !(edge.length < options_.cutoff) || !std::isfinite(edge.length))
+      continue;
+    const Candidate candidate{rounded(edge.length), edge};
+    if (heap.size() == most) {
+      if (!(candidate < heap.front())) continue;
+      std::pop_heap(heap.begin(), heap.end());
+      heap.pop_back();
+    }
+    heap.push_back(candidate);
+    std::push_heap(heap.begin(), heap.end());
+    if (heap.size() == most) bound = heap.front().edge.length * kRounding;
+  }
+}
+
+NeighbourLists NearestLists::lists() && {
+  NeighbourLists lists(nearest_.size());
+  for (std::size_t i = 0; i < nearest_.size(); ++i) {
+    std::sort_heap(nearest_[i].begin(), nearest_[i].end());
+    lists[i].reserve(nearest_[i].size());
+    for (const Candidate& candidate : nearest_[i]) lists[i].push_back(candidate.edge);
+    nearest_[i] = {};
+  }
+  return lists;
 }
 
 Graph neighbour_graph(const NeighbourLists& nearest, int neighbours) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -37,6 +38,33 @@ struct NeighbourOptions {
 /// @note O(n^2 + n K log K) time on average, O(n^2 log n) if all distances are alike.
 NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
                                   const NeighbourOptions& options);
+
+/// The same of distances that come piece by piece, so that no n x n array is needed.
+class NearestLists {
+ public:
+  /// @throws InvalidInput if K is not in [1, n).
+  NearestLists(Eigen::Index n, const NeighbourOptions& options);
+
+  /// Takes distances of node i to some others. Different nodes may be given at the same time.
+  /// @param others  None that node i was given before, nor i itself; infinite ones do not count.
+  void take(Eigen::Index i, std::span<const Edge> others);
+
+  /// What nearest_neighbours() makes of the same distances.
+  NeighbourLists lists() &&;
+
+ private:
+  struct Candidate {
+    double rounded;
+    Edge edge;
+
+    bool operator<(const Candidate& other) const {
+      return rounded != other.rounded ? rounded < other.rounded : edge.to < other.edge.to;
+    }
+  };
+
+  NeighbourOptions options_;
+  std::vector<std::vector<Candidate>> nearest_;  ///< Of each node a heap, the farthest first.
+};
 
 /// Symmetric K-nearest-neighbour graph: i and j are joined if either is among the K nearest of the
 /// other. Ties, after rounding to 40 bits (some 12 digits), go to the lower row. Infinite distances

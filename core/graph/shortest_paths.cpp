@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -103,19 +104,30 @@ void heap_search(const FlatGraph& graph, std::int32_t source, double* lengths) {
 
 }  // namespace
 
+PathSearch::PathSearch(const Graph& graph) : nodes_(std::ssize(graph)) {
+  auto flat = std::make_shared<const FlatGraph>(graph);
+  if (flat->shortest > 0.0 && flat->longest <= Buckets::kMost * flat->shortest)
+    search_ = [flat, buckets = Buckets(flat->shortest, flat->longest)](
+                  std::int32_t source, double* lengths) mutable {
+      buckets.search(*flat, source, lengths);
+    };
+  else
+    search_ = [flat](std::int32_t source, double* lengths) {
+      heap_search(*flat, source, lengths);
+    };
+}
+
+void PathSearch::from(Eigen::Index source, double* lengths) {
+  std::fill_n(lengths, nodes_, HUGE_VAL);
+  search_(static_cast<std::int32_t>(source), lengths);
+}
+
 Eigen::MatrixXd shortest_paths(const Graph& graph) {
   const Eigen::Index n = std::ssize(graph);
-  const FlatGraph flat(graph);
-  Eigen::MatrixXd lengths = Eigen::MatrixXd::Constant(n, n, HUGE_VAL);
-  const auto nodes = static_cast<std::int32_t>(n);
-  if (flat.shortest > 0.0 && flat.longest <= Buckets::kMost * flat.shortest) {
-    Buckets buckets(flat.shortest, flat.longest);
-    for (std::int32_t source = 0; source < nodes; ++source)
-      buckets.search(flat, source, lengths.col(source).data());
-  } else {
-    for (std::int32_t source = 0; source < nodes; ++source)
-      heap_search(flat, source, lengths.col(source).data());
-  }
+  Eigen::MatrixXd lengths(n, n);
+  PathSearch search(graph);
+  for (Eigen::Index source = 0; source < n; ++source)
+    search.from(source, lengths.col(source).data());
   // The two directions add the same edges in another order: take the lower sum for both.
   constexpr Eigen::Index kBlock = 32;  // of both halves fits the first cache
   for (Eigen::Index j0 = 0; j0 < n; j0 += kBlock)

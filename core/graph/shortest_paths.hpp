@@ -1,8 +1,24 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "core/graph/neighbours.hpp"
 
 namespace mapproof {
+
+/// Shortest paths from one node after the other, as shortest_paths() finds them.
+class PathSearch {
+ public:
+  explicit PathSearch(const Graph& graph);
+
+  /// Lengths from the node to all n, into n values; infinite to other components.
+  void from(Eigen::Index source, double* lengths);
+
+ private:
+  Eigen::Index nodes_;
+  std::function<void(std::int32_t source, double* lengths)> search_;
+};
 
 /// Lengths of the shortest paths between all nodes; infinite between components.
 /// @return n x n, exactly symmetric, zero diagonal.

@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/base/errors.hpp"
+#include "core/base/vectorised.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/linalg/packed_product.hpp"
 #include "core/linalg/sign.hpp"
@@ -241,6 +242,137 @@ EigenPairs leading_eigenpairs(const Eigen::MatrixXd& matrix, const Eigen::Matrix
     return found;
   }
   return fixed_dense(matrix, count);
+}
+
+namespace {
+
+constexpr Eigen::Index kWidth = 8;        // Vectors of a block.
+constexpr Eigen::Index kMostBlocks = 12;  // Of a span.
+constexpr int kMostSpans = 8;
+constexpr double kExactOfBlocks = 1e-12;  // Of the largest eigenvalue, what a residual may be,
+constexpr double kRoughOfBlocks = 1e-5;   // and that of a pair that need not be exact.
+
+/// What is in no span of the others, orthonormal.
+Eigen::MatrixXd orthonormal_rest(Eigen::MatrixXd next,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& others) {
+  for (int twice = 0; twice < 2; ++twice) {
+    next -= others * (others.transpose() * next).eval();
+    next = orthonormal(next);
+  }
+  return next;
+}
+
+}  // namespace
+
+EigenPairs largest_eigenpairs(const BlockProduct& product, Eigen::Index n,
+                              const LeadingPairs& pairs) {
+  if (n < kMostBlocks * kWidth || pairs.exact < 1 || pairs.exact > kWidth ||
+      pairs.count < pairs.exact || pairs.count > 2 * kWidth)
+    throw InvalidInput("eigenpairs: more of them than the blocks hold");
+  EigenPairs found{
+      .values = {}, .vectors = completed(Eigen::MatrixXd(n, 0), kWidth), .converged = false};
+  Eigen::MatrixXd basis(n, kMostBlocks * kWidth), image(n, kMostBlocks * kWidth);
+  for (int span = 0; span < kMostSpans && !found.converged; ++span) {
+    basis.leftCols(kWidth) = found.vectors.leftCols(kWidth);
+    for (Eigen::Index k = 0; k < kMostBlocks && !found.converged; ++k) {
+      image.middleCols(k * kWidth, kWidth) = product(basis.middleCols(k * kWidth, kWidth));
+      const Eigen::Index width = (k + 1) * kWidth;
+      if (width >= pairs.count) {
+        const Eigen::MatrixXd inner = basis.leftCols(width).transpose() * image.leftCols(width);
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+            Eigen::MatrixXd(0.5 * (inner + inner.transpose())));
+        const Eigen::Index kept = std::max(pairs.count, kWidth);
+        const Eigen::MatrixXd axes = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+        found.values = solver.eigenvalues().tail(kept).reverse();
+        found.vectors = basis.leftCols(width) * axes;
+        const Eigen::VectorXd rest =
+            (image.leftCols(width) * axes - found.vectors * found.values.asDiagonal())
+                .colwise()
+                .norm() /
+            std::abs(found.values(0));
+        found.converged = rest.head(pairs.exact).maxCoeff() <= kExactOfBlocks &&
+                          rest.head(pairs.count).maxCoeff() <= kRoughOfBlocks;
+      }
+      if (k + 1 < kMostBlocks && !found.converged)
+        basis.middleCols(width, kWidth) =
+            orthonormal_rest(image.middleCols(k * kWidth, kWidth), basis.leftCols(width));
+    }
+  }
+  found.values.conservativeResize(pairs.count);
+  found.vectors.conservativeResize(Eigen::NoChange, pairs.count);
+  fix_signs(found.vectors);
+  return found;
+}
+
+namespace {
+
+/// Eight numbers, which go together whatever vectors the processor has.
+using Eight = double __attribute__((vector_size(64), aligned(8), may_alias));
+
+/// Adds to `to`, for some columns of X, what they make of `from`: both row by row.
+/// @param from, to  n rows.
+MAPPROOF_VECTORISED_WIDE void add_columns(const double* X, Eigen::Index n, Eigen::Index columns,
+                                          const Eight* from, Eight* to) {
+  const double* x[4];
+  Eigen::Index c = 0;
+  for (; c + 4 <= columns; c += 4) {
+    for (int k = 0; k < 4; ++k) x[k] = X + (c + k) * n;
+    Eight a{}, b{}, d{}, e{};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eight v = from[i];
+      a += x[0][i] * v;
+      b += x[1][i] * v;
+      d += x[2][i] * v;
+      e += x[3][i] * v;
+    }
+    for (Eigen::Index i = 0; i < n; ++i)
+      to[i] += (x[0][i] * a + x[1][i] * b) + (x[2][i] * d + x[3][i] * e);
+  }
+  for (; c < columns; ++c) {
+    Eight a{};
+    for (Eigen::Index i = 0; i < n; ++i) a += X[c * n + i] * from[i];
+    for (Eigen::Index i = 0; i < n; ++i) to[i] += X[c * n + i] * a;
+  }
+}
+
+/// Adds A times `from` to `to`, both row by row.
+MAPPROOF_VECTORISED_WIDE void add_matrix(const double* A, Eigen::Index n, const Eight* from,
+                                         Eight* to) {
+  Eigen::Index j = 0;
+  for (; j + 4 <= n; j += 4) {
+    const double* a = A + j * n;
+    for (Eigen::Index i = 0; i < n; ++i)
+      to[i] += (a[i] * from[j] + a[n + i] * from[j + 1]) +
+               (a[2 * n + i] * from[j + 2] + a[3 * n + i] * from[j + 3]);
+  }
+  for (; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) to[i] += A[j * n + i] * from[j];
+}
+
+using EightColumns = Eigen::Matrix<double, Eigen::Dynamic, kWidth, Eigen::RowMajor>;
+
+/// What a function adds to nothing, of vectors that it takes row by row.
+template <typename Add>
+Eigen::MatrixXd by_rows(const Eigen::MatrixXd& V, Eigen::Index rows, const Add& add) {
+  if (V.cols() != kWidth || V.rows() != rows)
+    throw InvalidInput("a product takes eight vectors as long as its columns");
+  const EightColumns from = V;
+  EightColumns to = EightColumns::Zero(rows, kWidth);
+  add(reinterpret_cast<const Eight*>(from.data()), reinterpret_cast<Eight*>(to.data()));
+  return to;
+}
+
+}  // namespace
+
+Eigen::MatrixXd gram_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& V) {
+  return by_rows(V, X.rows(), [&](const Eight* from, Eight* to) {
+    add_columns(X.data(), X.rows(), X.cols(), from, to);
+  });
+}
+
+Eigen::MatrixXd product_of_eight(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V) {
+  return by_rows(V, A.rows(),
+                 [&](const Eight* from, Eight* to) { add_matrix(A.data(), A.rows(), from, to); });
 }
 
 }  // namespace mapproof

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
@@ -53,5 +55,33 @@ struct LeadingPairs {
 /// @note O(n^2 count) time from a good start, O(n^3) otherwise. Deterministic.
 EigenPairs leading_eigenpairs(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& start,
                               const LeadingPairs& pairs);
+
+/// A symmetric, positive semidefinite matrix of which only products are known: V to A V, n x k.
+using BlockProduct = std::function<Eigen::MatrixXd(const Eigen::MatrixXd& V)>;
+
+/// The largest eigenpairs of such a matrix, from a fixed start of eight vectors.
+///
+/// By block Lanczos with full orthogonalisation and Ritz's values over the whole span [golub1977],
+/// from the leading vectors again after twelve products. Copies of an eigenvalue are found up to
+/// eight times.
+/// @param n  Rows of the matrix, >= 96.
+/// @param pairs  At most eight exact ones, at most 16 in all.
+/// @return As many pairs, descending; the values that need not be exact are so to 1e-5 of the
+///         first. `converged` is false if that is not reached after 96 products.
+/// @note Mostly six to eight products with eight vectors. Deterministic.
+EigenPairs largest_eigenpairs(const BlockProduct& product, Eigen::Index n,
+                              const LeadingPairs& pairs);
+
+/// X X' V.
+/// @param X  n x c.
+/// @param V  n x 8.
+/// @note Reads X once, 16 n c multiplications and additions; same bits on all processors.
+Eigen::MatrixXd gram_product(const Eigen::MatrixXd& X, const Eigen::MatrixXd& V);
+
+/// A V, of which A is read once.
+/// @param A  n x n.
+/// @param V  n x 8.
+/// @note 8 n^2 multiplications and additions; same bits on all processors.
+Eigen::MatrixXd product_of_eight(const Eigen::MatrixXd& A, const Eigen::MatrixXd& V);
 
 }  // namespace mapproof

@@ -306,21 +306,14 @@ constexpr double kWorstOfKnown = 8.0;     ///< Median misses, for a position to 
 constexpr double kOffShare = 0.25;        ///< and at least this share of their spread.
 
 /// The first steps of a history, thinned to what the tests may cost.
-ObservationHistory thinned(const ObservationHistory& history, Index steps) {
+HistoryBlocks thinned(const HistoryBlocks& history, Index steps) {
   const double entries = static_cast<double>(history.landmarks()) * static_cast<double>(steps);
   const auto stride = std::max<Index>(1, static_cast<Index>(std::ceil(entries / kMostEntries)));
-  const Index count = (steps + stride - 1) / stride;
-  ObservationHistory result{.sensor = history.sensor, .names = history.names, .values = {}};
-  result.values.resize(history.landmarks(), count);
-  for (Index k = 0; k < count; ++k) result.values.col(k) = history.values.col(k * stride);
-  return result;
+  return history.between(0, steps).every(stride);
 }
 
 /// Distances of the observation vectors over some steps; NaN where they are not determined.
-Matrix distances_of(const ObservationHistory& history, Index begin, Index end) {
-  const ObservationHistory part{.sensor = history.sensor,
-                                .names = history.names,
-                                .values = history.values.middleCols(begin, end - begin)};
+Matrix distances_of(const HistoryBlocks& part) {
   Matrix D = proximities(part, part.steps()).squared_distances.cwiseMax(0.0).cwiseSqrt();
   for (const Index row : unseen_landmarks(part, part.steps())) {
     D.row(row).setConstant(kNaN);
@@ -380,15 +373,19 @@ void try_exchanges(const Matrix& before, Matrix after, Index step, Exchange& bes
     }
 }
 
-void test_exchanges(FitMaker& maker, const ObservationHistory& history) {
+void test_exchanges(FitMaker& maker, const HistoryBlocks& history) {
   Exchange best;
   const Index steps = history.steps();
   for (Index k = 1; k <= kTimes; ++k) {
     const Index cut = k * steps / (kTimes + 1);
-    try_exchanges(distances_of(history, 0, cut), distances_of(history, cut, steps), cut, best);
+    try_exchanges(distances_of(history.between(0, cut)), distances_of(history.between(cut, steps)),
+                  cut, best);
   }
-  const double missing = static_cast<double>(history.values.array().isNaN().count()) /
-                         static_cast<double>(history.values.size());
+  double missing = 0.0;
+  for_blocks(history, steps, kStepsAtATime, [&](Index, const Matrix& values) {
+    missing += static_cast<double>(values.array().isNaN().count());
+  });
+  missing /= static_cast<double>(history.landmarks()) * static_cast<double>(steps);
   const double bound = missing > kMuchMissing ? kMostGainIfMissing : kMostExchangeGain;
   FitCause cause{.code = FitCode::kIdsExchanged,
                  .statistic = best.gain,
@@ -400,15 +397,6 @@ void test_exchanges(FitMaker& maker, const ObservationHistory& history) {
                      100.0 * static_cast<double>(steps - best.step) / static_cast<double>(steps)}};
   }
   maker.test(std::move(cause));
-}
-
-/// In how many steps two landmarks were observed, for each two.
-Matrix shared_steps(const ObservationHistory& history) {
-  const Matrix seen =
-      history.sensor == Sensor::kVisibility
-          ? Matrix((history.values.array() == 1.0).cast<double>())
-          : Matrix((history.values.array() == history.values.array()).cast<double>());
-  return seen * seen.transpose();
 }
 
 /// The landmarks of the map in groups that landmarks observed at the same steps form.
@@ -429,8 +417,8 @@ std::vector<std::vector<int>> groups_of(const Matrix& common, Index fewest, cons
   return groups;
 }
 
-void test_connections(FitMaker& maker, const ObservationHistory& history, const Points& map) {
-  const Matrix common = shared_steps(history);
+void test_connections(FitMaker& maker, const HistoryBlocks& history, const Points& map) {
+  const Matrix common = steps_seen_together(history, history.steps());
   const auto groups = groups_of(common, kFewestCommon, map);
   const auto connected = groups_of(common, 1, map);
   const bool is_apart = connected.size() > 1;
@@ -557,15 +545,15 @@ Fit with_tests(Fit fit, std::vector<FitCause> tests) {
   return sorted_out(std::move(fit));
 }
 
-Fit history_fit(const ObservationHistory& history, Eigen::Index steps, const Points& map,
+Fit history_fit(const HistoryBlocks& history, Eigen::Index steps, const Points& map,
                 const Points& known_m, double most_known_share) {
   const Index mapped = (map.col(0).array() == map.col(0).array()).count();
   if (mapped < 3) return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMap}};
   if (mapped < 6 || steps < kFewestStepsToTest)
     return {.verdict = FitVerdict::kNotTestable,
             .why = {FitMissing::kRedundancy, FitMissing::kMetric}};
-  FitMaker maker(history.names);
-  const ObservationHistory some = thinned(history, steps);
+  FitMaker maker(history.names());
+  const HistoryBlocks some = thinned(history, steps);
   test_exchanges(maker, some);
   test_connections(maker, some, map);
   test_known(maker, map, known_m, most_known_share);

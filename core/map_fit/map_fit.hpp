@@ -6,7 +6,7 @@
 #include "core/map_fit/pair_fit.hpp"
 #include "core/model/detection_log.hpp"
 #include "core/model/fit.hpp"
-#include "core/model/observation_history.hpp"
+#include "core/model/histories/history_blocks.hpp"
 #include "core/model/points.hpp"
 
 namespace mapproof {
@@ -63,7 +63,7 @@ inline constexpr int kFewestStepsToTest = 60;         ///< For tests over time.
 /// @param most_known_share  Bound of kKnownLandmarksAtOdds. Some methods are far off in sound
 /// worlds.
 /// @note O(M^2 N) for each time, of at most some 4e6 entries.
-Fit history_fit(const ObservationHistory& history, Eigen::Index steps, const Points& map,
+Fit history_fit(const HistoryBlocks& history, Eigen::Index steps, const Points& map,
                 const Points& known_m, double most_known_share = kMostKnownShare);
 
 /// Adds tests that were made after the others, in the frame of the anchors, and those of them that

@@ -9,7 +9,6 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
-#include "core/linalg/gram.hpp"
 
 namespace mapproof {
 namespace {
@@ -61,16 +60,19 @@ double excess(double common, double a, double b, double steps) {
 
 }  // namespace
 
-MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index steps) {
+MissingPattern missing_pattern(const HistoryBlocks& history, Eigen::Index steps) {
   require_steps(history, steps);
-  const Eigen::MatrixXd seen =
-      (!history.values.leftCols(steps).array().isNaN()).cast<double>().matrix();
   MissingPattern pattern;
   const Eigen::Index M = history.landmarks();
   const auto N = static_cast<double>(steps);
-  pattern.missing_share = M > 0 ? 1.0 - seen.mean() : 0.0;
+  if (M == 0 || history.is_complete()) return pattern;
+  double observed = 0.0;
+  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+    observed += static_cast<double>((values.array() == values.array()).count());
+  });
+  pattern.missing_share = 1.0 - observed / (static_cast<double>(M) * N);
   if (M < 2 || pattern.missing_share == 0.0) return pattern;
-  const Eigen::MatrixXd common = gram(seen);
+  const Eigen::MatrixXd common = steps_observed_together(history, steps);
   const Eigen::MatrixXd D = proximities(history, steps).squared_distances;
   std::vector<double> excesses, distances;
   double squares = 0.0;

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "core/model/observation_history.hpp"
+#include "core/model/histories/history_blocks.hpp"
 #include "core/observe/proximities.hpp"
 
 namespace mapproof {
@@ -24,7 +24,7 @@ struct MissingPattern {
 /// @param history  Of landmarks that were all observed.
 /// @throws InvalidInput if `steps` is out of bounds.
 /// @note As costly as proximities().
-MissingPattern missing_pattern(const ObservationHistory& history, Eigen::Index steps);
+MissingPattern missing_pattern(const HistoryBlocks& history, Eigen::Index steps);
 
 /// The best strategy for such missing data.
 enum class MissingStrategy { kPairwiseComplete, kPpca, kCovisible };

@@ -111,6 +111,13 @@ constexpr std::array kMappingMethods = {
                .summary = "greatest variance that keeps the distances in neighbourhoods",
                .source = "Weinberger and Saul 2004 [weinberger2004]",
                .parameter = kNeighbours},
+    MethodInfo{.method = Method::kLandmarkIsomap,
+               .name = "landmark-isomap",
+               .label = "Landmark ISOMAP",
+               .summary = "ISOMAP by the shortest paths to a part of the landmarks alone",
+               .source = "de Silva and Tenenbaum 2003 [silva2003]",
+               .parameter = kNeighbours,
+               .approximates = Method::kIsomap},
 };
 
 /// The methods of others that the program has met. It grows alone, so that references stay valid.

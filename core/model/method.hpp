@@ -8,8 +8,8 @@
 
 namespace mapproof {
 
-/// The mapping methods [yairi2007, section 4.2]. Those of others have values beyond these: see
-/// external_method().
+/// The mapping methods: those of the paper [yairi2007, section 4.2], then approximations for large
+/// maps. Those of others have values beyond these: see external_method().
 enum class Method {
   kLpca,
   kSmacof,
@@ -21,6 +21,7 @@ enum class Method {
   kLaplacianEigenmap,
   kHessianLle,
   kSde,
+  kLandmarkIsomap,
 };
 
 /// The one number a method is tuned by.
@@ -43,6 +44,9 @@ struct MethodInfo {
   std::string_view source;  ///< Author and year, with the key in docs/references.bib in brackets.
   std::optional<ParameterInfo> parameter;
   std::optional<Method> starts_from = std::nullopt;  ///< Whose map its iteration begins with.
+  /// What it is for maps of many landmarks; it is in no table of the paper, and no candidate where
+  /// a method is chosen.
+  std::optional<Method> approximates = std::nullopt;
 };
 
 /// A mapping method of somebody else, as records describe it.
@@ -55,7 +59,7 @@ struct ExternalMethodInfo {
   auto operator<=>(const ExternalMethodInfo&) const = default;
 };
 
-/// The methods of mapproof in the order of the paper's tables.
+/// The methods of mapproof in the order of the paper's tables, then those that approximate one.
 std::span<const MethodInfo> all_methods();
 
 /// The method of that description: a value beyond the enumerators, the same for the same

@@ -1,14 +1,14 @@
 #include "core/observe/proximities.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstdint>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "core/base/not_finite.hpp"
 #include "core/linalg/gram.hpp"
 #include "core/linalg/packed_product.hpp"
+#include "core/observe/bit_rows.hpp"
 
 namespace mapproof {
 namespace {
@@ -55,84 +55,41 @@ Proximities of_common(CommonSums sums, Sensor sensor) {
   return result;
 }
 
-constexpr Eigen::Index kBits = 64;
-
-// By the processor's own instruction, where it has it.
-#if defined(__x86_64__)
-#define MAPPROOF_POPCOUNT [[gnu::target_clones("popcnt", "default")]]
-#else
-#define MAPPROOF_POPCOUNT
-#endif
-
-/// The bits that both have, for one row and some others, which follow each other.
-MAPPROOF_POPCOUNT void count_in_common(const std::uint64_t* row, const std::uint64_t* others,
-                                       Eigen::Index words, Eigen::Index count, double* out) {
-  for (Eigen::Index j = 0; j < count; ++j, others += words) {
-    std::uint64_t ones = 0;
-    for (Eigen::Index k = 0; k < words; ++k)
-      ones += static_cast<std::uint64_t>(std::popcount(row[k] & others[k]));
-    out[j] = static_cast<double>(ones);
-  }
+/// Whether a value of the first steps is missing.
+bool misses_any(const HistoryBlocks& history, Eigen::Index steps) {
+  if (history.is_complete()) return false;
+  bool any = false;
+  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+    any = any || values.array().isNaN().any();
+  });
+  return any;
 }
 
-/// Rows of bits, 64 of them in a word: what was seen at each step, or observed.
-class BitRows {
- public:
-  /// A bit for each entry, 1 where it is not zero.
-  /// @note rows * columns / 8 bytes.
-  explicit BitRows(
-      const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& bits);
-
-  Eigen::Index rows() const { return rows_; }
-
-  /// How many columns have a 1 in row i of this and in row j of the other, for each i and j.
-  /// @param other  With as many columns.
-  /// @return Exact; what the product of both as matrices of 0 and 1 would be.
-  /// @note rows * other.rows * columns / 64 steps.
-  Eigen::MatrixXd in_common(const BitRows& other) const;
-
- private:
-  const std::uint64_t* row(Eigen::Index i) const { return words_.data() + i * words_in_row_; }
-
-  Eigen::Index rows_;
-  Eigen::Index words_in_row_;
-  std::vector<std::uint64_t> words_;
-};
-
-BitRows::BitRows(const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& bits)
-    : rows_(bits.rows()),
-      words_in_row_((bits.cols() + kBits - 1) / kBits),
-      words_(static_cast<std::size_t>(rows_ * words_in_row_)) {
-  std::vector<std::uint64_t> together(static_cast<std::size_t>(rows_));
-  for (Eigen::Index word = 0; word < words_in_row_; ++word) {
-    std::ranges::fill(together, 0);
-    const Eigen::Index first = word * kBits;
-    for (Eigen::Index j = first; j < std::min(first + kBits, bits.cols()); ++j)
-      for (Eigen::Index i = 0; i < rows_; ++i)
-        together[static_cast<std::size_t>(i)] |= std::uint64_t{bits(i, j)} << (j - first);
-    for (Eigen::Index i = 0; i < rows_; ++i)
-      words_[static_cast<std::size_t>(i * words_in_row_ + word)] =
-          together[static_cast<std::size_t>(i)];
-  }
+/// Which values of the first steps are as `is` finds them.
+template <typename Is>
+BitRows bits_of(const HistoryBlocks& history, Eigen::Index steps, const Is& is) {
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> bits(history.landmarks(), steps);
+  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index first, const Eigen::MatrixXd& values) {
+    bits.middleCols(first, values.cols()) = is(values.array());
+  });
+  return BitRows(bits);
 }
 
-Eigen::MatrixXd BitRows::in_common(const BitRows& other) const {
-  // Down the columns of the result: its row i is that of `other`, the rows of this are the columns.
-  Eigen::MatrixXd transposed(other.rows(), rows_);
-  for (Eigen::Index i = 0; i < rows_; ++i)
-    count_in_common(row(i), other.words_.data(), words_in_row_, other.rows(),
-                    transposed.col(i).data());
-  return transposed.transpose();
+BitRows seen_bits(const HistoryBlocks& history, Eigen::Index steps) {
+  return bits_of(history, steps, [](const auto& values) { return values > 0.0; });
+}
+
+BitRows observed_bits(const HistoryBlocks& history, Eigen::Index steps) {
+  return bits_of(history, steps, [](const auto& values) { return values == values; });
 }
 
 /// Of rows of 0 and 1 alone, which are counted.
-Proximities of_bits(const ObservationHistory& history, Eigen::Index steps) {
-  const auto values = history.values.leftCols(steps).array();
-  const BitRows seen(values > 0.0);
+Proximities of_bits(const HistoryBlocks& history, Eigen::Index steps) {
+  const BitRows seen = seen_bits(history, steps);
   Eigen::MatrixXd products = seen.in_common(seen);
-  if (!values.isNaN().any())
+  if (!misses_any(history, steps))
     return proximities_of_products(std::move(products), Sensor::kVisibility);
-  const BitRows observed(!values.isNaN());
+  const BitRows observed = observed_bits(history, steps);
   return of_common({.products = std::move(products),
                     .squares = seen.in_common(observed),
                     .steps = observed.in_common(observed),
@@ -140,45 +97,63 @@ Proximities of_bits(const ObservationHistory& history, Eigen::Index steps) {
                    Sensor::kVisibility);
 }
 
-bool are_bits(const ObservationHistory& history, Eigen::Index steps) {
-  const auto values = history.values.leftCols(steps).array();
-  return history.sensor == Sensor::kVisibility &&
-         (values == 0.0 || values == 1.0 || values.isNaN()).all();
+/// Unit vectors of complete bearings, as features_of() has them.
+Features directions(const Eigen::MatrixXd& bearings_rad) {
+  Features result;
+  result.values.resize(bearings_rad.rows(), 2 * bearings_rad.cols());
+  const auto size = static_cast<std::size_t>(bearings_rad.size());
+  directions_of({bearings_rad.data(), size}, {result.values.data(), size},
+                {result.values.data() + size, size});
+  return result;
 }
 
-constexpr Eigen::Index kStepsAtATime = 4096;  // Their vectors fit the last cache.
-
 /// Some steps after the other: the vectors of all would take twice the memory of the bearings.
-Proximities of_bearings(const ObservationHistory& history, Eigen::Index steps) {
+Proximities of_vectors(const HistoryBlocks& history, Eigen::Index steps) {
   const Eigen::Index n = history.landmarks();
-  const bool are_missing = history.values.leftCols(steps).array().isNaN().any();
+  const bool are_missing = misses_any(history, steps);
+  Eigen::VectorXd means;
+  if (history.sensor() == Sensor::kRange) means = mean_squared_ranges(history, steps);
   CommonSums sums{.products = Eigen::MatrixXd::Zero(n, n), .squares = {}, .steps = {}};
   if (are_missing) sums.squares = sums.steps = sums.products;
-  for (Eigen::Index first = 0; first < steps; first += kStepsAtATime) {
-    const Eigen::Index count = std::min(kStepsAtATime, steps - first);
-    Features rows = features(
-        {.sensor = history.sensor, .names = {}, .values = history.values.middleCols(first, count)},
-        count);
+  // Of longer histories than any study's, whose records keep libm's last bits.
+  const bool is_fast =
+      history.sensor() == Sensor::kBearing && !are_missing && steps > kStepsAtATime;
+  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+    Features rows = is_fast ? directions(values) : features_of(values, history.sensor(), means);
     add_gram(rows.values, 1.0, sums.products);
     sums.all += static_cast<double>(rows.values.cols());
-    if (!are_missing) continue;
+    if (!are_missing) return;
     if (rows.observed.size() == 0) rows.observed.setOnes(n, rows.values.cols());
     sums.squares += rows.values.cwiseAbs2() * rows.observed.transpose();
     add_gram(rows.observed, 1.0, sums.steps);
-  }
+  });
   mirror_lower(sums.products);
-  if (!are_missing) return proximities_of_products(std::move(sums.products), history.sensor);
+  if (!are_missing) return proximities_of_products(std::move(sums.products), history.sensor());
   mirror_lower(sums.steps);
-  return of_common(std::move(sums), history.sensor);
+  return of_common(std::move(sums), history.sensor());
 }
 
 }  // namespace
 
-Proximities proximities(const ObservationHistory& history, Eigen::Index steps) {
+Proximities proximities(const HistoryBlocks& history, Eigen::Index steps) {
   require_steps(history, steps);
-  if (are_bits(history, steps)) return of_bits(history, steps);
-  if (history.sensor == Sensor::kBearing) return of_bearings(history, steps);
-  return proximities(features(history, steps), history.sensor);
+  return are_bits(history, steps) ? of_bits(history, steps) : of_vectors(history, steps);
+}
+
+Eigen::MatrixXd steps_observed_together(const HistoryBlocks& history, Eigen::Index steps) {
+  require_steps(history, steps);
+  if (history.is_complete())
+    return Eigen::MatrixXd::Constant(history.landmarks(), history.landmarks(),
+                                     static_cast<double>(steps));
+  const BitRows observed = observed_bits(history, steps);
+  return observed.in_common(observed);
+}
+
+Eigen::MatrixXd steps_seen_together(const HistoryBlocks& history, Eigen::Index steps) {
+  if (history.sensor() != Sensor::kVisibility) return steps_observed_together(history, steps);
+  require_steps(history, steps);
+  const BitRows seen = seen_bits(history, steps);
+  return seen.in_common(seen);
 }
 
 Proximities proximities(const Features& rows, Sensor sensor) {
@@ -200,14 +175,17 @@ Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor senso
   return result;
 }
 
-std::vector<Eigen::Index> unseen_landmarks(const ObservationHistory& history, Eigen::Index steps) {
+std::vector<Eigen::Index> unseen_landmarks(const HistoryBlocks& history, Eigen::Index steps) {
   require_steps(history, steps);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i) {
-    const auto row = history.values.row(i).leftCols(steps).array();
-    const bool seen =
-        history.sensor == Sensor::kVisibility ? (row > 0.0).any() : (row == row).any();
-    if (!seen) rows.push_back(i);
+  constexpr Eigen::Index kSteps = 256;  // Most landmarks are seen within few.
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(history.landmarks()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  for (Eigen::Index first = 0; first < steps && !rows.empty(); first += kSteps) {
+    const Eigen::MatrixXd values = history.values(first, std::min(kSteps, steps - first));
+    std::erase_if(rows, [&](Eigen::Index i) {
+      const auto row = values.row(i).array();
+      return history.sensor() == Sensor::kVisibility ? (row > 0.0).any() : (row == row).any();
+    });
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "core/base/not_finite.hpp"
+#include "core/model/histories/history_blocks.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/observe/features.hpp"
 
@@ -26,8 +27,15 @@ struct Proximities {
 /// @return For visibility, squared distances are 2 - 2 cos of the angle between the vectors; the
 ///         rows of landmarks never seen are meaningless (see unseen_landmarks).
 /// @throws InvalidInput if `steps` is out of bounds.
-/// @note O(M^2 N) time.
-Proximities proximities(const ObservationHistory& history, Eigen::Index steps);
+/// @note O(M^2 N) time; O(M^2) memory in addition to a few thousand steps, or N M bytes for
+/// visibility.
+Proximities proximities(const HistoryBlocks& history, Eigen::Index steps);
+
+/// In how many of the first `steps` observations both landmarks of a pair were observed, M x M.
+Eigen::MatrixXd steps_observed_together(const HistoryBlocks& history, Eigen::Index steps);
+
+/// The same, but of visibility: in how many both were seen.
+Eigen::MatrixXd steps_seen_together(const HistoryBlocks& history, Eigen::Index steps);
 
 /// The same of given vectors (see features).
 Proximities proximities(const Features& rows, Sensor sensor);
@@ -39,7 +47,7 @@ Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor senso
 /// Rows without any information in the first `steps` observations: nothing but missing entries or,
 /// for visibility, nothing but "not seen". Ascending.
 /// @throws InvalidInput if `steps` is out of bounds.
-std::vector<Eigen::Index> unseen_landmarks(const ObservationHistory& history, Eigen::Index steps);
+std::vector<Eigen::Index> unseen_landmarks(const HistoryBlocks& history, Eigen::Index steps);
 
 /// The history of some landmarks alone, in the order given.
 ObservationHistory with_rows(const ObservationHistory& history,

@@ -8,7 +8,8 @@ namespace mapproof {
 inline constexpr int kMostLayouts = 10'000;
 inline constexpr int kMostPoses = 10'000;  ///< In each layout.
 inline constexpr long kMostRuns = 1'000'000;
-inline constexpr int kMostLandmarks = 5000;
+inline constexpr int kMostLandmarks = 1'000'000;       ///< Of maps and observations.
+inline constexpr int kMostRangeLandmarks = 5000;       ///< Of range logs.
 inline constexpr int kMostSteps = 1'000'000;
 inline constexpr double kMostEntries = 2e8;          ///< Of an observation history.
 inline constexpr double kFarthest_m = 1e9;           ///< Coordinates.

@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/random.hpp"
 #include "core/base/vectorised.hpp"
 #include "core/linalg/planarity.hpp"
 
@@ -57,6 +58,37 @@ MAPPROOF_VECTORISED Count count_turns(Offsets ground_truth, Offsets estimate, co
   return {judged, wrong};
 }
 
+/// More landmarks have too many triples for all to be judged.
+constexpr Eigen::Index kMostOfAll = 5000;
+constexpr int kDrawnTriples = 10'000'000;
+
+/// The same of triples drawn evenly. @param moved  What rounding may have moved a landmark by.
+Count count_drawn_turns(const Points& ground_truth, const Points& estimate, double moved) {
+  const auto n = static_cast<double>(ground_truth.rows());
+  Random random(1);
+  Count count;
+  for (int k = 0; k < kDrawnTriples; ++k) {
+    const auto drawn = [&] { return static_cast<Eigen::Index>(random.uniform() * n); };
+    const Eigen::Index i = drawn(), a = drawn(), b = drawn();
+    const Eigen::RowVector2d to_a = ground_truth.row(a) - ground_truth.row(i);
+    const Eigen::RowVector2d to_b = ground_truth.row(b) - ground_truth.row(i);
+    const double turn = (to_a.x() * to_b.y() - to_a.y() * to_b.x()) / (to_a.norm() * to_b.norm());
+    if (!(std::abs(turn) > kStraight)) continue;  // Or a landmark was drawn twice.
+    const Eigen::RowVector2d ea = estimate.row(a) - estimate.row(i);
+    const Eigen::RowVector2d eb = estimate.row(b) - estimate.row(i);
+    const double found = ea.x() * eb.y() - ea.y() * eb.x();
+    const bool is_flat = !(std::abs(found) > moved * (ea.norm() + eb.norm()));
+    ++count.judged;
+    if (is_flat || (turn > 0.0) != (found > 0.0)) ++count.wrong;
+  }
+  return count;
+}
+
+double percent_of(const Count& count) {
+  if (count.judged == 0) return kNaN;
+  return 100.0 * static_cast<double>(count.wrong) / static_cast<double>(count.judged);
+}
+
 void check(const Points& estimate, const Points& ground_truth,
            const std::vector<Eigen::Index>& anchors) {
   if (estimate.rows() != ground_truth.rows())
@@ -73,11 +105,11 @@ void check(const Points& estimate, const Points& ground_truth,
 double orientation_error_percent(const Points& ground_truth, const Points& estimate) {
   const Eigen::Index n = ground_truth.rows();
   if (estimate.rows() != n) throw InvalidInput("ground truth and estimate differ in size");
-  std::int64_t judged = 0;
-  std::int64_t wrong = 0;
+  Count count;
   const Eigen::VectorXd distances = estimate.rowwise().norm();
   const double moved =
       n > 0 ? kRounding * median({distances.data(), static_cast<std::size_t>(n)}) : 0.0;
+  if (n > kMostOfAll) return percent_of(count_drawn_turns(ground_truth, estimate, moved));
   for (Eigen::Index i = 0; i < n; ++i) {
     // Of length one, so that each turn's value is a sine; NaN where two points coincide.
     const Points t =
@@ -88,12 +120,11 @@ double orientation_error_percent(const Points& ground_truth, const Points& estim
     const Eigen::VectorXd slack = moved * e.rowwise().norm();
     for (Eigen::Index j = 0; j < t.rows(); ++j) {
       const Count found = count_turns(to_ground_truth, to_estimate, slack.data(), j, t.rows());
-      judged += found.judged;
-      wrong += found.wrong;
+      count.judged += found.judged;
+      count.wrong += found.wrong;
     }
   }
-  if (judged == 0) return kNaN;
-  return 100.0 * static_cast<double>(wrong) / static_cast<double>(judged);
+  return percent_of(count);
 }
 
 AlignedMap align_to_anchors(const Points& coordinates, const Points& anchors_m,

@@ -18,7 +18,9 @@ namespace mapproof {
 /// @param ground truth, estimate  n x 2, finite, row by row the same landmarks.
 /// @return NaN if there is no triple to judge.
 /// @throws InvalidInput if the sizes differ.
-/// @note O(n^3) time.
+/// @note O(n^3) time up to 5000 landmarks. Above that over ten million triples, drawn by a fixed
+/// seed:
+///       a standard error of 0.016 percentage points or less.
 double orientation_error_percent(const Points& ground_truth, const Points& estimate);
 
 /// An embedding brought into the frame of its anchors.

@@ -7,6 +7,7 @@
 
 #include "core/base/angle.hpp"
 #include "core/base/errors.hpp"
+#include "core/simulate/landmark_grid.hpp"
 
 namespace mapproof {
 namespace {
@@ -21,20 +22,24 @@ class FreeSpace {
   FreeSpace(const World& world, const WalkOptions& options)
       : world_(world),
         margin_(options.wall_margin_m),
-        least_(options.clearance_m + world.landmark_diameter_m / 2.0) {}
+        least_(options.clearance_m + world.landmark_diameter_m / 2.0),
+        grid_(world.landmarks_m, world.side_m, least_) {}
 
   bool contains(double x, double y) const {
     if (x < margin_ || y < margin_ || x > world_.side_m - margin_ || y > world_.side_m - margin_)
       return false;
-    const auto dx = world_.landmarks_m.col(0).array() - x;
-    const auto dy = world_.landmarks_m.col(1).array() - y;
-    return (dx.square() + dy.square() >= least_ * least_).all();
+    return !grid_.any_near(x, y, least_, [&](Eigen::Index i) {
+      const double dx = world_.landmarks_m(i, 0) - x;
+      const double dy = world_.landmarks_m(i, 1) - y;
+      return dx * dx + dy * dy < least_ * least_;
+    });
   }
 
  private:
   const World& world_;
   double margin_;
   double least_;
+  LandmarkGrid grid_;
 };
 
 struct Pose {

@@ -20,20 +20,16 @@ bool cuts(const Eigen::RowVector2d& center, double radius, const Eigen::RowVecto
   return (from + share * along - center).squaredNorm() < radius * radius;
 }
 
-/// One column of a visibility history: what is seen from `position`.
-Eigen::VectorXd seen_from(const World& world, const Eigen::RowVector2d& position,
-                          const SensorOptions& options) {
-  const std::vector<View> views = views_from(world, position, options);
-  Eigen::VectorXd seen(std::ssize(views));
-  for (std::size_t i = 0; i < views.size(); ++i)
-    seen(static_cast<Eigen::Index>(i)) = views[i] == View::kVisible ? 1.0 : 0.0;
-  return seen;
-}
-
+/// One column of a history.
+/// @param sight  Used for visibility alone.
 Eigen::VectorXd measured_from(const World& world, const Path& path, Eigen::Index step,
-                              const SensorOptions& options) {
+                              const SensorOptions& options, const Sight& sight) {
   const Eigen::RowVector2d position = path.positions_m.row(step);
-  if (options.sensor == Sensor::kVisibility) return seen_from(world, position, options);
+  if (options.sensor == Sensor::kVisibility) {
+    Eigen::VectorXd seen = Eigen::VectorXd::Zero(world.landmarks_m.rows());
+    for (const Eigen::Index i : sight.visible(position)) seen(i) = 1.0;
+    return seen;
+  }
 
   const Points offsets = world.landmarks_m.rowwise() - position;
   if (options.sensor == Sensor::kRange) return offsets.rowwise().norm();
@@ -68,8 +64,9 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
   ObservationHistory history{
       .sensor = options.sensor, .names = landmark_names(M), .values = Eigen::MatrixXd(M, N)};
   const bool is_limited = options.reach_m > 0.0 && options.sensor != Sensor::kVisibility;
+  const Sight sight(world, options);
   for (Eigen::Index t = 0; t < N; ++t) {
-    const Eigen::VectorXd measured = measured_from(world, path, t, options);
+    const Eigen::VectorXd measured = measured_from(world, path, t, options, sight);
     for (Eigen::Index i = 0; i < M; ++i)
       history.values(i, t) = disturbed(measured(i), options, random);
     if (!is_limited) continue;
@@ -86,32 +83,56 @@ double visibility_reach(const World& world, const SensorOptions& options) {
          std::sin(std::min(options.visual_angle_rad, std::numbers::pi) / 2.0);
 }
 
+Sight::Sight(const World& world, const SensorOptions& options)
+    : world_(world),
+      occlusion_(options.occlusion),
+      reach_m_(visibility_reach(world, options)),
+      grid_(world.landmarks_m, world.side_m, reach_m_) {}
+
+std::vector<std::pair<Eigen::Index, View>> Sight::views(const Eigen::RowVector2d& position) const {
+  std::vector<std::pair<Eigen::Index, double>> near;
+  grid_.any_near(position.x(), position.y(), reach_m_, [&](Eigen::Index i) {
+    const double distance = (world_.landmarks_m.row(i) - position).norm();
+    if (distance <= reach_m_) near.emplace_back(i, distance);
+    return false;
+  });
+  std::ranges::sort(near);
+
+  const double radius = world_.landmark_diameter_m / 2.0;
+  std::vector<std::pair<Eigen::Index, View>> views;
+  for (const auto& [i, distance] : near) {
+    const auto hides = [&](const std::pair<Eigen::Index, double>& other) {
+      return other.first != i && other.second < distance &&
+             cuts(world_.landmarks_m.row(other.first), radius, position,
+                  world_.landmarks_m.row(i));
+    };
+    views.emplace_back(
+        i, occlusion_ && std::ranges::any_of(near, hides) ? View::kHidden : View::kVisible);
+  }
+  return views;
+}
+
+std::vector<Eigen::Index> Sight::visible(const Eigen::RowVector2d& position) const {
+  std::vector<Eigen::Index> seen;
+  for (const auto& [i, view] : views(position))
+    if (view == View::kVisible) seen.push_back(i);
+  return seen;
+}
+
 std::vector<View> views_from(const World& world, const Eigen::RowVector2d& position,
                              const SensorOptions& options) {
-  const double radius = world.landmark_diameter_m / 2.0;
-  const double reach = visibility_reach(world, options);
-  const Eigen::VectorXd distances = (world.landmarks_m.rowwise() - position).rowwise().norm();
-  std::vector<Eigen::Index> near;
-  for (Eigen::Index i = 0; i < distances.size(); ++i)
-    if (distances(i) <= reach) near.push_back(i);
-
-  std::vector<View> views(static_cast<std::size_t>(distances.size()), View::kOutOfReach);
-  for (const Eigen::Index i : near) {
-    const bool hidden =
-        options.occlusion && std::ranges::any_of(near, [&](Eigen::Index j) {
-          return j != i && distances(j) < distances(i) &&
-                 cuts(world.landmarks_m.row(j), radius, position, world.landmarks_m.row(i));
-        });
-    views[static_cast<std::size_t>(i)] = hidden ? View::kHidden : View::kVisible;
-  }
+  std::vector<View> views(static_cast<std::size_t>(world.landmarks_m.rows()), View::kOutOfReach);
+  for (const auto& [i, view] : Sight(world, options).views(position))
+    views[static_cast<std::size_t>(i)] = view;
   return views;
 }
 
 Occlusion count_occlusion(const World& world, const Path& path, const SensorOptions& options) {
   Occlusion count;
+  const Sight sight(world, options);
   for (Eigen::Index t = 0; t < path.positions_m.rows(); ++t)
-    for (const View view : views_from(world, path.positions_m.row(t), options)) {
-      if (view != View::kOutOfReach) ++count.within_reach;
+    for (const auto& [i, view] : sight.views(path.positions_m.row(t))) {
+      ++count.within_reach;
       if (view == View::kHidden) ++count.hidden;
     }
   return count;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/random.hpp"
@@ -8,6 +9,7 @@
 #include "core/model/observation_history.hpp"
 #include "core/model/study.hpp"
 #include "core/model/world.hpp"
+#include "core/simulate/landmark_grid.hpp"
 
 namespace mapproof {
 
@@ -25,9 +27,28 @@ ObservationHistory observe(const World& world, const Path& path, const SensorOpt
 /// How far a landmark's centre may be and still be seen, m: its cylinder looks 2 asin(r / d) wide.
 double visibility_reach(const World& world, const SensorOptions& options);
 
-/// The visibility of each landmark from `position`, without noise: M.
+/// The visibility of each landmark from `position`, without noise: M. Of many positions, see Sight.
 std::vector<View> views_from(const World& world, const Eigen::RowVector2d& position,
                              const SensorOptions& options);
+
+/// What a sensor of visibility sees, without noise, without going through all landmarks.
+class Sight {
+ public:
+  /// @param world  Has to outlive the object.
+  Sight(const World& world, const SensorOptions& options);
+
+  /// The landmarks seen from `position`, ascending.
+  std::vector<Eigen::Index> visible(const Eigen::RowVector2d& position) const;
+
+  /// The views of those within reach, ascending by landmark.
+  std::vector<std::pair<Eigen::Index, View>> views(const Eigen::RowVector2d& position) const;
+
+ private:
+  const World& world_;
+  bool occlusion_;
+  double reach_m_;
+  LandmarkGrid grid_;
+};
 
 /// How often one landmark hid another along the path.
 /// @note As costly as observe().

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/simulate/landmark_grid.hpp"
 
 namespace mapproof {
 namespace {
@@ -17,15 +18,18 @@ std::optional<Points> try_to_scatter(const WorldOptions& options, Random& random
   const double margin = options.wall_margin_m + options.landmark_diameter_m / 2.0;
   const double apart = options.landmark_diameter_m + options.gap_m;
   Points placed(options.landmarks, 2);
+  LandmarkGrid grid(options.side_m, apart);
   for (Eigen::Index i = 0; i < placed.rows(); ++i) {
     bool free = false;
     for (int attempt = 0; attempt < 1000 && !free; ++attempt) {
       placed(i, 0) = random.uniform(margin, options.side_m - margin);
       placed(i, 1) = random.uniform(margin, options.side_m - margin);
-      free = i == 0 ||
-             (placed.topRows(i).rowwise() - placed.row(i)).rowwise().norm().minCoeff() >= apart;
+      free = !grid.any_near(placed(i, 0), placed(i, 1), apart, [&](Eigen::Index j) {
+        return (placed.row(j) - placed.row(i)).norm() < apart;
+      });
     }
     if (!free) return std::nullopt;
+    grid.add(i, placed(i, 0), placed(i, 1));
   }
   return placed;
 }

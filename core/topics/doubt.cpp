@@ -8,6 +8,7 @@
 
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
+#include "core/linalg/decompositions.hpp"
 #include "core/range_slam/fit/log_fit.hpp"
 #include "core/simulate/range_world.hpp"
 #include "core/topics/topics.hpp"

@@ -9,7 +9,7 @@ std::span<const Topic* const> all_topics() {
   static const std::vector<const Topic*> kTopics = {
       &kUncertaintyTopic, &kChoiceTopic,  &kAssociationTopic, &kDoubtTopic,
       &kMissingTopic,     &kMixedTopic,   &kMovedTopic,       &kMrclamTopic,
-      &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,
+      &kIncrementalTopic, &kSubmapsTopic, &kSweepTopic,       &kReferencesTopic,
   };
   return kTopics;
 }

@@ -42,6 +42,9 @@ extern const Topic kIncrementalTopic;
 /// limited range leaves data missing.
 extern const Topic kSubmapsTopic;
 
+/// Landmark ISOMAP compared with ISOMAP, by the number of reference landmarks.
+extern const Topic kReferencesTopic;
+
 /// Errors of maps over the size of the room, the number and diameter of landmarks, the sensor's
 /// reach, its noise, the steps and the number of anchors, by one factor or two at a time.
 extern const Topic kSweepTopic;

@@ -1,28 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "render/image/image.hpp"
+#include "render/image/palette.hpp"
 
 namespace mapproof {
-
-/// An image as numbers of colours.
-struct PaletteImage {
-  std::vector<std::uint32_t> colours;  ///< 0x00RRGGBB, 1 to 256 of them.
-  std::string rows;  ///< A zero (PNG's filter "none") and a byte a pixel, row by row.
-};
-
-/// How far a channel of a pixel may be moved so that 256 colours are enough.
-inline constexpr int kMostColourShift = 12;
-
-/// The image with at most 256 colours: exact if it has no more. Otherwise frequent colours stay and
-/// rare ones, those of smoothed edges, go to a near one; empty if that took more than
-/// kMostColourShift of 255 in some channel.
-std::optional<PaletteImage> to_palette(const Image& image);
 
 struct PngOptions {
   double dpi = 72.0;
@@ -41,6 +28,9 @@ std::string encode_png(const Image& image, const PngOptions& options = {});
 /// The image as a PNG file, with its palette.
 /// @throws InvalidInput if a side is below 1 or above 100 000, or the rows are not whole.
 std::string encode_png(const PaletteImage& image, int width, const PngOptions& options = {});
+
+/// The data of a palette's chunk: three bytes a colour.
+std::string png_palette(std::span<const std::uint32_t> colours);
 
 /// The texts of PngOptions as chunks, as encode_png() writes them after the header.
 std::string png_texts(const std::vector<std::pair<std::string, std::string>>& texts);

@@ -61,6 +61,16 @@ int poster_scale(const Drawing& drawing) {
   return 2.0 * longest <= SceneClient::kLargestSide ? 2 : 1;
 }
 
+Drawing with_dark_images(Drawing drawing, const Scene& scene, const Theme& dark,
+                         SceneClient& client) {
+  for (Item& item : drawing.items)
+    if (auto* raster = std::get_if<Raster>(&item.what))
+      raster->dark = std::make_shared<Image>(
+          client.draw(scene, scene_request(raster->source, raster->image->width,
+                                           raster->image->height, kSamples, dark)));
+  return drawing;
+}
+
 }  // namespace
 
 void write_animation(const Film& film, const Theme& theme, const OutputFolder& folder,
@@ -82,7 +92,8 @@ void write_animation(const Film& film, const Theme& theme, const OutputFolder& f
   }
 }
 
-SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client) {
+SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client,
+                        const Theme* dark) {
   SceneDrawing drawn;
   drawn.screen = lay_out(scene_figure(scene, theme), theme);
   drawn.poster = drawn.screen;
@@ -102,19 +113,21 @@ SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& cli
     poster->image = std::move(fine);
   }
   drawn.screen.renderer = drawn.poster.renderer = client.renderer();
+  if (dark != nullptr) drawn.page = with_dark_images(drawn.screen, scene, *dark, client);
   return drawn;
 }
 
 std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
-                        SceneClient& client, const FileFormats& formats) {
+                        SceneClient& client, const FileFormats& formats, const Theme* dark) {
   const bool has_pixels = std::ranges::any_of(formats, shows_pixels);
-  const SceneDrawing drawn = has_pixels ? draw_scene(scene, theme, client) : SceneDrawing{};
+  const SceneDrawing drawn = has_pixels ? draw_scene(scene, theme, client, dark) : SceneDrawing{};
   std::string svg;
   for (const FileFormat format : formats) {
     switch (format) {
       case FileFormat::kSvg:
         svg = to_svg(drawn.screen);
         folder.write(scene.id + ".svg", svg);
+        if (drawn.page) svg = to_svg(*drawn.page);
         break;
       case FileFormat::kPng:
         write_drawn(folder, scene.id + ".png", [&] { return to_png(drawn.poster); });

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -35,17 +36,24 @@ void write_animation(const Film& film, const Theme& theme, const OutputFolder& f
 struct SceneDrawing {
   Drawing screen;
   Drawing poster;
+  std::optional<Drawing> page = {};  ///< The screen's with dark images, if they were asked for.
 };
 
+/// @param dark  In whose colours the images of the screen are drawn once more, from the same light;
+///              null: in none.
 /// @throws InvalidInput if the scene cannot be drawn (see `problem`); SceneError.
-SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client);
+SceneDrawing draw_scene(const Scene& scene, const Theme& theme, SceneClient& client,
+                        const Theme* dark = nullptr);
 
 /// Writes ID.svg with images at the theme's dpi, ID.png and ID.pdf at twice that, and
 /// ID.scene.json, or as the formats say, each at once or not at all. The program that draws starts
 /// only if one of them shows pixels.
-/// @return The text of the SVG file; empty if it is none of the formats.
+/// @return The text of the SVG file, or with `dark` that of SceneDrawing::page; empty if SVG is
+/// none
+///         of the formats.
 /// @throws IoError; otherwise as draw_scene.
 std::string write_scene(const Scene& scene, const Theme& theme, const OutputFolder& folder,
-                        SceneClient& client, const FileFormats& formats = usual_formats());
+                        SceneClient& client, const FileFormats& formats = usual_formats(),
+                        const Theme* dark = nullptr);
 
 }  // namespace mapproof

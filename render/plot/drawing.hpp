@@ -78,6 +78,8 @@ struct Raster {
   Box position;
   std::size_t source = 0;  ///< See ImageLayer.
   std::shared_ptr<const Image> image;
+  /// The same in the colours of a dark page; only SVG has it.
+  std::shared_ptr<const Image> dark = nullptr;
 };
 
 /// The part of the drawing that a line covers.

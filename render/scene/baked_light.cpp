@@ -14,7 +14,7 @@ constexpr double kKeyShare = 0.6, kSkyShare = 0.4;  // Of the light on an open f
 constexpr double kBounce = 0.4;                     // From the pale floor to what faces it.
 constexpr double kNear = 0.2;                       // Of the floor's side: what takes sky away.
 constexpr double kMargin = 0.12;                    // Of the floor's side, of the shadow around it.
-constexpr double kFloorFloat = 1e-4;                // Of the floor's side: from a surface to its rays.
+constexpr double kFloorFloat = 1e-4;  // Of the floor's side: from a surface to its rays.
 constexpr double kGamma = 2.2;
 
 struct Bounds {
@@ -94,8 +94,7 @@ void BakedLight::add(const Surface& surface) {
     const Point3 size = one.high - one.low;
     const bool upright = size.z() > 0.0 && std::min(size.x(), size.y()) == 0.0;
     if (upright && one.low.z() == 0.0)
-      walls_.push_back(
-          {one.low.x(), one.high.x(), one.low.y(), one.high.y(), one.high.z()});
+      walls_.push_back({one.low.x(), one.high.x(), one.low.y(), one.high.y(), one.high.z()});
   }
 }
 
@@ -110,9 +109,32 @@ void BakedLight::aim(const Scene& scene) {
     const double share = (static_cast<double>(k) + 0.5) / kDirections;
     const double radius = std::tan(kLightRadius_rad) * std::sqrt(share);
     const double angle = kTurn * static_cast<double>(k);
-    key_.push_back((towards + radius * (std::cos(angle) * across + std::sin(angle) * along))
-                       .normalized());
+    key_.push_back(
+        (towards + radius * (std::cos(angle) * across + std::sin(angle) * along)).normalized());
   }
+  const double length = std::hypot(towards.x(), towards.y());
+  double widest = length > 1e-6 ? 0.0 : std::numbers::pi;  // Light from above comes from all sides.
+  if (length > 1e-6) wedge_ = {towards.x() / length, towards.y() / length};
+  for (const Point3& one : key_) {
+    const double side = wedge_.x * one.y() - wedge_.y * one.x();
+    widest = std::max(widest, std::abs(std::atan2(side, wedge_.x * one.x() + wedge_.y * one.y())));
+    wedge_.way = std::max(wedge_.way, std::hypot(one.x(), one.y()) / one.z());
+  }
+  wedge_.sine = std::sin(std::min(widest, std::numbers::pi / 2.0));
+  wedge_.cosine = std::cos(std::min(widest, std::numbers::pi / 2.0));
+  if (widest > std::numbers::pi / 2.0) wedge_.sine = 2.0;  // All around.
+}
+
+bool BakedLight::may_hit(const Pillar& pillar, const Point3& from) const {
+  constexpr double kRounding = 1e-9;
+  const double x = pillar.x - from.x(), y = pillar.y - from.y();
+  const double distance = std::sqrt(x * x + y * y), radius = pillar.radius + kRounding;
+  if (distance - radius > (pillar.top - from.z()) * wedge_.way) return false;
+  if (wedge_.sine > 1.0) return true;
+  const double ahead = x * wedge_.x + y * wedge_.y, aside = std::abs(x * wedge_.y - y * wedge_.x);
+  // Nearest to the wedge's tip, or to its edge.
+  if (ahead * wedge_.cosine + aside * wedge_.sine < 0.0) return distance <= radius;
+  return aside * wedge_.cosine - ahead * wedge_.sine <= radius;
 }
 
 bool BakedLight::hits(const Pillar& pillar, const Point3& from, const Point3& towards) {
@@ -147,7 +169,7 @@ std::vector<BakedLight::Pillar> BakedLight::pillars_near(const Point3& point) co
   std::vector<Pillar> found;
   for (const Pillar& pillar : pillars_)
     if (std::abs(pillar.x - point.x()) < near + pillar.radius &&
-        std::abs(pillar.y - point.y()) < near + pillar.radius)
+        std::abs(pillar.y - point.y()) < near + pillar.radius && may_hit(pillar, point))
       found.push_back(pillar);
   return found;
 }
@@ -185,7 +207,8 @@ double BakedLight::at(const Point3& point, const Point3& normal) const {
   }
   const double upward = 0.55 + 0.45 * normal.z();
   const double lift = 0.025 * extent_;
-  const double bounce = kBounce * (1.0 - upward) * (0.3 + 0.7 * (1.0 - std::exp(-point.z() / lift)));
+  const double bounce =
+      kBounce * (1.0 - upward) * (0.3 + 0.7 * (1.0 - std::exp(-point.z() / lift)));
   return kKeyShare * key / kDirections + kSkyShare * sky_at(point) * upward + bounce;
 }
 
@@ -198,7 +221,8 @@ BakedLight::Shadow BakedLight::shadow(int size) const {
   const double texel = shadow.side / size;
   std::vector<std::uint64_t> hidden(static_cast<std::size_t>(size) * size, 0);
   const auto position = [&](int i, int j) {
-    return Point3(shadow.corner.x() + (i + 0.5) * texel, shadow.corner.y() + (j + 0.5) * texel, 0.0);
+    return Point3(shadow.corner.x() + (i + 0.5) * texel, shadow.corner.y() + (j + 0.5) * texel,
+                  0.0);
   };
   const auto index_of = [&](double at, double corner) {
     return std::clamp(static_cast<int>((at - corner) / texel), 0, size - 1);
@@ -214,10 +238,12 @@ BakedLight::Shadow BakedLight::shadow(int size) const {
     const int j0 = index_of(std::min(y0, y0 + dy) - soft, shadow.corner.y());
     const int j1 = index_of(std::max(y1, y1 + dy) + soft, shadow.corner.y());
     for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i)
+      for (int i = i0; i <= i1; ++i) {
+        if (!may_hit(thing, position(i, j))) continue;
         for (std::size_t k = 0; k < key_.size(); ++k)
           if (hits(thing, position(i, j), key_[k]))
             hidden[static_cast<std::size_t>(j) * size + i] |= std::uint64_t{1} << k;
+      }
   };
   for (const Pillar& one : pillars_)
     cast(one, one.x - one.radius, one.x + one.radius, one.y - one.radius, one.y + one.radius);
@@ -238,6 +264,20 @@ BakedLight::Shadow BakedLight::shadow(int size) const {
   return shadow;
 }
 
+const std::vector<double>& KeptLight::at(std::size_t part, const TriangleMesh& mesh) {
+  const auto [found, is_new] = of_parts_.try_emplace(part);
+  if (is_new)
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      found->second.push_back(light_.at(mesh.points[i], mesh.normals[i]));
+  return found->second;
+}
+
+const BakedLight::Shadow& KeptLight::shadow() {
+  constexpr int kTexels = 512;
+  if (!shadow_) shadow_ = light_.shadow(kTexels);
+  return *shadow_;
+}
+
 namespace {
 
 /// Radius and height of a ring of a turned body, and its normal outward and upward.
@@ -254,8 +294,8 @@ std::vector<Ring> pillar_rings(double radius, double height) {
   for (int i = 1; i <= kEdge; ++i) {
     const double angle = std::numbers::pi / 2.0 * i / kEdge;
     const double outward = std::cos(angle), upward = std::sin(angle);
-    rings.push_back({radius - bevel + bevel * outward, height - bevel + bevel * upward, outward,
-                     upward});
+    rings.push_back(
+        {radius - bevel + bevel * outward, height - bevel + bevel * upward, outward, upward});
   }
   rings.push_back({0.0, height, 0.0, 1.0});
   return rings;

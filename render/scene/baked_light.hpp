@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "render/scene/scene.hpp"
@@ -25,10 +28,10 @@ class BakedLight {
 
   /// The shadow on the floor and around it.
   struct Shadow {
-    Point3 corner;                     ///< The least x and y of the square.
-    double side = 0.0;                 ///< Of the square.
-    int size = 0;                      ///< Texels along a side.
-    std::vector<std::uint8_t> alpha;   ///< Row by row, that of the corner first; 0 is an open floor.
+    Point3 corner;                    ///< The least x and y of the square.
+    double side = 0.0;                ///< Of the square.
+    int size = 0;                     ///< Texels along a side.
+    std::vector<std::uint8_t> alpha;  ///< Row by row, that of the corner first; 0 is an open floor.
   };
   /// @param size  Texels along a side, > 0.
   Shadow shadow(int size) const;
@@ -49,6 +52,10 @@ class BakedLight {
   void aim(const Scene& scene);
   /// The pillars that may hide the light from a point.
   std::vector<Pillar> pillars_near(const Point3& point) const;
+  /// False if no direction of the key light can hit the pillar: most pairs of a point and a pillar,
+  /// for which no direction has to be tried.
+  bool may_hit(const Pillar& pillar, const Point3& from) const;
+  static bool may_hit(const Wall&, const Point3&) { return true; }
   static bool hits(const Pillar& pillar, const Point3& from, const Point3& towards);
   static bool hits(const Wall& wall, const Point3& from, const Point3& towards);
   double sky_at(const Point3& point) const;
@@ -56,13 +63,41 @@ class BakedLight {
   std::vector<Pillar> pillars_;
   std::vector<Wall> walls_;
   std::vector<Point3> key_;  ///< Directions towards points of the light.
+  /// The wedge of these directions in the plan: its middle, of length 1, and half its angle; and
+  /// the longest way in the plan of a unit of height.
+  struct Wedge {
+    double x = 1.0, y = 0.0, sine = 0.0, cosine = 1.0, way = 0.0;
+  };
+  Wedge wedge_;
   Point3 floor_low_ = Point3::Zero(), floor_high_ = Point3::Zero();
   double extent_ = 0.0;
 };
 
+/// The light of one view, each part of it computed once: a view is drawn in the colours of several
+/// themes.
+class KeptLight {
+ public:
+  explicit KeptLight(BakedLight light) : light_(std::move(light)) {}
+
+  /// The light at each point of a mesh.
+  /// @param part  Whose mesh it is; the same mesh in every call.
+  const std::vector<double>& at(std::size_t part, const TriangleMesh& mesh);
+
+  /// The shadow on the floor.
+  const BakedLight::Shadow& shadow();
+
+  double extent() const { return light_.extent(); }
+
+ private:
+  BakedLight light_;
+  std::map<std::size_t, std::vector<double>> of_parts_;
+  std::optional<BakedLight::Shadow> shadow_;
+};
+
 /// What a rod that stands upright looks like: its side in rings, so that light can change along it,
 /// and a rounded upper edge.
-void add_pillar(TriangleMesh& mesh, const Point3& foot, const Point3& top, double radius, int sides);
+void add_pillar(TriangleMesh& mesh, const Point3& foot, const Point3& top, double radius,
+                int sides);
 
 /// The surface's triangles with normals of their own, cut until no edge is longer than `longest`.
 TriangleMesh fine_mesh(const Surface& surface, double longest);

@@ -27,9 +27,10 @@ void take(const std::optional<double>& value, double& to, double factor = 1.0) {
 Theme theme_of(const FigureStyle& style) {
   constexpr double kPointsPerInch = 72.0;
   constexpr double kColumn_in = 3.25;
-  Theme theme = style.theme == BaseTheme::kPaper ? paper_theme(style.width_in.value_or(kColumn_in))
-                                                 : report_theme();
-  if (style.theme == BaseTheme::kReport && style.width_in) {
+  Theme theme = style.theme == BaseTheme::kPaper  ? paper_theme(style.width_in.value_or(kColumn_in))
+                : style.theme == BaseTheme::kDark ? dark_theme()
+                                                  : report_theme();
+  if (style.theme != BaseTheme::kPaper && style.width_in) {
     theme.height_pt *= kPointsPerInch * *style.width_in / theme.width_pt;
     theme.width_pt = kPointsPerInch * *style.width_in;
   }

@@ -11,7 +11,7 @@
 namespace mapproof {
 
 /// The theme that a style begins with.
-enum class BaseTheme { kReport, kPaper };
+enum class BaseTheme { kReport, kDark, kPaper };
 
 /// Colours that replace those of the theme, as "#rrggbb"; empty: the theme's.
 struct StyleColours {

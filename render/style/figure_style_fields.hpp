@@ -21,7 +21,7 @@ FigureStyle figure_style_from_json(std::string_view text, const std::string& sou
 // The fields of a style in files (core/json/fields.hpp).
 
 inline EnumNames enum_names(BaseTheme) {
-  static constexpr std::array<std::string_view, 2> kNames = {"report", "paper"};
+  static constexpr std::array<std::string_view, 3> kNames = {"report", "dark", "paper"};
   return {"theme", kNames};
 }
 

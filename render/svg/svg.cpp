@@ -10,6 +10,7 @@
 #include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
 #include "render/image/png.hpp"
+#include "render/image/palette.hpp"
 
 namespace mapproof {
 namespace {
@@ -173,8 +174,9 @@ class SvgWriter {
   /// "linear 0 2000": what a page needs to count on a part of an axis.
   void axis_attribute(std::string_view name, const std::optional<AxisNumbers>& axis) {
     if (axis)
-      attribute(name, fmt::format("{} {:.12g} {:.12g}", axis->scale == Scale::kLog ? "log" : "linear",
-                                  axis->ends.low, axis->ends.high));
+      attribute(name,
+                fmt::format("{} {:.12g} {:.12g}", axis->scale == Scale::kLog ? "log" : "linear",
+                            axis->ends.low, axis->ends.high));
   }
 
   void path_attribute(const Outline& path) {
@@ -265,10 +267,19 @@ class SvgWriter {
     out_ += "<image" + own;
     if (item.mark && !open_mark_) mark_attributes(*item.mark);
     box_attributes(raster.position);
-    const double dpi = 72.0 * raster.image->width / raster.position.width();
-    attribute("data-dpi", std::round(dpi));
+    const PngOptions options{.dpi = 72.0 * raster.image->width / raster.position.width(),
+                             .texts = {}};
+    attribute("data-dpi", std::round(options.dpi));
     out_ += " preserveAspectRatio=\"none\" href=\"data:image/png;base64,";
-    append_base64(out_, encode_png(*raster.image, {.dpi = dpi, .texts = {}}));
+    if (raster.dark == nullptr) {
+      append_base64(out_, encode_png(*raster.image, options));
+    } else {
+      TwoPalettes both = to_two_palettes(*raster.image, *raster.dark);
+      append_base64(out_, encode_png({std::move(both.first), std::move(both.rows)},
+                                     raster.image->width, options));
+      out_ += "\" data-dark=\"";
+      append_base64(out_, png_palette(both.second));
+    }
     out_ += "\"/>\n";
   }
 

@@ -17,7 +17,9 @@ void append_number(std::string& out, double value);
 
 /// The drawing as an SVG 1.1 file. Every id begins with the drawing's; text is outlines of the font
 /// with the string beside it in aria-label; marks carry their ids and data attributes. The same
-/// drawing gives the same bytes, with no date, no machine's name and no counter in them.
+/// drawing gives the same bytes, with no date, no machine's name and no counter in them. A raster
+/// with a dark image has both in one PNG; its palette in the dark is the attribute data-dark, in
+/// base64.
 std::string to_svg(const Drawing& drawing);
 
 }  // namespace mapproof

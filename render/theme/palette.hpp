@@ -19,6 +19,11 @@ inline constexpr std::array<Colour, 7> kSeriesColours = {
     colour(0x3A90C4),  // sky blue, darkened
 };
 
+/// The same on a dark page, each the lighter one of its light counterpart.
+inline constexpr std::array<Colour, 7> kDarkSeriesColours = {
+    colour(0x4BA6E0), colour(0xF08A3C), colour(0x2CC79A), colour(0xDE9CC2),
+    colour(0xFFFFFF), colour(0xC9B93A), colour(0x7CC0EA)};
+
 /// The colour at `share` of viridis [vanderwalt2015], 0 (dark) to 1 (light), clamped; for fields.
 Colour viridis(double share);
 

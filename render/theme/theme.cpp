@@ -53,6 +53,18 @@ Theme report_theme() {
   return theme;
 }
 
+Theme dark_theme() {
+  Theme theme = report_theme();
+  theme.name = "dark";
+  theme.background = colour(0x15181C);
+  theme.text = colour(0xE6E9ED);
+  theme.muted = colour(0x9AA3AD);
+  theme.grid = colour(0x2B3138);
+  theme.warning = colour(0xF3AC72);
+  theme.series = kDarkSeriesColours;
+  return theme;
+}
+
 Theme paper_theme(double width_in) {
   if (!(width_in >= 2.0 && width_in <= 20.0))
     throw InvalidInput(fmt::format("paper_theme: width {} in is not in 2 to 20", width_in));

@@ -36,6 +36,9 @@ struct Theme {
 /// For screens: 600 x 450 pt, 1200 x 900 px.
 Theme report_theme();
 
+/// The same in the colours of a dark page.
+Theme dark_theme();
+
 /// For a journal: 8 pt text, 300 dpi, no title and no notes (the caption below the figure has
 /// them).
 /// @param width_in  Of the column, 2 to 20; 3.25 (single) and 6.75 (double) are usual.

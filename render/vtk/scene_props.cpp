@@ -34,9 +34,16 @@ constexpr int kTubeSides = 12;
 constexpr double kAmbient = 0.42;  // White stays near white where no light falls.
 constexpr double kDiffuse = 0.58;
 
+bool is_dark(Colour ground) {
+  return contrast(ground, Colour{}) < contrast(ground, colour(0xFFFFFF));
+}
+
+/// On a dark ground pale colours are less pale: else its floors would be as dark as shadows.
 Colour plain_colour(const Style& style, const SceneRequest& request) {
-  return mix(request.colours[static_cast<std::size_t>(style.colour)], request.background,
-             style.share);
+  constexpr double kLessPale = 1.8;
+  const double share = is_dark(request.background) ? 1.0 - std::pow(1.0 - style.share, kLessPale)
+                                                   : style.share;
+  return mix(request.colours[static_cast<std::size_t>(style.colour)], request.background, share);
 }
 
 /// The colour of the i-th value; the plain colour where there is none.
@@ -146,8 +153,8 @@ Colour lit_by(double light, Colour colour) {
 Props baked_props(const TriangleMesh& mesh, const std::vector<Colour>& colours, Style style,
                   const Paint& paint) {
   ColourList lit;
-  for (std::size_t i = 0; i < mesh.points.size(); ++i)
-    lit.add(lit_by(paint.light->at(mesh.points[i], mesh.normals[i]), colours[i]));
+  const std::vector<double>& light = paint.light->at(paint.part, mesh);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) lit.add(lit_by(light[i], colours[i]));
   style.lit = false;
   return mesh_props(mesh, &lit, style, paint.request);
 }
@@ -310,19 +317,18 @@ Props props_of(const Part& part, const Paint& paint) {
   return std::visit([&paint](const auto& one) { return part_props(one, paint); }, part);
 }
 
-vtkSmartPointer<vtkProp> shadow_prop(const BakedLight& light) {
-  constexpr int kTexels = 512;
-  constexpr std::array<unsigned char, 3> kColour = {18, 26, 46};  // Of a cool sky.
-  constexpr double kLift = 1e-3;                                  // Above the floor, of its side.
-  const BakedLight::Shadow shadow = light.shadow(kTexels);
+vtkSmartPointer<vtkProp> shadow_prop(KeptLight& light, Colour background) {
+  constexpr Colour kOfCoolSky = colour(0x121A2E);
+  constexpr double kLift = 1e-3;  // Above the floor, of its side.
+  // On a dark floor the sky's colour would be no shadow.
+  const Colour dark = is_dark(background) ? Colour{} : kOfCoolSky;
+  const BakedLight::Shadow& shadow = light.shadow();
   vtkNew<vtkImageData> image;
-  image->SetDimensions(kTexels, kTexels, 1);
+  image->SetDimensions(shadow.size, shadow.size, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   auto* texel = static_cast<unsigned char*>(image->GetScalarPointer());
-  for (const std::uint8_t alpha : shadow.alpha) {
-    texel = std::copy(kColour.begin(), kColour.end(), texel);
-    *texel++ = alpha;
-  }
+  for (const std::uint8_t alpha : shadow.alpha)
+    for (const unsigned char channel : {dark.red, dark.green, dark.blue, alpha}) *texel++ = channel;
   vtkNew<vtkTexture> texture;
   texture->SetInputData(image);
   texture->SetColorModeToDirectScalars();

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -258,9 +259,26 @@ vtkSmartPointer<vtkMatrix4x4> projection_of_strip(vtkCamera* camera, double aspe
 
 }  // namespace
 
+/// The last scene with the computed light of its views, to be drawn again in other colours.
+struct LitScene {
+  Scene scene;
+  std::map<std::size_t, std::optional<KeptLight>> views = {};
+};
+
 struct SceneRenderer::Parts {
   vtkNew<ErrorLog> log;
   vtkSmartPointer<vtkRenderWindow> window;
+  std::optional<LitScene> lit;
+
+  /// The light of a view; null if it has none.
+  KeptLight* light_of(const Scene& scene, std::size_t view) {
+    if (!lit || !(lit->scene == scene)) lit.emplace(LitScene{scene});
+    const auto [found, is_new] = lit->views.try_emplace(view);
+    if (is_new)
+      if (auto light = BakedLight::of(scene, scene.views[view]))
+        found->second.emplace(*std::move(light));
+    return found->second ? &*found->second : nullptr;
+  }
 
   void throw_what_was_logged() {
     if (!log->errors.empty())
@@ -316,12 +334,11 @@ Image SceneRenderer::draw(const Scene& scene, const SceneRequest& request) {
   const Colour paper = request.background;
   renderer->SetBackground(paper.red / 255.0, paper.green / 255.0, paper.blue / 255.0);
   add_lights(scene, renderer);
-  const std::optional<BakedLight> light = BakedLight::of(scene, view);
-  const Paint paint{request, view.camera.eye, light ? &*light : nullptr};
-  if (light) renderer->AddViewProp(shadow_prop(*light));
-  for (std::size_t i = 0; i < scene.parts.size(); ++i)
-    if (shows(view, i))
-      for (const auto& prop : props_of(scene.parts[i], paint)) renderer->AddViewProp(prop);
+  Paint paint{request, view.camera.eye, parts_->light_of(scene, request.view)};
+  if (paint.light != nullptr) renderer->AddViewProp(shadow_prop(*paint.light, paper));
+  for (paint.part = 0; paint.part < scene.parts.size(); ++paint.part)
+    if (shows(view, paint.part))
+      for (const auto& prop : props_of(scene.parts[paint.part], paint)) renderer->AddViewProp(prop);
   set_camera(view.camera, renderer->GetActiveCamera());
   renderer->ResetCameraClippingRange();
 

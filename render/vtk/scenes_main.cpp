@@ -29,12 +29,26 @@ void answer(const SceneReply& reply, const Image* image) {
   std::fflush(stdout);
 }
 
+/// The last scene, which is often drawn in several views and colours.
+struct LastScene {
+  std::string line;
+  Scene scene;
+
+  const Scene& of(const std::string& scene_line) {
+    if (scene_line != line) {
+      scene = scene_from_json(scene_line, "scene");
+      line = scene_line;
+    }
+    return scene;
+  }
+};
+
 /// Answers one request with its image, or with the reason why the scene cannot be drawn.
-void serve(SceneRenderer& renderer, const std::string& request_line,
-           const std::string& scene_line) {
+void serve(SceneRenderer& renderer, const std::string& request_line, const std::string& scene_line,
+           LastScene& last) {
   try {
     const SceneRequest request = request_from_line(request_line, "request");
-    const Image image = renderer.draw(scene_from_json(scene_line, "scene"), request);
+    const Image image = renderer.draw(last.of(scene_line), request);
     answer({"", image.width, image.height, renderer.name()}, &image);
   } catch (const std::bad_alloc&) {
     throw;
@@ -46,6 +60,7 @@ void serve(SceneRenderer& renderer, const std::string& request_line,
 int run() {
   std::string request, scene;
   std::unique_ptr<SceneRenderer> renderer;
+  LastScene last;
   while (std::getline(std::cin, request)) {
     if (!std::getline(std::cin, scene)) {
       std::fputs("mapproof-scenes: a request without its scene\n", stderr);
@@ -60,7 +75,7 @@ int run() {
       std::fprintf(stderr, "mapproof-scenes: %s\n", error.what());
       return kNoContext;
     }
-    serve(*renderer, request, scene);
+    serve(*renderer, request, scene, last);
   }
   return 0;
 }

@@ -116,10 +116,12 @@ void set_opening(data& page, const Report& report, const std::string& linked,
                  const HtmlOptions& options) {
   const Opening& opening = report.opening;
   list findings, folded;
-  for (const Paragraph& finding : opening.findings)
+  std::vector<Paragraph> all = opening.findings;
+  if (!opening.question.empty()) all.insert(all.begin(), Paragraph{{phrase(opening.question)}});
+  for (const Paragraph& finding : all)
     (findings.size() < kFindingsOfFirstScreen ? findings : folded)
         .push_back(data("phrases", phrases_data(finding, options)));
-  page.set("any_opening", data(!opening.findings.empty() || !opening.figure_ids.empty() ||
+  page.set("any_opening", data(!all.empty() || !opening.figure_ids.empty() ||
                                !opening.numbers.items.empty() || !opening.main_figure.empty() ||
                                opening.standing || !linked.empty()));
   page.set("highlights", opening.numbers.items.empty()

@@ -81,13 +81,14 @@ std::string page_metres(double error_m, int decimals) {
 }
 
 std::string page_cell(const Cell& cell, const Column& column) {
-  const bool errors_m = column.errors_m.value_or(column.unit == "m");
+  const auto* number = std::get_if<NumberCell>(&cell);
+  const bool errors_m = column.errors_m.value_or(column.unit == "m") ||
+                        (number != nullptr && number->error_m);
   const auto shown = [&](double value, int decimals, bool with_sign) {
     const std::string great = errors_m ? great_error(value) : "";
     return great.empty() ? page_number(value, decimals, with_sign) : great;
   };
-  if (const auto* number = std::get_if<NumberCell>(&cell))
-    return shown(number->value, number->decimals, number->with_sign);
+  if (number != nullptr) return shown(number->value, number->decimals, number->with_sign);
   const auto* interval = std::get_if<IntervalCell>(&cell);
   if (interval == nullptr || !std::isfinite(interval->low) || !std::isfinite(interval->high))
     return format_cell(cell);

@@ -46,7 +46,8 @@ struct Highlights {
     std::string label;
     std::string value;
     std::string detail;
-    std::string section = {};  ///< Id of the section that says more; empty: the item links to nothing.
+    std::string section =
+        {};  ///< Id of the section that says more; empty: the item links to nothing.
   };
   std::vector<Item> items;
 };
@@ -69,6 +70,7 @@ struct NumberCell {
   double value = 0.0;
   int decimals = 3;
   bool with_sign = false;  ///< Positive values carry a plus.
+  bool error_m = false;    ///< As Column::errors_m, in a column of several quantities.
 };
 
 struct IntervalCell {
@@ -93,9 +95,9 @@ struct Column {
 };
 
 struct Row {
-  std::vector<Cell> cells;  ///< One a column.
-  std::string source;       ///< Which records the numbers come from.
-  bool marked = false;      ///< The best of its table.
+  std::vector<Cell> cells;     ///< One a column.
+  std::string source;          ///< Which records the numbers come from.
+  bool marked = false;         ///< The best of its table.
   std::string regressed = {};  ///< What got worse of it: "MPE +17.6 %"; pages alone show it.
   /// By how much something got worse over time, oldest first, in percent, as a small curve beside
   /// the first number; NaN: not known. Pages alone show it.
@@ -120,7 +122,7 @@ struct FigureBlock {
   std::vector<std::string> record_ids;
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
   std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
-  std::string regressed = {};  ///< What got worse of what it shows; pages alone show it.
+  std::string regressed = {};           ///< What got worse of what it shows; pages alone show it.
   bool wide = false;                    ///< It has many panels: a page gives it the whole width.
 };
 
@@ -192,6 +194,7 @@ struct Opening {
   std::optional<Standing> standing = std::nullopt;
   Highlights numbers = {};       ///< How good it is, the most important number first.
   std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
+  std::string question = {};     ///< What was asked, before the findings; empty: they say it.
 };
 
 /// What a report says; how it looks is another matter.

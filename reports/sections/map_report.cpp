@@ -118,11 +118,44 @@ Row point_row(const MapRecord& record, Index row, const Decimals& decimals) {
   return out;
 }
 
+/// Of more landmarks than a page can list: the rows of those without a position, then of the
+/// largest errors, then of landmarks whose error is not known; or the first ones.
+std::vector<Index> listed_rows(const MapRecord& record) {
+  constexpr Index kMostListed = 5000, kShortList = 1000;
+  std::vector<Index> rows(static_cast<std::size_t>(record.estimate.rows()));
+  std::iota(rows.begin(), rows.end(), Index{0});
+  if (std::ssize(rows) <= kMostListed) return rows;
+  if (record.frame == Frame::kGroundTruth && any_ground_truth(record)) {
+    const Eigen::VectorXd errors = (record.estimate - *record.ground_truth_m).rowwise().norm();
+    std::ranges::stable_sort(rows, {}, [&](Index i) {
+      if (!record.estimate.row(i).allFinite()) return -kInfinity;
+      return std::isnan(errors(i)) ? kInfinity : -errors(i);
+    });
+  }
+  rows.resize(static_cast<std::size_t>(kShortList));
+  return rows;
+}
+
+std::string caption_of(const MapRecord& record, const std::vector<Index>& rows) {
+  const Index landmarks = record.estimate.rows();
+  if (std::ssize(rows) == landmarks) return "Every landmark";
+  std::string which = "The first {} of {} landmarks; map.csv lists all";
+  if (record.frame == Frame::kGroundTruth && any_ground_truth(record)) {
+    const bool are_known = std::ranges::all_of(rows, [&](Index i) {
+      return record.ground_truth_m->row(i).allFinite() || !record.estimate.row(i).allFinite();
+    });
+    which = are_known ? "The {} largest errors of {} landmarks; map.csv lists all"
+                      : "{} of {} landmarks, those of known errors first; map.csv lists all";
+  }
+  return fmt::format(fmt::runtime(which), rows.size(), landmarks);
+}
+
 Table landmarks_table(const MapRecord& record) {
-  Table table{"landmarks", "Every landmark", point_columns(record), {}, {}};
+  const std::vector<Index> rows = listed_rows(record);
+  Table table{"landmarks", caption_of(record, rows), point_columns(record), {}, {}};
   table.columns.push_back({"Anchor", "", "", "Its true position was given."});
   const Decimals decimals = decimals_of(record);
-  for (Index i = 0; i < record.estimate.rows(); ++i) {
+  for (const Index i : rows) {
     table.rows.push_back(point_row(record, i, decimals));
     table.rows.back().cells.emplace_back(TextCell{is_anchor(record, i) ? "yes" : "no"});
   }

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { comparison, figure, open, study, violations } from "./support.mjs";
+import { comparison, figure, open, study, until, violations } from "./support.mjs";
 
 // One figure in six: axe-core examines each element of a drawing.
 const insertSome = (page) => page.evaluate(() =>
@@ -172,18 +172,125 @@ test("a theme that was chosen is there after a reload, and figures follow it", a
   await close();
 });
 
-test("on a phone the words of a figure have 10 px at least", async () => {
-  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
-  for (const id of ["fig-4", "maps-bearing"]) {
-    const shown = await figure(page, id);
-    const least = await shown.locator("svg").evaluate((svg) => {
-      const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-      const sizes = [...svg.querySelectorAll('g[transform*="scale("]')].map(
-        (words) => 2048 * Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform"))[1]));
-      return scale * Math.min(...sizes);
+test("3-D figures have an image for each theme, of one computation, and paper has the light one",
+  async () => {
+    const { page, close } = await open({ colorScheme: "dark" });
+    const scene = await figure(page, "scene-world-bearing");
+    const shown = () => scene.locator("image").evaluateAll((images) => images
+      .filter((image) => getComputedStyle(image).display !== "none")
+      .map((image) => image.getAttribute("class")));
+    assert.deepEqual(await shown(), ["in-dark"]);
+    // Its ground is that of the page; nothing but a palette distinguishes it from the light image.
+    const { corners, equal, title } = await scene.locator("svg").evaluate(async (svg) => {
+      const pixels = async (image) => {
+        const loaded = new Image();
+        loaded.src = image.getAttribute("href");
+        await loaded.decode();
+        const context = new OffscreenCanvas(loaded.width, loaded.height).getContext("2d");
+        context.drawImage(loaded, 0, 0);
+        return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+      };
+      const chunks = (image) => {
+        const bytes = bytesOf(image.getAttribute("href").split(",")[1]);
+        const view = new DataView(bytes.buffer), found = [];
+        for (let at = 8; at < bytes.length; at += view.getUint32(at) + 12) {
+          const type = String.fromCharCode(...bytes.subarray(at + 4, at + 8));
+          if (type !== "PLTE") found.push(bytes.subarray(at, at + view.getUint32(at) + 12).join());
+        }
+        return found.join();
+      };
+      const light = svg.querySelector(".in-light"), dark = svg.querySelector(".in-dark");
+      return { corners: [await pixels(light), await pixels(dark)],
+        equal: chunks(light) === chunks(dark),
+        title: getComputedStyle(svg.querySelector("g.title")).fill };
     });
-    assert.ok(least >= 10, `${id}: ${least}`);
+    assert.deepEqual(corners, [[255, 255, 255], [0x15, 0x18, 0x1c]]);
+    assert.ok(equal);
+    assert.equal(title, "rgb(230, 233, 237)");
+    const files = await scene.evaluate((each) => withoutDarkPalettes(sourceOf(each)));
+    assert.doesNotMatch(files, /data-dark/);
+    await page.emulateMedia({ media: "print" });
+    assert.deepEqual(await shown(), ["in-light"]);
+    await page.emulateMedia({ media: "screen", colorScheme: "light" });
+    assert.deepEqual(await shown(), ["in-light"]);
+    await page.getByRole("button", { name: "Use dark colours" }).click();
+    assert.deepEqual(await shown(), ["in-dark"]);
+    await close();
+  });
+
+test("on a phone no figure is moved sideways, and its words have 10 px at least", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  const ids = await page.evaluate(() => held.map((figure) => figure.dataset.id));
+  assert.ok(ids.length > 40, `${ids.length}`);
+  for (const id of ids) {
+    const { least, wider, outside } = await page.locator(`#figure-${id}`).evaluate((each) => {
+      unfold(each);
+      putIn(each);
+      const box = each.querySelector(".drawing"), svg = box.querySelector("svg");
+      const words = [...svg.querySelectorAll('g[transform*="scale("]')]
+        .filter((one) => one.getBoundingClientRect().width > 0);
+      const { left, right } = box.getBoundingClientRect();
+      return { wider: box.scrollWidth - box.clientWidth,
+        least: svg.getScreenCTM().a * Math.min(...words.map((one) =>
+          2048 * Number(/scale\(([\d.]+)/.exec(one.getAttribute("transform"))[1]))),
+        outside: words.map((one) => one.getBoundingClientRect())
+          .filter((one) => one.left < left - 1 || one.right > right + 1).length };
+    });
+    assert.equal(wider, 0, id);
+    assert.equal(outside, 0, id);
+    assert.ok(least >= 9.99, `${id}: ${least}`);
   }
+  const opening = await page.locator(".main-figure").evaluate(
+    (each) => each.scrollWidth - each.clientWidth);
+  assert.equal(opening, 0);
+  await close();
+});
+
+test("a figure that got narrower on a phone keeps its data where its axes count them", async () => {
+  const shares = async (options) => {
+    const { page, close } = await open(options);
+    const shown = await figure(page, "fig-4");
+    const found = await shown.locator("svg").evaluate((svg) => {
+      const frame = svg.querySelector("g.frame").getBoundingClientRect();
+      return [...svg.querySelectorAll("use.marker, .marker use")].map((mark) => {
+        const { left, right, top, bottom } = mark.getBoundingClientRect();
+        return [((left + right) / 2 - frame.left) / frame.width,
+          ((top + bottom) / 2 - frame.top) / frame.height];
+      });
+    });
+    await close();
+    return found.flat();
+  };
+  const wide = await shares({}), narrow = await shares({ viewport: { width: 390, height: 844 } });
+  assert.ok(wide.length > 20);
+  assert.equal(wide.length, narrow.length);
+  wide.forEach((share, i) => assert.ok(Math.abs(share - narrow[i]) < .01, `${share} ${narrow[i]}`));
+});
+
+test("a phone that is turned arranges its figures again", async () => {
+  const { page, close } = await open({ viewport: { width: 360, height: 640 } });
+  const ids = ["fig-4", "forming-bearing", "scene-world-bearing"];
+  const boxes = () => Promise.all(ids.map((id) => page.locator(`#figure-${id} svg`).evaluate(
+    (svg) => ({ view: svg.getAttribute("viewBox").split(" ").map((each) => Math.round(each)).join(" "),
+      rows: new Set([...svg.querySelectorAll(
+      ":scope > g.frame")].map((frame) => Math.round(frame.getBoundingClientRect().top))).size,
+    wider: svg.parentElement.scrollWidth - svg.parentElement.clientWidth }))));
+  for (const id of ids) await figure(page, id);
+  const upright = await boxes();
+  await page.setViewportSize({ width: 568, height: 320 });  // Still narrow, but wider.
+  const widthIs = (most) => document.querySelector("#figure-forming-bearing svg").viewBox.baseVal
+    .width <= most;
+  await until(page, (least) => document.querySelector("#figure-forming-bearing svg").viewBox.baseVal
+    .width > least, 300);
+  const turned = await boxes();
+  assert.ok(turned[1].rows < upright[1].rows, `${turned[1].rows} of ${upright[1].rows}`);
+  for (const box of [...upright, ...turned]) assert.equal(box.wider, 0);
+  await page.setViewportSize({ width: 844, height: 390 });
+  await until(page, () => document.querySelectorAll(".stacked").length === 0);
+  assert.ok((await boxes()).every(({ view }) => view.startsWith("0 0 6")));
+  await page.setViewportSize({ width: 360, height: 640 });
+  await until(page, widthIs, 300);
+  assert.deepEqual(await boxes(), upright);
   await close();
 });
 
@@ -244,7 +351,7 @@ test("all methods are shown on one run with the same axes, and a landmark in all
 test("the contents follow the reader, also if they are longer than the window", async () => {
   const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
   await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
-  await page.waitForFunction(() => {
+  await until(page, () => {
     const link = document.querySelector(".contents a[aria-current]")?.getBoundingClientRect();
     const list = document.querySelector(".contents").getBoundingClientRect();
     return link && list.height < 300 && document.querySelector(".contents").scrollTop > 0 &&
@@ -256,9 +363,9 @@ test("the contents follow the reader, also if they are longer than the window", 
 test("at the head of the page the contents start with their first entry", async () => {
   const { page, close } = await open({ viewport: { width: 1400, height: 300 } });
   await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
-  await page.waitForFunction(() => document.querySelector(".contents").scrollTop > 0);
+  await until(page, () => document.querySelector(".contents").scrollTop > 0);
   await page.evaluate(() => scrollTo(0, 0));
-  await page.waitForFunction(() => document.querySelector(".contents").scrollTop === 0,
+  await until(page, () => document.querySelector(".contents").scrollTop === 0,
     undefined, { timeout: 5000 });
   assert.equal(await page.locator(".contents a[aria-current]").count(), 0);
   await close();

@@ -39,6 +39,14 @@ export async function open(options = {}, folder = study, file = "report.html", h
   return { page, requests, errors, context, close: () => context.close() };
 }
 
+/// Waits until a function of the page holds; its policy forbids what waitForFunction() does.
+export async function until(page, holds, argument) {
+  for (let tries = 0; !await page.evaluate(holds, argument); ++tries) {
+    if (tries > 300) throw new Error(`not within 30 s: ${holds}`);
+    await page.waitForTimeout(100);
+  }
+}
+
 /// A figure of the report, with its drawing inserted.
 export async function figure(page, id) {
   const found = page.locator(`#figure-${id}`);

@@ -155,6 +155,25 @@ TEST(OrientationError, LeavesOutPointsThatCoincideInTheGroundTruth) {
   EXPECT_EQ(orientation_error_percent(ground_truth, ground_truth), 0.0);
 }
 
+TEST(OrientationError, OfManyLandmarksIsThatOfDrawnTriples) {
+  // Of more than 5000 landmarks. What is true of all triples is true of those drawn.
+  const Points points = scattered(6000, 5);
+  const Points sheared = kSheared(points);  // It reflects.
+  EXPECT_EQ(orientation_error_percent(points, points), 0.0);
+  EXPECT_EQ(orientation_error_percent(points, sheared), 100.0);
+  EXPECT_EQ(orientation_error_percent(points, Points::Zero(6000, 2)), 100.0);
+  EXPECT_TRUE(std::isnan(orientation_error_percent(Points::Zero(6000, 2), points)));
+  // Any orientation is as likely as the other on a map that has nothing to do with the points.
+  EXPECT_NEAR(orientation_error_percent(points, scattered(6000, 6)), 50.0, 0.1);
+  // Half of the landmarks reflected: the drawn triples agree with all of a fifth of them.
+  Points folded = points;
+  folded.topRows(3000).col(0) = 1.0 - folded.topRows(3000).col(0).array();
+  EXPECT_NEAR(orientation_error_percent(points, folded),
+              orientation_error_percent(points(Eigen::seq(0, 5999, 5), Eigen::all),
+                                        folded(Eigen::seq(0, 5999, 5), Eigen::all)),
+              1.0);
+}
+
 TEST(ScoreMap, RefusesRowsThatDoNotMatch) {
   const Points ground_truth = test::grid(3, 3);
   const auto fit = AffineFit::kLeastSquares;

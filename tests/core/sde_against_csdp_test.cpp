@@ -18,6 +18,7 @@
 #include "core/embed/sde/csdp.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/model/sensor.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/samples/observed.hpp"
 #include "tests/support/samples/worlds.hpp"
 
@@ -111,6 +112,7 @@ void allow_more_memory(std::size_t bytes) {
 }
 
 TEST(Csdp, WithoutMemoryThrowsAndDoesNotEndTheProgram) {
+  test::skip_if_sanitized();
   if (std::getenv("MAPPROOF_EMULATED") != nullptr)
     GTEST_SKIP() << "an emulator takes its own memory from the limit";
   constexpr int kThrown = 42;

@@ -41,6 +41,18 @@ TEST(MapFigure, JoinsEachEstimateToItsGroundTruth) {
   EXPECT_EQ(layer_of<Scatter>(figure, "estimate").x.size(), 50u);
 }
 
+TEST(MapFigure, DrawsAnEvenPartOfManyLandmarksAndSaysSo) {
+  const MapRecord map = sample_map(12'000, 0.1, 1);
+  const Figure figure = map_figure(map, "map");
+  const auto drawn = layer_of<Scatter>(figure, "estimate");
+  // Every twelfth, and of the others the anchors and those of the largest errors.
+  EXPECT_GE(drawn.x.size(), 1000u);
+  EXPECT_LE(drawn.x.size(), 1000u + map.anchors.size() + 5u);
+  EXPECT_EQ(layer_of<Scatter>(figure, "anchor").x.size(), map.anchors.size());
+  EXPECT_TRUE(has_note(figure, "one in 12 of 12000 landmarks"));
+  EXPECT_FALSE(has_note(map_figure(sample_map(5000, 0.1, 1), "map"), "one in"));
+}
+
 TEST(MeasuredMap, DrawsTheSameEllipsesAsTheMapOfOneCommand) {
   const MapRecord map = sample_map(5, 0.1, 1);
   MapUncertainty uncertainty{.squared_radius = 9.5, .replicates = 20, .maps = 20, .block_steps = 4};

@@ -14,6 +14,7 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/output/write_scene.hpp"
 #include "render/scene/projection.hpp"
+#include "render/svg/svg.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/images/baselines.hpp"
 #include "tests/support/samples/sample_scenes.hpp"
@@ -88,6 +89,34 @@ TEST_P(ScenePixelsByEachWay, DoNotDependOnWhatWasDrawnBefore) {
   for (const Scene& scene : sample_scenes())
     other.draw(scene, scene_request(0, 200, 300, 0, report_theme()));
   EXPECT_EQ(drawn(other, small_scene()).pixels, alone.pixels);
+}
+
+TEST_P(ScenePixelsByEachWay, InOtherColoursOfTheSameLightAreThoseDrawnAlone) {
+  SceneClient one = client(), other = client();
+  for (const Scene& scene : sample_scenes()) {
+    const SceneRequest dark = scene_request(0, 320, 240, 4, dark_theme());
+    drawn(one, scene);
+    EXPECT_EQ(one.draw(scene, dark).pixels, other.draw(scene, dark).pixels) << scene.id;
+    EXPECT_EQ(drawn(one, scene).pixels, drawn(other, scene).pixels) << scene.id;
+  }
+}
+
+TEST(SceneDrawingTest, HasDarkImagesForAPageAlone) {
+  SceneClient one = client();
+  const Theme dark = dark_theme();
+  const SceneDrawing drawing = draw_scene(small_scene(), baseline_theme(), one, &dark);
+  ASSERT_TRUE(drawing.page);
+  const std::string file = to_svg(drawing.screen), page = to_svg(*drawing.page);
+  EXPECT_EQ(file.find("data-dark"), std::string::npos);
+  EXPECT_NE(page.find("data-dark=\""), std::string::npos);
+  EXPECT_LT(page.size(), file.size() * 3 / 2);
+  for (const Item& item : drawing.page->items)
+    if (const auto* raster = std::get_if<Raster>(&item.what)) {
+      ASSERT_NE(raster->dark, nullptr);
+      EXPECT_EQ(raster->dark->width, raster->image->width);
+      EXPECT_EQ(raster->dark->row(0)[0] & 0xFFFFFF, 0x15181CU);
+    }
+  EXPECT_FALSE(draw_scene(small_scene(), baseline_theme(), one).page);
 }
 
 /// The middle of all pixels that are not white.

@@ -63,7 +63,7 @@ TEST(FigureStyle, RefusesWhatIsNoneWithTheLocation) {
        {std::pair{R"("colours": {"text": "red"}})", "/colours/text"},
         {R"("dpi": 5})", "/dpi"},
         {R"("colour": {}})", "did you mean \"colours\"?"},
-        {R"("theme": "papr"})", "expected report or paper, got \"papr\""}}) {
+        {R"("theme": "papr"})", "expected report, dark or paper, got \"papr\""}}) {
     const auto file = folder.file("style.json", std::string(kHead) + text);
     try {
       read_figure_style(file);

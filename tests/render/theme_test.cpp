@@ -27,6 +27,11 @@ TEST(Palette, SeriesStandOutFromWhite) {
     EXPECT_GE(contrast(one, colour(0xFFFFFF)), 3.0) << hex(one);
 }
 
+TEST(Palette, SeriesStandOutFromADarkPage) {
+  for (const Colour one : kDarkSeriesColours)
+    EXPECT_GE(contrast(one, dark_theme().background), 4.5) << hex(one);
+}
+
 TEST(Palette, SeriesDifferFromEachOther) {
   for (std::size_t i = 0; i < kSeriesColours.size(); ++i)
     for (std::size_t j = i + 1; j < kSeriesColours.size(); ++j) {
@@ -47,7 +52,7 @@ TEST(Palette, ViridisGrowsLighterAllTheWay) {
 }
 
 TEST(Theme, TextAndLinesCanBeRead) {
-  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+  for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)}) {
     EXPECT_GE(contrast(theme.text, theme.background), 4.5);
     EXPECT_GE(contrast(theme.warning, theme.background), 4.5);
     EXPECT_GE(contrast(theme.muted, theme.background), 3.0);

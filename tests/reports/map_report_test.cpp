@@ -49,11 +49,50 @@ TEST(MapReport, GivesEachLandmarkItsErrorAndAnUnmappedOneADash) {
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[6]).text, "yes");
 }
 
+TEST(MapReport, ListsTheLargestErrorsOfManyLandmarks) {
+  MapRecord record = triangle();
+  const Eigen::Index M = 6000;
+  record.names.clear();
+  for (Eigen::Index i = 0; i < M; ++i) record.names.push_back("n" + std::to_string(i));
+  record.ground_truth_m = Points::Zero(M, 2);
+  record.estimate = Points::Zero(M, 2);
+  record.estimate.col(0).setLinSpaced(0.0, 1.0);
+  record.estimate.row(17).setConstant(kNaN);
+  const Report report = report_of(record);
+  check(report);
+  const Table& table = landmarks(report);
+  ASSERT_EQ(table.rows.size(), 1000u);
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[0]).text, "n17");  // Not mapped: first.
+  EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[0]).text, "n5999");
+  EXPECT_NE(table.caption.find("1000 largest errors of 6000 landmarks"), std::string::npos);
+}
+
+TEST(MapReport, ListsKnownErrorsOfManyLandmarksFirst) {
+  MapRecord record = triangle();
+  const Eigen::Index M = 6000;
+  record.names.clear();
+  for (Eigen::Index i = 0; i < M; ++i) record.names.push_back("n" + std::to_string(i));
+  record.ground_truth_m = Points::Constant(M, 2, kNaN);
+  record.estimate = Points::Zero(M, 2);
+  for (const Eigen::Index anchor : {0, 1, 2, 5000}) {
+    record.ground_truth_m->row(anchor) << 0.0, 0.0;
+    record.estimate(anchor, 0) = static_cast<double>(anchor);
+  }
+  const Report report = report_of(record);
+  const Table& table = landmarks(report);
+  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[0]).text, "n5000");
+  EXPECT_EQ(std::get<TextCell>(table.rows[3].cells[0]).text, "n0");
+  EXPECT_EQ(std::get<TextCell>(table.rows[4].cells[0]).text, "n3");  // Of no known error.
+  EXPECT_NE(table.caption.find("1000 of 6000 landmarks, those of known errors first"),
+            std::string::npos);
+}
+
 TEST(MapReport, GivesCoordinatesFarFromZeroInFull) {
   MapRecord record = triangle();
   record.estimate.rowwise() += Eigen::RowVector2d(391234.5, 5821234.5);
   record.ground_truth_m->rowwise() += Eigen::RowVector2d(391234.5, 5821234.5);
-  const Table& table = landmarks(report_of(record));
+  const Report report = report_of(record);
+  const Table& table = landmarks(report);
   EXPECT_EQ(format_cell(table.rows[1].cells[1]), "391237.500");
   EXPECT_EQ(format_cell(table.rows[1].cells[2]), "5821238.500");
   EXPECT_EQ(format_cell(table.rows[1].cells[4]), "5821234.500");

@@ -54,6 +54,13 @@ TEST(PageCell, HasPositionsOfAnySizeAsNumbers) {
   EXPECT_EQ(page_cell(NumberCell{1900.25, 2}, level), "over 1\u00A0km");
 }
 
+TEST(PageCell, HasWordsForErrorsInAColumnOfSeveralQuantities) {
+  NumberCell error{2.79e14, 4};
+  EXPECT_EQ(shown(error, ""), "2.79\u00A0×\u00A010¹⁴");
+  error.error_m = true;
+  EXPECT_EQ(shown(error, ""), "over 1\u00A0km");
+}
+
 TEST(PageMetres, SaysThatAMapDiverged) {
   EXPECT_EQ(page_metres(0.12345), "0.123 m");
   EXPECT_EQ(page_metres(1000.0, 0), "1000 m");

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "render/theme/theme.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/template_check.hpp"
 
@@ -47,6 +48,25 @@ TEST(Templates, AreEmbeddedInTheProgram) {
   const Templates templates = load_templates();
   for (const char* name : {"report.mustache", "report.css", "report.js", "table.mustache"})
     EXPECT_TRUE(templates.files.contains(name)) << name;
+}
+
+/// The dark colour that the script gives to a light one, "" for none.
+std::string dark_colour_of(Colour light) {
+  const std::string script = load_templates(std::nullopt).files.at("report_dark.js");
+  const std::string key = "\"" + hex(light) + "\": \"";
+  const std::size_t at = script.find(key);
+  return at == std::string::npos ? "" : script.substr(at + key.size(), 7);
+}
+
+TEST(Templates, HaveTheColoursOfTheDarkTheme) {
+  const Theme light = report_theme(), dark = dark_theme();
+  EXPECT_EQ(dark_colour_of(light.background), hex(dark.background));
+  EXPECT_EQ(dark_colour_of(light.text), hex(dark.text));
+  EXPECT_EQ(dark_colour_of(light.muted), hex(dark.muted));
+  EXPECT_EQ(dark_colour_of(light.grid), hex(dark.grid));
+  EXPECT_EQ(dark_colour_of(light.warning), hex(dark.warning));
+  for (std::size_t i = 0; i < light.series.size(); ++i)
+    EXPECT_EQ(dark_colour_of(light.series[i]), hex(dark.series[i]));
 }
 
 TEST(Templates, OfAFolderReplaceTheEmbeddedOnesFileByFile) {

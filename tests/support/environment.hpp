@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 #include <initializer_list>
 #include <optional>
@@ -8,6 +9,14 @@
 #include <vector>
 
 namespace mapproof::test {
+
+/// Ends a test as skipped (exit code 77) if sanitizers watch the programs, which scripts/check
+/// sanitize says: they take address space of their own, and their calls would fail, too.
+inline void skip_if_sanitized() {
+  if (std::getenv("MAPPROOF_SANITIZED") == nullptr) return;
+  std::fputs("skipped: limits of memory and calls that fail are not for sanitizers\n", stderr);
+  std::_Exit(77);
+}
 
 /// Sets variables of the environment while it lives, or unsets those whose value is null; programs
 /// started meanwhile see that. Then all are as they were.

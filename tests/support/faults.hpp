@@ -14,7 +14,7 @@ class Faults {
   /// @param rules    As in MAPPROOF_FAULT: "alloc:7-7:fail"; empty: calls are counted alone.
   /// @param program  In which program.
   explicit Faults(const std::string& rules, const std::string& program = "mapproof")
-      : environment_({{"LD_PRELOAD", MAPPROOF_FAULTS},
+      : environment_({{"LD_PRELOAD", shim()},
                       {"MAPPROOF_FAULT", rules.c_str()},
                       {"MAPPROOF_FAULT_IN", program.c_str()},
                       {"MAPPROOF_FAULT_COUNT", (folder_ / "counts").c_str()}}) {}
@@ -29,6 +29,11 @@ class Faults {
   }
 
  private:
+  static const char* shim() {
+    skip_if_sanitized();
+    return MAPPROOF_FAULTS;
+  }
+
   TemporaryFolder folder_;
   Environment environment_;
 };

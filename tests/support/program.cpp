@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/files/files.hpp"
+#include "tests/support/environment.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -50,6 +51,7 @@ Outcome mapproof(const std::vector<std::string>& arguments, const Limits& limits
 }
 
 Outcome run_program(const std::vector<std::string>& command, const Limits& limits) {
+  if (limits.address_bytes > 0) skip_if_sanitized();
   std::array<int, 2> out{};
   std::array<int, 2> error{};
   if (::pipe2(out.data(), O_CLOEXEC) != 0 || ::pipe2(error.data(), O_CLOEXEC) != 0)

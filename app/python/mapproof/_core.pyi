@@ -9,7 +9,7 @@ _Path = Union[str, os.PathLike[str]]
 _Sensor = Literal["visibility", "bearing", "range"]
 _Fit = Literal["least_distances", "least_squares"]
 _Alignment = Literal["none", "rigid", "rigid-with-reflection", "similarity"]
-_Theme = Literal["report", "paper"]
+_Theme = Literal["report", "dark", "paper"]
 _Positions = Mapping[str, Tuple[float, float]]
 
 __version__: str

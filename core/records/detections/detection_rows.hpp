@@ -10,7 +10,7 @@
 
 namespace mapproof {
 
-inline constexpr std::size_t kMostDetections = 50'000'000;  ///< More are taken for a mistake.
+inline constexpr std::size_t kMostDetections = 200'000'000;  ///< More are taken for a mistake.
 
 /// Understands the rows of a long table of detections one by one, see read_detections().
 class DetectionRows {

@@ -78,7 +78,7 @@ void fields(Visitor& v, SlamWorldOptions& world) {
   v.field("landmarks", world.landmarks,
           {.description = "Number of landmarks.",
            .minimum = 4,
-           .maximum = kMostLandmarks,
+           .maximum = kMostRangeLandmarks,
            .key = Key::kOptional});
   v.field("known", world.known, described("The first of them have a known position.", at_least(4)));
   check_at_most(v, "known", world.known, 4, world.landmarks);
@@ -160,7 +160,7 @@ void fields(Visitor& v, SpaceFlightOptions& space) {
   v.field("landmarks", space.landmarks,
           {.description = "Number of landmarks.",
            .minimum = 5,
-           .maximum = kMostLandmarks,
+           .maximum = kMostRangeLandmarks,
            .key = Key::kOptional});
   if constexpr (Visitor::kReads) space.known = std::min(space.known, space.landmarks);
   v.field("known", space.known, described("The first of them have a known position.", at_least(5)));
@@ -189,7 +189,7 @@ template <typename Visitor>
 void fields(Visitor& v, FactorizationGrid& grid) {
   FieldRule landmarks = record_rules::kSteps;
   landmarks.minimum = 4;
-  landmarks.maximum = kMostLandmarks;
+  landmarks.maximum = kMostRangeLandmarks;
   landmarks.description = "Numbers of landmarks, ascending.";
   v.field("landmarks", grid.landmarks, landmarks);
   v.field("steps", grid.steps, record_rules::kSteps);

@@ -14,6 +14,17 @@ InputSummary summary_of(const ObservationSource& source) {
       .reading = source.reading};
 }
 
+InputSummary summary_of(const PackedSource& source) {
+  const PackedHistory& history = source.history;
+  const double entries =
+      std::max(1.0, static_cast<double>(history.landmarks()) * static_cast<double>(history.steps));
+  return {.landmarks = history.landmarks(),
+          .steps = history.steps,
+          .sensor = std::string(name(history.sensor)),
+          .missing_share = history.missing / entries,
+          .reading = source.reading};
+}
+
 InputSummary summary_of(const DetectionSource& source, const std::string& sensor) {
   const auto landmarks = std::ssize(source.log.names);
   const double entries =

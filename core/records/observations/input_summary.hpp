@@ -17,6 +17,7 @@ struct InputSummary {
 };
 
 InputSummary summary_of(const ObservationSource& source);
+InputSummary summary_of(const PackedSource& source);
 /// @param sensor  What is taken of the detections.
 InputSummary summary_of(const DetectionSource& source, const std::string& sensor);
 

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,10 +33,18 @@ class NameList {
   const std::vector<std::string>& locations() const { return locations_; }
 
  private:
+  /// Of names that are not copied to be looked up: each row of a long table has one.
+  struct Hash {
+    using is_transparent = void;
+    std::size_t operator()(std::string_view name) const {
+      return std::hash<std::string_view>()(name);
+    }
+  };
+
   const std::string& source_;
   std::vector<std::string> names_;
   std::vector<std::string> locations_;
-  std::map<std::string, Eigen::Index, std::less<>> index_;
+  std::unordered_map<std::string, Eigen::Index, Hash, std::equal_to<>> index_;
 };
 
 /// The landmarks of a whole table. @param coordinates  x and y of each name in turn.

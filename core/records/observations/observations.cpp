@@ -1,7 +1,6 @@
 #include "core/records/observations/observations.hpp"
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -15,134 +14,19 @@
 #include "core/records/detections/mrclam.hpp"
 #include "core/records/detections/scan_grouping.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/observations/grid_table.hpp"
 #include "core/records/observations/input_kind.hpp"
-#include "core/records/observations/name_list.hpp"
 #include "core/records/observations/observation_json.hpp"
 #include "core/records/observations/sources.hpp"
 #include "core/records/tables/cells.hpp"
 #include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_reader.hpp"
-#include "core/records/tables/table_shape.hpp"
+#include "core/records/tables/table_stream.hpp"
 #include "core/records/tables/time_text.hpp"
 #include "core/records/tables/value_rows.hpp"
 
 namespace mapproof {
 namespace {
-
-using Cells = std::span<const std::string_view>;
-
-/// Reads the rows one by one into a row-major array: of landmarks, or of steps if it is transposed.
-class GridTable {
- public:
-  GridTable(const std::string& source, Sensor sensor, const TableFormat& format, TableShape shape)
-      : source_(source),
-        sensor_(sensor),
-        form_{.unit = format.unit, .is_clockwise = is_clockwise(format.convention)},
-        shape_(std::move(shape)),
-        names_(source) {}
-
-  void add_header(const TableRow& row) {
-    width_ = row.cells.size() + (shape_.is_header_short ? 1 : 0);
-    first_line_ = row.line;
-    if (!shape_.is_transposed) return;
-    names_landmarks_ = std::ranges::any_of(row.cells, [](std::string_view cell) {
-      return column_heading(cell, 0, {}).role == ColumnRole::kLandmark;
-    });
-    std::vector<std::string_view> cells = row.cells;
-    if (shape_.is_header_short) cells.insert(cells.begin(), "");
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (i != shape_.label_column) names_.add(cells[i], row.line);
-  }
-
-  void add(const TableRow& row) {
-    const std::string location = fmt::format("line {}", row.line);
-    if (width_ == 0) begin(row);
-    if (row.cells.size() != width_)
-      throw IoError(
-          source_, location,
-          fmt::format("has {} cells where line {} has {}", row.cells.size(), first_line_, width_));
-    if (row.cells.size() == (shape_.label_column ? 1U : 0U))
-      throw IoError(source_, location,
-                    "a single cell: cells stand between commas, semicolons, tabs or blanks");
-    ++rows_;
-    if (!shape_.is_transposed)
-      names_.add(shape_.label_column ? row.cells[*shape_.label_column]
-                                     : std::string_view(fmt::format("L{}", rows_)),
-                 row.line);
-    const std::size_t values = width_ - (shape_.label_column ? 1 : 0);
-    shape_.is_transposed ? check_size(source_, location, values, rows_)
-                         : check_size(source_, location, rows_, values);
-    add_values(row.cells, location);
-  }
-
-  ObservationSource result() && {
-    if (rows_ == 0)
-      throw IoError(source_, shape_.has_header ? "holds a header and no rows" : "holds no rows");
-    const auto rows = static_cast<Eigen::Index>(rows_);
-    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const Eigen::Map<const RowMajor> values(values_.data(), rows,
-                                            static_cast<Eigen::Index>(values_.size()) / rows);
-    ObservationSource source{.history = {.sensor = sensor_, .names = names_.names(), .values = {}},
-                             .ground_truth_m = std::nullopt,
-                             .remarks = {},
-                             .locations = names_.locations(),
-                             .path = source_};
-    if (shape_.is_transposed)
-      source.history.values = values.transpose();
-    else
-      source.history.values = values;
-    return source;
-  }
-
- private:
-  void begin(const TableRow& row) {
-    width_ = row.cells.size();
-    first_line_ = row.line;
-    if (!shape_.is_transposed) return;
-    for (std::size_t i = shape_.label_column ? 1 : 0; i < width_; ++i)
-      names_.add(fmt::format("L{}", names_.names().size() + 1), row.line);
-  }
-
-  /// Of a list of detections whose measurements have other names.
-  const char* remedy() const {
-    return names_landmarks_ ? "; if each row is a detection, --columns ROLE=HEADER names range, "
-                              "bearing, value, or x and y"
-                            : "";
-  }
-
-  void add_values(Cells cells, const std::string& location) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (i == shape_.label_column) continue;
-      const std::optional<double> value = detection_value(cells[i], sensor_, form_);
-      if (!value)
-        throw IoError(source_, fmt::format("{}, column {}", location, i + 1),
-                      detection_problem(cells[i], sensor_, form_) + remedy());
-      values_.push_back(*value);
-    }
-  }
-
-  const std::string& source_;
-  Sensor sensor_;
-  ValueForm form_;
-  TableShape shape_;
-  NameList names_;
-  std::vector<double> values_;
-  std::size_t width_ = 0;
-  std::size_t first_line_ = 0;
-  std::size_t rows_ = 0;          ///< Without the header.
-  bool names_landmarks_ = false;  ///< The header has a word for landmarks.
-};
-
-TableReading reading_of(const TableReader& reader, const TableFormat& format,
-                        const TableShape& shape) {
-  return {.form = shape.is_transposed ? "transposed table" : "wide table",
-          .columns = {},
-          .separator = reader.separator(),
-          .has_decimal_commas = reader.has_decimal_commas(),
-          .times = shape.has_dates ? "dates" : "",
-          .unit = format.unit,
-          .convention = format.convention};
-}
 
 using Measured = ValueRows::Measured;
 
@@ -211,6 +95,13 @@ Eigen::MatrixXd arrange(const std::vector<Measured>& measurements, const ValueRo
   return values;
 }
 
+/// A step, a name that is not a number, and a value.
+bool is_long_row(const TableRow& row) {
+  if (row.cells.size() != 3) return false;
+  const auto is_value = [](std::string_view cell) { return is_missing(cell) || number_in(cell); };
+  return time_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
+}
+
 std::vector<UnassociatedMeasurement> unassociated_in(const std::vector<Measured>& measurements) {
   std::vector<UnassociatedMeasurement> unassociated;
   if (std::ranges::none_of(measurements,
@@ -228,26 +119,6 @@ std::vector<UnassociatedMeasurement> unassociated_in(const std::vector<Measured>
 }
 
 }  // namespace
-
-ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
-                            const TableFormat& format) {
-  const TableShape shape = table_shape(text, source, format);
-  if (!shape.doubt.empty()) throw IoError(source, shape.doubt);
-  TableReader reader(text, source);
-  GridTable table(source, sensor, format, shape);
-  TableRow row;
-  bool is_first = true;
-  while (reader.next(row)) {
-    if (is_first && shape.has_header)
-      table.add_header(row);
-    else
-      table.add(row);
-    is_first = false;
-  }
-  ObservationSource result = std::move(table).result();
-  result.reading = reading_of(reader, format, shape);
-  return result;
-}
 
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
                             const TableFormat& format) {
@@ -299,9 +170,16 @@ bool has_long_header(std::string_view text, const std::string& source, const Col
 bool starts_as_long(std::string_view text, const std::string& source) {
   TableReader reader(text, source);
   TableRow row;
-  if (!reader.next(row) || row.cells.size() != 3) return false;
-  const auto is_value = [](std::string_view cell) { return is_missing(cell) || number_in(cell); };
-  return time_in(row.cells[0]) && !is_value(row.cells[1]) && is_value(row.cells[2]);
+  return reader.next(row) && is_long_row(row);
+}
+
+bool is_grid_table(ByteSource& source, const TableFormat& format) {
+  respell(source);
+  if (format.layout == Layout::kLong || is_json(source)) return false;
+  if (format.layout != Layout::kAuto) return true;
+  return !is_detections(source, format) && !first_row_is(source, [&](const TableRow& row) {
+    return names_value_columns(row, format.columns) || is_stacked_header(row) || is_long_row(row);
+  });
 }
 
 ObservationSource read_observations(ByteSource& source, std::optional<Sensor> kind,
@@ -315,24 +193,25 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
           "holds detections: --sensor range-bearing, range, bearing or visibility states which");
     return observations_of(read_detections(source, format), *kind);
   }
-  const bool holds_json = is_json(source);
-  const std::string bytes = source.rest();
-  const std::string_view text = checked_text(bytes, name);
-  if (holds_json && format.scan_window_s) refuse_window(name);
-  if (holds_json) require_columns({}, format.columns, name);
-  if (holds_json) return parse_observations(text, name, kind);
+  if (is_json(source)) {
+    const std::string bytes = source.rest();
+    const std::string_view text = checked_text(bytes, name);
+    if (format.scan_window_s) refuse_window(name);
+    require_columns({}, format.columns, name);
+    return parse_observations(text, name, kind);
+  }
   if (!kind)
     throw IoError(
         name,
         "does not state what its values are: --sensor bearing (radians, counter-clockwise "
         "from the heading; --degrees for degrees), range (metres) or visibility (0 or 1)");
-  const bool is_long =
-      format.layout == Layout::kLong ||
-      (format.layout == Layout::kAuto &&
-       (has_long_header(text, name, format.columns) || starts_as_long(text, name)));
-  if (!is_long && format.scan_window_s) refuse_window(name);
-  ObservationSource result =
-      is_long ? read_long(text, name, *kind, format) : read_wide(text, name, *kind, format);
+  if (is_grid_table(source, format)) {
+    if (format.scan_window_s) refuse_window(name);
+    return unpacked(read_grid(source, *kind, format));
+  }
+  const std::string bytes = source.rest();
+  const std::string_view text = checked_text(bytes, name);
+  ObservationSource result = read_long(text, name, *kind, format);
   result.reading.packing = source.form();
   if (!source.original().empty()) result.reading.separator = '\0';
   if (is_cut_table(text)) result.remarks.emplace_back(kCutRemark);

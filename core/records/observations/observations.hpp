@@ -34,10 +34,11 @@ ObservationSource read_observations(ByteSource& source, std::optional<Sensor> ki
 ObservationSource read_observations(const std::filesystem::path& path, std::optional<Sensor> kind,
                                     const TableFormat& format = {});
 
-/// The wide and the long form of a table; `text` is from checked_text().
-ObservationSource read_wide(std::string_view text, const std::string& source, Sensor sensor,
-                            const TableFormat& format = {});
+/// Whether the source, which stays unread, is a table of landmarks times steps, as read_grid()
+/// takes it. @throws IoError as respell().
+bool is_grid_table(ByteSource& source, const TableFormat& format = {});
 
+/// The long form of a table; `text` is from checked_text().
 ObservationSource read_long(std::string_view text, const std::string& source, Sensor sensor,
                             const TableFormat& format = {});
 

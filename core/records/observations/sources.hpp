@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,10 +8,13 @@
 #include <vector>
 
 #include "core/model/detection_log.hpp"
+#include "core/model/histories/history_blocks.hpp"
 #include "core/model/observation_history.hpp"
 #include "core/model/points.hpp"
 #include "core/model/sensor.hpp"
+#include "core/records/tables/cells.hpp"
 #include "core/records/tables/column_names.hpp"
+#include "core/records/tables/packed_table.hpp"
 
 namespace mapproof {
 
@@ -94,6 +98,36 @@ struct ObservationSource {
   std::vector<UnassociatedMeasurement> unassociated = {};
   TableReading reading = {};
 };
+
+/// A table of landmarks times steps that is kept as the numbers of its file, since an array of its
+/// values would take several times the memory.
+struct PackedHistory {
+  Sensor sensor = Sensor::kVisibility;
+  std::vector<std::string> names;  ///< Of the landmarks, M of them, all different.
+  Eigen::Index steps = 0;
+  double missing = 0.0;  ///< So many of the M x N values are.
+  std::shared_ptr<const PackedTable> table;
+  ValueForm form;                           ///< How the table writes values.
+  bool is_transposed = false;               ///< Its rows are steps.
+  std::optional<std::size_t> label_column;  ///< It holds no values.
+
+  Eigen::Index landmarks() const { return std::ssize(names); }
+  /// The object must outlive what is returned.
+  HistoryBlocks blocks() const;
+  ObservationHistory array() const;
+};
+
+/// What is known of a source of observations but for its history.
+struct PackedSource {
+  PackedHistory history;
+  std::vector<std::string> remarks;    ///< What was dropped or assumed, a sentence each.
+  std::vector<std::string> locations;  ///< M; where the file holds the landmark: "line 7".
+  std::string path;                    ///< For errors: the file that was read.
+  TableReading reading = {};
+};
+
+/// The same observations as an array.
+ObservationSource unpacked(const PackedSource& source);
 
 /// Landmarks with known positions: anchors, or the ground truth.
 struct NamedPoints {

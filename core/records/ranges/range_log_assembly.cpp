@@ -44,8 +44,9 @@ std::vector<std::string> names_of(const RangeLogParts& parts) {
   std::set<std::string_view> known;
   for (const NamedMeasurement& measured : parts.measurements)
     if (known.insert(measured.landmark).second) names.push_back(measured.landmark);
-  if (names.size() > kMostLandmarks)
-    throw IoError(parts.source, fmt::format("ranges to more than {} landmarks", kMostLandmarks));
+  if (names.size() > kMostRangeLandmarks)
+    throw IoError(parts.source,
+                  fmt::format("ranges to more than {} landmarks", kMostRangeLandmarks));
   if (std::ranges::all_of(names, [](const auto& name) { return numbered(name).has_value(); }))
     std::ranges::stable_sort(names, {}, [](const auto& name) { return *numbered(name); });
   return names;
@@ -114,9 +115,9 @@ void take_measurements(const RangeLogOptions& options, RangeLogParts& parts, Ran
 void take_true_landmarks(const RangeLogParts& parts, RangeLog& log) {
   const NamedPoints& ground_truth = parts.true_landmarks;
   if (ground_truth.names.empty()) return;
-  if (ground_truth.names.size() > kMostLandmarks)
+  if (ground_truth.names.size() > kMostRangeLandmarks)
     throw IoError(parts.source,
-                  fmt::format("true positions of more than {} landmarks", kMostLandmarks));
+                  fmt::format("true positions of more than {} landmarks", kMostRangeLandmarks));
   const std::map<std::string_view, Eigen::Index> rows = rows_by_name(log.landmarks);
   log.true_landmarks = Points::Constant(static_cast<Eigen::Index>(log.landmarks.size()), 2, kNaN);
   std::vector<std::string> unheard;

@@ -74,7 +74,8 @@ void fields(Visitor& v, SpaceRun& run) {
   v.file("mapproof.space_run", "space.json: a flight and what was made of its ranges.");
   v.field("noise", run.noise, {.max_bytes = 200});
   v.field("known", run.known, kRows);
-  v.field("landmarks_m", run.landmarks_m, {.whole_as_integers = true, .max_items = kMostLandmarks});
+  v.field("landmarks_m", run.landmarks_m,
+          {.whole_as_integers = true, .max_items = kMostRangeLandmarks});
   v.field("positions_m", run.positions_m, {.whole_as_integers = true, .max_items = kMostSteps});
   v.field("records", run.records, {.max_items = 2});
   check_rows(v, "known", run.known, run.landmarks_m.rows());
@@ -110,7 +111,7 @@ inline constexpr FieldRule kCovariances = {
 template <typename Visitor>
 void fields(Visitor& v, RangeMeasurement& measured) {
   v.field("time_s", measured.time_s, record_rules::kWhole);
-  v.field("landmark", measured.landmark, {.minimum = 0, .maximum = kMostLandmarks - 1});
+  v.field("landmark", measured.landmark, {.minimum = 0, .maximum = kMostRangeLandmarks - 1});
   v.field("range_m", measured.range_m, record_rules::kWhole);
 }
 
@@ -309,7 +310,7 @@ void fields(Visitor& v, ConvergenceCurve& curve) {
          "convergence/ID.json: errors over random worlds, as steps are added.");
   v.field("id", curve.id, kId);
   v.field("title", curve.title, {.max_bytes = 200});
-  v.field("landmarks", curve.landmarks, {.minimum = 1, .maximum = kMostLandmarks});
+  v.field("landmarks", curve.landmarks, {.minimum = 1, .maximum = kMostRangeLandmarks});
   v.field("slope", curve.slope, kWholeOrNull);
   v.field("points", curve.points, {.max_items = 1000});
 }

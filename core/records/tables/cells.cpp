@@ -78,11 +78,17 @@ std::string FullTurn::remark() const {
       smallest_, largest_, is_degrees ? " --degrees" : "");
 }
 
-void remark_on_angles(const ObservationHistory& ranges, std::vector<std::string>& remarks) {
+void remark_on_angles(const HistoryBlocks& ranges, std::vector<std::string>& remarks) {
+  constexpr Eigen::Index kSteps = 4096;
   FullTurn turn;
-  for (Eigen::Index j = 0; j < ranges.steps(); ++j)
-    for (Eigen::Index i = 0; i < ranges.landmarks(); ++i)
-      turn.add(ranges.values(i, j), j == 0 ? kNaN : ranges.values(i, j - 1));
+  Eigen::VectorXd before = Eigen::VectorXd::Constant(ranges.landmarks(), kNaN);
+  for (Eigen::Index first = 0; first < ranges.steps(); first += kSteps) {
+    const Eigen::MatrixXd values = ranges.values(first, std::min(kSteps, ranges.steps() - first));
+    for (Eigen::Index j = 0; j < values.cols(); ++j) {
+      for (Eigen::Index i = 0; i < values.rows(); ++i) turn.add(values(i, j), before(i));
+      before = values.col(j);
+    }
+  }
   if (std::string remark = turn.remark(); !remark.empty()) remarks.push_back(std::move(remark));
 }
 
@@ -106,32 +112,27 @@ void check_size(const std::string& source, const std::string& location, std::siz
   if (steps > kMostSteps)
     throw IoError(source, location, fmt::format("{} steps; at most {}", steps, kMostSteps));
   if (landmarks > kMostLandmarks)
-    throw IoError(
-        source, location,
-        fmt::format("more than {} landmarks: each row is a landmark and each column a step; "
-                    "should the table be transposed?",
-                    kMostLandmarks));
+    throw IoError(source, location, fmt::format("more than {} landmarks", kMostLandmarks));
   if (static_cast<double>(landmarks) * static_cast<double>(steps) > kMostEntries)
     throw IoError(source, location,
                   fmt::format("{} landmarks x {} steps are more than {:.0f} entries", landmarks,
                               steps, kMostEntries));
 }
 
-std::optional<double> detection_value(std::string_view cell, Sensor sensor, const ValueForm& form) {
-  const bool is_bearing = sensor == Sensor::kBearing;
-  const bool is_plain = is_bearing ? form.unit == AngleUnit::kRadians && !form.is_clockwise
-                                   : sensor != Sensor::kRange || form.factor == 1.0;
-  if (is_plain || is_missing(cell)) return observation_in(cell, sensor);
-  const std::optional<double> number = number_in(cell);
-  if (!number) return std::nullopt;
-  if (!is_bearing)
-    return is_good(sensor, *number * form.factor) ? std::optional(*number * form.factor)
-                                                  : std::nullopt;
+std::optional<double> detection_of(double number, Sensor sensor, const ValueForm& form) {
+  if (sensor == Sensor::kRange) number *= form.factor;
+  if (sensor != Sensor::kBearing || (form.unit == AngleUnit::kRadians && !form.is_clockwise))
+    return is_good(sensor, number) ? std::optional(number) : std::nullopt;
   const bool is_degrees = form.unit == AngleUnit::kDegrees;
-  if (!(std::abs(*number) <= (is_degrees ? 360.0 + 1e-3 : kLargestBearing_rad)))
-    return std::nullopt;
-  const double radians = is_degrees ? in_radians(*number) : *number;
+  if (!(std::abs(number) <= (is_degrees ? 360.0 + 1e-3 : kLargestBearing_rad))) return std::nullopt;
+  const double radians = is_degrees ? in_radians(number) : number;
   return form.is_clockwise ? 0.0 - radians : radians;
+}
+
+std::optional<double> detection_value(std::string_view cell, Sensor sensor, const ValueForm& form) {
+  if (is_missing(cell)) return kNaN;
+  const std::optional<double> number = number_in(cell);
+  return number ? detection_of(*number, sensor, form) : std::nullopt;
 }
 
 std::string detection_problem(std::string_view cell, Sensor sensor, const ValueForm& form) {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/model/observation_history.hpp"
+#include "core/model/histories/history_blocks.hpp"
 #include "core/model/sensor.hpp"
 
 namespace mapproof {
@@ -40,7 +40,7 @@ class FullTurn {
 };
 
 /// Adds the remark of FullTurn on the ranges of a history, if it has one.
-void remark_on_angles(const ObservationHistory& ranges, std::vector<std::string>& remarks);
+void remark_on_angles(const HistoryBlocks& ranges, std::vector<std::string>& remarks);
 
 /// @param place  For the error: "line 7". @throws IoError if the history grows beyond its bounds.
 void check_size(const std::string& source, const std::string& location, std::size_t landmarks,
@@ -52,6 +52,10 @@ struct ValueForm {
   double factor = 1.0;                   ///< Metres of one unit of a range.
   bool is_clockwise = false;             ///< The bearings: they get the other sign.
 };
+
+/// A number of a file as a range in metres or a bearing in radians, counter-clockwise; empty if it
+/// is none.
+std::optional<double> detection_of(double number, Sensor sensor, const ValueForm& form);
 
 /// A cell as a range in metres or a bearing in radians, counter-clockwise; NaN if it is missing.
 /// Empty if it is wrong: detection_problem() gives the reason.

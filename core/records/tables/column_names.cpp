@@ -212,6 +212,10 @@ bool take_unit(std::string_view unit, ColumnHeading& heading) {
 
 /// "Range [cm]" as "range" and "cm"; "range_cm" and "Range cm" too.
 ColumnHeading understood(std::string_view cell) {
+  // A row may have a million numbers, none of which is a word.
+  const std::size_t first = cell.find_first_not_of(" -+.");
+  if (first != std::string_view::npos && cell[first] >= '0' && cell[first] <= '9')
+    return {.role = std::nullopt};
   std::string text = lower_case(trimmed(cell));
   // rostopic calls the members of a message "field.range".
   if (constexpr std::string_view kField = "field."; text.starts_with(kField))

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 
@@ -69,6 +72,137 @@ std::string with_decimal_point(std::string_view cell) {
   return number;
 }
 
+/// As trimmed(), but a tab that separates is not a blank.
+std::string_view bare(std::string_view cell, char separator) {
+  const auto is_blank = [&](char c) {
+    return c == ' ' || c == '\r' || (c == '\t' && separator != '\t');
+  };
+  while (!cell.empty() && is_blank(cell.front())) cell.remove_prefix(1);
+  while (!cell.empty() && is_blank(cell.back())) cell.remove_suffix(1);
+  return cell;
+}
+
+/// A plain number at the start of a text, and where it ends; null: there is none.
+const char* plain_number(const char* at, const char* end, double& value) {
+  constexpr std::array<double, 16> kPowers = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                              1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const char* const start = at;
+  const bool is_negative = at < end && *at == '-';
+  if (is_negative) ++at;
+  const auto digit = [&] { return static_cast<unsigned>(static_cast<unsigned char>(*at)) - '0'; };
+  std::uint64_t digits = 0;
+  const char* const whole = at;
+  for (; at < end && digit() < 10; ++at) digits = 10 * digits + digit();
+  const auto before = at - whole;
+  std::ptrdiff_t after = 0;
+  if (at < end && *at == '.') {
+    const char* const fraction = ++at;
+    for (; at < end && digit() < 10; ++at) digits = 10 * digits + digit();
+    after = at - fraction;
+    if (after == 0) return nullptr;
+  }
+  if (before == 0) return nullptr;
+  // Up to 15 digits both are exact, so that one rounding is all; the rest is the library's.
+  if (before + after <= 15 && (at == end || (*at | ' ') != 'e')) {
+    const double size = static_cast<double>(digits) / kPowers[static_cast<std::size_t>(after)];
+    value = is_negative ? -size : size;
+    return at;
+  }
+  const auto [stop, error] = std::from_chars(start, end, value);
+  return error == std::errc() ? stop : nullptr;
+}
+
+/// The cells of one row, without quotes.
+class PlainCells {
+ public:
+  PlainCells(const char* at, const char* end, char separator)
+      : at_(at), end_(end), separator_(separator) {}
+
+  const char* at() const { return at_; }
+
+  /// Whether a row with content, which is not a comment, starts here.
+  bool starts_row() {
+    if (separator_ == TableReader::kBlanks) skip_blanks();
+    return at_ < end_ && *at_ != '\n' && *at_ != '\r' && *at_ != '#' && *at_ != ' ' && *at_ != '\t';
+  }
+
+  /// @param is_last  Whether the row ends behind the cell. @return False if it is not plain.
+  bool take(double& value, bool& is_last) {
+    skip_blanks();
+    if (const char* stop = plain_number(at_, end_, value)) {
+      at_ = stop;
+      return ends_cell(is_last);
+    }
+    value = kNaN;
+    return is_missing(take_text()) && ends_cell(is_last);
+  }
+
+  bool take_first(NumberRow& row, bool& is_last) {
+    const char* const start = at_;
+    double value = 0.0;
+    const char* const stop = plain_number(at_, end_, value);
+    if (stop != nullptr) {
+      at_ = stop;
+      if (ends_cell(is_last)) {
+        row.first = std::string_view(start, static_cast<std::size_t>(stop - start));
+        row.starts_as_text = false;
+        row.values.front() = value;
+        return true;
+      }
+      at_ = start;
+    }
+    const bool is_quoted = at_ < end_ && *at_ == '"';
+    if (is_quoted) {
+      const char* const close = std::find(++at_, end_, '"');
+      row.first = std::string_view(at_, static_cast<std::size_t>(close - at_));
+      if (close == end_ || row.first.find('\n') != std::string_view::npos) return false;
+      at_ = close + 1;
+    } else {
+      row.first = take_text();
+    }
+    // A decimal comma, or a quote within, is left to next().
+    if (!is_quoted && row.first.find_first_of(",\"+") != std::string_view::npos) return false;
+    row.starts_as_text = !is_missing(row.first);
+    // Perhaps a rule; or a number in another form, ".5" or in quotes.
+    if (row.starts_as_text && (row.first.starts_with('-') || number_in(row.first))) return false;
+    return ends_cell(is_last);
+  }
+
+ private:
+  bool is_blank(char c) const { return c == ' ' || (c == '\t' && separator_ != '\t'); }
+
+  void skip_blanks() {
+    while (at_ < end_ && is_blank(*at_)) ++at_;
+  }
+
+  /// Up to the end of the cell, without the blanks there.
+  std::string_view take_text() {
+    const char* const start = at_;
+    while (at_ < end_ && *at_ != separator_ && *at_ != '\n' && *at_ != '\r' &&
+           (separator_ != TableReader::kBlanks || !is_blank(*at_)))
+      ++at_;
+    return bare({start, static_cast<std::size_t>(at_ - start)}, separator_);
+  }
+
+  /// Passes over what ends a cell; false: something else follows.
+  bool ends_cell(bool& is_last) {
+    const char* const start = at_;
+    skip_blanks();
+    if (at_ < end_ && *at_ == '\r' && (at_ + 1 == end_ || at_[1] == '\n')) ++at_;
+    is_last = at_ == end_ || *at_ == '\n';
+    if (is_last) {
+      if (at_ < end_) ++at_;
+      return true;
+    }
+    if (separator_ == TableReader::kBlanks) return at_ > start;
+    return *at_++ == separator_;
+  }
+
+  const char* at_;
+  const char* end_;
+  char separator_;
+};
+
 /// Whether a row underlines a header: "----  --------".
 bool is_rule(const TableRow& row) {
   constexpr std::size_t kShortest = 3;  // "--" is a missing value.
@@ -78,16 +212,6 @@ bool is_rule(const TableRow& row) {
     is_long = is_long || cell.size() >= kShortest;
   }
   return is_long;
-}
-
-/// As trimmed(), but a tab that separates is not a blank.
-std::string_view bare(std::string_view cell, char separator) {
-  const auto is_blank = [&](char c) {
-    return c == ' ' || c == '\r' || (c == '\t' && separator != '\t');
-  };
-  while (!cell.empty() && is_blank(cell.front())) cell.remove_prefix(1);
-  while (!cell.empty() && is_blank(cell.back())) cell.remove_suffix(1);
-  return cell;
 }
 
 }  // namespace
@@ -150,6 +274,27 @@ bool TableReader::next(TableRow& row) {
     split(row);
   } while (is_rule(row));
   if (separator_ != ',') take_decimal_commas(row);
+  return true;
+}
+
+bool TableReader::next_numbers(NumberRow& row) {
+  row.values.clear();
+  const char* const end = text_.data() + text_.size();
+  PlainCells cells(text_.data() + at_, end, separator_);
+  // What next() passes over, or refuses, is left to it.
+  if (!cells.starts_row() || (at_ == 0 && stated_separator(trimmed(rest_of_line())))) return false;
+  row.line = line_;
+  bool is_last = false;
+  row.values.push_back(kNaN);
+  if (!cells.take_first(row, is_last)) return false;
+  while (!is_last) {
+    double value = 0.0;
+    if (!cells.take(value, is_last)) return false;
+    row.values.push_back(value);
+  }
+  if (row.values.size() == 1 && row.starts_as_text) return false;
+  at_ = static_cast<std::size_t>(cells.at() - text_.data());
+  ++line_;
   return true;
 }
 

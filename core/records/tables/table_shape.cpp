@@ -24,34 +24,6 @@ bool is_text_cell(std::string_view cell) {
   return !is_missing(cell) && !number_in(cell) && !date_in(cell);
 }
 
-/// The content of the cells of a first column, below the header.
-struct LabelCells {
-  std::size_t rows = 0;
-  std::size_t texts = 0;
-  std::size_t dates = 0;
-  bool ascends = true;  ///< All are numbers, each above the one before.
-  double last = 0.0;
-
-  void add(std::string_view cell) {
-    const std::optional<double> number = number_in(cell);
-    if (!number) {
-      ascends = false;
-      if (date_in(cell))
-        ++dates;
-      else if (!is_missing(cell))
-        ++texts;
-    } else {
-      ascends = ascends && (rows == 0 || *number > last);
-      last = *number;
-    }
-    ++rows;
-  }
-
-  bool are_names() const { return texts > 0; }
-  bool are_dates() const { return texts == 0 && dates > 0; }
-  bool are_times() const { return are_dates() || (ascends && rows >= kAscendingRows); }
-};
-
 /// 0, 1, 2, ... or other numbers or dates, each above the one before: steps, not values.
 bool are_steps(Texts cells) {
   double last = 0.0;
@@ -88,107 +60,138 @@ bool is_first_row_header(Texts row, const TableFormat& format) {
          std::ranges::any_of(others, [](const auto& cell) { return !is_missing(cell); });
 }
 
-/// What is known of a table before its layout is.
-struct TableFacts {
-  std::vector<std::string> first;  ///< Row, with an empty cell in front if the header is short.
-  LabelCells labels = {};
-  std::size_t columns = 0;  ///< Without names or times.
-};
+}  // namespace
 
-std::string doubt_of(const TableFacts& facts, std::string_view why) {
+void TableShapes::Labels::add(std::string_view cell) {
+  if (const std::optional<double> number = number_in(cell)) return add(*number);
+  ascends = false;
+  if (date_in(cell))
+    ++dates;
+  else if (!is_missing(cell))
+    ++texts;
+  ++rows;
+}
+
+void TableShapes::Labels::add(double number) {
+  ascends = ascends && (rows == 0 || number > last);
+  last = number;
+  ++rows;
+}
+
+bool TableShapes::Labels::are_times() const {
+  return are_dates() || (ascends && rows >= kAscendingRows);
+}
+
+TableShapes::TableShapes(const TableRow& first, const std::string& source,
+                         const TableFormat& stated)
+    : format_(stated), first_(first.cells.begin(), first.cells.end()), columns_(first_.size()) {
+  require_columns(first.cells, stated.columns, source);
+  format_.columns = columns_in(first.cells, stated.columns);
+  has_header_ = is_first_row_header(first_, format_);
+  if (has_header_) return;
+  labels_.add(first_.front());
+  drop_first();
+}
+
+void TableShapes::drop_first() {
+  first_.resize(1);
+  first_.shrink_to_fit();
+}
+
+void TableShapes::take_second(std::size_t cells) {
+  is_second_ = false;
+  if (!has_header_ || cells != columns_ + 1) return;
+  is_header_short_ = true;
+  first_.insert(first_.begin(), "");
+  ++columns_;
+}
+
+void TableShapes::add(std::string_view label, std::size_t cells) {
+  if (is_second_) take_second(cells);
+  labels_.add(label);
+  // Rows that have names are landmarks: what the header calls the steps is not read.
+  if (labels_.are_names() && format_.layout != Layout::kTransposed && first_.size() > 1)
+    drop_first();
+}
+
+void TableShapes::add(double label, std::size_t cells) {
+  if (is_second_) take_second(cells);
+  labels_.add(label);
+}
+
+std::size_t TableShapes::value_columns() const {
+  const bool may_be_labels = has_header_ || labels_.are_names() || labels_.are_dates();
+  return columns_ - (may_be_labels && columns_ > 0 ? 1 : 0);
+}
+
+std::string TableShapes::doubt_of(std::string_view why) const {
   return fmt::format(
       "{} rows x {} columns, {}: it seems transposed, with more landmarks than time steps; state "
       "--layout transposed if each row is a time step, or --layout wide if each row is a "
       "landmark{}",
-      facts.labels.rows, facts.columns, why,
-      facts.columns == 2 ? "; or --columns time=1,landmark=2 if each row is a detection" : "");
+      labels_.rows, value_columns(), why,
+      value_columns() == 2 ? "; or --columns time=1,landmark=2 if each row is a detection" : "");
 }
 
-void recognise_with_header(const TableFacts& facts, const TableFormat& format, TableShape& shape) {
-  const std::string& corner = facts.first.front();
-  const Texts others = Texts(facts.first).subspan(1);
-  const LabelCells& labels = facts.labels;
-  const bool is_tall = labels.rows > facts.columns;
+void TableShapes::recognise_with_header(TableShape& shape) const {
+  if (labels_.are_names()) return;
+  const std::string& corner = first_.front();
+  const Texts others = Texts(first_).subspan(1);
+  const bool is_tall = labels_.rows > value_columns();
   const bool has_steps = are_steps(others) || std::ranges::all_of(others, labels_step);
-  if (labels.are_names()) return;
   if (is_word_for_names(corner)) {
-    if (is_tall && labels.ascends && labels.rows >= kAscendingRows)
-      shape.doubt = doubt_of(facts, "whose names are numbers that ascend");
-  } else if (names_steps(corner, format.columns) || labels.are_dates()) {
+    if (is_tall && labels_.ascends && labels_.rows >= kAscendingRows)
+      shape.doubt = doubt_of("whose names are numbers that ascend");
+  } else if (names_steps(corner, format_.columns) || labels_.are_dates()) {
     shape.is_transposed = true;
   } else if (has_steps) {
-    if (is_tall && labels.rows >= kAscendingRows)
-      shape.doubt = doubt_of(facts, "and neither has names");
+    if (is_tall && labels_.rows >= kAscendingRows) shape.doubt = doubt_of("and neither has names");
   } else {
     // The header names landmarks. Without an index its first cell is one of them.
-    shape.is_transposed = !names_index(corner) || labels.ascends;
+    shape.is_transposed = !names_index(corner) || labels_.ascends;
   }
 }
 
-void recognise_layout(const TableFacts& facts, const TableFormat& format, TableShape& shape) {
-  if (format.layout == Layout::kTransposed) {
+void TableShapes::recognise_layout(TableShape& shape) const {
+  if (format_.layout == Layout::kTransposed) {
     shape.is_transposed = true;
-  } else if (format.layout != Layout::kWide) {
-    if (shape.has_header)
-      recognise_with_header(facts, format, shape);
-    else if (facts.labels.are_dates())
+  } else if (format_.layout != Layout::kWide) {
+    if (has_header_)
+      recognise_with_header(shape);
+    else if (labels_.are_dates())
       shape.is_transposed = true;
-    else if (!facts.labels.are_names() && facts.labels.rows > facts.columns)
-      shape.doubt = doubt_of(facts, "without names");
+    else if (!labels_.are_names() && labels_.rows > value_columns())
+      shape.doubt = doubt_of("without names");
   }
 }
 
 /// Which column holds names or times.
-std::optional<std::size_t> label_column(const TableFacts& facts, const TableFormat& format,
-                                        const TableShape& shape) {
-  const std::string& corner = facts.first.front();
-  const LabelCells& labels = facts.labels;
+std::optional<std::size_t> TableShapes::label_column(const TableShape& shape) const {
+  const std::string& corner = first_.front();
   if (!shape.is_transposed) {
-    const bool has_names = labels.are_names() ||
-                           (shape.has_header && (is_word_for_names(corner) || names_index(corner)));
+    const bool has_names =
+        labels_.are_names() || (has_header_ && (is_word_for_names(corner) || names_index(corner)));
     return has_names ? std::optional<std::size_t>(0) : std::nullopt;
   }
-  if (shape.has_header)
-    for (std::size_t i = 0; i < facts.first.size(); ++i) {
-      const bool is_asked = !format.columns.empty() &&
-                            column_heading(facts.first[i], i, format.columns).role.has_value() &&
-                            !column_heading(facts.first[i], i, {}).role;
+  if (has_header_)
+    for (std::size_t i = 0; i < first_.size(); ++i) {
+      const bool is_asked = !format_.columns.empty() &&
+                            column_heading(first_[i], i, format_.columns).role.has_value() &&
+                            !column_heading(first_[i], i, {}).role;
       if (is_asked) return i;
     }
-  const bool is_named =
-      shape.has_header && is_text_cell(corner) && names_steps(corner, format.columns);
-  const bool is_index = shape.has_header && names_index(corner);
-  return is_named || is_index || labels.are_times() ? std::optional<std::size_t>(0) : std::nullopt;
+  const bool is_named = has_header_ && is_text_cell(corner) && names_steps(corner, format_.columns);
+  const bool is_index = has_header_ && names_index(corner);
+  return is_named || is_index || labels_.are_times() ? std::optional<std::size_t>(0) : std::nullopt;
 }
 
-}  // namespace
-
-TableShape table_shape(std::string_view text, const std::string& source,
-                       const TableFormat& stated) {
-  TableReader reader(text, source);
-  TableRow row;
+TableShape TableShapes::shape() const {
   TableShape shape;
-  if (!reader.next(row)) return shape;
-  require_columns(row.cells, stated.columns, source);
-  TableFormat format = stated;
-  format.columns = columns_in(row.cells, stated.columns);
-  TableFacts facts{.first = {row.cells.begin(), row.cells.end()}};
-  shape.has_header = is_first_row_header(facts.first, format);
-  if (!shape.has_header) facts.labels.add(row.cells.front());
-  for (bool is_second = true; reader.next(row); is_second = false) {
-    if (is_second && shape.has_header && row.cells.size() == facts.first.size() + 1) {
-      shape.is_header_short = true;
-      facts.first.insert(facts.first.begin(), "");
-    }
-    facts.labels.add(row.cells.front());
-  }
-  facts.columns = facts.first.size();
-  const bool may_be_labels =
-      shape.has_header || facts.labels.are_names() || facts.labels.are_dates();
-  if (may_be_labels && facts.columns > 0) --facts.columns;
-  recognise_layout(facts, format, shape);
-  shape.label_column = label_column(facts, format, shape);
-  shape.has_dates = shape.is_transposed && shape.label_column && facts.labels.are_dates();
+  shape.has_header = has_header_;
+  shape.is_header_short = is_header_short_;
+  recognise_layout(shape);
+  shape.label_column = label_column(shape);
+  shape.has_dates = shape.is_transposed && shape.label_column && labels_.are_dates();
   return shape;
 }
 

@@ -1,6 +1,7 @@
 #include "core/records/tables/table_stream.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include <fmt/format.h>
 
@@ -13,7 +14,6 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 20;
-constexpr std::size_t kLongestRow = std::size_t{1} << 24;
 
 bool is_comment(std::string_view line) {
   const std::string_view content = trimmed(line);
@@ -21,8 +21,13 @@ bool is_comment(std::string_view line) {
 }
 
 /// Bytes up to the last end of a row: of a line that no quotes run on beyond.
-std::size_t whole_rows(std::string_view bytes) {
-  if (bytes.find('"') == std::string_view::npos) return bytes.rfind('\n') + 1;
+/// @param searched  So many bytes at the start hold no end of a row.
+std::size_t whole_rows(std::string_view bytes, std::size_t searched = 0) {
+  if (bytes.find('"') == std::string_view::npos) {
+    const auto* end =
+        static_cast<const char*>(::memrchr(bytes.data() + searched, '\n', bytes.size() - searched));
+    return end == nullptr ? 0 : static_cast<std::size_t>(end - bytes.data()) + 1;
+  }
   std::size_t whole = 0;
   bool is_quoted = false;
   for (std::size_t at = 0; at < bytes.size();) {
@@ -53,7 +58,7 @@ bool first_row_is(ByteSource& source, const std::function<bool(const TableRow& r
       TableReader reader(text, source.name(), separator.value_or(TableReader::separator_in(text)));
       if (TableRow row; reader.next(row)) return sort(row);
     }
-    if (is_all || start.size() > kLongestRow) return false;
+    if (is_all || start.size() > TableStream::kLongestRow) return false;
   }
 }
 
@@ -71,12 +76,15 @@ bool TableStream::read_rows() {
   lines_ += static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.begin() + whole_, '\n'));
   bytes_.erase(0, whole_);
   whole_ = 0;
+  std::size_t searched = bytes_.size();
   while (whole_ == 0 && !is_over_) {
     is_over_ = !source_.append(bytes_, kBlock);
-    whole_ = is_over_ ? bytes_.size() : whole_rows(bytes_);
-    if (whole_ == 0 && bytes_.size() > kLongestRow)
-      throw IoError(source(), fmt::format("line {}", lines_ + 1),
-                    "a row of more than 16 MB: do its quotes end?");
+    whole_ = is_over_ ? bytes_.size() : whole_rows(bytes_, searched);
+    searched = bytes_.size();
+    if (whole_ == 0 && bytes_.size() > longest_row_)
+      throw IoError(
+          source(), fmt::format("line {}", lines_ + 1),
+          fmt::format("a row of more than {} MB: do its quotes end?", longest_row_ >> 20));
   }
   if (is_over_) is_cut_ = is_cut_table(bytes_);
   if (whole_ == 0) {
@@ -96,6 +104,13 @@ bool TableStream::next(TableRow& row) {
     if (!read_rows()) return false;
   }
   return true;
+}
+
+bool TableStream::next_numbers(NumberRow& row) {
+  while (!reader_ || reader_->is_over()) {
+    if (!read_rows()) return false;
+  }
+  return reader_->next_numbers(row);
 }
 
 }  // namespace mapproof

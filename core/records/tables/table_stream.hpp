@@ -25,13 +25,20 @@ std::vector<std::string> first_row(ByteSource& source);
 /// time.
 class TableStream {
  public:
-  /// @param source  Must outlive the object.
-  explicit TableStream(ByteSource& source) : source_(source) {}
+  static constexpr std::size_t kLongestRow = std::size_t{1} << 24;
+
+  /// @param source       Must outlive the object.
+  /// @param longest_row  Bytes of a row beyond which quotes are taken not to end.
+  explicit TableStream(ByteSource& source, std::size_t longest_row = kLongestRow)
+      : source_(source), longest_row_(longest_row) {}
 
   /// @return Whether there was a row. @throws IoError with the line for what is not a text, for
   /// broken
-  ///         quotes, or a row of more than 16 MB.
+  ///         quotes, a row that is too long.
   bool next(TableRow& row);
+
+  /// As that of TableReader. @throws IoError as next().
+  bool next_numbers(NumberRow& row);
 
   /// After the last row: it has no line end, see kCutRemark.
   bool is_cut() const { return is_cut_; }
@@ -52,6 +59,7 @@ class TableStream {
   bool read_rows();
 
   ByteSource& source_;
+  std::size_t longest_row_;
   std::string bytes_;      ///< Whole rows, then the start of the next one.
   std::size_t whole_ = 0;  ///< Bytes of them that are whole rows.
   std::size_t lines_ = 0;  ///< Before them.

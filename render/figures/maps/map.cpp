@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kReach = 0.75;  // Estimates this many room sides off are still shown in place.
 constexpr std::size_t kMostWorst = 5;
+constexpr Eigen::Index kMostDrawn = 5000;  // Landmarks; of more they would cover each other:
+constexpr Eigen::Index kDrawnOfMore = 1000;  // so many are drawn.
 
 void require_consistent(const MapRecord& record) {
   const auto rows = static_cast<Eigen::Index>(record.names.size());
@@ -133,7 +135,10 @@ std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& r
 class MapFigure {
  public:
   MapFigure(const MapRecord& record, const std::string& id, const std::string& what)
-      : record_(record), view_(view_of(record)), what_(what) {
+      : record_(record),
+        view_(view_of(record)),
+        what_(what),
+        every_(record.estimate.rows() > kMostDrawn ? record.estimate.rows() / kDrawnOfMore : 1) {
     figure_.id = id;
     figure_.title = what.empty() ? subject(record, " · ") : what;
     figure_.record_ids = {record.id};
@@ -169,6 +174,7 @@ class MapFigure {
     if (const std::string score = score_text(record_); !score.empty()) notes.push_back({score});
     if (record_.frame == Frame::kSimilarity)
       notes.push_back({"Shape alone: translation, rotation, scale and reflection are arbitrary."});
+    if (every_ > 1) notes.push_back({drawn_text()});
     if (!view_.outside.empty()) notes.push_back({outside_text(), ThemeColour::kWarning});
     if (!view_.unmapped.empty())
       notes.push_back(
@@ -176,6 +182,11 @@ class MapFigure {
     std::vector<std::string> statuses;
     for (const Status& status : record_.statuses) statuses.push_back(status_text(status));
     add_status_notes(statuses, notes);
+  }
+
+  std::string drawn_text() const {
+    return fmt::format("Drawn: one in {} of {}, the anchors, and the largest errors.", every_,
+                       counted(record_.names.size(), "landmark"));
   }
 
   std::string outside_text() const {
@@ -201,6 +212,7 @@ class MapFigure {
       caption +=
           " Open circles: true positions; dots: estimates, joined by their errors; squares: "
           "anchors.";
+    if (every_ > 1) caption += " " + drawn_text();
     if (!view_.worst.empty()) caption += " Worst: " + worst_text() + ".";
     if (!view_.outside.empty()) caption += " " + outside_text();
     if (!view_.unmapped.empty())
@@ -223,6 +235,11 @@ class MapFigure {
     return listed(parts, kMostNamed);
   }
 
+  bool is_drawn(Eigen::Index row) const {
+    return every_ == 1 || row % every_ == 0 || view_.is_anchor[row] ||
+           std::ranges::find(view_.worst, row) != view_.worst.end();
+  }
+
   bool is_outside(Eigen::Index row) const { return std::ranges::binary_search(view_.outside, row); }
 
   Mark mark(std::string_view kind, Eigen::Index row) const {
@@ -235,7 +252,7 @@ class MapFigure {
   Segments errors() const {
     Segments lines{.label = "error", .colour = ThemeColour::kMuted, .width = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      if (std::isnan(view_.error_m[i]) || is_outside(i)) continue;
+      if (!is_drawn(i) || std::isnan(view_.error_m[i]) || is_outside(i)) continue;
       add_line(lines, true_position(i), position(i));
       lines.marks.push_back(mark("error", i));
       lines.marks.back().data.emplace_back("error", data_number(view_.error_m[i]));
@@ -248,6 +265,7 @@ class MapFigure {
     Segments lines{
         .label = "estimate outside", .colour = ThemeColour::kSeries1, .width = 0.8, .arrow = true};
     for (const Eigen::Index i : view_.outside) {
+      if (!is_drawn(i)) continue;
       const Box inner = image(0.012);
       const Point from = view_.has_ground_truth[i] ? true_position(i) : inner.centre();
       double enter = 0.0, leave = 0.0;
@@ -272,7 +290,7 @@ class MapFigure {
                    .filled = false,
                    .size = anchors ? 1.5 : 1.0};
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      if (!view_.has_ground_truth[i] || view_.is_anchor[i] != anchors) continue;
+      if (!is_drawn(i) || !view_.has_ground_truth[i] || view_.is_anchor[i] != anchors) continue;
       add_point(points, true_position(i));
       points.marks.push_back(mark(anchors ? "anchor" : "true", i));
       add_position(points.marks.back(), true_position(i));
@@ -285,7 +303,7 @@ class MapFigure {
     const bool alone = record_.frame == Frame::kSimilarity && view_.outside.empty();
     Scatter points{.label = alone ? "" : "estimate", .colour = ThemeColour::kSeries1, .size = 0.8};
     for (Eigen::Index i = 0; i < rows(); ++i) {
-      if (!view_.has_estimate[i] || is_outside(i)) continue;
+      if (!is_drawn(i) || !view_.has_estimate[i] || is_outside(i)) continue;
       add_point(points, position(i));
       points.marks.push_back(mark("estimate", i));
       add_position(points.marks.back(), position(i));
@@ -334,6 +352,7 @@ class MapFigure {
   const MapRecord& record_;
   MapView view_;
   std::string what_;
+  Eigen::Index every_;  ///< 1: all landmarks are drawn.
   Figure figure_;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/plot/figure_fields.hpp"
 #include "reports/diff/documents/excerpts.hpp"
@@ -152,6 +153,7 @@ constexpr std::size_t kMostValueText = 60;  // Characters of a value in a senten
 
 /// "41 mm", "1.2 m"; other units as they are.
 std::string length_text(double length, const std::string& unit) {
+  if (unit == "m" && length > kGreatestError_m) return kGreatErrorText;
   if (unit == "m" && length < 0.9995) return fmt::format("{:.3g} mm", 1000.0 * length);
   return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
 }
@@ -207,7 +209,8 @@ std::string data_cause(const FigureDiff& diff) {
     text = std::string(kMadeOfOthers) + ", " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
     text +=
-        fmt::format("; mean error {}", change_text(*diff.baseline_error, *diff.current_error, ""));
+        fmt::format("; mean error {}",
+                    change_text(*diff.baseline_error, *diff.current_error, "", true));
   return text;
 }
 

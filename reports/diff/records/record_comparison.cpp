@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 
 namespace mapproof {
@@ -325,6 +326,10 @@ std::string settings_text(const RecordDiff& diff) {
 
 std::string comparison_text(const Comparison& comparison, const std::string& run) {
   const Quantity& quantity = comparison.quantity;
+  const auto changed = [&](double baseline, double current) {
+    return change_text(baseline, current, quantity.unit,
+                       has_great_errors(quantity, std::min(baseline, current)));
+  };
   const auto own = std::ranges::find(comparison.largest, run, &PairedValue::run);
   const bool has_own = own != comparison.largest.end();
   const bool is_alone = !has_own && run.empty() && comparison.pairs > 1 && comparison.beyond == 1 &&
@@ -335,13 +340,13 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
   if (is_alone) {
     const PairedValue& only = comparison.largest.front();
     return fmt::format("{} {} in run {} alone of {}{}", quantity.label,
-                       change_text(only.baseline, only.current, quantity.unit), only.run,
+                       changed(only.baseline, only.current), only.run,
                        comparison.pairs, p);
   }
   std::string text = fmt::format(
       "{} {}", quantity.label,
-      has_own ? change_text(own->baseline, own->current, quantity.unit)
-              : change_text(comparison.baseline_mean, comparison.current_mean, quantity.unit));
+      has_own ? changed(own->baseline, own->current)
+              : changed(comparison.baseline_mean, comparison.current_mean));
   if (!has_own && comparison.pairs > 1)
     text += fmt::format(" over {}", counted(comparison.pairs, "run"));
   text += p;
@@ -362,6 +367,7 @@ std::string move_text(const PointMove& move, const std::string& quantity) {
     return who + (std::isfinite(move.current.x) ? " gained a position" : " lost its position");
   if (quantity == "landmark_shape")
     return fmt::format("{} moved {:.3g} of the map's spread", who, move.moved);
+  if (move.moved > kGreatestError_m) return fmt::format("{} moved {}", who, kGreatErrorText);
   return move.moved < 0.9995 ? fmt::format("{} moved {:.3g} mm", who, 1000.0 * move.moved)
                              : fmt::format("{} moved {:.3g} m", who, move.moved);
 }

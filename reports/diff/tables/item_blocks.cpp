@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
@@ -58,9 +59,16 @@ Row row_of(const Comparison& c) {
   const std::string subject = c.current_subject == c.subject || c.current_subject.empty()
                                   ? c.subject
                                   : c.subject + " \u2192 " + c.current_subject;
-  Row row{{user_text(subject), TextCell{label_with_unit(c.quantity)},
-           scaled_number(c.baseline_mean, scale), scaled_number(c.current_mean, scale),
-           TextCell{runs_text(c)}},
+  const bool errors_m = has_great_errors(c.quantity, std::min(c.baseline_mean, c.current_mean));
+  const auto mean = [&](double value) {
+    // Digits that distinguish small values are those of a value that is shown.
+    const double shown = errors_m && scale > kGreatestError_m ? std::abs(value) : scale;
+    NumberCell cell = scaled_number(value, shown);
+    cell.error_m = errors_m;
+    return cell;
+  };
+  Row row{{user_text(subject), TextCell{label_with_unit(c.quantity)}, mean(c.baseline_mean),
+           mean(c.current_mean), TextCell{runs_text(c)}},
           "",
           false};
   row.cells.push_back(c.test ? Cell(TextCell{fmt::format("{:.2g}", c.test->p)})
@@ -127,8 +135,8 @@ void add_points_table(std::vector<Block>& blocks, const RecordDiff& diff,
   table.columns = {{"Record", "", "", ""},
                    {"Farthest", "", "", ""},
                    {"Moved", "", "", "Positions beyond tolerance"},
-                   {"Baseline error", "", "", "Mean, where the ground truth is known"},
-                   {"Current error", "", "", "Mean, where the ground truth is known"}};
+                   {"Baseline error", "", "", "Mean, where the ground truth is known", true},
+                   {"Current error", "", "", "Mean, where the ground truth is known", true}};
   const auto error = [](const std::optional<double>& value) {
     return value ? Cell(scaled_number(*value, std::abs(*value))) : Cell(MissingCell{});
   };
@@ -280,6 +288,7 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
          TextCell{location_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
         "",
         false};
+    std::get<NumberCell>(row.cells.back()).error_m = move.unit == "m";
     row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
                                          : Cell(MissingCell{}));
     table.rows.push_back(std::move(row));
@@ -288,7 +297,7 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
     table.notes.push_back(counted(diff.within, "more point") + " moved within tolerance.");
   if (diff.baseline_error && diff.current_error)
     table.notes.push_back("Mean error of the marks: " +
-                          change_text(*diff.baseline_error, *diff.current_error, "") + ".");
+                          change_text(*diff.baseline_error, *diff.current_error, "", true) + ".");
   return table;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/error_text.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -31,9 +33,19 @@ std::pair<std::string, std::string> distinguished(double baseline, double curren
   return {text(baseline), text(current)};
 }
 
-std::string change_text(double baseline, double current, std::string_view unit) {
-  const auto [from, to] = distinguished(baseline, current, 3);
-  return fmt::format("{} \u2192 {}{}{}", from, to, unit.empty() ? "" : " ", unit);
+bool has_great_errors(const Quantity& quantity, double least_m) {
+  return quantity.unit == "m" && quantity.better == Better::kLower &&
+         (find_quantity(quantity.id) != nullptr || least_m <= kGreatestError_m);
+}
+
+std::string change_text(double baseline, double current, std::string_view unit, bool errors_m) {
+  const auto is_great = [errors_m](double value) { return errors_m && value > kGreatestError_m; };
+  if (is_great(baseline) && is_great(current)) return fmt::format("{} as before", kGreatErrorText);
+  auto [from, to] = distinguished(baseline, current, 3);
+  const std::string in_unit = unit.empty() ? "" : fmt::format(" {}", unit);
+  if (is_great(baseline)) return fmt::format("{} \u2192 {}{}", kGreatErrorText, to, in_unit);
+  if (is_great(current)) return fmt::format("{}{} \u2192 {}", from, in_unit, kGreatErrorText);
+  return fmt::format("{} \u2192 {}{}", from, to, in_unit);
 }
 
 }  // namespace mapproof

@@ -34,7 +34,13 @@ Tolerance tolerance_of_others(const Tolerances& changed);
 /// Both numbers with as many digits as distinguish them, at least the given count; "none" for NaN.
 std::pair<std::string, std::string> distinguished(double baseline, double current, int digits);
 
+/// Whether a quantity has errors in m, of which those above kGreatestError_m are of maps that
+/// diverged: one of mapproof's, or one with an error that is not above it.
+bool has_great_errors(const Quantity& quantity, double least_m);
+
 /// "0.138 → 0.152 m": as many digits as distinguish the two, at least three.
-std::string change_text(double baseline, double current, std::string_view unit);
+/// @param errors_m  Errors in m: those of maps that diverged are "over 1 km".
+std::string change_text(double baseline, double current, std::string_view unit,
+                        bool errors_m = false);
 
 }  // namespace mapproof

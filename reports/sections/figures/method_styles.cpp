@@ -38,6 +38,8 @@ std::string short_label(const MethodSetting& setting) {
       return with("KPCA Gauss");
     case Method::kKpcaPolynomial:
       return with("KPCA poly");
+    case Method::kLandmarkIsomap:
+      return with("L-ISOMAP");
     default:
       return with(info(setting.method).label);
   }

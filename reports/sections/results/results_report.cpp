@@ -80,7 +80,7 @@ std::vector<Paragraph> findings_of(const ResultsReportInput& input) {
 Section summary_section(const ResultsReportInput& input, bool has_opening) {
   const ResultsStudy& study = input.view.study();
   Section section{study.name + "-summary", "Summary", {}};
-  if (!study.question.empty()) section.blocks.emplace_back(plain(study.question));
+  if (!study.question.empty() && !has_opening) section.blocks.emplace_back(plain(study.question));
   if (!input.incomplete.empty())
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Incomplete", plain(input.incomplete)});
@@ -387,8 +387,13 @@ void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
 Highlights numbers_of(const ResultsReportInput& input) {
   const ResultsStudy& study = input.view.study();
   Highlights numbers;
-  add_best_values(input, numbers);
-  if (numbers.items.empty()) add_best_over_runs(input, numbers);
+  if (!input.headline.value.empty()) {
+    numbers.items.push_back(input.headline);
+    if (!input.view.blocks().empty()) numbers.items.back().section = input.view.blocks().front().id;
+  } else {
+    add_best_values(input, numbers);
+    if (numbers.items.empty()) add_best_over_runs(input, numbers);
+  }
   numbers.items.push_back({"methods compared", fmt::format("{}", study.methods.size()),
                            counted(static_cast<long long>(input.view.runs()),
                                    study.runs.empty() ? "run" : "data set")});
@@ -433,6 +438,7 @@ Report results_report(const ResultsReportInput& input) {
       "{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
       counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set"));
   report.sections = sections_of(input, true);
+  report.opening.question = study.question;
   if (input.conclusions.empty())
     for (std::string& headline : headlines_of(input.view, input.comparisons))
       report.opening.findings.push_back(plain(std::move(headline)));

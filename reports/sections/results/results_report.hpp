@@ -21,6 +21,7 @@ struct ResultsReportInput {
   /// What came out, a sentence each, by whoever knows what the study asked; the report says them in
   /// place of what the comparisons came to.
   std::vector<std::string> conclusions = {};
+  Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
   std::string incomplete = {};  ///< What is still missing, a sentence; empty: nothing.
   std::vector<std::string> remarks =
       {};                        ///< On the study's files beside the table, a sentence each.

@@ -48,10 +48,27 @@ std::vector<std::string> association_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Of the smallest share of wrong landmark IDs in the first setup.
+TopicHeadline association_headline(const TopicStudy& study) {
+  const TopicSetup& setup = study.design.setups.front();
+  for (const double level : levels_of(setup)) {
+    const Condition at = condition_at(setup, level);
+    const double given = topic_mean(study, at, "given", "mpe_m");
+    const double estimated = topic_mean(study, at, "estimated", "mpe_m");
+    if (level == 0.0 || std::isnan(given + estimated)) continue;
+    return {fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
+            fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
+            fmt::format("MPE {}; {} with the IDs as given", page_metres(estimated),
+                        page_metres(given))};
+  }
+  return {};
+}
+
 }  // namespace
 
 const TopicWords kAssociationWords = {.topic = "association",
                                       .question = association_question,
-                                      .conclusions = association_conclusions};
+                                      .conclusions = association_conclusions,
+                                      .headline = association_headline};
 
 }  // namespace mapproof

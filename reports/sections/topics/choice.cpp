@@ -38,16 +38,24 @@ double mean_over_all(const TopicStudy& study, std::string_view method, const cha
   return count > 0 ? sum / count : kNaN;
 }
 
-std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
-  std::string best;
-  double least = HUGE_VAL;
+struct BestCriterion {
+  std::string label = {};
+  double regret_m = HUGE_VAL;
+};
+
+BestCriterion best_criterion(const TopicStudy& study, const char* quantity) {
+  BestCriterion best;
   for (const StudiedMethod& method : study.design.methods) {
     const double regret = mean_over_all(study, method.id, quantity);
     if (std::isnan(regret)) continue;
-    if (method.id == kRandomPick || method.id == kFixedMethod || regret >= least) continue;
-    least = regret;
-    best = method.label;
+    if (method.id == kRandomPick || method.id == kFixedMethod || regret >= best.regret_m) continue;
+    best = {method.label, regret};
   }
+  return best;
+}
+
+std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
+  const auto [best, least] = best_criterion(study, quantity);
   return fmt::format(
       "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {} "
       "worse than the best map on average; a fixed method is {} worse and a random pick "
@@ -61,9 +69,21 @@ std::vector<std::string> choice_conclusions(const TopicStudy& study) {
           choice_sentence(study, "regret_shape_m", "Without anchors")};
 }
 
+TopicHeadline choice_headline(const TopicStudy& study) {
+  const auto [best, least] = best_criterion(study, "regret_m");
+  if (best.empty()) return {};
+  return {page_metres(least), "worse than the best map: the map that a criterion picks",
+          fmt::format("{}; a fixed method {}, a random pick {}", best,
+                      page_metres(mean_over_all(study, kFixedMethod, "regret_m")),
+                      page_metres(mean_over_all(study, kRandomPick, "regret_m")))};
+}
+
 }  // namespace
 
 const TopicWords kChoiceWords = {
-    .topic = "choice", .question = choice_question, .conclusions = choice_conclusions};
+    .topic = "choice",
+    .question = choice_question,
+    .conclusions = choice_conclusions,
+    .headline = choice_headline};
 
 }  // namespace mapproof

@@ -58,9 +58,34 @@ std::vector<std::string> doubt_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Over all faults and sizes.
+TopicHeadline doubt_headline(const TopicStudy& study) {
+  double sum = 0.0, count = 0.0, alarms = 0.0, logs = 0.0;
+  for (const TopicSetup& setup : study.design.setups) {
+    if (setup.factors.empty()) {
+      const Condition at = condition_at(setup, 0.0);
+      alarms = topic_mean(study, at, kFitTest, "alarm_percent");
+      logs = static_cast<double>(topic_values(study, at, kFitTest, "alarm_percent").size());
+      continue;
+    }
+    for (const Condition& at : conditions_of(setup))
+      for (const double reported : topic_values(study, at, kFitTest, "reported_percent"))
+        sum += reported, count += 1.0;
+  }
+  if (count == 0.0) return {};
+  std::string detail;
+  if (logs > 0.0)
+    detail = fmt::format("alarms in {:.1f}\u00a0% of {:g} fault-free logs", alarms, logs);
+  return {fmt::format("{:.0f}\u00a0%", sum / count), "of faults in range-only logs reported",
+          std::move(detail)};
+}
+
 }  // namespace
 
 const TopicWords kDoubtWords = {
-    .topic = "doubt", .question = doubt_question, .conclusions = doubt_conclusions};
+    .topic = "doubt",
+    .question = doubt_question,
+    .conclusions = doubt_conclusions,
+    .headline = doubt_headline};
 
 }  // namespace mapproof

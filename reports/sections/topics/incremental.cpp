@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,16 @@ std::string incremental_question(const TopicExperiment& experiment) {
       number_option(experiment, "every"));
 }
 
+/// The greatest value of a quantity over the methods and all parts.
+double greatest_of(const TopicStudy& study, const Condition& at,
+                   const std::vector<std::string>& methods, const char* quantity) {
+  double greatest = 0.0;
+  for (const std::string& method : methods)
+    for (const double value : topic_values(study, at, method, quantity))
+      greatest = std::max(greatest, value);
+  return greatest;
+}
+
 std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   const std::vector<std::string> methods = carried_on(study.design);
@@ -34,16 +45,8 @@ std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
   for (const TopicSetup& setup : study.design.setups) {
     const double last = levels_of(setup).back();
     const Condition at = condition_at(setup, last);
-    double greatest = 0.0, beyond = 0.0;
-    for (const std::string& method : methods) {
-      const auto most = [&](const char* quantity, double so_far) {
-        for (const double value : topic_values(study, at, method, quantity))
-          so_far = std::max(so_far, value);
-        return so_far;
-      };
-      greatest = most("greatest_gap_ppm", greatest);
-      beyond = most("beyond_percent", beyond);
-    }
+    const double greatest = greatest_of(study, at, methods, "greatest_gap_ppm");
+    const double beyond = greatest_of(study, at, methods, "beyond_percent");
     sentences.push_back(fmt::format(
         "{}: up to {:g} observations no incremental map, whatever the method, was further than "
         "{:.2g} ppm of its size from the map computed again{}; it goes through {:g} observations "
@@ -58,10 +61,30 @@ std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+TopicHeadline incremental_headline(const TopicStudy& study) {
+  const std::vector<std::string> methods = carried_on(study.design);
+  if (methods.empty()) return {};
+  double greatest = 0.0;
+  for (const TopicSetup& setup : study.design.setups)
+    greatest = std::max(greatest, greatest_of(study, condition_at(setup, levels_of(setup).back()),
+                                              methods, "greatest_gap_ppm"));
+  const TopicSetup& first = study.design.setups.front();
+  const double last = levels_of(first).back();
+  const double through =
+      topic_mean(study, condition_at(first, last), methods[0], "steps_gone_through");
+  if (std::isnan(through)) return {};
+  constexpr double kNothing_ppm = 1e-3;
+  return {fmt::format("{:g} of {:g}", through, last), "observations used by an update of a map",
+          greatest < kNothing_ppm
+              ? std::string("less than 0.001 ppm from the map computed again")
+              : fmt::format("{:.2g} ppm at most from the map computed again", greatest)};
+}
+
 }  // namespace
 
 const TopicWords kIncrementalWords = {.topic = "incremental",
                                       .question = incremental_question,
-                                      .conclusions = incremental_conclusions};
+                                      .conclusions = incremental_conclusions,
+                                      .headline = incremental_headline};
 
 }  // namespace mapproof

@@ -93,9 +93,21 @@ std::vector<std::string> missing_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+TopicHeadline missing_headline(const TopicStudy& study) {
+  const double regret = regret_m(study, "auto");
+  if (std::isnan(regret)) return {};
+  return {page_metres(regret), "worse than the best map: the strategy chosen for missing data",
+          fmt::format("always pairwise-complete {}, always PPCA {}",
+                      page_metres(regret_m(study, "pairwise-complete-smacof-knn")),
+                      page_metres(regret_m(study, "ppca-smacof-knn")))};
+}
+
 }  // namespace
 
 const TopicWords kMissingWords = {
-    .topic = "missing", .question = missing_question, .conclusions = missing_conclusions};
+    .topic = "missing",
+    .question = missing_question,
+    .conclusions = missing_conclusions,
+    .headline = missing_headline};
 
 }  // namespace mapproof

@@ -101,9 +101,27 @@ std::vector<std::string> mixed_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// At the last level of the first setup that has maps of several sensors and of one.
+TopicHeadline mixed_headline(const TopicStudy& study) {
+  for (const TopicSetup& setup : study.design.setups) {
+    const Condition at = conditions_of(setup).back();
+    const BestSeries single = best_series(study, at, kSingles);
+    const BestSeries mix = best_series(study, at, kMixes);
+    if (single.method == nullptr || mix.method == nullptr) continue;
+    const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
+    return {page_metres(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
+            fmt::format("{} alone {}{}", single.method->label, page_metres(single.mean_m),
+                        difference ? ": " + verdict_words(*difference) : "")};
+  }
+  return {};
+}
+
 }  // namespace
 
 const TopicWords kMixedWords = {
-    .topic = "mixed", .question = mixed_question, .conclusions = mixed_conclusions};
+    .topic = "mixed",
+    .question = mixed_question,
+    .conclusions = mixed_conclusions,
+    .headline = mixed_headline};
 
 }  // namespace mapproof

@@ -36,10 +36,15 @@ double greatest_mean(const TopicStudy& study, const TopicSetup& setup, const cha
   return greatest;
 }
 
+/// How often a landmark is named where nothing moves; NaN if that was not tried.
+double named_without_move(const TopicStudy& study) {
+  return topic_mean(study, condition("distance", {{"moved_m", 0.0}}), "permutations",
+                    "false_percent");
+}
+
 std::vector<std::string> moved_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
-  const double still =
-      topic_mean(study, condition("distance", {{"moved_m", 0.0}}), "permutations", "false_percent");
+  const double still = named_without_move(study);
   if (!std::isnan(still))
     sentences.push_back(fmt::format(
         "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
@@ -61,9 +66,27 @@ std::vector<std::string> moved_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Of the longest move of the first setup.
+TopicHeadline moved_headline(const TopicStudy& study) {
+  const TopicSetup& setup = study.design.setups.front();
+  const Condition at = conditions_of(setup).back();
+  const double named = topic_mean(study, at, "permutations", "named_percent");
+  if (std::isnan(named)) return {};
+  const double still = named_without_move(study);
+  return {fmt::format("{:.0f}\u00a0%", named),
+          "of moved landmarks named, " + level_words(setup, at),
+          std::isnan(still) ? std::string()
+                            : fmt::format("where nothing moves, one is named in {:.1f}\u00a0% of "
+                                          "the logs; the level is 5\u00a0%",
+                                          still)};
+}
+
 }  // namespace
 
 const TopicWords kMovedWords = {
-    .topic = "moved", .question = moved_question, .conclusions = moved_conclusions};
+    .topic = "moved",
+    .question = moved_question,
+    .conclusions = moved_conclusions,
+    .headline = moved_headline};
 
 }  // namespace mapproof

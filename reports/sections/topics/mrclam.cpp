@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
@@ -76,9 +77,33 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+TopicHeadline mrclam_headline(const TopicStudy& study) {
+  std::vector<double> together, alone;
+  for (const TopicPart& part : study.parts) {
+    if (const double error = method_value(part, "pairs", "mpe_m"); !std::isnan(error))
+      together.push_back(error);
+    double least = HUGE_VAL;
+    for (const StudiedMethod& method : study.design.methods)
+      for (const char* start : {"visibility", "bearing", "range"})
+        if (const double error = method_value(part, method.id, "mpe_m");
+            method.id.starts_with(start) && error < least)
+          least = error;
+    if (std::isfinite(least)) alone.push_back(least);
+  }
+  if (together.empty()) return {};
+  return {page_metres(median(together)), "median MPE from range and bearing together",
+          alone.empty() ? counted(std::ssize(together), "data set")
+                        : fmt::format("{}; by the best single sensor {}",
+                                      counted(std::ssize(together), "data set"),
+                                      page_metres(median(alone)))};
+}
+
 }  // namespace
 
 const TopicWords kMrclamWords = {
-    .topic = "mrclam", .question = mrclam_question, .conclusions = mrclam_conclusions};
+    .topic = "mrclam",
+    .question = mrclam_question,
+    .conclusions = mrclam_conclusions,
+    .headline = mrclam_headline};
 
 }  // namespace mapproof

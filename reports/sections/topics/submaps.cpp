@@ -63,9 +63,27 @@ std::vector<std::string> submaps_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Of the first method and setup, at its last level.
+TopicHeadline submaps_headline(const TopicStudy& study) {
+  const TopicSetup& setup = study.design.setups.front();
+  const MethodSetting setting = submap_settings(study.experiment).front();
+  const Condition at = conditions_of(setup).back();
+  const std::string name(info(setting.method).name);
+  const double parts = topic_mean(study, at, "parts-" + name, "mpe_m");
+  const double whole = topic_mean(study, at, "whole-" + name, "mpe_m");
+  if (std::isnan(parts + whole)) return {};
+  const auto difference = topic_difference(study, at, "parts-" + name, "whole-" + name, "mpe_m");
+  return {page_metres(parts), "MPE of joined sub-maps, " + level_words(setup, at),
+          fmt::format("{}; of the whole {}{}", label(setting), page_metres(whole),
+                      difference ? ": " + verdict_words(*difference) : "")};
+}
+
 }  // namespace
 
 const TopicWords kSubmapsWords = {
-    .topic = "submaps", .question = submaps_question, .conclusions = submaps_conclusions};
+    .topic = "submaps",
+    .question = submaps_question,
+    .conclusions = submaps_conclusions,
+    .headline = submaps_headline};
 
 }  // namespace mapproof

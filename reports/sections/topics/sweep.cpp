@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -79,9 +80,31 @@ std::vector<std::string> sweep_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// The least and the greatest mean over all conditions.
+TopicHeadline sweep_headline(const TopicStudy& study) {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  std::string where;
+  for (const TopicSetup& setup : study.design.setups)
+    for (const Condition& at : conditions_of(setup))
+      for (const StudiedMethod& method : study.design.methods) {
+        const double mean = topic_mean(study, at, method.id, "mpe_m");
+        if (std::isnan(mean)) continue;
+        least = std::min(least, mean);
+        if (mean <= greatest) continue;
+        greatest = mean;
+        where =
+            fmt::format("greatest by {}, {}", in_sentence(method.label), level_words(setup, at));
+      }
+  if (least > greatest) return {};
+  return {error_text(least, 2) + " to " + error_text(greatest, 2),
+          "mean MPE over all worlds, sensors and anchors", std::move(where)};
+}
+
 }  // namespace
 
-const TopicWords kSweepWords = {
-    .topic = "sweep", .question = sweep_question, .conclusions = sweep_conclusions};
+const TopicWords kSweepWords = {.topic = "sweep",
+                                .question = sweep_question,
+                                .conclusions = sweep_conclusions,
+                                .headline = sweep_headline};
 
 }  // namespace mapproof

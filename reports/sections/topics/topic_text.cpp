@@ -17,7 +17,7 @@ std::span<const TopicWords* const> all_topic_words() {
   static constexpr const TopicWords* kAll[] = {
       &kUncertaintyWords, &kChoiceWords,  &kAssociationWords, &kDoubtWords,
       &kMissingWords,     &kMixedWords,   &kMovedWords,       &kMrclamWords,
-      &kIncrementalWords, &kSubmapsWords, &kSweepWords};
+      &kIncrementalWords, &kSubmapsWords, &kSweepWords,   &kReferencesWords};
   return kAll;
 }
 
@@ -30,6 +30,11 @@ std::vector<std::string> conclusions_of(const TopicStudy& study) {
   const TopicWords* words = words_of(study.experiment.topic);
   return words == nullptr || study.parts.empty() ? std::vector<std::string>()
                                                  : words->conclusions(study);
+}
+
+TopicHeadline headline_of(const TopicStudy& study) {
+  const TopicWords* words = words_of(study.experiment.topic);
+  return words == nullptr || study.parts.empty() ? TopicHeadline{} : words->headline(study);
 }
 
 }  // namespace mapproof

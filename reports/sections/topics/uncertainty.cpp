@@ -57,10 +57,24 @@ std::vector<std::string> uncertainty_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+TopicHeadline uncertainty_headline(const TopicStudy& study) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const TopicSetup& setup : study.design.setups) {
+    const auto [least, most] = range_of(study, setup, "mean_covered_percent");
+    low = std::min(low, least);
+    high = std::max(high, most);
+  }
+  if (low > high) return {};
+  return {fmt::format("{:.0f} to {:.0f}\u00a0%", low, high),
+          "of landmarks have the method\u2019s mean map in their 95\u00a0% ellipse",
+          "aimed at: 93 to 97\u00a0%"};
+}
+
 }  // namespace
 
 const TopicWords kUncertaintyWords = {.topic = "uncertainty",
                                       .question = uncertainty_question,
-                                      .conclusions = uncertainty_conclusions};
+                                      .conclusions = uncertainty_conclusions,
+                                      .headline = uncertainty_headline};
 
 }  // namespace mapproof

@@ -29,6 +29,7 @@ const std::map<std::string_view, Words> kFulfilling = {
     {"a method with K", {"--method", "isomap"}},
     {"a method with sigma2", {"--method", "kpca-gaussian"}},
     {"a method with d", {"--method", "kpca-polynomial"}},
+    {"a method of references", {"--method", "landmark-isomap"}},
     {"a method of least stress", {"--method", "smacof"}},
     {"a --with-sensor for each", {"--with-sensor", "bearing"}},
     {"--sensor with bearings", {"--sensor", "bearing"}},

@@ -66,5 +66,33 @@ TEST(KernelPca, ReportsThatAKernelNearTheIdentityGivesNoMap) {
   EXPECT_FALSE(is_undetermined(20.0));
 }
 
+// The distances, their Gram matrix and its Lanczos steps are another way to the same map.
+TEST(LpcaOfVectors, IsThatOfTheirDistances) {
+  Eigen::MatrixXd vectors = 5.0 + 0.05 * Eigen::MatrixXd::Random(150, 400).array();
+  const Points points = scattered(150, 1);
+  vectors.col(7) += 3.0 * points.col(0);
+  vectors.col(9) += 2.0 * points.col(1);
+  const Embedding by_vectors = lpca_of_vectors(vectors);
+  Eigen::MatrixXd squares(150, 150);
+  for (Eigen::Index j = 0; j < 150; ++j)
+    squares.col(j) = (vectors.rowwise() - vectors.row(j)).rowwise().squaredNorm();
+  const Embedding by_distances = lpca(squares);
+  EXPECT_TRUE(by_vectors.statuses.empty());
+  EXPECT_LT((by_vectors.coordinates - by_distances.coordinates).cwiseAbs().maxCoeff(),
+            1e-9 * by_distances.coordinates.cwiseAbs().maxCoeff());
+  ASSERT_EQ(by_vectors.spectrum.size(), 10);
+  EXPECT_LT((by_vectors.spectrum - by_distances.spectrum).cwiseAbs().maxCoeff(),
+            1e-5 * by_distances.spectrum(0));
+}
+
+TEST(LpcaOfVectors, ReportsVectorsOnOneLine) {
+  const Eigen::MatrixXd vectors =
+      Eigen::VectorXd::LinSpaced(120, 0.0, 1.0) * Eigen::RowVectorXd::LinSpaced(30, 1.0, 2.0);
+  const Embedding map = lpca_of_vectors(vectors);
+  ASSERT_FALSE(map.statuses.empty());
+  EXPECT_EQ(map.statuses.front().code, StatusCode::kRankDeficient);
+  EXPECT_THROW(lpca_of_vectors(Eigen::MatrixXd::Zero(50, 10)), InvalidInput);
+}
+
 }  // namespace
 }  // namespace mapproof

@@ -54,7 +54,7 @@ const Added kLong({.name = "observations-long",
                    .seeds = {"observations"}});
 const Added kAny({.name = "observations-any",
                   .run = [](auto bytes) { read_table(bytes, Layout::kAuto); },
-                  .seeds = {"observations"}});
+                  .seeds = {"observations", "foreign"}});
 const Added kJson({.name = "observations-json",
                    .run =
                        [](auto bytes) {
@@ -80,7 +80,7 @@ const Added kDetections({.name = "detections",
                                  return text_of(read_detections(source));
                                });
                              },
-                         .seeds = {"observations"}});
+                         .seeds = {"observations", "foreign"}});
 const Added kDetectionsJson({.name = "detections-json", .run = [](auto bytes) {
                                round_trip(
                                    bytes,
@@ -189,7 +189,7 @@ const Added kLandmarks({.name = "landmarks",
                                                    fmt::join(at.reshaped().eval(), " "));
                               });
                             },
-                        .seeds = {"landmarks", "mrclam"}});
+                        .seeds = {"landmarks", "mrclam", "foreign"}});
 
 /// A path is read back as it was written; its headings, which are quaternions there, to 1e-12.
 void read_path(std::string_view bytes) {

@@ -32,7 +32,7 @@ void read(std::string_view bytes) {
 }
 
 const Added kCsv({.name = "ranges-csv", .run = read});
-const Added kText({.name = "ranges-text", .run = read});
+const Added kText({.name = "ranges-text", .run = read, .seeds = {"foreign"}});
 const Added kPyfg({.name = "ranges-pyfg", .run = read});
 // matio holds tables packed and unpacked, and as what it was asked for.
 const Added kMat({.name = "ranges-mat", .run = read, .memory = std::size_t{128} << 20});

@@ -1,10 +1,14 @@
 // Tables of results, their study.json, and maps.
+#include <cmath>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "core/json/text_input.hpp"
 #include "core/records/evaluations/pose_errors_csv.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/maps/map_json.hpp"
+#include "core/records/metrics/metrics_json.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "tests/fuzz/properties.hpp"
@@ -53,6 +57,19 @@ const Added kMapCsv({.name = "map-csv", .run = [](auto bytes) {
                            },
                            [](const MapRecord& map) { return map_csv(map); });
                      }});
+
+/// Metrics of other programs: no two of one name, no number beyond the limit.
+void read_metrics(std::string_view bytes) {
+  const Metrics read = parse_metrics(bytes, kSource, Better::kLower);
+  std::set<std::pair<std::string, std::string>> names;
+  for (const Metric& metric : read.metrics) {
+    if (!names.emplace(metric.suite, metric.name).second)
+      found("a metric is there once", metric.name);
+    if (std::abs(metric.value) > 1e100) found("a value is within the limit", metric.name);
+    quantity_of(metric);
+  }
+}
+const Added kMetrics({.name = "metrics", .run = read_metrics, .seeds = {"metrics"}});
 
 const Added kPoseErrors({.name = "pose-errors", .run = [](auto bytes) {
                            round_trip(

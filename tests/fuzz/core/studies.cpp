@@ -1,5 +1,8 @@
-// Experiments, and the records of studies.
+// Experiments with the methods of others, and the records of studies.
+#include "core/external/method_process.hpp"
+#include "core/json/record_writer.hpp"
 #include "core/records/experiments/experiment_json.hpp"
+#include "core/records/experiments/external_methods.hpp"
 #include "core/records/experiments/profiles.hpp"
 #include "core/records/experiments/slam_experiment_json.hpp"
 #include "core/records/studies/run_json.hpp"
@@ -40,6 +43,33 @@ const Added kExperiment(of_experiments("experiment", "mapproof.experiment", pars
                                        experiment_json, {"experiments"}));
 const Added kSlamExperiment(of_experiments("experiment-slam", "mapproof.slam_experiment",
                                            parse_slam_experiment, slam_experiment_json));
+
+const Added kMethods(of_records("methods", parse_external_methods,
+                                [](const std::vector<ExternalMethod>& methods) {
+                                  return to_json_text(ExternalMethodsFile{methods});
+                                }));
+
+/// What a method answers is a map of finite positions, or a failure.
+void read_reply(std::string_view bytes) {
+  static const ExternalRequest request{.id = "run/bearing/10",
+                                       .sensor = "bearing",
+                                       .steps = 10,
+                                       .landmarks = {"a", "b", "c"},
+                                       .input = {},
+                                       .parameter = {},
+                                       .seed = 7};
+  const ExternalReply reply = parse_reply(bytes, request);
+  if (reply.failure) return;
+  if (reply.coordinates.rows() != 3) found("a row for each landmark", "");
+  bool has_position = false;
+  for (const auto row : reply.coordinates.rowwise()) {
+    if (row.array().isInf().any() || row.array().isNaN().any() != row.array().isNaN().all())
+      found("a row is a position or none", std::string(bytes));
+    has_position = has_position || row.allFinite();
+  }
+  if (!has_position) found("a map has a position", std::string(bytes));
+}
+const Added kReply({.name = "method-reply", .run = read_reply});
 
 const Added kStudy(of_records("study", parse_study,
                               [](const Study& study) {

@@ -5,6 +5,7 @@
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
 #include "reports/history/history_prune.hpp"
+#include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/template_check.hpp"
@@ -27,6 +28,9 @@ const Added kApprovals({.name = "approvals", .run = [](auto bytes) {
                         }});
 const Added kPrune({.name = "prune-rule",
                     .run = [](auto bytes) { parse_prune_rule(std::string(bytes)); }});
+const Added kNoteTarget({.name = "note-target", .run = [](auto bytes) {
+                           parse_note_target(std::string(bytes), "--note");
+                         }});
 const Added kOrder({.name = "experiment-digest",
                     .run = [](auto bytes) { experiment_digest(std::string(bytes), kSource); },
                     .seeds = {"study/study.json"}});

@@ -11,6 +11,7 @@
 
 #include "render/image/png.hpp"
 #include "reports/diff/images/image_diff.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {
@@ -113,6 +114,7 @@ TEST(BadImages, ABombOfTextIsNotInflatedAndOneOfAProfileIsAnotherProfile) {
 }
 
 TEST(BadImages, NoneTakesMemoryBeyondItsBytes) {
+  test::skip_if_sanitized();
   const TemporaryFolder folder;
   std::vector<std::filesystem::path> paths;
   for (const Bad& bad : bad_images()) paths.push_back(folder.file(bad.name, bad.bytes));

@@ -259,6 +259,22 @@ TEST(Quantities, TextsDistinguishUnequalNumbers) {
   EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2 %");
 }
 
+TEST(Quantities, TextsSayThatAMapDiverged) {
+  EXPECT_EQ(change_text(0.138, 8.93e13, "m", true), "0.138 m \u2192 over 1\u00A0km");
+  EXPECT_EQ(change_text(8.93e13, 0.138, "m", true), "over 1\u00A0km \u2192 0.138 m");
+  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m", true), "over 1\u00A0km as before");
+  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m"), "8.93e+13 \u2192 1.2e+03 m");
+  EXPECT_EQ(change_text(0.138, 900.0, "m", true), "0.138 \u2192 900 m");
+}
+
+TEST(Quantities, OfOthersHaveGreatErrorsWhereSomeAreSmall) {
+  EXPECT_TRUE(has_great_errors(known_quantity("mpe_m"), 1e6));
+  const Quantity theirs{.id = "drift_m", .label = "drift", .unit = "m", .better = Better::kLower};
+  EXPECT_TRUE(has_great_errors(theirs, 12.0));
+  EXPECT_FALSE(has_great_errors(theirs, 2e4));  // Distances of that size.
+  EXPECT_FALSE(has_great_errors(known_quantity("moe_percent"), 1.0));
+}
+
 /// A table that another program wrote: so many runs in each of so many groups.
 RecordSet table_of(int groups, int runs, const Quantity& quantity) {
   RecordSet set;

@@ -235,6 +235,7 @@ RangeHistoryStudy sample_histories() {
   };
   for (const bool squared : {false, true})
     for (const MethodInfo& method : all_methods())
+      if (!method.approximates)
       add(MethodSetting{method.method, method.parameter ? std::optional(6.0) : std::nullopt},
           squared, (squared ? 0.2 : 0.5) + 0.1 * static_cast<double>(method.method));
   study.maps[8].positions_m.setConstant(NAN);

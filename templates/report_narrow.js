@@ -1,0 +1,176 @@
+// Frames that are wider than a narrow page get narrower, with their ticks, marks and words: lines and
+// words keep their size. Maps and images keep their proportions.
+
+const widths = new WeakMap();  // A narrowed <svg> → what to put back: attributes and frames.
+
+function keepAndSet(svg, element, name, value) {
+  widths.get(svg).attributes.push([element, name, element.getAttribute(name)]);
+  element.setAttribute(name, value);
+}
+
+// Undoes narrowFrames().
+function widenFrames(svg, parts) {
+  const kept = widths.get(svg);
+  if (!kept) return;
+  for (const [element, name, value] of kept.attributes.reverse()) {
+    if (value === null) element.removeAttribute(name);
+    else element.setAttribute(name, value);
+  }
+  parts.frames.forEach((frame, i) => Object.assign(frame, kept.frames[i]));
+  widths.delete(svg);
+}
+
+// The data of a path as mapproof writes it: relative commands, of which the first names a point.
+function scaledPath(data, at, across, down) {
+  let isFirst = true;
+  return data.replace(/([mlqc])([^a-z]*)/g, (all, command, numbers) => {
+    const values = (numbers.match(/-?(?:\d+\.?\d*|\.\d+)/g) ?? []).map(Number);
+    const pairs = [];
+    for (let i = 0; i + 1 < values.length; i += 2) {
+      const [x, y] = values.slice(i, i + 2);
+      const point = isFirst ? at({ x, y }) : { x: across * x, y: down * y };
+      isFirst = false;
+      pairs.push(`${Number(point.x.toFixed(2))} ${Number(point.y.toFixed(2))}`);
+    }
+    return command + pairs.join(" ");
+  });
+}
+
+// Whether both axes of a frame have one scale, as those of maps, or it is an image.
+function hasOneScale(panel, { axes: [x, y], width, height }) {
+  if (panel.some((part) => kindOf(part) === "image")) return true;
+  if (x?.scale !== "linear" || y?.scale !== "linear") return false;
+  const across = (x.high - x.low) / width, up = (y.high - y.low) / height;
+  return Math.abs(across - up) < .001 * up;
+}
+
+const isWords = (element) => /scale\(/.test(element.getAttribute("transform") ?? "");
+
+function moveWords(svg, words, right, down) {
+  const { x, y } = positionOf(words);
+  keepAndSet(svg, words, "transform", words.getAttribute("transform")
+    .replace(/translate\([^)]*\)/, `translate(${x + right} ${y + down})`));
+}
+
+// Where words are held: by their side that is nearer to that of the frame, or by their middle.
+function holdOf(box, frame) {
+  const middle = box.x + box.width / 2, share = (middle - frame.x) / frame.width;
+  return { x: share < 1 / 3 ? box.x : share > 2 / 3 ? box.x + box.width : middle,
+    y: box.y + box.height / 2 };
+}
+
+// The mark that words stand beside: the nearest one, within a line of text.
+function markBeside(box, marks) {
+  const off = ({ x, y }) => Math.hypot(Math.max(0, box.x - x, x - box.x - box.width),
+    Math.max(0, box.y - y, y - box.y - box.height));
+  const nearest = marks.reduce((best, mark) => (best && off(best) <= off(mark) ? best : mark), null);
+  return nearest && off(nearest) < box.height ? nearest : null;
+}
+
+// How far words move that stand in a frame or beside it: with the mark that they name.
+function shiftOfWords(words, box, marks, before, after, at) {
+  const hold = holdOf(box, before);
+  if (hold.x > before.right || hold.x < before.x) {
+    return { x: hold.x < before.x ? 0 : after.right - before.right, y: at(hold).y - hold.y };
+  }
+  const held = markBeside(box, marks) ?? hold, moved = at(held);
+  return { x: moved.x - held.x, y: moved.y - held.y };
+}
+
+// Hides words that would be on others, the later ones.
+function hideCrowded(svg, words) {
+  const taken = [];
+  const touches = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y + 1 < b.y + b.height &&
+    b.y + 1 < a.y + a.height;
+  for (const each of words) {
+    const box = boxIn(svg, each);
+    if (taken.some((other) => touches(box, other))) keepAndSet(svg, each, "display", "none");
+    else taken.push(box);
+  }
+}
+
+// Every second tick label below a frame, or every third, so that none touches the next one.
+function thinLabels(svg, labels) {
+  const kApart = 5;
+  const boxes = labels.map((label) => boxIn(svg, label));
+  const isApart = (stride) => boxes.filter((box, i) => i % stride === 0).every(
+    (box, i, all) => i === 0 || all[i - 1].x + all[i - 1].width + kApart < box.x);
+  let stride = 1;
+  while (stride < labels.length && !isApart(stride)) ++stride;
+  labels.forEach((label, i) => {
+    if (i % stride !== 0) keepAndSet(svg, label, "display", "none");
+  });
+}
+
+function narrowPart(svg, part, { before, after, across, down, at, marks }) {
+  const elements = [part, ...part.querySelectorAll("*")];
+  for (const element of elements.filter((each) => !each.closest("[transform*='scale(']"))) {
+    if (element.localName === "path") {
+      keepAndSet(svg, element, "d", scaledPath(element.getAttribute("d"), at, across, down));
+    } else if (element.hasAttribute("x")) {
+      const point = at({ x: Number(element.getAttribute("x")), y: Number(element.getAttribute("y")) });
+      for (const name of ["x", "y"]) keepAndSet(svg, element, name, point[name]);
+      if (element.localName !== "image") continue;
+      for (const [name, factor] of [["width", across], ["height", down]]) {
+        keepAndSet(svg, element, name, factor * Number(element.getAttribute(name)));
+      }
+    }
+  }
+  for (const words of elements.filter(isWords)) {
+    const box = boxIn(svg, words), middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+    let shift;
+    if (kindOf(part) === "panel-title") {
+      const isCentred = Math.abs(middle.x - before.x - before.width / 2) < 3;
+      shift = { x: isCentred ? (after.width - before.width) / 2 : 0, y: 0 };
+    } else if (kindOf(part) === "tick-label") {
+      const isBelow = middle.y > before.bottom;
+      shift = isBelow ? { x: at(middle).x - middle.x, y: after.bottom - before.bottom }
+        : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
+    } else shift = shiftOfWords(words, box, marks, before, after, at);
+    moveWords(svg, words, shift.x, shift.y);
+  }
+}
+
+// How low a frame can get with its tick labels one above the other.
+function leastShare(svg, { left }) {
+  const kLine = 1.05;
+  const boxes = left.map((label) => boxIn(svg, label)).sort((a, b) => a.y - b.y);
+  const shares = boxes.slice(1).map((box, i) => kLine * box.height / (box.y - boxes[i].y));
+  return Math.min(1, Math.max(.3, ...shares));
+}
+
+// Makes frames so narrow that they need no more than `most` with what is around them; those whose
+// axes have scales of their own also as low as `height`, if that is less.
+function narrowFrames(svg, parts, rooms, most, height = Infinity) {
+  widths.set(svg, { attributes: [], frames: parts.frames.map((frame) => ({ ...frame })) });
+  const room = most - rooms.left - rooms.right;
+  parts.frames.forEach((frame, i) => {
+    const across = Math.min(1, room / frame.width), panel = parts.panels[i];
+    const lower = () => Math.max(Math.min(1, height / frame.height),
+      leastShare(svg, tickLabelsOf(panel, frame)));
+    const down = hasOneScale(panel, frame) ? across : height < frame.height ? lower() : 1;
+    const before = { ...frame };
+    const at = ({ x, y }) => ({ x: before.x + across * (x - before.x),
+      y: before.y + down * (y - before.y) });
+    const after = { ...at(before), width: across * before.width, height: down * before.height };
+    after.right = after.x + after.width;
+    after.bottom = after.y + after.height;
+    const { marks } = contentOf(panel, before);
+    const change = { before, after, across, down, at,
+      marks: marks.map(({ element, x, y }) => ({ element, x, y })) };
+    const axes = parts.axes.filter((label) => frameOfLabel(label, parts.frames) === frame)
+      .map((label) => ({ label, box: boxIn(svg, label) }));
+    for (const part of panel) narrowPart(svg, part, change);
+    for (const { label, box } of axes) {
+      const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+      const moved = at(middle);
+      moveWords(svg, label, isUpright(label) ? 0 : moved.x - middle.x,
+        isUpright(label) ? moved.y - middle.y : after.bottom - before.bottom);
+    }
+    for (const name of ["width", "height"]) keepAndSet(svg, frame.clip, name, after[name]);
+    Object.assign(frame, after);
+    thinLabels(svg, tickLabelsOf(panel, frame).below);
+    hideCrowded(svg, panel.filter((part) => kindOf(part) === "mark-label")
+      .flatMap((part) => [part, ...part.querySelectorAll("*")].filter(isWords)));
+  });
+}
