@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <functional>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -25,6 +27,18 @@ std::string quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
+}
+
+/// @param which  "above 0".
+CLI::Validator number_that(std::function<bool(double)> holds, const std::string& which,
+                           const std::string& name) {
+  return {[=](std::string& text) -> std::string {
+            double number = 0.0;
+            if (CLI::detail::lexical_cast(text, number) && std::isfinite(number) && holds(number))
+              return "";
+            return fmt::format("\"{}\" is not a number {}", printable(text), which);
+          },
+          name};
 }
 
 }  // namespace
@@ -92,6 +106,24 @@ CLI::Validator one_of(std::vector<std::string> words) {
                                listed(words, words.size()));
           },
           std::move(shown)};
+}
+
+CLI::Validator number_in(double low, double high) {
+  return number_that([=](double number) { return number >= low && number <= high; },
+                     fmt::format("from {} to {}", low, high),
+                     fmt::format("FLOAT in [{} - {}]", low, high));
+}
+
+CLI::Validator above_zero() {
+  return number_that([](double number) { return number > 0.0; }, "above 0", "POSITIVE");
+}
+
+CLI::Validator not_negative() {
+  return number_that([](double number) { return number >= 0.0; }, "from 0 on", "NONNEGATIVE");
+}
+
+CLI::Validator finite_number() {
+  return number_that([](double) { return true; }, "that is finite", "");
 }
 
 CLI::Validator names_folder() {

@@ -49,6 +49,13 @@ void add_experiment_options(CLI::App& app, ExperimentChanges& changes);
 /// Others are refused with the nearest one.
 CLI::Validator one_of(std::vector<std::string> words);
 
+/// A finite number from `low` to `high`. CLI::Range takes NaN, which is neither below nor above.
+CLI::Validator number_in(double low, double high);
+/// The same above 0, from 0 on, and of any size.
+CLI::Validator above_zero();
+CLI::Validator not_negative();
+CLI::Validator finite_number();
+
 /// Refuses the empty name and "-": standard input is not a folder.
 CLI::Validator names_folder();
 

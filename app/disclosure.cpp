@@ -92,9 +92,85 @@ bool is_end_of_name(std::string_view text, std::size_t at) {
 void replace_folder(std::string& text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
     const std::size_t end = at + folder.size();
-    const bool begins = at == 0 || !is_of_name(text[at - 1]);
+    // The host of an address is not a folder.
+    const bool is_host = at >= 2 && text.compare(at - 2, 3, "://") == 0;
+    const bool begins = at == 0 || (!is_of_name(text[at - 1]) && !is_host);
     if (begins && is_end_of_name(text, end)) text.replace(at, folder.size(), "~");
     ++at;
+  }
+}
+
+/// Where a path that begins at `at` has come to the folder of these names, by "..", "." and "//"
+/// too; npos: nowhere.
+std::size_t end_of_folder(std::string_view text, std::size_t at,
+                          const std::vector<std::string_view>& names) {
+  constexpr std::string_view kEnds = "\"'<>\n\t";
+  constexpr std::size_t kLongestPath = 4096;
+  const std::size_t end = std::min(text.size(), at + kLongestPath);
+  std::vector<std::string_view> there;
+  while (at < end && text[at] == '/') {
+    while (at < end && text[at] == '/') ++at;
+    const bool is_begin =
+        there.size() < names.size() && std::equal(there.begin(), there.end(), names.begin());
+    if (is_begin) {
+      const std::string_view next = names[there.size()];
+      const std::size_t behind = at + next.size();
+      if (text.substr(at).starts_with(next) &&
+          (there.size() + 1 == names.size() ? is_end_of_name(text, behind)
+                                            : behind < end && text[behind] == '/')) {
+        there.push_back(next);
+        at = behind;
+        if (there.size() == names.size()) return at;
+        continue;
+      }
+    }
+    const std::size_t stop = std::min(text.find_first_of(kEnds, at), end);
+    const std::size_t slash = text.find('/', at);
+    if (slash >= stop) break;
+    const std::string_view name = text.substr(at, slash - at);
+    if (name == "..") {
+      if (!there.empty()) there.pop_back();
+    } else if (name != ".") {
+      there.push_back(name);
+    }
+    at = slash;
+  }
+  return std::string_view::npos;
+}
+
+/// The names of the folders of a path.
+std::vector<std::string_view> names_of(std::string_view folder) {
+  std::vector<std::string_view> names;
+  for (std::size_t at = 1; at <= folder.size();) {
+    const std::size_t end = std::min(folder.find('/', at), folder.size());
+    names.push_back(folder.substr(at, end - at));
+    at = end + 1;
+  }
+  return names;
+}
+
+/// The same where the path takes a detour, as "/media/../home/ann".
+void replace_detours(std::string& text, const std::string& folder) {
+  constexpr std::size_t kLongestPath = 4096;
+  const std::vector<std::string_view> names = names_of(folder);
+  std::size_t tried = 0;  // No path that begins before it is open.
+  for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos; ++at) {
+    const std::string_view rest = std::string_view(text).substr(at);
+    if (!rest.starts_with("/../") && !rest.starts_with("/./") && !rest.starts_with("//")) continue;
+    std::size_t begin = std::max(tried, at > kLongestPath ? at - kLongestPath : 0);
+    if (const std::size_t line = text.find_last_of("\"'<>\n\t", at); line != std::string::npos)
+      begin = std::max(begin, line);
+    for (; (begin = text.find('/', begin)) <= at; ++begin) {
+      if (begin > 0 && (is_of_name(text[begin - 1]) || text[begin - 1] == '/')) continue;
+      // The host of an address is not a folder.
+      if (begin > 0 && text.compare(begin - 1, 3, "://") == 0) continue;
+      const std::size_t end = end_of_folder(text, begin, names);
+      if (end == std::string::npos || end <= at) continue;
+      text.replace(begin, end - begin, "~");
+      at = begin;
+      break;
+    }
+    tried = at + 1;
   }
 }
 
@@ -120,6 +196,7 @@ Disclosure::Disclosure(bool full) : full_(full) {
 
 std::string Disclosure::text(std::string text) const {
   for (const std::string& home : homes_) replace_folder(text, home);
+  for (const std::string& home : homes_) replace_detours(text, home);
   return text;
 }
 

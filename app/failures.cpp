@@ -5,6 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <system_error>
 
 #include "core/base/errors.hpp"
 #include "core/base/out_of_memory.hpp"
@@ -13,6 +14,10 @@
 
 namespace mapproof {
 namespace {
+
+constexpr const char* kNoThread =
+    "no further thread can be started: the system allows no more threads or processes (ulimit -u); "
+    "--jobs 1 needs the fewest";
 
 int try_work(const std::function<int()>& work, const std::string& of) {
   try {
@@ -27,6 +32,10 @@ int try_work(const std::function<int()>& work, const std::string& of) {
     return report_failure(of + error.what(), kInternal);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return report_failure(of + kNoThread, kInternal);
+    return report_failure(of + "internal error: " + error.what(), kInternal);
   } catch (const std::exception& error) {
     return report_failure(of + "internal error: " + error.what(), kInternal);
   }

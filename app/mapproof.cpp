@@ -204,11 +204,13 @@ int run_command_of(int argc, char** argv) {
     std::vector<std::string> backwards(words.rbegin(), words.rend());
     app.parse(backwards);
   } catch (const CLI::Success& asked) {  // --help, --version
-    return app.exit(asked);
+    const int code = app.exit(asked);
+    std::cout.flush();
+    if (!std::cout) throw IoError("standard output", "cannot be written");
+    return code;
   } catch (const CLI::ParseError& error) {
-    std::cerr << "mapproof: " << objection(error, command == nullptr ? app : *command)
-              << "\nmapproof: \"mapproof " << about << "\" shows what it takes\n";
-    return kUsage;
+    throw InvalidInput(fmt::format("{}; \"mapproof {}\" shows what it takes",
+                                   objection(error, command == nullptr ? app : *command), about));
   }
   if (command == nullptr) throw InvalidInput("no command; \"mapproof --help\" lists them");
 

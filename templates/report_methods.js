@@ -7,7 +7,7 @@ const kMostRead = 100;  // Figures whose curves name the methods: a page may hol
 
 // "SMACOF, kNN weights, K = 5" is a curve of "SMACOF, kNN weights".
 function methodOf(label) {
-  return label.replace(/, \S+ = \S+$/, "");
+  return label.replace(/(, \S+ = \S+|, \S+=\S+( \S+=\S+)*)$/, "");
 }
 
 // The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean".
@@ -54,6 +54,12 @@ function chooseMethod(label) {
 function addMethodList(before) {
   const figures = [...document.querySelectorAll("figure[data-id]")];
   figures.slice(0, kMostRead).forEach(readMethods);
+  // Other curves, such as published ones or thresholds, are no rows of tables.
+  const rows = new Set(Array.from(document.querySelectorAll("main tbody th[scope=row]"),
+    (head) => head.textContent.trim()));
+  for (const [key, name] of methods) {
+    if (![...rows].some((row) => row.includes(name))) methods.delete(key);
+  }
   const names = [...new Set(methods.values())];
   if (names.length < 2) return;
   const list = document.createElement("select");

@@ -44,6 +44,46 @@ function narrowed(text, width_px, height_px) {
   return arrangement ? new XMLSerializer().serializeToString(svg) : text;
 }
 
+const kLeastOpening_px = 9;  // Of words in the figure of the first screen.
+
+// The first panel of a drawing with its axes, the legend below it.
+function firstPanel(svg, parts) {
+  const rooms = roomsOf(svg, parts);
+  if (!rooms) return null;
+  const labels = sharedAxes(svg, parts, 0);  // Measures what is shown.
+  const box = stepBox(rooms, parts.frames[0]);
+  movePanel(parts.panels[0], { x: -box.x, y: -box.y });
+  shifts.set(labels, { x: -box.x, y: -box.y });
+  const foot = placeLegend(svg, parts, box.width, box.height + 4);
+  for (const part of [...parts.panels.slice(1).flat(), ...parts.axes.map((name) => name.parentElement),
+    ...parts.rest.filter((each) => !/^legend-(sample|text)$/.test(kindOf(each)))]) part.remove();
+  svg.append(labels);
+  placePart(labels);
+  return { x: 0, y: 0, width: box.width, height: foot };
+}
+
+// The drawing for a wide page: of several panels the first one alone, where in all of them words were
+// too small to be read in the box. Returns what to show, and whether its title is left out.
+function readable(text, width_px, height_px) {
+  const box = document.createElement("div");
+  box.className = "measured";
+  box.style.width = `${width_px}px`;
+  box.append(drawingOf(text));
+  document.body.append(box);
+  const svg = box.firstChild, parts = partsOf(svg), least = leastWords(svg);
+  const words = ({ width, height }) => least * Math.min(width_px / width, height_px / height);
+  const isSmall = words(parts.whole) < kLeastOpening_px && parts.panels.length > 1;
+  const first = isSmall ? firstPanel(svg, parts) : null;
+  const isBetter = first !== null && words(first) > words(parts.whole);
+  if (isBetter) {
+    setViewBox(svg, first);
+    svg.setAttribute("width", first.width);
+    svg.setAttribute("height", first.height);
+  }
+  box.remove();
+  return { text: isBetter ? new XMLSerializer().serializeToString(svg) : text, untitled: isBetter };
+}
+
 function addImage(link, alt, drawing) {
   const figure = document.getElementById(link.hash.slice(1));
   const text = figure ? sourceOf(figure) : "";
@@ -61,8 +101,24 @@ function addOpeningImages() {
   const link = document.querySelector(".main-figure a");
   if (!link) return;
   const kBelow_px = 8;
+  const kLeastHeight_px = 272, kMostHeight_px = 640;
   const { clientWidth } = link.parentElement;
-  const top = link.getBoundingClientRect().top + scrollY;
-  addImage(link, link.dataset.alt, (text) => (narrowPage.matches && clientWidth > 0
-    ? narrowed(text, clientWidth, innerHeight - top - kBelow_px) : text));
+  const left = innerHeight - link.getBoundingClientRect().top - scrollY - kBelow_px;
+  if (clientWidth === 0) return;
+  if (narrowPage.matches) {
+    addImage(link, link.dataset.alt, (text) => narrowed(text, clientWidth, left));
+    return;
+  }
+  // As high as the first screen has room for.
+  const height = Math.min(Math.max(left, kLeastHeight_px), kMostHeight_px);
+  link.parentElement.style.setProperty("--most", `${height}px`);
+  let isUntitled = false;
+  addImage(link, link.dataset.alt, (text) => {
+    const shown = readable(text, clientWidth - 2, height - 2);
+    isUntitled = shown.untitled;
+    const kTitle_px = isUntitled ? 24 : 0;  // Below the image, as text of the page.
+    link.parentElement.style.setProperty("--most", `${height - kTitle_px}px`);
+    return shown.text;
+  });
+  link.querySelector("img")?.classList.toggle("untitled", isUntitled);
 }

@@ -1,7 +1,9 @@
-// One field searches the page: headings, tables, and the words of figures that a browser's own
-// search cannot see, since their texts are outlines.
+// One field searches the page: headings, texts, tables, and the words of figures that a browser's
+// own search cannot see, since their texts are outlines.
 
 const kMostFound = 12;
+const kTexts = "main p, main li, main dd";
+const kNoTexts = "figure, .table, .thumbnails, .main-figure, .affected, dialog";
 
 function searchable(element, link, name, words) {
   return { element, link, name, words: `${name} ${words}`.toLocaleLowerCase("en") };
@@ -15,12 +17,14 @@ function titleOfSection(section) {
 // All that can be found, in the order of the page.
 function searchables() {
   const found = [];
-  const kinds = "main > section[id^=section-], .table, figure[data-id]";
+  const kinds = `main > section[id^=section-], .table, figure[data-id], ${kTexts}`;
   for (const each of document.querySelectorAll(kinds)) {
-    if (each.localName === "section") {
-      const text = Array.from(each.querySelectorAll(":scope > p, :scope > .bullets, :scope > .facts"),
-        (part) => part.textContent).join(" ");
-      found.push(searchable(each, each.id, titleOfSection(each), text));
+    if (each.matches(kTexts)) {
+      if (each.closest(kNoTexts) || each.querySelector(kTexts)) continue;
+      const text = each.textContent.trim().replace(/\s+/g, " ");
+      found.push({ ...searchable(each, each.id, "", text), text });
+    } else if (each.localName === "section") {
+      found.push(searchable(each, each.id, titleOfSection(each), ""));
     } else if (each.localName === "figure") {
       const drawn = sourceOf(each), caption = each.querySelector("figcaption bdi")?.textContent ?? "";
       const title = /<title[^>]*>([^<]*)/.exec(drawn)?.[1] ?? each.dataset.id;
@@ -38,6 +42,21 @@ function searchables() {
 function decoded(text) {
   const characters = { lt: "<", gt: ">", quot: '"', apos: "'", amp: "&" };
   return text.replace(/&(lt|gt|quot|apos|amp);/g, (all, name) => characters[name]);
+}
+
+// Some words of a text around the first one that was searched for.
+function excerpt(text, words) {
+  const kBefore = 24, kMost = 80;
+  const at = text.toLocaleLowerCase("en").indexOf(words[0]);
+  const from = at <= kBefore ? 0 : text.indexOf(" ", at - kBefore) + 1;
+  const part = text.slice(from, from + kMost);
+  return `${from > 0 ? "\u2026\u00a0" : ""}${part}${from + kMost < text.length ? "\u2026" : ""}`;
+}
+
+// The id of an element; one that has none gets one, so that a link can lead to it.
+function idOf(element) {
+  if (!element.id) element.id = `text-${document.querySelectorAll("[id^=text-]").length + 1}`;
+  return element.id;
 }
 
 function matches(entry, words) {
@@ -59,8 +78,8 @@ function addSearch(parent) {
     const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
-      link.href = `#${entry.link}`;
-      link.textContent = entry.name;
+      link.href = `#${entry.link || idOf(entry.element)}`;
+      link.textContent = entry.text ? excerpt(entry.text, words) : entry.name;
       link.addEventListener("click", () => unfold(entry.element));
       item.append(link);
       return item;

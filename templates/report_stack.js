@@ -92,7 +92,7 @@ function fillWidth(svg, box) {
 function unstack(svg, parts) {
   for (const layer of svg.querySelectorAll(":scope > .step-axes")) layer.remove();
   svg.parentElement.parentElement.querySelector(".drawn-title")?.remove();
-  svg.parentElement.classList.remove("stacked");
+  svg.parentElement.classList.remove("stacked", "stepped");
   for (const panel of [...parts.panels, parts.rest]) movePanel(panel, kNoShift);
 }
 

@@ -21,7 +21,12 @@ function showStep(svg, parts, rooms, whole, step) {
   for (const part of others) part.classList.add("off");
   svg.append(labels);
   const box = stepBox(rooms, parts.frames[step]);
-  if (narrowPage.matches) fillWidth(svg, box);
+  if (narrowPage.matches) {
+    fillWidth(svg, box);
+  } else {  // The box of all panels is too flat for one.
+    svg.parentElement.classList.add("stepped");
+    svg.parentElement.style.setProperty("--step", box.width / box.height);
+  }
   return setHome(svg, box, parts.frames[step]);
 }
 

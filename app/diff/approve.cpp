@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "app/failures.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
@@ -118,8 +119,7 @@ int approve(const ApproveArguments& arguments, const Invocation& invocation) {
         printable(file.string(), kLongestLine),
         printable(file.parent_path().string(), kLongestLine)));
   }
-  for (const std::string& refusal : plan.refused)
-    invocation.console.warning(printable(refusal, kLongestLine));
+  for (const std::string& refusal : plan.refused) report_failure(refusal, kNo);
   if (text.empty()) invocation.console.info(arguments.baseline + ": nothing to take");
   invocation.console.result(text, object);
   return plan.refused.empty() ? kDone : kNo;

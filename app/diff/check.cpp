@@ -227,8 +227,8 @@ void read_words(CheckArguments& arguments, const CLI::App& app) {
 
 /// Makes the records of the experiment, its figures and its report.
 void make_study_candidate(const CheckArguments& arguments, const Invocation& invocation) {
-  const StudyRequest request =
-      read_study_request(experiment_of(arguments.experiment()), arguments.request);
+  const StudyRequest request = read_study_request(experiment_of(arguments.experiment()),
+                                                  arguments.request, invocation.disclosure);
   check_data_used({&request, 1}, arguments.request);
   make_study(request, arguments.out, arguments.jobs,
              {invocation.command, invocation.disclosure.host()}, invocation.console);

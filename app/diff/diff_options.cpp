@@ -114,7 +114,7 @@ void add_diff_options(CLI::App& app, DiffOptions& options) {
                  "Write a page that shows what differs, e.g. diff.html; - to standard output");
   app.add_option("--page-size", options.page_size_mb,
                  "Size of that page in MB; it states which images and tables it leaves out")
-      ->check(CLI::Range(0.5, 2000.0))
+      ->check(number_in(0.5, 2000.0))
       ->capture_default_str();
   app.add_option("--templates", options.templates,
                  "Folder whose templates replace those of the page")

@@ -363,13 +363,12 @@ int evaluate(const EvaluateArguments& arguments, const Invocation& invocation) {
   study.title = arguments.title.empty() ? "Errors against the ground truth" : arguments.title;
   study.question = question_of(arguments, runs);
 
-  make_folder(arguments.out);
-  const FolderLock lock(arguments.out);
-  remove_leftovers(arguments.out);
-  write_records(study, runs, OutputFolder(arguments.out));
+  const LockedFolder folder(arguments.out);
+  write_records(study, runs, folder.files());
   write_session(arguments, invocation, start);
   const FolderReport report = read_folder_report(arguments.out, std::nullopt, invocation.command);
-  const fs::path path = write_report(report, {page, arguments.jobs, invocation.disclosure}, lock);
+  const fs::path path =
+      write_report(report, {page, arguments.jobs, invocation.disclosure}, folder.lock());
   nlohmann::ordered_json object{{"study", arguments.out},
                                 {"report", path.string()},
                                 {"runs", nlohmann::ordered_json::array()}};
@@ -386,10 +385,11 @@ void add_comparison_options(CLI::App& app, EvaluateArguments& arguments) {
       ->transform(one_of({"none", "rigid", "similarity", "first-pose"}))
       ->capture_default_str();
   app.add_option("--offset", arguments.offset_s, "Added to the times of estimates [s]")
+      ->check(finite_number())
       ->capture_default_str();
   app.add_option("--largest-gap", arguments.largest_gap_s,
                  "Poses farther apart in time are not associated [s]")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   app.add_option("--relative", arguments.spacings,
                  "Relative errors over these lengths: 1m,10m (way of the estimate), 5s, 100f "
@@ -410,7 +410,7 @@ void add_comparison_options(CLI::App& app, EvaluateArguments& arguments) {
   app.add_option("--gate", arguments.gate_m,
                  "With --landmarks nearest: landmarks farther apart are not associated [m]; "
                  "without: half the median distance between neighbours")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 }  // namespace

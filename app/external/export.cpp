@@ -74,7 +74,8 @@ std::string anchors_csv(const ObservedCheckpoint& checkpoint) {
 int export_study(const ExportArguments& arguments, const Invocation& invocation) {
   check_result_folder(arguments.out, "anchors.csv", "export");
   const Study study = read_mapping_study(arguments.study);
-  const OutputFolder out(arguments.out);
+  const LockedFolder folder(arguments.out);
+  const OutputFolder& out = folder.files();
   const auto asks_for = [&](std::string_view what) {
     return std::ranges::find(arguments.what, what) != arguments.what.end();
   };

@@ -252,10 +252,8 @@ int write_external_study(const Study& study, const std::vector<ExternalMap>& map
       "are aligned to the same anchors and scored alike. Maps of others were imported as files.{}",
       study.experiment.name,
       outputs.all ? "" : ", each with the parameter of the lowest mean MPE at the end,", lost);
-  make_folder(outputs.out);
-  const FolderLock lock(outputs.out);
-  remove_leftovers(outputs.out);
-  const OutputFolder out(outputs.out);
+  const LockedFolder folder(outputs.out);
+  const OutputFolder& out = folder.files();
   out.remove("maps");
   out.write(kStudyFile, results_study_json(results));
   out.write(kResultsFile, results_csv(results.results.rows));
@@ -270,7 +268,7 @@ int write_external_study(const Study& study, const std::vector<ExternalMap>& map
   if (!lost.empty()) invocation.console.warning(lost.substr(1));
   const fs::path path =
       write_report(read_folder_report(outputs.out, std::nullopt, invocation.command),
-                   {page, outputs.jobs, invocation.disclosure}, lock);
+                   {page, outputs.jobs, invocation.disclosure}, folder.lock());
   const auto failed =
       std::ranges::count_if(maps, [](const ExternalMap& map) { return !map.failure.empty(); });
   invocation.console.result(

@@ -13,6 +13,7 @@
 #include "app/external/external_study.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/experiment/external_input.hpp"
 #include "core/json/text_input.hpp"
@@ -113,6 +114,7 @@ void add_lost(const Experiment& experiment, const std::vector<Run>& runs,
 int import_maps(const ImportArguments& arguments, const Invocation& invocation) {
   check_external_folder(arguments.outputs.out);
   const Study study = read_mapping_study(arguments.study);
+  refuse_links_out(arguments.maps);
   std::set<std::string> methods;
   std::vector<ExternalMap> maps;
   for (const Run& run : study.runs)

@@ -25,20 +25,24 @@ void add_method_options(CLI::App& app, MapJob& job) {
   CLI::Option_group* parameter =
       app.add_option_group("Parameter of the method", "One of these, see \"mapproof methods\"");
   parameter->require_option(0, 1);
-  parameter->add_option("--parameter", job.parameter, "The parameter, whatever the method");
+  parameter->add_option("--parameter", job.parameter, "The parameter, whatever the method")
+      ->check(finite_number());
   parameter->add_option("-K,--neighbours", job.neighbours,
-                        "Number of nearest neighbours (default: 6, or as many as there can be)");
+                        "Number of nearest neighbours (default: 6, or as many as there can be)")
+      ->check(finite_number());
   parameter->add_option("--sigma2", job.variance,
-                        "Variance of the Gaussian kernel (default: the median squared distance)");
-  parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)");
+                        "Variance of the Gaussian kernel (default: the median squared distance)")
+      ->check(finite_number());
+  parameter->add_option("--degree", job.degree, "Degree of the polynomial kernel (default: 2)")
+      ->check(finite_number());
   app.add_option("--references", job.references,
-                 "Landmark ISOMAP: number of reference landmarks, from which paths are searched "
-                 "(default: 200; all if there are fewer)")
+                 "Landmark ISOMAP and landmark MVU: number of reference landmarks, which determine the "
+                 "others (default: 200 and 20; all if there are fewer)")
       ->check(CLI::Range(3, 100000));
   app.add_option("--stress-fall", job.stress_fall,
                  "SMACOF stops when a step reduces the stress by less than this share of it "
                  "(default: 1e-10; 0.01 with kNN weights, where stopping early makes better maps)")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_in(0.0, 1.0));
 }
 
 /// What was observed, and what is known of it.
@@ -92,7 +96,7 @@ void add_capability_options(CLI::App& app, MapJob& job) {
       ->check(CLI::Range(6, 5000));
   app.add_option("--overlap", job.overlap,
                  "Share of each sub-map that it has in common with its neighbours (default: 0.5)")
-      ->check(CLI::Range(0.0, 0.8));
+      ->check(number_in(0.0, 0.8));
   app.add_option("--ellipses", job.ellipse_replicates,
                  "Draw the 95 % confidence ellipse of each landmark, from N bootstrap resamples of "
                  "the steps")

@@ -70,7 +70,7 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
   if (const auto* gone = std::get_if<NotKept>(&draft.observed))
     return {.verdict = FitVerdict::kNotTestable, .why = {gone->fit_lacks}};
   if (map.rows() > kMostTested && !job.is_range_bearing())
-    return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
+    return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kSize}};
   if (const auto* scans = std::get_if<DetectionSource>(&draft.observed)) {
     const DetectionLog& log = scans->log;
     if (job.is_range_bearing()) {
@@ -80,7 +80,7 @@ Fit fit_of(MapDraft& draft, const MapJob& job) {
           {.known_m = &known_m, .association = draft.association ? &*draft.association : nullptr});
     }
     if (static_cast<double>(log.steps) * static_cast<double>(log.names.size()) > kMostHistory)
-      return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kMetric}};
+      return {.verdict = FitVerdict::kNotTestable, .why = {FitMissing::kSize}};
     return history_fit(history_of(log, *sensor_named(job.sensor)), log.steps, map, known_m);
   }
   if (const auto* packed = std::get_if<PackedSource>(&draft.observed))

@@ -44,7 +44,9 @@ MethodSetting chosen_setting(const MapJob& job) {
 /// stop early.
 void set_method_options(MapJob& job) {
   job.embedder.smacof = near_minimum();
-  if (job.references) job.embedder.landmark_isomap.references = *job.references;
+  if (job.references)
+    job.embedder.landmark_isomap.references = job.embedder.landmark_mvu.references =
+        *job.references;
   if (!job.stress_fall) return;
   const bool is_weighted = method_of(job) == Method::kSmacofKnn;
   if (!is_weighted) job.embedder.smacof.relative_fall = *job.stress_fall;

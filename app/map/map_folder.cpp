@@ -17,9 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path made_map_folder(const fs::path& folder) {
+const fs::path& checked_map_folder(const fs::path& folder) {
   check_map_folder(folder);
-  make_folder(folder);
   return folder;
 }
 
@@ -107,16 +106,14 @@ void check_may_become(const fs::path& folder, const MapRecord& map, bool any_met
   refuse_other(folder, there, here);
 }
 
-MapFolder::MapFolder(const fs::path& folder) : path_(folder), lock_(made_map_folder(folder)) {
+MapFolder::MapFolder(const fs::path& folder) : folder_(checked_map_folder(folder)) {
   refuse_links_out(folder);
-  remove_leftovers(folder);
 }
 
 MapFolder::MapFolder(const fs::path& folder, const MapRecord& map)
-    : path_(folder), lock_(made_map_folder(folder)) {
+    : folder_(checked_map_folder(folder)) {
   refuse_links_out(folder);
   check_same_map(folder, map);
-  remove_leftovers(folder);
 }
 
 }  // namespace mapproof

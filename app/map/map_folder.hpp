@@ -37,11 +37,10 @@ class MapFolder {
   /// For this one. @throws IoError as the checks above, or if another process writes there.
   MapFolder(const std::filesystem::path& folder, const MapRecord& map);
 
-  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path path() const { return folder_.files().path(); }
 
  private:
-  std::filesystem::path path_;
-  FolderLock lock_;
+  LockedFolder folder_;
 };
 
 }  // namespace mapproof

@@ -140,14 +140,9 @@ MissingChoice judged_choice(MissingChoice choice, const HistoryBlocks& history, 
 }
 
 /// The same of a history with landmarks that were never observed, which count for nothing.
-MissingChoice judged_of_seen(const MissingChoice& choice, const ObservationHistory& history,
+MissingChoice judged_of_seen(const MissingChoice& choice, const HistoryBlocks& history,
                              Eigen::Index steps, MapResult& result) {
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  if (unseen.empty()) return judged_choice(choice, history, steps, result);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
-    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
-  return judged_choice(choice, with_rows(history, rows), steps, result);
+  return judged_choice(choice, history.only(seen_landmarks(history, steps)), steps, result);
 }
 
 /// From observations to proximities as it was chosen; empty: as always.
@@ -165,7 +160,7 @@ MapDraft judge_missing(MapDraft draft, const MapJob& job) {
   MissingChoice choice{job.missing, job.dimensions};
   const Eigen::Index steps = draft.result.record.step;
   if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
-    choice = judged_choice(choice, packed->history.blocks(), steps, draft.result);
+    choice = judged_of_seen(choice, packed->history.blocks(), steps, draft.result);
   else if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
     choice = judged_of_seen(choice, source->history, steps, draft.result);
   else

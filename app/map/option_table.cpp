@@ -73,7 +73,10 @@ const std::vector<MapOption> kOptions = {
      [](Job job) { return job.references.has_value(); },
      {"--references", "50"}},
     {"a method of references",
-     [](Job job) { return method_of(job) == Method::kLandmarkIsomap; }},
+     [](Job job) {
+       const std::optional<Method> method = method_of(job);
+       return method && has_references(*method);
+     }},
     {"--stress-fall",
      [](Job job) { return job.stress_fall.has_value(); },
      {"--stress-fall", "1e-6"}},
@@ -228,7 +231,8 @@ constexpr OptionPair kNeeded[] = {
     {"--stress-fall", "a method of least stress",
      "it is the stop rule of smacof and smacof-knn; the method {method} does not have it"},
     {"--references", "a method of references",
-     "only landmark-isomap has reference landmarks; add --method landmark-isomap"},
+     "only landmark-isomap and landmark-mvu have reference landmarks; add --method "
+     "landmark-isomap"},
     {"--dimensions", "--missing ppca, pca or auto", "--missing {missing} has no dimensions"},
     {"--overlap", "--submaps", "it is the overlap of sub-maps; add --submaps N"},
 };

@@ -13,9 +13,7 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/out_of_memory.hpp"
 #include "core/base/text/words.hpp"
-#include "core/embed/pca.hpp"
 #include "core/map_fit/map_fit.hpp"
-#include "core/observe/detected_proximities.hpp"
 #include "core/pairs/pair_map.hpp"
 #include "core/records/observations/grid_table.hpp"
 #include "core/records/observations/input_kind.hpp"
@@ -60,11 +58,9 @@ bool may_be_long(const MapJob& job) {
   const TableFormat format = job.table_format();
   // A list of what was seen may be short for its landmarks and steps.
   return is_large_long_table(*job.source, format) ||
-         (job.setting.method == Method::kLandmarkIsomap && !is_json(*job.source) &&
+         (has_references(job.setting.method) && !is_json(*job.source) &&
           is_detections(*job.source, format));
 }
-
-constexpr Eigen::Index kFewestSteps = 3;  ///< Of which fewer are reported.
 
 /// Entries from which a table stays packed: an array of them takes 160 MB, and as much again in
 /// the steps.
@@ -73,17 +69,13 @@ constexpr double kPackedEntries = 2e7;
 /// A table of landmarks and steps; other forms have their values in an array.
 Observed read_table(const MapJob& job, std::optional<Sensor> sensor) {
   const TableFormat format = job.table_format();
-  // Landmark ISOMAP takes its distances of an array; few steps are reported of one.
-  if (!job.source || !sensor || format.scan_window_s ||
-      job.setting.method == Method::kLandmarkIsomap ||
-      (job.steps > 0 && job.steps < kFewestSteps) || !is_grid_table(*job.source, format))
+  if (!job.source || !sensor || format.scan_window_s || !is_grid_table(*job.source, format))
     return read_values(job, sensor);
   PackedSource source = read_grid(*job.source, *sensor, format);
   const PackedHistory& history = source.history;
   const double entries =
       static_cast<double>(history.landmarks()) * static_cast<double>(history.steps);
-  if (entries < kPackedEntries || !unseen_landmarks(history.blocks(), history.steps).empty())
-    return unpacked(source);
+  if (entries < kPackedEntries) return unpacked(source);
   return source;
 }
 
@@ -112,21 +104,21 @@ Observed read(const MapJob& job) {
 std::string gigabytes(double bytes) { return fmt::format("{:.2g} GB", bytes / 1e9); }
 
 /// Refuses a map for which there is not enough memory.
-/// @param array_bytes  Of the observations, if they will become an array.
-void require_memory(const std::string& path, std::size_t landmarks, double array_bytes,
-                    const MapJob& job) {
-  const auto M = static_cast<Eigen::Index>(landmarks);
-  const bool is_large = job.setting.method == Method::kLandmarkIsomap;
-  const double needed = needed_bytes(job.setting.method, M, job.embedder) + array_bytes;
+void require_memory(const std::string& path, const HistoryExtent& history, const MapJob& job) {
+  if (job.is_range_bearing() || job.submaps > 0) return;
+  const double needed = needed_bytes(job.setting.method, history, job.embedder);
   const double available = available_memory_bytes();
-  if (job.is_range_bearing() || job.submaps > 0 || needed <= available) return;
+  if (needed <= available) return;
+  const bool is_large = has_references(job.setting.method);
   throw IoError(
-      path, fmt::format(
-                "{} of {} landmarks needs {} of memory, and {} are available: {}",
-                info(job.setting.method).label, M, gigabytes(needed), gigabytes(available),
-                is_large ? "give fewer --references"
-                         : "use --method landmark-isomap, which needs " +
-                               gigabytes(needed_bytes(Method::kLandmarkIsomap, M, job.embedder))));
+      path,
+      fmt::format("{} of {} landmarks needs {} of memory, and {} are available: {}",
+                  info(job.setting.method).label, history.landmarks, gigabytes(needed),
+                  gigabytes(available),
+                  is_large
+                      ? "give fewer --references"
+                      : "use --method landmark-isomap, which needs " +
+                            gigabytes(needed_bytes(Method::kLandmarkIsomap, history, job.embedder))));
 }
 
 void require_three(const std::string& path, std::ptrdiff_t landmarks) {
@@ -135,20 +127,22 @@ void require_three(const std::string& path, std::ptrdiff_t landmarks) {
 }
 
 /// Landmarks with nothing observed of them: an error at the first, or a remark.
-void check_unseen(const ObservationSource& source, const std::vector<Eigen::Index>& unseen,
-                  const MapJob& job, std::vector<std::string>& remarks) {
+/// @param source  An ObservationSource or PackedSource, whose landmarks `history` holds.
+template <typename Source>
+void check_unseen(const Source& source, const HistoryBlocks& history, bool is_log,
+                  const MapJob& job, MapDraft& draft) {
+  const std::vector<Eigen::Index>& unseen = draft.landmarks.unseen;
   if (unseen.empty()) return;
   const auto first = static_cast<std::size_t>(unseen.front());
-  const bool is_log = source.ground_truth_m.has_value();
   if (!job.drop_unseen && !is_log)
-    throw IoError(
-        source.path, source.locations[first],
-        fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
-                    "to map the others",
-                    quoted_name(source.history.names[first]),
-                    source.history.sensor == Sensor::kVisibility ? " (no 1 in its row)" : ""));
-  remarks.push_back(fmt::format("{} of {} landmarks were never observed and are left out.",
-                                unseen.size(), source.history.landmarks()));
+    throw IoError(source.path, source.locations[first],
+                  fmt::format("landmark {} is never observed{}; remove it, or pass --drop-unseen "
+                              "to map the others",
+                              quoted_name(history.names()[first]),
+                              history.sensor() == Sensor::kVisibility ? " (no 1 in its row)" : ""));
+  draft.result.remarks.push_back(
+      fmt::format("{} of {} landmarks were never observed and are left out.", unseen.size(),
+                  history.landmarks()));
 }
 
 /// Steps, landmarks and missing entries of the values of one sensor.
@@ -162,7 +156,12 @@ Eigen::Index check_history(const HistoryBlocks& history, const std::string& path
   draft.landmarks.names = history.names();
   draft.landmarks.unseen = unseen_landmarks(history, steps);
   require_neighbours(job, draft.landmarks);
-  require_memory(path, history.names().size(), 0.0, job);
+  HistoryExtent extent{.sensor = history.sensor(),
+                       .landmarks = history.landmarks(),
+                       .steps = steps,
+                       .misses_any = missing > 0.0};
+  if (job.setting.method == Method::kLpca) extent = extent_of(history, steps);
+  require_memory(path, extent, job);
   draft.result.record =
       begin_record(FromSensor{history.sensor(), job.setting}, history.names(), steps);
   const double entries =
@@ -179,17 +178,13 @@ void check_values(const ObservationSource& source, const MapJob& job, MapDraft& 
   const auto missing = static_cast<double>(source.history.values.array().isNaN().count());
   check_history(source.history, source.path, missing, job, draft);
   draft.landmarks.ground_truth_m = source.ground_truth_m;
-  check_unseen(source, draft.landmarks.unseen, job, draft.result.remarks);
+  check_unseen(source, source.history, source.ground_truth_m.has_value(), job, draft);
 }
 
-/// Packed values, of which all landmarks were seen at some step.
 void check_packed(const PackedSource& source, const MapJob& job, MapDraft& draft) {
   const PackedHistory& history = source.history;
   check_history(history.blocks(), source.path, history.missing, job, draft);
-  if (draft.landmarks.unseen.empty()) return;
-  hold_array(draft);
-  check_unseen(std::get<ObservationSource>(draft.observed), draft.landmarks.unseen, job,
-               draft.result.remarks);
+  check_unseen(source, history.blocks(), false, job, draft);
 }
 
 /// Reports what was understood of the files.
@@ -225,10 +220,8 @@ void check_scans(DetectionSource& source, const MapJob& job, MapDraft& draft) {
     throw IoError(source.path,
                   fmt::format("{} of {} landmarks are not in the first {} scans",
                               draft.landmarks.unseen.size(), log.names.size(), log.steps));
-  const bool makes_array =
-      job.setting.method == Method::kLandmarkIsomap && job.sensor != "visibility";
-  require_memory(source.path, log.names.size(),
-                 makes_array ? 8.0 * static_cast<double>(log.names.size()) * log.steps : 0.0, job);
+  if (!job.is_range_bearing())
+    require_memory(source.path, extent_of(log, *sensor_named(job.sensor)), job);
   MapOrigin origin = FromPairs{};
   if (!job.is_range_bearing()) origin = FromSensor{*sensor_named(job.sensor), job.setting};
   draft.result.record = begin_record(std::move(origin), log.names, log.steps);
@@ -261,43 +254,24 @@ MapDraft refer(MapDraft draft, const MapJob& job) {
 
 // Distances, and their embedding.
 
-/// Linear PCA by the vectors alone, where it is faster and nothing of the distances is asked for.
-bool embed_by_vectors(const ObservationHistory& history, MapDraft& draft) {
-  const Eigen::Index steps = draft.result.record.step;
-  if (draft.setting.method != Method::kLpca || history.sensor == Sensor::kVisibility ||
-      draft.distances.of_map || steps < kFewestSteps ||
-      !is_faster_by_vectors(history.landmarks(), 2 * steps) ||
-      history.values.leftCols(steps).array().isNaN().any())
-    return false;
-  const Embedding map = lpca_of_vectors(features(history, steps).values);
-  // Vectors that are all alike, or on one line, are left to their distances.
-  if (!map.statuses.empty()) return false;
-  take_embedding(draft, map);
-  return true;
+void embed_blocks(const HistoryBlocks& history, const MapJob& job, MapDraft& draft) {
+  take_embedding(draft,
+                 embed_history(history, draft.result.record.step, draft.setting, job.embedder));
 }
 
+/// By other distances than the usual ones, if a step before chose such.
 void embed_values(const ObservationSource& source, const MapJob& job, MapDraft& draft) {
-  if (embed_by_vectors(source.history, draft)) return;
+  if (!draft.distances.of_map) return embed_blocks(source.history, job, draft);
   DistanceNotes notes;
-  const Embedding embedding = embed_history(source.history, draft.result.record.step, draft.setting,
-                                            job.embedder, draft.distances.noting(notes));
-  take_embedding(draft, embedding, notes);
-}
-
-/// Without any unseen landmark, see check_packed().
-void embed_packed(const PackedSource& source, const MapJob& job, MapDraft& draft) {
-  Embedder embedder(proximities(source.history.blocks(), draft.result.record.step), job.embedder);
+  HistoryEmbedder embedder(source.history, draft.result.record.step, job.embedder,
+                           draft.distances.noting(notes));
   if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
-  take_embedding(draft, embedder.embed(draft.setting));
+  take_embedding(draft, embedder.embed(draft.setting), notes);
 }
 
 void embed_long_table(const DetectionSource& source, const MapJob& job, MapDraft& draft) {
-  if (draft.setting.method == Method::kLandmarkIsomap)
-    return take_embedding(
-        draft, embed_detected(source.log, *sensor_named(job.sensor), draft.setting, job.embedder));
-  Embedder embedder(detected_proximities(source.log, *sensor_named(job.sensor)), job.embedder);
-  if (!draft.setting.parameter) draft.setting = embedder.usual_setting(draft.setting.method);
-  take_embedding(draft, embedder.embed(draft.setting));
+  take_embedding(
+      draft, embed_detected(source.log, *sensor_named(job.sensor), draft.setting, job.embedder));
 }
 
 void embed_pairs(const DetectionSource& source, MapDraft& draft) {
@@ -310,12 +284,13 @@ void embed_pairs(const DetectionSource& source, MapDraft& draft) {
 
 /// What the approximation is made of.
 void add_references(MapDraft& draft, const MapJob& job) {
-  if (draft.setting.method != Method::kLandmarkIsomap) return;
+  if (!has_references(draft.setting.method)) return;
   const auto M = std::ssize(draft.result.record.names);
-  draft.result.read.emplace_back(
-      "Reference landmarks",
-      fmt::format("{} of {}", std::min<std::ptrdiff_t>(job.embedder.landmark_isomap.references, M),
-                  M));
+  const std::ptrdiff_t references = draft.setting.method == Method::kLandmarkIsomap
+                                        ? job.embedder.landmark_isomap.references
+                                        : job.embedder.landmark_mvu.references;
+  draft.result.read.emplace_back("Reference landmarks",
+                                 fmt::format("{} of {}", std::min(references, M), M));
 }
 
 /// Embeds the distances as a whole, unless a step before has embedded them otherwise.
@@ -324,7 +299,7 @@ MapDraft embed(MapDraft draft, const MapJob& job) {
     if (const auto* source = std::get_if<ObservationSource>(&draft.observed))
       embed_values(*source, job, draft);
     else if (const auto* packed = std::get_if<PackedSource>(&draft.observed))
-      embed_packed(*packed, job, draft);
+      embed_blocks(packed->history.blocks(), job, draft);
     else if (const auto* scans = std::get_if<DetectionSource>(&draft.observed))
       job.is_range_bearing() ? embed_pairs(*scans, draft) : embed_long_table(*scans, job, draft);
   }

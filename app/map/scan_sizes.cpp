@@ -39,7 +39,7 @@ ScanSizes scan_sizes(const HistoryBlocks& history) {
                sizes);
     }
   };
-  for_blocks(history, history.steps(), kStepsAtATime, add);
+  for_blocks(history, history.steps(), add);
   return sizes;
 }
 

@@ -17,8 +17,10 @@
 #include "core/base/text/words.hpp"
 #include "core/json/json_text.hpp"
 #include "core/records/studies/folder_lock.hpp"
+#include "reports/history/finding_groups.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
+#include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {
@@ -95,18 +97,41 @@ FolderLock locked(const HistoryArguments& arguments, const Console& console) {
   });
 }
 
+/// Notes on the other settings of the method that a note is about: pages show them as one finding.
+void add_settings(HistoryStore& history, std::vector<NightlyNote>& notes) {
+  std::vector<NightlyNote> more;
+  for (const NightlyNote& note : notes) {
+    if (note.finding == 0) continue;
+    std::vector<StudyTrend> trends;
+    for (const NightlyStudy& study : history.studies(note.nightly_run))
+      trends.push_back(
+          history.trend(study.name, study.experiment_digest, kTrendRuns, note.nightly_run));
+    const std::vector<NightlyFinding> findings = history.findings(note.nightly_run);
+    for (const FindingGroup& group : grouped(findings, trends, {}))
+      if (std::ranges::find(group.numbers, note.finding) != group.numbers.end())
+        for (const int number : group.numbers)
+          if (number != note.finding) {
+            more.push_back(note);
+            more.back().finding = number;
+          }
+  }
+  notes.insert(notes.end(), more.begin(), more.end());
+}
+
 /// What the options say, as notes; one per finding of what is known of a whole nightly run.
 std::vector<NightlyNote> asked_notes(HistoryStore& history, const HistoryArguments& arguments) {
   std::vector<NightlyNote> asked;
-  if (arguments.decisions)
-    asked = parse_decisions(read_file(*arguments.decisions), *arguments.decisions);
   const auto add = [&](const std::vector<std::string>& words, NoteKind kind,
                        std::string_view option) {
     if (!words.empty()) asked.push_back(note_of({words[0], kind, words[1]}, option));
   };
-  add(arguments.note, NoteKind::kNote, "--note");
   add(arguments.known, NoteKind::kKnown, "--known");
+  add_settings(history, asked);
+  add(arguments.note, NoteKind::kNote, "--note");
   add(arguments.accept, NoteKind::kAccepted, "--accept");
+  if (arguments.decisions)  // They name each setting.
+    std::ranges::move(parse_decisions(read_file(*arguments.decisions), *arguments.decisions),
+                      std::back_inserter(asked));
   std::vector<NightlyNote> notes;
   for (const NightlyNote& note : asked) {
     const std::vector<NightlyFinding> findings = history.findings(note.nightly_run);
@@ -133,23 +158,29 @@ int note_in(HistoryStore& history, const HistoryArguments& arguments,
 /// Compares each study that both nightly runs have.
 int compare(HistoryStore& history, const HistoryArguments& arguments,
             const Invocation& invocation) {
-  NightlyPair pair{.before = arguments.compare[0], .after = arguments.compare[1]};
   const std::vector<NightlyFacts> all = history.nightly_runs();
-  for (const int number : arguments.compare)
-    if (std::ranges::find(all, number, &NightlyFacts::number) == all.end())
+  const auto facts_of = [&](int number) {
+    const auto found = std::ranges::find(all, number, &NightlyFacts::number);
+    if (found == all.end())
       throw InvalidInput(fmt::format("--compare: there is no nightly run {}", number));
-  const std::vector<NightlyStudy> others = history.studies(pair.after);
-  for (const NightlyStudy& study : history.studies(pair.before))
+    return *found;
+  };
+  const int before = arguments.compare[0], after = arguments.compare[1];
+  NightlyPair pair{.before = facts_of(before), .after = facts_of(after)};
+  const std::vector<NightlyStudy> others = history.studies(after);
+  for (const NightlyStudy& study : history.studies(before))
     if (std::ranges::find(others, study.name, &NightlyStudy::name) != others.end())
       pair.studies.push_back(study.name);
   const FolderLock lock = locked(arguments, invocation.console);
   const Templates page = load_templates();
   const HistoryOutputs outputs{arguments.store, arguments.store, page, 1, invocation.disclosure};
+  pair.groups = groups_between(read_index_facts(history, outputs, {}), before, after);
   const std::vector<std::string> written = write_comparisons(pair, outputs);
   if (written.empty())
-    throw InvalidInput(fmt::format("--compare: nightly runs {} and {} have no study in common whose "
-                                   "files are still there",
-                                   pair.before, pair.after));
+    throw InvalidInput(
+        fmt::format("--compare: nightly runs {} and {} have no study in common whose "
+                    "files are still there",
+                    before, after));
   write_pages_again(history, arguments, invocation);
   std::string text;
   for (const std::string& file : written) text += (outputs.out / file).string() + "\n";
@@ -230,7 +261,7 @@ Action history_command(CLI::App& app) {
                    "Every value of every nightly run, to standard output")
       ->transform(one_of({"csv", "json"}));
   what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   const auto add_note = [&](const char* option, std::vector<std::string>& words,
                             const char* text) {
     what->add_option(option, words, text)->expected(2)->type_name("N TEXT");
@@ -247,7 +278,7 @@ Action history_command(CLI::App& app) {
                    "Compare nightly runs A and B study by study, and write a page of each")
       ->expected(2)
       ->type_name("A B")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   what->add_flag("--verify", arguments->verify, "Check the history and every figure's bytes");
   what->require_option(0, 1);
   group_options(app, {{"Task",

@@ -100,11 +100,13 @@ NightlyFacts begun(int number, int jobs, const SessionNames& names) {
 }
 
 /// Makes the records of every study. @return The worst exit code.
-int make_all(const std::vector<StudyRequest>& requests, const fs::path& folder, int jobs,
-             const SessionNames& names, const Console& console) {
+int make_all(const std::vector<StudyRequest>& requests, const fs::path& folder,
+             const NightlyFacts& facts, const Console& console) {
+  const std::string of = fmt::format("nightly run {} is not recorded: ", facts.number);
   int worst = kDone;
   for (const StudyRequest& request : requests)
-    worst = std::max(worst, make_apart(request, folder / request.name, jobs, names, console));
+    worst = std::max(worst, make_apart(request, folder / request.name, facts.jobs,
+                                       {facts.command, facts.host}, console, of));
   return worst;
 }
 
@@ -223,8 +225,9 @@ std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& su
 
 /// Pages that compare the nightly runs between which something new began. A failure is a warning:
 /// the nightly run is recorded already.
-void compare_where_it_began(const NightlySummary& summary, const HistoryOutputs& outputs,
+void compare_where_it_began(const IndexFacts& facts, const HistoryOutputs& outputs,
                             const Console& console) {
+  const NightlySummary summary = last_summary(facts);
   std::set<std::string> there = comparisons_in(outputs.out);
   for (const FindingGroup& group : summary.groups) {
     const int before = group.commits.before.number, since = group.commits.since.number;
@@ -232,7 +235,11 @@ void compare_where_it_began(const NightlySummary& summary, const HistoryOutputs&
         !there.insert(comparison_file(before, since, group.study)).second)
       continue;
     try {
-      write_comparisons({before, since, {group.study}}, outputs);
+      write_comparisons({group.commits.before,
+                         group.commits.since,
+                         {group.study},
+                         groups_between(facts, before, since)},
+                        outputs);
     } catch (const std::runtime_error& error) {
       console.warning(error.what());
     }
@@ -249,8 +256,9 @@ struct NightlyEnd {
 /// Writes the pages of a history, and those that compare. @return How its last nightly run ended.
 NightlyEnd write_pages(HistoryStore& history, const std::vector<std::string>& remarks,
                        const HistoryOutputs& outputs, const Console& console) {
-  NightlyEnd end{.summary = last_summary(read_index_facts(history, outputs, remarks))};
-  compare_where_it_began(end.summary, outputs, console);
+  const IndexFacts facts = read_index_facts(history, outputs, remarks);
+  NightlyEnd end{.summary = last_summary(facts)};
+  compare_where_it_began(facts, outputs, console);
   end.index = write_history_pages(history, outputs, read_index_facts(history, outputs, remarks));
   end.exit_code = exit_code(end.summary.verdict());
   return end;
@@ -267,11 +275,11 @@ void say(const NightlyRun& nightly_run, const NightlyEnd& end, const fs::path& p
 
 /// The facts of a nightly run that begins, with the commit that it measures.
 NightlyFacts facts_of(int number, const NightlyArguments& arguments, const SessionNames& names,
-                      const TestedCommit& commit) {
+                      const TestedCommit& commit, const Disclosure& disclosure) {
   NightlyFacts facts = begun(number, arguments.jobs, names);
   facts.commit = commit.id;
   facts.repository = commit.repository;
-  facts.build = arguments.build;
+  facts.build = disclosure.words({arguments.build}).front();
   return facts;
 }
 
@@ -306,7 +314,8 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
   NightlyRun nightly_run{
-      .facts = facts_of(next_nightly_run(history, store), arguments, names, commit)};
+      .facts = facts_of(next_nightly_run(history, store), arguments, names, commit,
+                        invocation.disclosure)};
   if (asked) {  // Refused before hours of work.
     nightly_run.studies = planned_studies(requests.studies);
     reference_nightly_run(history, nightly_run, asked);
@@ -314,12 +323,8 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
   const fs::path folder = nightly_folder(store, nightly_run.facts.number);
   say_when_stopped(kContinuesWord);
   begin_nightly_run(folder, requests.studies, console);
-  const int made = make_all(requests.studies, folder, arguments.jobs, names, console);
-  if (made != kDone) {
-    console.warning(fmt::format("nightly run {}: not recorded, since a study was not finished",
-                                nightly_run.facts.number));
-    return {.exit_code = made};
-  }
+  const int made = make_all(requests.studies, folder, nightly_run.facts, console);
+  if (made != kDone) return {.exit_code = made};
   nightly_run.studies = read_nightly_studies(requests.studies, folder);
   std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
   remarks.insert(remarks.end(), requests.remarks.begin(), requests.remarks.end());
@@ -339,7 +344,8 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
       {.experiments = arguments.experiments,
        .metrics = arguments.metrics,
        .better = arguments.better ? better_named(*arguments.better) : std::nullopt,
-       .options = arguments.request});
+       .options = arguments.request},
+      invocation.disclosure);
   if (arguments.bisect)
     return bisect(requests,
                   {arguments.store, *arguments.bisect, arguments.jobs,
@@ -369,7 +375,7 @@ void add_commit_options(CLI::App& app, NightlyArguments& arguments) {
                  "For git bisect: record nothing; end with 0 if what got worse in nightly run N is "
                  "as before it, with 1 if not, with 125 if it cannot be tested")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 void add_wish_options(CLI::App& app, NightlyWishes& wishes) {

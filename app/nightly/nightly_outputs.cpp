@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "reports/diff/folder_diff.hpp"
+#include "reports/history/nightly_standing.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/diff/shown_images.hpp"
 
@@ -49,20 +51,54 @@ void run_on_worse(const NightlySummary& summary, const NightlyWishes& wishes,
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Gives a comparison the verdict of the nightly run: one rule judges a nightly run and the page
+/// that shows why.
+void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, DiffResult& result) {
+  const Standing standing = study_standing(pair.after, pair.groups, study, true);
+  if (standing.sentences.empty()) return;
+  std::string cause = standing.title + ":";
+  for (const std::string& sentence : standing.sentences) cause += " " + sentence;
+  judge_records_as(result, {Verdict::kWorse, true, cause});
+  result.remarks.insert(
+      result.remarks.begin(),
+      "Nightly runs are judged by the change in percent, or in points, over all runs of a method; "
+      "the tables below test each quantity by its ranks alone, for which more runs are needed.");
+}
+
+}  // namespace
+
+std::vector<FindingGroup> groups_between(const IndexFacts& facts, int before, int after) {
+  const auto found = facts.findings.find(after);
+  const auto nightly_run = std::ranges::find(facts.nightly_runs, after, &NightlyFacts::number);
+  if (found == facts.findings.end() || nightly_run == facts.nightly_runs.end()) return {};
+  std::vector<FindingGroup> groups = grouped(found->second, facts.trends, facts.notes);
+  if (nightly_run->reference != before)
+    std::erase_if(groups, [&](const FindingGroup& group) {
+      return group.commits.before.number != before || group.commits.since.number != after;
+    });
+  return groups;
+}
+
 std::vector<std::string> write_comparisons(const NightlyPair& pair, const HistoryOutputs& outputs) {
   std::vector<std::string> written;
   const auto folder = [&](int number, const std::string& study) {
     return outputs.store / "nightly_runs" / fmt::format("{:04}", number) / study;
   };
   for (const std::string& study : pair.studies) {
-    const fs::path before = folder(pair.before, study), after = folder(pair.after, study);
+    const fs::path before = folder(pair.before.number, study),
+                   after = folder(pair.after.number, study);
     std::error_code error;
     if (!fs::exists(before / "study.json", error) || !fs::exists(after / "study.json", error))
       continue;
     DiffSettings settings;
     settings.heat_map_bytes = kPageBytes;
-    const DiffResult result = folder_diff(before, after, settings);
-    const std::string file = comparison_file(pair.before, pair.after, study);
+    DiffResult result = folder_diff(before, after, settings);
+    result.baseline_title = dated_name(pair.before);
+    result.current_title = dated_name(pair.after);
+    judge_as_nightly_run(pair, study, result);
+    const std::string file = comparison_file(pair.before.number, pair.after.number, study);
     make_folder((outputs.out / file).parent_path());
     OutputFolder(outputs.out)
         .write(file, outputs.disclosure.text(

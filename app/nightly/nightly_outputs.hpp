@@ -31,10 +31,17 @@ void run_on_worse(const NightlySummary& summary, const NightlyWishes& wishes,
 
 /// Two nightly runs, the older one first, and studies that both have.
 struct NightlyPair {
-  int before = 0;
-  int after = 0;
+  NightlyFacts before = {};
+  NightlyFacts after = {};
   std::vector<std::string> studies = {};
+  /// What got worse from one to the other, where the later one was compared with the earlier one:
+  /// the pages say the same.
+  std::vector<FindingGroup> groups = {};
 };
+
+/// What got worse from one nightly run to another one, as far as the later one was compared with
+/// the earlier one, or its findings began between them.
+std::vector<FindingGroup> groups_between(const IndexFacts& facts, int before, int after);
 
 /// Compares each study of two nightly runs as `mapproof diff` does, and writes the page of each (see
 /// comparison_file()). A study whose files are not there any more is left out.

@@ -103,7 +103,7 @@ StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
 
 }  // namespace
 
-NightlyRequests read_nightly_requests(const NightlyInput& input) {
+NightlyRequests read_nightly_requests(const NightlyInput& input, const Disclosure& disclosure) {
   StudyOptions options = input.options;
   options.profile_if_there = options.one_of_several = true;
   NightlyRequests all;
@@ -126,7 +126,7 @@ NightlyRequests read_nightly_requests(const NightlyInput& input) {
     } else {
       const ExperimentText text = experiment_of(experiment);
       file = text.source;
-      request = read_study_request(text, options);
+      request = read_study_request(text, options, disclosure);
     }
     add(std::move(request), file);
   }
@@ -164,15 +164,15 @@ std::vector<NightlyStudy> read_nightly_studies(const std::vector<StudyRequest>& 
 }
 
 int make_apart(const StudyRequest& request, const fs::path& folder, int jobs,
-               const SessionNames& names, const Console& console) {
+               const SessionNames& names, const Console& console, const std::string& of) {
   const auto make = [&] { return make_study(request, folder, jobs, names, console), kDone; };
   try {
     // No thread runs yet that the copy would lack. A nightly run that is killed takes its study
     // with it: its locks are free at once.
-    ChildProcess process([&] { return exit_code_of(make, request.name + ": "); });
+    ChildProcess process([&] { return exit_code_of(make, of + request.name + ": "); });
     const ProcessEnd end = process.wait();
     if (end.signal == 0) return end.exit_code;
-    return report_failure(fmt::format("{}: {}", request.name, end.text()), kInternal);
+    return report_failure(fmt::format("{}{}: {}", of, request.name, end.text()), kInternal);
   } catch (const ProcessError& error) {
     throw IoError(folder.string(), error.what());
   }
@@ -283,11 +283,9 @@ int bisect(const NightlyRequests& requests, const BisectTask& task, const Consol
     throw InvalidInput(fmt::format("--bisect: nothing got worse in nightly run {}", task.since));
   const TemporaryFolder folder("bisect");
   for (const StudyRequest& request : requests.studies)
-    if (make_apart(request, folder.path() / request.name, task.jobs, task.names, console) !=
-        kDone) {
-      console.warning(request.name + ": was not finished: this commit cannot be tested");
+    if (make_apart(request, folder.path() / request.name, task.jobs, task.names, console,
+                   "this commit cannot be tested: ") != kDone)
       return kCannotTest;
-    }
   std::vector<Triple> all;
   for (const NightlyStudy& study : read_nightly_studies(requests.studies, folder.path()))
     std::ranges::move(triples_of(history, study, task.since, findings), std::back_inserter(all));

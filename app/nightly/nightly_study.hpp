@@ -33,7 +33,7 @@ struct NightlyRequests {
 
 /// Reads what is asked for, all of it before anything is made.
 /// @throws IoError, InvalidInput: among others if two have one name, or if there is nothing.
-NightlyRequests read_nightly_requests(const NightlyInput& input);
+NightlyRequests read_nightly_requests(const NightlyInput& input, const Disclosure& disclosure);
 
 /// What the studies of a nightly run will be, before they are made: names and what they are
 /// compared by.
@@ -45,9 +45,10 @@ std::vector<NightlyStudy> read_nightly_studies(const std::vector<StudyRequest>& 
 
 /// Makes the records of a study in a process of its own, so that the peak of its memory is its own
 /// and its crash is its own.
+/// @param of  What a failure means, put before its line: "nightly run 3 is not recorded: ".
 /// @return The ExitCode of that process, kInternal if a signal ended it. @throws IoError.
 int make_apart(const StudyRequest& request, const std::filesystem::path& folder, int jobs,
-               const SessionNames& names, const Console& console);
+               const SessionNames& names, const Console& console, const std::string& of);
 
 /// A file of metrics as a study.
 struct MetricsRequest {

@@ -13,6 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/study_page.hpp"
 #include "core/records/studies/study_store.hpp"
@@ -70,6 +71,7 @@ Figure figure_of_map(const fs::path& file) {
 }
 
 Drawables from_folder(const fs::path& folder) {
+  refuse_links_out(folder);
   if (is_study(folder) || !study_folders(folder).empty()) {
     FolderReport report = read_folder_report(folder, std::nullopt, "");
     return {.root = folder,

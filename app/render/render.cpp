@@ -290,13 +290,13 @@ Drawables read_all(const RenderArguments& arguments) {
   return joined;
 }
 
-/// figures/ as reports have them; what is drawn otherwise goes beside it.
-fs::path folder_for(const RenderArguments& arguments, const Drawables& drawables,
-                    const FigureStyle& style) {
-  if (!arguments.out.empty()) return arguments.out;
-  if (style.theme == BaseTheme::kPaper) return drawables.root / "figures-paper";
+/// The folder below the root for what is drawn without --out: figures/ as reports have them; what
+/// is drawn otherwise goes beside it.
+fs::path inner_folder(const RenderArguments& arguments, const FigureStyle& style) {
+  if (!arguments.out.empty()) return "";
+  if (style.theme == BaseTheme::kPaper) return "figures-paper";
   const bool is_own = arguments.style.changes_figures() || !arguments.panels.empty();
-  return drawables.root / (is_own ? "figures-styled" : "figures");
+  return is_own ? "figures-styled" : "figures";
 }
 
 int list(const Drawables& drawables, const Invocation& invocation) {
@@ -412,16 +412,17 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   Drawables drawables = read_all(arguments);
   refuse_idle_options(arguments.style, formats, drawables);
   edit(arguments.style, style, drawables);
-  const fs::path folder = folder_for(arguments, drawables, style);
-  make_folder(folder);
-  const FolderLock lock(folder);
-  remove_leftovers(folder);
+  // Commands that make the map or the study again hold the lock of its folder.
+  const LockedFolder out(arguments.out.empty() ? drawables.root : fs::path(arguments.out));
+  const fs::path inner = inner_folder(arguments, style);
+  const OutputFolder files = inner.empty() ? out.files() : out.files() / inner;
+  const fs::path folder = files.path();
 
   Images images;
   for (const Figure& figure : drawables.figures) images.figures.push_back(&figure);
   for (const Scene& scene : drawables.scenes) images.scenes.push_back(&scene);
   SceneClient client;  // One program draws scenes and films.
-  DrawingJob job{.folder = folder,
+  DrawingJob job{.folder = files,
                  .theme = theme,
                  .jobs = arguments.jobs,
                  .formats = formats.files,
@@ -431,7 +432,7 @@ int render(const RenderArguments& arguments, const Invocation& invocation) {
   report_notes(drawables, theme, invocation.console);
   report_names(arguments, drawables, theme, invocation.console);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);
-  if (formats.latex) write_latex(drawables, theme, folder);
+  if (formats.latex) write_latex(drawables, theme, files);
   write_films(drawables, job, formats, client, invocation.console);
 
   nlohmann::ordered_json object{{"input", arguments.input},

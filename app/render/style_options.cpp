@@ -57,15 +57,15 @@ void add_style_options(CLI::App& app, StyleArguments& arguments) {
   app.add_option("--width", arguments.width_in,
                  "Width of the figure in inches, or with a unit, as 8cm, 82mm or 234pt")
       ->transform(length_in_inches())
-      ->check(CLI::Range(2.0, 20.0))
+      ->check(number_in(2.0, 20.0))
       ->group(group);
   app.add_option("--height", arguments.height_in,
                  "Height of the figure, as for --width; of several panels, of one row")
       ->transform(length_in_inches())
-      ->check(CLI::Range(1.0, 20.0))
+      ->check(number_in(1.0, 20.0))
       ->group(group);
   app.add_option("--dpi", arguments.dpi, "Pixels per inch of PNG and of animations")
-      ->check(CLI::Range(30.0, 1200.0))
+      ->check(number_in(30.0, 1200.0))
       ->group(group);
   auto* title =
       app.add_option("--title", arguments.title, "Title of the figure, instead of its own")

@@ -115,9 +115,8 @@ std::string difference(const SlamRun& there, const SlamRun& here) {
   return "";
 }
 
-fs::path made_slam_folder(const fs::path& folder) {
+const fs::path& checked_slam_folder(const fs::path& folder) {
   check_result_folder(folder, kSlamFile, "range-only map");
-  make_folder(folder);
   return folder;
 }
 
@@ -175,7 +174,7 @@ const SlamRecord* best_record(const SlamRun& run) {
 }
 
 SlamFolder::SlamFolder(const fs::path& folder, const SlamRun& run)
-    : path_(folder), lock_(made_slam_folder(folder)) {
+    : folder_(checked_slam_folder(folder)) {
   refuse_links_out(folder);
   const fs::path file = folder / kSlamFile;
   std::error_code error;
@@ -187,7 +186,6 @@ SlamFolder::SlamFolder(const fs::path& folder, const SlamRun& run)
                                 "it",
                                 what));
   }
-  remove_leftovers(folder);
 }
 
 }  // namespace mapproof

@@ -41,12 +41,11 @@ class SlamFolder {
   ///         other known landmarks, or if another process writes there.
   SlamFolder(const std::filesystem::path& folder, const SlamRun& run);
 
-  const std::filesystem::path& path() const { return path_; }
-  const FolderLock& lock() const { return lock_; }
+  std::filesystem::path path() const { return folder_.files().path(); }
+  const FolderLock& lock() const { return folder_.lock(); }
 
  private:
-  std::filesystem::path path_;
-  FolderLock lock_;
+  LockedFolder folder_;
 };
 
 }  // namespace mapproof

@@ -303,18 +303,18 @@ void add_input_options(CLI::App& app, SlamArguments& arguments) {
 void add_fit_options(CLI::App& app, SlamArguments& arguments) {
   app.add_option("--range-sigma", arguments.fit.noise.range_m,
                  "Standard deviation of a range [m]; without: estimated")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--odometry-sigma", arguments.fit.noise.way_m,
                  "Standard deviation of odometry after 1 m, which grows with the root of the way "
                  "[m]; without: estimated")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--heading-sigma", arguments.fit.noise.heading_per_metre,
                  "Standard deviation of its heading after 1 m [rad]; without: estimated")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   app.add_option("--odometry-scale-sigma", arguments.fit.odometry_scale_sigma,
                  "Standard deviation of the scale of odometry, a share, in the ellipses where "
                  "ranges and odometry disagree on the scale")
-      ->check(CLI::Range(0.0, 0.5))
+      ->check(number_in(0.0, 0.5))
       ->capture_default_str();
   app.add_flag("--repair", arguments.repair,
                "If the data do not fit the map and the cause can be modelled: also make the map "

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,10 +13,11 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/base/resource.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/base/text/words.hpp"
+#include "core/records/studies/folder_lock.hpp"
 
 namespace mapproof {
 
@@ -48,11 +50,12 @@ std::string folder_of(const Resource& resource) {
 }
 
 /// Refuses to replace a file that is not the example's.
-void write_new(const fs::path& path, std::string_view bytes) {
-  std::error_code error;
-  if (fs::exists(path, error) && read_file(path) != bytes)
+void write_new(const OutputFolder& folder, const Resource& resource) {
+  const fs::path path = folder.path() / resource.name;
+  const std::optional<std::string> there = folder.read(resource.name);
+  if (there && *there != resource.bytes)
     throw IoError(path.string(), "is there and differs from the example; choose another folder");
-  write_file(path, bytes);
+  folder.write(resource.name, resource.bytes);
 }
 
 /// Refuses what is probably a misspelt name, and an --out that would be ignored.
@@ -80,9 +83,10 @@ int write_examples(const ExampleArguments& arguments, const Invocation& invocati
   nlohmann::ordered_json object{{"folder", out.string()},
                                 {"files", nlohmann::ordered_json::array()},
                                 {"commands", nlohmann::ordered_json::array()}};
+  const LockedFolder folder(out);
   for (const Resource& resource : embedded_examples()) {
     if (is_name && folder_of(resource) != arguments.target) continue;
-    write_new(out / resource.name, resource.bytes);
+    write_new(folder.files(), resource);
     object["files"].push_back((out / resource.name).string());
   }
   std::string text;

@@ -1,12 +1,14 @@
 #include "app/study/folder_report.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <iterator>
 #include <mutex>
 #include <set>
 #include <system_error>
 #include <utility>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "app/command_line.hpp"
@@ -16,6 +18,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/version.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/output/write_scene.hpp"
@@ -109,9 +112,19 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
       "{} studies of {}. Each number above is of one of them, "
       "compared with what the study sets against it.",
       parts.size(), counted(static_cast<long long>(runs), "run"));
-  const std::string wrong = incomplete.empty()
-                                ? std::string("no run is missing.")
-                                : fmt::format("runs are missing in {}.", listed(incomplete, 3));
+  std::string wrong = incomplete.empty()
+                          ? std::string("no run is missing.")
+                          : fmt::format("runs are missing in {}.", listed(incomplete, 3));
+  std::vector<std::string> shortfalls;
+  for (const FolderReport& part : parts)
+    for (const Paragraph& finding : part.report.opening.findings)
+      if (finding.phrases.size() > 1 && finding.phrases[0].text == "Warnings" &&
+          finding.phrases[1].text.find("none;") == std::string::npos) {
+        const std::string& text = finding.phrases[1].text;  // ": no usable map of dataset6, ….".
+        shortfalls.push_back(fmt::format("{} ({})", part.report.title,
+                                         text.substr(2, text.find_last_not_of('.') - 1)));
+      }
+  if (!shortfalls.empty()) wrong += fmt::format(" What falls short: {}.", listed(shortfalls, 6));
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
 }
 
@@ -277,6 +290,10 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
                                     .progress = outputs.progress},
                                    client);
   Report shown = report.report;
+  if (shown.footer.empty())
+    shown.footer = fmt::format("Made by mapproof {} ({}).", version(), source_commit());
+  if (shown.date.empty())  // Records that do not say when they were made: the page does of itself.
+    shown.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, folder / "tables");
   const auto drawing = [&](const std::string& id) {

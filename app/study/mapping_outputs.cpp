@@ -30,7 +30,8 @@ FolderReport mapping_report(const fs::path& folder, const std::string& command) 
                                               .figures = figures,
                                               .command = command}),
                       .group = "Map building",
-                      .runs = study.runs.size()};
+                      .runs = study.runs.size(),
+                      .incomplete = mapping_incomplete(study)};
   add_images(figures, report);
   report.in_company = report.report.sections;
   return report;

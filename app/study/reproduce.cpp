@@ -55,13 +55,14 @@ std::vector<std::string> names_of(const ReproduceArguments& arguments) {
 }
 
 /// All requests, read and checked before anything is made.
-std::vector<StudyRequest> read_requests(const ReproduceArguments& arguments) {
+std::vector<StudyRequest> read_requests(const ReproduceArguments& arguments,
+                                        const Disclosure& disclosure) {
   const std::vector<std::string> names = names_of(arguments);
   StudyOptions options = arguments.options;
   options.one_of_several = options.profile_if_there = names.size() > 1;
   std::vector<StudyRequest> requests;
   for (const std::string& name : names)
-    requests.push_back(read_study_request(text_of(name, arguments), options));
+    requests.push_back(read_study_request(text_of(name, arguments), options, disclosure));
   check_data_used(requests, options);
   return requests;
 }
@@ -107,7 +108,7 @@ int reproduce(const ReproduceArguments& arguments, const Invocation& invocation)
   // First of all, so that a template or data that cannot be used cost no study.
   const Templates page = load_templates(arguments.templates);
   std::optional<ProgressLine> reading(std::in_place, invocation.console, "reading");
-  const std::vector<StudyRequest> requests = read_requests(arguments);
+  const std::vector<StudyRequest> requests = read_requests(arguments, invocation.disclosure);
   const bool is_alone = requests.size() == 1;
   if (!is_alone) check_folder_of_all(arguments.out);
   const std::string command = command_again(arguments, requests, invocation.disclosure);

@@ -12,6 +12,7 @@
 #include "app/study/embedded_experiments.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_page.hpp"
@@ -30,6 +31,7 @@ struct ResultsArguments {
 /// The study that is asked for: the folder itself, or one of those in it.
 fs::path study_in(const fs::path& folder, const ResultsArguments& arguments) {
   const std::string shown = printable(arguments.input);
+  refuse_links_out(folder);
   const std::vector<fs::path> inner = study_folders(folder);
   if (is_study(folder) || inner.empty()) {
     require_study(folder);

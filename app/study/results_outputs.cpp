@@ -3,7 +3,9 @@
 #include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
 #include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/study_store.hpp"
 #include "core/score/trajectory_error.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 
@@ -50,7 +52,8 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
                                  .comparisons = comparisons,
                                  .figures = figures,
                                  .provenance = given_provenance(view, command),
-                                 .remarks = file_remarks(study, folder)};
+                                 .remarks = file_remarks(study, folder),
+                                 .date = date_of(read_sessions(folder))};
   FolderReport result{.folder = folder,
                       .of_paper = false,
                       .report = results_report(input),

@@ -38,7 +38,8 @@ std::string command_again(const RunArguments& arguments, const StudyRequest& req
 
 int run(const RunArguments& arguments, const Invocation& invocation) {
   std::optional<ProgressLine> reading(std::in_place, invocation.console, "reading");
-  StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.options);
+  StudyRequest request = read_study_request(experiment_of(arguments.experiment), arguments.options,
+                                            invocation.disclosure);
   check_data_used({&request, 1}, arguments.options);
   reading.reset();
   if (arguments.shard) {

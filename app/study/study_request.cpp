@@ -40,7 +40,8 @@ void add_data_options(CLI::App& app, StudyOptions& options) {
       ->group("Experiment");
 }
 
-StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& options) {
+StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& options,
+                                const Disclosure& disclosure) {
   const StudyKind& kind = kind_of_experiment(file.text, file.source);
   PlanOptions how{
       .profile = profile_of(options, profile_names(file.text, file.source, kind.experiment)),
@@ -49,7 +50,8 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
       .plaza = options.plaza,
       .data = options.data,
       .folder = file.folder,
-      .methods = options.methods};
+      .methods = options.methods,
+      .disclosed = [disclosure](std::string text) { return disclosure.text(std::move(text)); }};
   const std::string methods = options.methods ? "\n" + read_file(*options.methods) : "";
   StudyRequest request{.digest = sha256_hex(options.profile + "\n" + file.text + methods),
                        .plan = kind.plan(file.text, file.source, how)};

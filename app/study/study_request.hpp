@@ -41,10 +41,12 @@ struct StudyRequest {
   std::string compared_by = {};
 };
 
-/// Reads an experiment of any type and looks up its data; nothing is made. Folders of data that it
+/// Reads an experiment of any type and looks up its data; nothing is made. What the records say of
+/// methods of others is disclosed. Folders of data that it
 /// has no use for are left alone: see check_data_used().
 /// @throws IoError, InvalidInput, CLI::ValidationError.
-StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& options);
+StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& options,
+                                const Disclosure& disclosure);
 
 /// The request to take the table of results in a folder as a study. @throws IoError.
 StudyRequest given_study_request(const std::filesystem::path& folder);

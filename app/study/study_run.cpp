@@ -15,6 +15,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/version.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_study_json.hpp"
 #include "core/studies/shard.hpp"
 #include "core/studies/study_kind.hpp"
@@ -49,8 +50,8 @@ std::string_view value_of(std::string_view text, std::string_view key) {
 
 void copy_study(const fs::path& from, const fs::path& to) {
   refuse_links_out(from);
-  make_folder(to);
-  const OutputFolder copy(to);
+  const LockedFolder study(to);
+  const OutputFolder& copy = study.files();
   for (const fs::path& file : results_study_files(from)) copy.write(file, read_file(from / file));
 }
 
@@ -75,8 +76,8 @@ Session SessionClock::session(const SessionNames& names, int jobs) const {
 void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                 const SessionNames& names, const Console& console) {
   if (!request.texts.empty()) {
-    make_folder(folder);
-    for (const auto& [file, text] : request.texts) OutputFolder(folder).write(file, text);
+    const LockedFolder study(folder);
+    for (const auto& [file, text] : request.texts) study.files().write(file, text);
     return;
   }
   if (!request.given.empty()) {

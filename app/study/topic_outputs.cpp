@@ -71,6 +71,21 @@ std::string topic_text(const TopicStudy& study) {
   return text;
 }
 
+/// Whether the number is as it should be, then what it is compared with.
+std::string judged_detail(const TopicHeadline& headline) {
+  if (headline.verdict.empty() || headline.detail.empty())
+    return headline.verdict + headline.detail;
+  return headline.verdict + "; " + headline.detail;
+}
+
+std::vector<std::string> warnings_and_shortfall(const TopicStudy& study,
+                                                const TopicHeadline& headline) {
+  std::vector<std::string> warnings = warnings_of(study);
+  if (warnings.empty() && headline.falls_short && !headline.verdict.empty())
+    warnings.push_back(headline.verdict);
+  return warnings;
+}
+
 FolderReport topic_report(const std::filesystem::path& folder, const std::string& command) {
   const TopicStudy study = read_topic_study(folder);
   const std::vector<Session> sessions = read_sessions(folder);
@@ -87,8 +102,9 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                            .figures = figures,
                            .provenance = topic_provenance(study, sessions, command, labelled.name),
                            .conclusions = conclusions_of(study),
-                           .headline = {headline.label, headline.value, headline.detail},
+                           .headline = {headline.label, headline.value, judged_detail(headline)},
                            .incomplete = topic_incomplete(study),
+                           .warnings = warnings_and_shortfall(study, headline),
                            .footer = fmt::format("Made by mapproof {} ({}).",
                                                  study.provenance.version, study.provenance.commit),
                            .date = date_of(sessions)};

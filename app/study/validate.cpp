@@ -28,7 +28,10 @@
 #include "render/scene/scene_json.hpp"
 #include "render/style/figure_style_fields.hpp"
 #include "render/style/words.hpp"
+#include "reports/diff/approvals/approvals.hpp"
+#include "reports/diff/diff_settings.hpp"
 #include "reports/diff/svg/svg_parser.hpp"
+#include "reports/history/history_export.hpp"
 
 namespace mapproof {
 namespace {
@@ -247,6 +250,12 @@ bool read_foreign(std::string_view schema, std::string_view text, const std::str
     scene_from_json(text, source);
   else if (schema == "mapproof.style")
     words_of(figure_style_from_json(text, source));  // Its language has to be known.
+  else if (schema == "mapproof.diff_settings")
+    parse_diff_settings(text, source);
+  else if (schema == "mapproof.approvals")
+    parse_approvals(text, source);
+  else if (schema == "mapproof.decisions")
+    parse_decisions(text, source);
   else
     return false;
   return true;

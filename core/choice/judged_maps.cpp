@@ -113,9 +113,7 @@ MapJudge::MapJudge(const ObservationHistory& history, Eigen::Index steps,
 
 void MapJudge::observe(const ObservationHistory& history, Eigen::Index steps,
                        const ChoiceOptions& options) {
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
+  seen_ = seen_landmarks(history, steps);
   const auto n = std::ssize(seen_);
   if (n < 3) return;
   const ObservationHistory seen = with_rows(history, seen_);

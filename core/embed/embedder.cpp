@@ -14,7 +14,10 @@
 #include "core/embed/pca.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/graph/shortest_paths.hpp"
+#include "core/observe/detected_proximities.hpp"
 #include "core/observe/history_distances.hpp"
+#include "core/observe/history_vectors.hpp"
+#include "core/observe/seen_lists.hpp"
 
 namespace mapproof {
 namespace {
@@ -66,6 +69,13 @@ Embedding point_map(Eigen::Index landmarks) {
   point.coordinates.setZero(landmarks, 2);
   point.statuses.push_back(status_of<StatusReason::kSameObservations>());
   return point;
+}
+
+/// The first K of each list.
+NeighbourLists first_of(NeighbourLists nearest, int neighbours) {
+  for (std::vector<Edge>& edges : nearest)
+    if (std::ssize(edges) > neighbours) edges.resize(static_cast<std::size_t>(neighbours));
+  return nearest;
 }
 
 Eigen::MatrixXd adjacency(const Graph& graph) {
@@ -163,6 +173,7 @@ Embedding Embedder::solve(const MethodSetting& setting) {
     case Method::kIsomap:
     case Method::kLandmarkIsomap:
     case Method::kLaplacianEigenmap:
+    case Method::kLandmarkMvu:
       return on_graph_of(setting.method, count);
     case Method::kLle:
     case Method::kHessianLle:
@@ -195,12 +206,19 @@ Embedding Embedder::on_graph_of(Method method, int neighbours) {
   const ConnectedGraph graph =
       connected_neighbour_graph(distances(), nearest(neighbours), neighbours);
   if (!graph.connected) return failed(size(), graph.statuses.front());
-  Embedding result = method == Method::kIsomap ? isomap(graph.graph)
-                     : method == Method::kLandmarkIsomap
-                         ? landmark_isomap(graph.graph, options_.landmark_isomap)
-                         : laplacian_eigenmap(graph.graph);
+  Embedding result = method == Method::kIsomap              ? isomap(graph.graph)
+                     : method == Method::kLaplacianEigenmap ? laplacian_eigenmap(graph.graph)
+                                                            : by_references(method, graph, neighbours);
   result.statuses.insert(result.statuses.begin(), graph.statuses.begin(), graph.statuses.end());
   return result;
+}
+
+Embedding Embedder::by_references(Method method, const ConnectedGraph& graph, int neighbours) {
+  if (method == Method::kLandmarkIsomap)
+    return landmark_isomap(graph.graph, options_.landmark_isomap);
+  const auto distance = [&D = distances()](Eigen::Index i, Eigen::Index j) { return D(i, j); };
+  return landmark_mvu(graph.graph, first_of(nearest(neighbours), neighbours), distance,
+                      options_.landmark_mvu);
 }
 
 Embedding Embedder::on_neighbourhoods(Method method, int neighbours) {
@@ -262,17 +280,44 @@ const Embedding& Embedder::equal_weights() {
   return *equal_weights_;
 }
 
+bool maps_by_vectors(Method method, const HistoryExtent& history) {
+  if (method != Method::kLpca || history.misses_any || history.steps < kFewestSteps) return false;
+  const Eigen::Index columns = history.sensor == Sensor::kBearing ? 2 * history.steps
+                                                                  : history.steps;
+  // Distances of visibility are counted, which is faster where their array has room.
+  constexpr Eigen::Index kFewestByLists = 5000;
+  return history.sensor == Sensor::kVisibility
+             ? history.is_sparse && history.landmarks >= kFewestByLists
+             : is_faster_by_vectors(history.landmarks, columns);
+}
+
 double needed_bytes(Method method, Eigen::Index landmarks, const EmbedderOptions& options) {
   // Arrays of landmarks x landmarks that are held at the same time. Measured: ISOMAP of 5000
   // landmarks takes 1327 MiB.
   constexpr double kArrays = 6.0;
   constexpr double kOfLandmark = 1000.0;  // Its neighbours, and the edges of the graph.
   const auto M = static_cast<double>(landmarks);
-  if (method != Method::kLandmarkIsomap) return 8.0 * kArrays * M * M;
-  // Paths to the references; distances between them, their products and eigenvectors.
+  if (!has_references(method)) return 8.0 * kArrays * M * M;
   constexpr double kOfReferences = 5.0;
-  const double L = std::min<double>(options.landmark_isomap.references, M);
-  return M * (8.0 * L + kOfLandmark) + 8.0 * kOfReferences * L * L;
+  if (method == Method::kLandmarkIsomap) {
+    // Paths to the references; distances between them, their products and eigenvectors.
+    const double L = std::min<double>(options.landmark_isomap.references, M);
+    return M * (8.0 * L + kOfLandmark) + 8.0 * kOfReferences * L * L;
+  }
+  // The pairs of neighbourhoods, the sparse factor of the weights, and some arrays of landmarks x
+  // references; the programs of pairs x pairs.
+  constexpr double kOfNeighbourhood = 20000.0, kPairs = 20.0;
+  const double l = std::min<double>(options.landmark_mvu.references, M);
+  return M * (8.0 * kOfReferences * l + kOfNeighbourhood) + 16.0 * kPairs * kPairs * l * l;
+}
+
+double needed_bytes(Method method, const HistoryExtent& history, const EmbedderOptions& options) {
+  if (!maps_by_vectors(method, history)) return needed_bytes(method, history.landmarks, options);
+  // Two blocks of the history with their vectors, or all vectors; and the eigenvectors' span.
+  constexpr double kBlocks = 8e8, kOfLandmark = 3000.0;
+  return std::min(kBlocks, 24.0 * static_cast<double>(history.landmarks) *
+                               static_cast<double>(history.steps)) +
+         kOfLandmark * static_cast<double>(history.landmarks);
 }
 
 double usual_neighbours(Eigen::Index landmarks) {
@@ -285,15 +330,20 @@ Embedding embed_large(const HistoryDistances& distances, const MethodSetting& se
   if (const auto few = too_few(setting, n)) return failed(n, *few);
   const int neighbours = static_cast<int>(setting.parameter.value_or(0.0));
   const double apart = distances.apart * (1.0 - 1e-12);
-  const ConnectedGraph graph = connected_neighbour_graph(
+  const NeighbourLists nearest = nearest_neighbours(
       distances,
       {.neighbours = neighbours, .cutoff = options.only_seen_together ? apart : kInfinity});
+  const ConnectedGraph graph = connected_neighbour_graph(distances, nearest, neighbours);
   if (!graph.connected) return failed(n, graph.statuses.front());
   const bool is_point = std::ranges::all_of(graph.graph, [](const std::vector<Edge>& edges) {
     return std::ranges::all_of(edges, [](const Edge& edge) { return edge.length == 0.0; });
   });
   if (is_point) return point_map(n);
-  Embedding result = landmark_isomap(graph.graph, options.landmark_isomap);
+  Embedding result = setting.method == Method::kLandmarkIsomap
+                         ? landmark_isomap(graph.graph, options.landmark_isomap)
+                         : landmark_mvu(graph.graph, nearest,
+                                        neighbourhood_distances(distances, graph.graph),
+                                        options.landmark_mvu);
   if (distances.groups > 1)
     result.statuses.push_back(status_of<StatusReason::kGroupsNeverTogether>(distances.groups));
   // As of Embedder: what the graph took first, what the observations do not determine last.
@@ -307,25 +357,18 @@ Embedding embed_large(const HistoryDistances& distances, const MethodSetting& se
 
 namespace {
 
-/// One scan puts all bearings on a circle, two on a torus: too few to determine a map.
-constexpr Eigen::Index kFewestSteps = 3;
-
 /// Which landmarks of a history can be mapped, and why the others cannot.
 struct SeenLandmarks {
   std::vector<Eigen::Index> rows;
-  bool are_all = false;
   std::vector<Status> statuses;
 };
 
-SeenLandmarks seen_landmarks(const ObservationHistory& history, Eigen::Index steps) {
-  SeenLandmarks seen;
+SeenLandmarks seen_by(const HistoryBlocks& history, Eigen::Index steps) {
   const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  for (Eigen::Index i = 0; i < history.landmarks(); ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen.rows.push_back(i);
-  seen.are_all = unseen.empty();
+  SeenLandmarks seen{.rows = other_rows(unseen, history.landmarks()), .statuses = {}};
   if (!unseen.empty())
     seen.statuses.push_back(status_of<StatusReason::kNeverObserved>(
-        names_of(history, unseen), unseen.size(), history.landmarks()));
+        history.only(unseen).names(), unseen.size(), history.landmarks()));
   if (steps < kFewestSteps)
     seen.statuses.push_back(status_of<StatusReason::kFewSteps>(steps, kFewestSteps));
   return seen;
@@ -342,58 +385,110 @@ Embedding in_all_rows(Embedding result, const std::vector<Eigen::Index>& rows,
   return result;
 }
 
+/// The linear map of products with the vectors; empty if they are all alike, or on one line, which
+/// is left to their distances where these take little.
+std::optional<Embedding> linear_map(const HistoryVectors& vectors) {
+  constexpr Eigen::Index kFew = 5000;
+  Embedding map = lpca_of_vectors(vectors);
+  if (!map.statuses.empty() && vectors.landmarks <= kFew) return std::nullopt;
+  return map;
+}
+
+std::optional<Embedding> linear_map(const SeenLists& seen) {
+  std::optional<Embedding> map = linear_map(visibility_vectors(seen));
+  if (map && seen.groups() > 1)
+    map->statuses.push_back(status_of<StatusReason::kGroupsNeverTogether>(seen.groups()));
+  return map;
+}
+
 }  // namespace
 
-HistoryEmbedder::HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
+HistoryEmbedder::HistoryEmbedder(const HistoryBlocks& history, Eigen::Index steps,
                                  EmbedderOptions options, const ProximityRule& rule)
     : landmarks_(history.landmarks()) {
-  SeenLandmarks found = seen_landmarks(history, steps);
+  SeenLandmarks found = seen_by(history, steps);
   seen_ = std::move(found.rows);
   statuses_ = std::move(found.statuses);
-  if (seen_.empty()) {
+  const HistoryBlocks seen = history.only(seen_);
+  if (seen_.empty())
     embedder_.emplace(Proximities{}, options);
-  } else {
-    // A history of which nothing is left out is not copied: it may be most of the memory.
-    const ObservationHistory subset =
-        found.are_all ? ObservationHistory{} : with_rows(history, seen_);
-    const ObservationHistory& seen = found.are_all ? history : subset;
-    embedder_.emplace(rule ? rule(seen, steps) : proximities(seen, steps), options);
-  }
+  else if (rule)
+    embedder_.emplace(rule(array_of(seen), steps), options);
+  else
+    embedder_.emplace(proximities(seen, steps), options);
 }
 
 Embedding HistoryEmbedder::embed(const MethodSetting& setting) {
   return in_all_rows(embedder_->embed(setting), seen_, landmarks_, statuses_);
 }
 
-Embedding embed_history(const ObservationHistory& history, Eigen::Index steps,
-                        MethodSetting& setting, const EmbedderOptions& options,
-                        const ProximityRule& rule) {
-  if (setting.method != Method::kLandmarkIsomap || rule) {
-    HistoryEmbedder embedder(history, steps, options, rule);
+Embedding embed_history(const HistoryBlocks& history, Eigen::Index steps, MethodSetting& setting,
+                        const EmbedderOptions& options) {
+  const bool is_large = has_references(setting.method);
+  if (!is_large && setting.method != Method::kLpca) {
+    HistoryEmbedder embedder(history, steps, options);
     if (!setting.parameter) setting = embedder.usual_setting(setting.method);
     return embedder.embed(setting);
   }
-  const SeenLandmarks found = seen_landmarks(history, steps);
-  if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(found.rows));
-  if (found.rows.empty())
-    return in_all_rows(failed(0, status_of<StatusReason::kTooFewLandmarks>(0)), found.rows,
-                       history.landmarks(), found.statuses);
-  const ObservationHistory subset =
-      found.are_all ? ObservationHistory{} : with_rows(history, found.rows);
-  const ObservationHistory& seen = found.are_all ? history : subset;
-  return in_all_rows(embed_large(history_distances(seen, steps), setting, options), found.rows,
-                     history.landmarks(), found.statuses);
+  const SeenLandmarks found = seen_by(history, steps);
+  const HistoryBlocks seen = history.only(found.rows);
+  const auto in_all = [&](Embedding map) {
+    return in_all_rows(std::move(map), found.rows, history.landmarks(), found.statuses);
+  };
+  if (is_large) {
+    if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(found.rows));
+    return in_all(found.rows.empty()
+                      ? failed(0, status_of<StatusReason::kTooFewLandmarks>(0))
+                      : embed_large(history_distances(seen, steps), setting, options));
+  }
+  if (maps_by_vectors(setting.method, extent_of(seen, steps))) {
+    const bool is_visibility = history.sensor() == Sensor::kVisibility;
+    if (auto map = is_visibility ? linear_map(SeenLists(seen, steps))
+                                 : linear_map(history_vectors(seen, steps)))
+      return in_all(*std::move(map));
+  }
+  return HistoryEmbedder(history, steps, options).embed(setting);
 }
 
 Embedding embed_detected(const DetectionLog& log, Sensor sensor, MethodSetting& setting,
                          const EmbedderOptions& options) {
-  if (sensor != Sensor::kVisibility)
-    return embed_history(history_of(log, sensor), log.steps, setting, options);
-  if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(log.names));
-  Embedding result = embed_large(visibility_distances(log), setting, options);
-  if (log.steps < kFewestSteps)
-    result.statuses.push_back(status_of<StatusReason::kFewSteps>(log.steps, kFewestSteps));
-  return result;
+  const bool is_large = has_references(setting.method);
+  if (is_large && sensor != Sensor::kVisibility)
+    return embed_history(blocks_of(log, sensor), log.steps, setting, options);
+  const auto with_few_steps = [&](Embedding map) {
+    if (log.steps < kFewestSteps)
+      map.statuses.push_back(status_of<StatusReason::kFewSteps>(log.steps, kFewestSteps));
+    return map;
+  };
+  if (is_large) {
+    if (!setting.parameter) setting.parameter = usual_neighbours(std::ssize(log.names));
+    return with_few_steps(embed_large(visibility_distances(log), setting, options));
+  }
+  if (maps_by_vectors(setting.method, extent_of(log, sensor)))
+    if (auto map = linear_map(SeenLists(log))) return *std::move(map);
+  Embedder embedder(detected_proximities(log, sensor), options);
+  if (!setting.parameter) setting = embedder.usual_setting(setting.method);
+  return with_few_steps(embedder.embed(setting));
+}
+
+HistoryExtent extent_of(const HistoryBlocks& history, Eigen::Index steps) {
+  HistoryExtent extent{.sensor = history.sensor(),
+                       .landmarks = history.landmarks(),
+                       .steps = steps,
+                       .misses_any = misses_any(history, steps)};
+  extent.is_sparse = is_sparse_visibility(history, steps);
+  return extent;
+}
+
+HistoryExtent extent_of(const DetectionLog& log, Sensor sensor) {
+  // A list of what was seen is as short as its landmarks and steps allow; ranges and bearings of
+  // it lack those that were not measured.
+  const bool is_visibility = sensor == Sensor::kVisibility;
+  return {.sensor = sensor,
+          .landmarks = std::ssize(log.names),
+          .steps = log.steps,
+          .misses_any = !is_visibility,
+          .is_sparse = is_visibility};
 }
 
 }  // namespace mapproof

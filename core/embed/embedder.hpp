@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/embed/landmark_isomap.hpp"
+#include "core/embed/landmark_mvu.hpp"
 #include "core/embed/lle.hpp"
 #include "core/embed/smacof.hpp"
 #include "core/model/embedding.hpp"
@@ -24,6 +25,7 @@ struct EmbedderOptions {
   SmacofOptions smacof_knn{.relative_fall = 1e-2, .max_iterations = 1000};
   LleOptions lle;
   LandmarkIsomapOptions landmark_isomap;
+  LandmarkMvuOptions landmark_mvu;
 };
 
 /// Every mapping method over the same proximities; starts that several of them share are computed
@@ -50,6 +52,7 @@ class Embedder {
   Embedding with_all_distances(Embedding embedding) const;
   Embedding weighted_smacof(int neighbours);
   Embedding on_graph_of(Method method, int neighbours);
+  Embedding by_references(Method method, const ConnectedGraph& graph, int neighbours);
   Embedding on_neighbourhoods(Method method, int neighbours);
   const NeighbourLists& nearest(int neighbours);
   Eigen::Index size() const { return proximities_.squared_distances.rows(); }
@@ -77,23 +80,44 @@ class Embedder {
   std::optional<Embedding> equal_weights_;
 };
 
-/// Landmark ISOMAP of histories whose distances are no array, with what the observations do not
-/// determine: equal to that of Embedder but for rounding.
-/// @param setting  Of Method::kLandmarkIsomap.
-/// @note See landmark_isomap() and connected_neighbour_graph().
+/// The map of histories whose distances are no array, with what the observations do not determine:
+/// equal to that of Embedder but for rounding.
+/// @param setting  Of a method that has_references().
+/// @note See landmark_isomap(), landmark_mvu() and connected_neighbour_graph().
 Embedding embed_large(const HistoryDistances& distances, const MethodSetting& setting,
                       const EmbedderOptions& options = {});
 
-/// The same of what one sensor detected of landmarks that were all seen: visibility without any
-/// array, others by the array of landmarks and steps.
+/// A map of what one sensor detected of landmarks that were all seen, without an array of landmarks
+/// and steps. Landmark ISOMAP of all sensors and LPCA of visibility hold none of landmarks and
+/// landmarks either.
 /// @param setting  Without a parameter: it is set to the usual one of these data.
 /// @throws InvalidInput as visibility_distances().
 Embedding embed_detected(const DetectionLog& log, Sensor sensor, MethodSetting& setting,
                          const EmbedderOptions& options = {});
 
+/// What decides how a history is mapped.
+struct HistoryExtent {
+  Sensor sensor = Sensor::kVisibility;
+  Eigen::Index landmarks = 0;
+  Eigen::Index steps = 0;
+  bool misses_any = false;  ///< Some value is missing.
+  bool is_sparse = false;   ///< Visibility of lists, see is_sparse_visibility().
+};
+
+HistoryExtent extent_of(const HistoryBlocks& history, Eigen::Index steps);
+HistoryExtent extent_of(const DetectionLog& log, Sensor sensor);
+
+/// Whether the method's map comes from products with the vectors, without distances: LPCA of
+/// complete histories of many landmarks.
+bool maps_by_vectors(Method method, const HistoryExtent& history);
+
 /// The memory that a map of so many landmarks takes at most besides its observations, bytes: for
 /// the array of all distances and its copies, or for the paths to the references.
 double needed_bytes(Method method, Eigen::Index landmarks, const EmbedderOptions& options = {});
+
+/// The same of a history that may be mapped by its vectors.
+double needed_bytes(Method method, const HistoryExtent& history,
+                    const EmbedderOptions& options = {});
 
 /// K = 6, or as many as there can be.
 double usual_neighbours(Eigen::Index landmarks);
@@ -108,7 +132,7 @@ class HistoryEmbedder {
  public:
   /// @param rule  Empty: proximities(). Not called if no landmark was seen.
   /// @throws InvalidInput unless 1 <= steps <= history.steps().
-  HistoryEmbedder(const ObservationHistory& history, Eigen::Index steps,
+  HistoryEmbedder(const HistoryBlocks& history, Eigen::Index steps,
                   EmbedderOptions options = {}, const ProximityRule& rule = {});
 
   /// @return M rows, as many as the history has landmarks.
@@ -125,11 +149,10 @@ class HistoryEmbedder {
 };
 
 /// One map of a history, by the array of all distances only where the method needs it: Landmark
-/// ISOMAP without a rule does not.
+/// ISOMAP does not, nor LPCA of many landmarks.
 /// @param setting  Without a parameter: it is set to the usual one of these data.
 /// @throws InvalidInput as HistoryEmbedder.
-Embedding embed_history(const ObservationHistory& history, Eigen::Index steps,
-                        MethodSetting& setting, const EmbedderOptions& options = {},
-                        const ProximityRule& rule = {});
+Embedding embed_history(const HistoryBlocks& history, Eigen::Index steps, MethodSetting& setting,
+                        const EmbedderOptions& options = {});
 
 }  // namespace mapproof

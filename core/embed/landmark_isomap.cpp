@@ -17,13 +17,20 @@ namespace {
 
 using Eigen::Index;
 
-/// Reference landmarks, and the lengths of the shortest paths from each to all.
-struct References {
-  std::vector<Index> nodes;
-  Eigen::MatrixXd lengths;  ///< n x L.
-};
+/// Centred, and rotated to the principal axes unless it is flat.
+Points in_principal_axes(Points points) {
+  points.rowwise() -= points.colwise().mean().eval();
+  if (!points.col(1).isZero(0.0)) {
+    const Eigen::Matrix2d scatter = points.transpose() * points;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
+    points = (points * axes.eigenvectors().rowwise().reverse()).eval();
+  }
+  fix_signs(points);
+  return points;
+}
 
-/// Each reference is the farthest from those before (MaxMin) [silva2004].
+}  // namespace
+
 References farthest_references(const Graph& graph, Index count) {
   const Index n = std::ssize(graph);
   References references{.nodes = {}, .lengths = Eigen::MatrixXd(n, count)};
@@ -41,20 +48,6 @@ References farthest_references(const Graph& graph, Index count) {
   }
   return references;
 }
-
-/// Centred, and rotated to the principal axes unless it is flat.
-Points in_principal_axes(Points points) {
-  points.rowwise() -= points.colwise().mean().eval();
-  if (!points.col(1).isZero(0.0)) {
-    const Eigen::Matrix2d scatter = points.transpose() * points;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(scatter);
-    points = (points * axes.eigenvectors().rowwise().reverse()).eval();
-  }
-  fix_signs(points);
-  return points;
-}
-
-}  // namespace
 
 Embedding landmark_isomap(const Graph& graph, const LandmarkIsomapOptions& options) {
   if (options.references < 3)
@@ -87,8 +80,8 @@ Embedding landmark_isomap(const Graph& graph, const LandmarkIsomapOptions& optio
   return result;
 }
 
-ConnectedGraph connected_neighbour_graph(const HistoryDistances& histories,
-                                         const NeighbourOptions& options) {
+NeighbourLists nearest_neighbours(const HistoryDistances& histories,
+                                  const NeighbourOptions& options) {
   const VisitedDistances& distances = histories.distances;
   NearestLists gathered(histories.landmarks, options);
   distances.visit([&](Index i, std::span<const Edge> others) { gathered.take(i, others); });
@@ -105,17 +98,21 @@ ConnectedGraph connected_neighbour_graph(const HistoryDistances& histories,
       for (Index j = 0; std::ssize(edges) < options.neighbours; ++j)
         if (!std::ranges::binary_search(listed, j)) edges.push_back({j, distances.others});
     }
+  return nearest;
+}
 
-  ConnectedGraph result{.graph = neighbour_graph(nearest, options.neighbours), .statuses = {}};
-  const auto bridging = bridge_components(result.graph, distances);
+ConnectedGraph connected_neighbour_graph(const HistoryDistances& histories,
+                                         const NeighbourLists& nearest, int neighbours) {
+  ConnectedGraph result{.graph = neighbour_graph(nearest, neighbours), .statuses = {}};
+  const auto bridging = bridge_components(result.graph, histories.distances);
   result.connected = bridging.has_value();
   if (!bridging)
     result.statuses.push_back(status_of<StatusReason::kNoSharedObservation>());
   else if (bridging->pieces > 1)
     result.statuses.push_back(status_of<StatusReason::kGraphInPieces>(
-        options.neighbours, bridging->pieces, bridging->longest));
+        neighbours, bridging->pieces, bridging->longest));
   const double apart = histories.apart * (1.0 - 1e-12);
-  if (auto status = arbitrary_neighbours(nearest, options.neighbours, apart))
+  if (auto status = arbitrary_neighbours(nearest, neighbours, apart))
     result.statuses.push_back(std::move(*status));
   return result;
 }

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "core/embed/connected_graph.hpp"
 #include "core/graph/neighbours.hpp"
 #include "core/model/embedding.hpp"
@@ -27,12 +31,28 @@ struct LandmarkIsomapOptions {
 /// @note O(L n K) time and O(L^3); 8 L n bytes.
 Embedding landmark_isomap(const Graph& graph, const LandmarkIsomapOptions& options = {});
 
-/// The neighbour graph of histories whose distances are no array, its pieces joined by their
-/// shortest bridges: that of connected_neighbour_graph(), and kArbitraryNeighbours where the
-/// neighbours were chosen among landmarks never seen together.
+/// Reference landmarks, and the lengths of the shortest paths from each to all.
+struct References {
+  std::vector<Eigen::Index> nodes;
+  Eigen::MatrixXd lengths;  ///< n x L.
+};
+
+/// Each reference is the farthest from those before (MaxMin), the first one the farthest from the
+/// first node [silva2004].
+References farthest_references(const Graph& graph, Eigen::Index count);
+
+/// The K nearest of each landmark in histories whose distances are no array: those of
+/// nearest_neighbours() of the array.
 /// @throws InvalidInput if K is not in [1, n).
-/// @note One visit of the distances, another one if the graph is in pieces; O(n K) memory.
+/// @note One visit of the distances; O(n K) memory.
+NeighbourLists nearest_neighbours(const HistoryDistances& distances,
+                                  const NeighbourOptions& options);
+
+/// Their graph from the first K of each list, its pieces joined by their shortest bridges: that of
+/// connected_neighbour_graph() of the array, and kArbitraryNeighbours where the neighbours were
+/// chosen among landmarks never seen together.
+/// @note A visit of the distances if the graph is in pieces.
 ConnectedGraph connected_neighbour_graph(const HistoryDistances& distances,
-                                         const NeighbourOptions& options);
+                                         const NeighbourLists& nearest, int neighbours);
 
 }  // namespace mapproof

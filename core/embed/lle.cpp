@@ -73,6 +73,10 @@ bool blend(Eigen::MatrixXd& G, double regularization, Eigen::LLT<Eigen::MatrixXd
   return euclidean;
 }
 
+SquaredDistance entries_of(const Eigen::MatrixXd& squared_distances) {
+  return [&](Eigen::Index i, Eigen::Index j) { return squared_distances(i, j); };
+}
+
 }  // namespace
 
 void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
@@ -89,16 +93,19 @@ void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
   }
 }
 
-void gram_about(const Eigen::MatrixXd& squared_distances, Eigen::Index i,
-                const std::vector<Edge>& edges, Eigen::MatrixXd& gram) {
+void gram_about(const SquaredDistance& squared, Eigen::Index i, const std::vector<Edge>& edges,
+                Eigen::MatrixXd& gram) {
   const Eigen::Index k = std::ssize(edges);
   gram.resize(k, k);
+  for (Eigen::Index a = 0; a < k; ++a)
+    gram(a, a) = squared(edges[static_cast<std::size_t>(a)].to, i);
   for (Eigen::Index b = 0; b < k; ++b) {
     const Eigen::Index to = edges[static_cast<std::size_t>(b)].to;
-    for (Eigen::Index a = b; a < k; ++a) {
-      const Eigen::Index from = edges[static_cast<std::size_t>(a)].to;
-      gram(a, b) = gram(b, a) = 0.5 * (squared_distances(from, i) + squared_distances(to, i) -
-                                       squared_distances(from, to));
+    for (Eigen::Index a = b + 1; a < k; ++a) {
+      const double between = squared(edges[static_cast<std::size_t>(a)].to, to);
+      gram(a, b) = gram(b, a) = std::isfinite(between)
+                                    ? 0.5 * (gram(a, a) + gram(b, b) - between)
+                                    : -std::sqrt(gram(a, a) * gram(b, b));
     }
   }
 }
@@ -128,7 +135,7 @@ Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourL
   std::vector<Eigen::Index> support;
   for (Eigen::Index i = 0; i < n; ++i) {
     const std::vector<Edge>& edges = neighbours[static_cast<std::size_t>(i)];
-    gram_about(squared_distances, i, edges, G);
+    gram_about(entries_of(squared_distances), i, edges, G);
     solver.compute(centered(G));
     const Eigen::Index k = G.rows();
     if (solver.eigenvalues()(k - 2) <= kFlatNeighbourhood * solver.eigenvalues()(k - 1)) ++flat;
@@ -142,40 +149,46 @@ Embedding hessian_lle(const Eigen::MatrixXd& squared_distances, const NeighbourL
   return result;
 }
 
-Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
-              const LleOptions& options) {
-  check_neighbourhoods(squared_distances, neighbours, 1);
+BlendForm blend_form(const SquaredDistance& squared, const NeighbourLists& neighbours,
+                     const LleOptions& options) {
   if (!(options.regularization > 0.0)) throw InvalidInput("LLE needs a regularization above 0");
-
   // M = (I - W)'(I - W), a landmark's row of I - W at a time.
-  const Eigen::Index n = squared_distances.rows();
-  QuadraticForms M(n);
-  bool all_flat = true;
-  int not_euclidean = 0;
+  BlendForm result;
+  QuadraticForms M(std::ssize(neighbours));
   Eigen::MatrixXd G;
   Eigen::LLT<Eigen::MatrixXd> factor;
   Eigen::VectorXd weights;
   std::vector<Eigen::Index> support;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const std::vector<Edge>& edges = neighbours[static_cast<std::size_t>(i)];
-    gram_about(squared_distances, i, edges, G);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    gram_about(squared, static_cast<Eigen::Index>(i), neighbours[i], G);
     const double trace = G.trace();
     if (trace > 0.0) G /= trace;
-    all_flat = all_flat && (trace == 0.0 || 1.0 - G.squaredNorm() <= kFlatGram);
-    if (!blend(G, options.regularization, factor, weights)) ++not_euclidean;
+    result.are_all_flat =
+        result.are_all_flat && (trace == 0.0 || 1.0 - G.squaredNorm() <= kFlatGram);
+    if (!blend(G, options.regularization, factor, weights)) ++result.not_euclidean;
 
-    support.assign(1, i);
-    for (const Edge& edge : edges) support.push_back(edge.to);
+    support.assign(1, static_cast<Eigen::Index>(i));
+    for (const Edge& edge : neighbours[i]) support.push_back(edge.to);
     Eigen::VectorXd row(1 + weights.size());
     row << 1.0, -weights;
     M.add(support, row);
   }
+  result.matrix = M.matrix();
+  return result;
+}
+
+Embedding lle(const Eigen::MatrixXd& squared_distances, const NeighbourLists& neighbours,
+              const LleOptions& options) {
+  check_neighbourhoods(squared_distances, neighbours, 1);
+  const Eigen::Index n = squared_distances.rows();
+  const BlendForm form = blend_form(entries_of(squared_distances), neighbours, options);
   Embedding result =
-      bottom_eigenmap(M.matrix(), Eigen::VectorXd::Constant(n, 1.0 / std::sqrt(double(n))));
-  if (all_flat) result.statuses.push_back(status_of<StatusReason::kNeighbourhoodsFlat>());
-  if (not_euclidean > 0)
+      bottom_eigenmap(form.matrix, Eigen::VectorXd::Constant(n, 1.0 / std::sqrt(double(n))));
+  if (form.are_all_flat)
+    result.statuses.push_back(status_of<StatusReason::kNeighbourhoodsFlat>());
+  if (form.not_euclidean > 0)
     result.statuses.push_back(
-        status_of<StatusReason::kNeighbourhoodsNotEuclidean>(not_euclidean, n));
+        status_of<StatusReason::kNeighbourhoodsNotEuclidean>(form.not_euclidean, n));
   return result;
 }
 

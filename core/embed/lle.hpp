@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,9 +18,13 @@ namespace mapproof {
 void check_neighbourhoods(const Eigen::MatrixXd& squared_distances,
                           const NeighbourLists& neighbours, int fewest);
 
-/// Inner products (x_a - x_i)'(x_b - x_i) of the neighbours of i, from distances alone.
-void gram_about(const Eigen::MatrixXd& squared_distances, Eigen::Index i,
-                const std::vector<Edge>& edges, Eigen::MatrixXd& gram);
+/// The squared distance between two landmarks.
+using SquaredDistance = std::function<double(Eigen::Index, Eigen::Index)>;
+
+/// Inner products (x_a - x_i)'(x_b - x_i) of the neighbours of i, from distances alone. Neighbours
+/// at infinite distance from each other count as far as the way over i.
+void gram_about(const SquaredDistance& squared, Eigen::Index i, const std::vector<Edge>& edges,
+                Eigen::MatrixXd& gram);
 
 /// A sum of squared linear forms, each over a few landmarks: a sparse matrix M with z'Mz their sum.
 class QuadraticForms {
@@ -61,6 +66,19 @@ struct LleOptions {
   /// neighbours than dimensions the weights would not be unique.
   double regularization = 1e-3;
 };
+
+/// How well a map keeps the weights: y'My = |(I - W) y|^2 for each of its columns.
+struct BlendForm {
+  Eigen::SparseMatrix<double> matrix;
+  bool are_all_flat = true;  ///< In every neighbourhood the data spread in one direction alone.
+  int not_euclidean = 0;     ///< Neighbourhoods whose distances no points have; nearest ones taken.
+};
+
+/// The weights that sum to one and blend each landmark from its neighbours best [roweis2000].
+/// @param neighbours  Of each landmark, one at least.
+/// @note O(n K^3) time.
+BlendForm blend_form(const SquaredDistance& squared, const NeighbourLists& neighbours,
+                     const LleOptions& options);
 
 /// Locally linear embedding: the map in which the weights that blend each landmark from its
 /// neighbours in the data blend it best, too [roweis2000].

@@ -79,9 +79,9 @@ Embedding principal_coordinates(const Eigen::MatrixXd& B, double size) {
   return coordinates_of(largest_eigenpairs(B, std::min(B.rows(), kSpectrum)), size);
 }
 
-Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors) {
+Embedding lpca_of_vectors(const HistoryVectors& vectors) {
   constexpr Eigen::Index kFewest = 100;
-  if (vectors.rows() < kFewest || !vectors.allFinite())
+  if (vectors.landmarks < kFewest || !std::isfinite(vectors.largest_square))
     throw InvalidInput("LPCA needs finite vectors of at least 100 landmarks");
   const auto center = [](Eigen::MatrixXd& columns) {
     columns.rowwise() -= columns.colwise().mean().eval();
@@ -89,15 +89,21 @@ Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors) {
   const BlockProduct product = [&](const Eigen::MatrixXd& V) {
     Eigen::MatrixXd centred = V;
     center(centred);
-    Eigen::MatrixXd result = gram_product(vectors, centred);
+    Eigen::MatrixXd result = vectors.product(centred);
     center(result);
     return result;
   };
-  const double size =
-      4.0 *
-      (vectors.rowwise() - vectors.colwise().mean().eval()).rowwise().squaredNorm().maxCoeff();
   return coordinates_of(
-      largest_eigenpairs(product, vectors.rows(), {.exact = 3, .count = kSpectrum}), size);
+      largest_eigenpairs(product, vectors.landmarks, {.exact = 3, .count = kSpectrum}),
+      4.0 * vectors.largest_square);
+}
+
+Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors) {
+  return lpca_of_vectors(HistoryVectors{
+      .landmarks = vectors.rows(),
+      .product = [&](const Eigen::MatrixXd& V) { return gram_product(vectors, V); },
+      .largest_square =
+          vectors.rows() > 0 ? vectors.rowwise().squaredNorm().maxCoeff() : 0.0});
 }
 
 Embedding lpca(const Eigen::MatrixXd& squared_distances) {

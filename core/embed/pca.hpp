@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/model/embedding.hpp"
+#include "core/observe/history_vectors.hpp"
 
 namespace mapproof {
 
@@ -40,10 +41,15 @@ Embedding lpca(const Eigen::MatrixXd& squared_distances);
 /// @note O(n c) time for each of some six products.
 Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors);
 
-/// Whether that takes less time than the distances and lpca(): of n vectors of length c, whose
-/// array takes at most 320 MB.
+/// The same where only products with the vectors are known.
+/// @param vectors  Of 100 landmarks or more.
+/// @note Some six to eight products; 832 n bytes.
+Embedding lpca_of_vectors(const HistoryVectors& vectors);
+
+/// Whether that takes less time than the distances and lpca(): of n complete vectors of length c.
 inline bool is_faster_by_vectors(Eigen::Index n, Eigen::Index c) {
-  return n >= 160 && n * c <= 40'000'000;
+  constexpr Eigen::Index kMostHeld = 40'000'000;  ///< See history_vectors().
+  return n >= (n * c <= kMostHeld ? 160 : 2000);
 }
 
 /// The Gaussian kernel k(a, b) = exp(-|a - b|^2 / (2 sigma2)).

@@ -187,7 +187,8 @@ struct MethodProcess::Running {
   std::string received = {};
 };
 
-MethodProcess::MethodProcess(const ExternalMethod& method) : method_(method) {
+MethodProcess::MethodProcess(const ExternalMethod& method, Disclosed disclosed)
+    : method_(method), disclosed_(std::move(disclosed)) {
   if (!method.folder)
     throw InvalidInput(method.name + ": its command is named by records alone and is not started");
 }
@@ -213,12 +214,15 @@ ExternalReply MethodProcess::map(const ExternalRequest& request) {
   const End end =
       Exchange(running_->stream, bytes, method_.timeout_s).run(running_->received, line);
   ExternalReply reply;
+  const auto disclosed = [&](std::string text) {
+    return disclosed_ ? disclosed_(std::move(text)) : text;
+  };
   if (end == End::kLine) {
-    reply = parse_reply(line, request);
+    reply = parse_reply(disclosed(std::move(line)), request);
     if (!reply.failure || reply.failure->reason == StatusReason::kMethodRefused) return reply;
   }
   // Whatever it would still say belongs to no request: the next one gets a new process.
-  const std::string said = last_line(content_of(running_->messages, kMostMessages));
+  const std::string said = disclosed(last_line(content_of(running_->messages, kMostMessages)));
   if (end == End::kTimeout) {
     reply = {.coordinates = {},
              .failure = status_of<StatusReason::kMethodTimeout>(method_.timeout_s)};
@@ -240,14 +244,14 @@ ExternalReply MethodProcess::map(const ExternalRequest& request) {
 
 /// Processes of one method, those that are at work aside.
 struct MethodProcesses::Pool {
-  explicit Pool(const ExternalMethod& one) : method(one) {}
+  Pool(const ExternalMethod& one, Disclosed shown) : method(one), disclosed(std::move(shown)) {}
 
   ExternalReply map(const ExternalRequest& request) {
     std::list<MethodProcess> mine;
     {
       const std::lock_guard lock(mutex);
       if (free.empty())
-        mine.emplace_back(method);
+        mine.emplace_back(method, disclosed);
       else
         mine.splice(mine.begin(), free, free.begin());
     }
@@ -258,14 +262,16 @@ struct MethodProcesses::Pool {
   }
 
   const ExternalMethod method;
+  const Disclosed disclosed;
   std::mutex mutex = {};
   std::list<MethodProcess> free = {};
 };
 
-MethodProcesses::MethodProcesses(const std::vector<ExternalMethod>& methods) {
+MethodProcesses::MethodProcesses(const std::vector<ExternalMethod>& methods,
+                                 const Disclosed& disclosed) {
   for (const ExternalMethod& method : methods) {
     const MethodProcess is_allowed(method);
-    pools_.push_back(std::make_unique<Pool>(method));
+    pools_.push_back(std::make_unique<Pool>(method, disclosed));
   }
 }
 MethodProcesses::~MethodProcesses() = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,12 +32,17 @@ struct ExternalReply {
   std::optional<Status> failure;  ///< kFailed: then there are no coordinates.
 };
 
+/// What records name instead of a text that holds private paths; empty: the text itself.
+using Disclosed = std::function<std::string(std::string text)>;
+
 /// A method's process, which answers one request after another: it is started by the first one,
 /// and again after a failure. Protocol 1 is in docs/external-methods.md.
 class MethodProcess {
  public:
-  /// @param method  Outlives the process. @throws InvalidInput if it has no folder.
-  explicit MethodProcess(const ExternalMethod& method);
+  /// @param method     Outlives the process.
+  /// @param disclosed  Of what the process says.
+  /// @throws InvalidInput if the method has no folder.
+  explicit MethodProcess(const ExternalMethod& method, Disclosed disclosed = {});
   ~MethodProcess();
   MethodProcess(MethodProcess&&) noexcept;
 
@@ -46,6 +52,7 @@ class MethodProcess {
  private:
   struct Running;
   const ExternalMethod& method_;
+  Disclosed disclosed_;
   std::unique_ptr<Running> running_;
 };
 
@@ -53,7 +60,8 @@ class MethodProcess {
 class MethodProcesses {
  public:
   /// @throws InvalidInput if a method has no folder, so that nobody named it to be started.
-  explicit MethodProcesses(const std::vector<ExternalMethod>& methods);
+  explicit MethodProcesses(const std::vector<ExternalMethod>& methods,
+                           const Disclosed& disclosed = {});
   ~MethodProcesses();
   MethodProcesses(const MethodProcesses&) = delete;
   MethodProcesses& operator=(const MethodProcesses&) = delete;

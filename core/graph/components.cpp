@@ -4,9 +4,10 @@
 #include <cmath>
 #include <map>
 #include <mutex>
-#include <numeric>
 #include <tuple>
 #include <utility>
+
+#include "core/graph/disjoint_sets.hpp"
 
 namespace mapproof {
 namespace {
@@ -64,21 +65,6 @@ std::pair<std::vector<int>, int> strong_components(const NeighbourLists& lists) 
   }
   return {component, count};
 }
-
-/// Which set a node is of, merged step by step.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  std::size_t of(std::size_t node) {
-    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void merge(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// The shortest finite edge between each two components, ascending.
 struct Bridge {
@@ -157,7 +143,7 @@ std::optional<int> open_closed_groups(NeighbourLists& lists, const Eigen::Matrix
 }
 
 int join_sets(NeighbourLists& lists) {
-  Sets sets(lists.size());
+  DisjointSets sets(lists.size());
   for (const std::vector<Edge>& edges : lists)
     for (const Edge& edge : edges)
       sets.merge(static_cast<std::size_t>(edge.to), static_cast<std::size_t>(edges.front().to));
@@ -165,8 +151,7 @@ int join_sets(NeighbourLists& lists) {
   for (std::size_t i = 0; i < lists.size(); ++i) {
     if (lists[i].empty()) continue;
     const auto first = static_cast<std::size_t>(lists[i].front().to);
-    if (sets.of(i) == sets.of(first)) continue;
-    sets.merge(i, first);
+    if (!sets.merge(i, first)) continue;
     lists[i].push_back({static_cast<Eigen::Index>(i), 0.0});
     ++joined;
   }
@@ -237,10 +222,7 @@ class JoinedComponents {
 
   /// Keeps a bridge between components that no others join.
   void offer(const Bridge& bridge) {
-    const std::size_t a = of(bridge.from), b = of(bridge.to);
-    if (a == b) return;
-    sets_.merge(b, a);
-    joining_.push_back(bridge);
+    if (sets_.merge(of(bridge.to), of(bridge.from))) joining_.push_back(bridge);
   }
 
   std::size_t of(Eigen::Index node) {
@@ -251,7 +233,7 @@ class JoinedComponents {
 
  private:
   const std::vector<int>& piece_;
-  Sets sets_;
+  DisjointSets sets_;
   std::vector<Bridge> joining_;
 };
 

@@ -18,9 +18,6 @@ void grow_square(Eigen::MatrixXd& matrix, Eigen::Index size) {
   matrix.bottomRows(size - before).setZero();
 }
 
-/// One scan puts all bearings on a circle, two on a torus: too few to determine a map.
-constexpr Eigen::Index kFewestSteps = 3;
-
 }  // namespace
 
 void IncrementalLog::add(const ScanKey& scan, const std::vector<Detection>& detections) {

@@ -107,8 +107,16 @@ JsonCursor JsonDocument::cursor() const {
 
 nlohmann::json JsonDocument::tree() const {
   if (text_.size() > kLargestJsonTree)
-    throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are compared or merged",
+    throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are read as a table, "
+                                      "compared or merged",
                                       text_.size(), kLargestJsonTree));
+  std::size_t values = 1;
+  for (const JsonNode& node : nodes_) values += node.count;
+  if (values > kMostJsonTreeValues)
+    throw IoError(source,
+                  fmt::format("holds {} values of JSON; at most {} are read as a table, compared or "
+                              "merged",
+                              values, kMostJsonTreeValues));
   return nlohmann::json::parse(text_);
 }
 

@@ -382,7 +382,7 @@ void test_exchanges(FitMaker& maker, const HistoryBlocks& history) {
                   cut, best);
   }
   double missing = 0.0;
-  for_blocks(history, steps, kStepsAtATime, [&](Index, const Matrix& values) {
+  for_blocks(history, steps, [&](Index, const Matrix& values) {
     missing += static_cast<double>(values.array().isNaN().count());
   });
   missing /= static_cast<double>(history.landmarks()) * static_cast<double>(steps);

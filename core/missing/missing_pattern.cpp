@@ -67,7 +67,7 @@ MissingPattern missing_pattern(const HistoryBlocks& history, Eigen::Index steps)
   const auto N = static_cast<double>(steps);
   if (M == 0 || history.is_complete()) return pattern;
   double observed = 0.0;
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+  for_blocks(history, steps, [&](Eigen::Index, const Eigen::MatrixXd& values) {
     observed += static_cast<double>((values.array() == values.array()).count());
   });
   pattern.missing_share = 1.0 - observed / (static_cast<double>(M) * N);

@@ -22,15 +22,25 @@ void sort_detections(std::vector<Detection>& detections) {
                            [](const Detection& one) { return std::pair(one.step, one.landmark); });
 }
 
+double measured(const Detection& seen, Sensor sensor) {
+  switch (sensor) {
+    case Sensor::kVisibility:
+      return 1.0;
+    case Sensor::kBearing:
+      return seen.bearing_rad;
+    case Sensor::kRange:
+      return seen.range_m;
+  }
+  return kNaN;
+}
+
 ObservationHistory history_of(const DetectionLog& log, Sensor sensor) {
   const bool is_visibility = sensor == Sensor::kVisibility;
   ObservationHistory history{.sensor = sensor, .names = log.names, .values = {}};
   history.values.setConstant(static_cast<Eigen::Index>(log.names.size()), log.steps,
                              is_visibility ? 0.0 : kNaN);
   for (const Detection& seen : log.detections)
-    history.values(seen.landmark, seen.step) = is_visibility              ? 1.0
-                                               : sensor == Sensor::kRange ? seen.range_m
-                                                                          : seen.bearing_rad;
+    history.values(seen.landmark, seen.step) = measured(seen, sensor);
   return history;
 }
 

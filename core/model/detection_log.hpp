@@ -44,6 +44,9 @@ std::vector<Eigen::Index> unseen_in(const DetectionLog& log);
 /// Brings detections into their order again, after their labels changed.
 void sort_detections(std::vector<Detection>& detections);
 
+/// What one sensor observed of the landmark: 1, rad, or m; NaN: nothing.
+double measured(const Detection& seen, Sensor sensor);
+
 /// What one sensor observed in those scans, as an array: visibility 0 where a landmark was not
 /// seen, bearing and range NaN.
 /// @note 8 M N bytes.

@@ -40,8 +40,8 @@ constexpr std::array<std::string_view, 29> kFitCodes = {"residuals",
                                                         "disconnected"};
 static_assert(kFitCodes.size() == static_cast<std::size_t>(FitCode::kDisconnected) + 1);
 
-constexpr std::array<std::string_view, 5> kFitMissing = {"map", "redundancy", "noise_model",
-                                                         "odometry", "metric"};
+constexpr std::array<std::string_view, 6> kFitMissing = {"map", "redundancy", "noise_model",
+                                                         "odometry", "metric", "size"};
 
 }  // namespace
 

@@ -66,9 +66,10 @@ enum class FitMissing {
   kNoiseModel,  ///< Nothing says how large errors are.
   kOdometry,    ///< Ranges alone.
   kMetric,      ///< The measurements have no unit in which the map could be compared with them.
+  kSize,        ///< There are too many landmarks or measurements for the tests' arrays.
 };
 
-/// In files: "map", "redundancy", "noise_model", "odometry", "metric".
+/// In files: "map", "redundancy", "noise_model", "odometry", "metric", "size".
 std::string_view name(FitMissing missing);
 
 /// A number of a cause. The ids in use: offset_m, offset_s, distance_m, sigmas, from_s, to_s, at_s,

@@ -118,6 +118,13 @@ constexpr std::array kMappingMethods = {
                .source = "de Silva and Tenenbaum 2003 [silva2003]",
                .parameter = kNeighbours,
                .approximates = Method::kIsomap},
+    MethodInfo{.method = Method::kLandmarkMvu,
+               .name = "landmark-mvu",
+               .label = "Landmark MVU",
+               .summary = "SDE of a part of the landmarks, which blend all others",
+               .source = "Weinberger, Packer and Saul 2005 [weinberger2005]",
+               .parameter = kNeighbours,
+               .approximates = Method::kSde},
 };
 
 /// The methods of others that the program has met. It grows alone, so that references stay valid.

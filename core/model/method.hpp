@@ -22,6 +22,7 @@ enum class Method {
   kHessianLle,
   kSde,
   kLandmarkIsomap,
+  kLandmarkMvu,
 };
 
 /// The one number a method is tuned by.
@@ -71,6 +72,12 @@ std::optional<ExternalMethodInfo> description_of_external(Method method);
 
 /// Of a method of mapproof, or of one that external_method() gave. Thread-safe.
 const MethodInfo& info(Method method);
+
+/// Whether the method maps all landmarks by some of them, the reference landmarks, without an array
+/// of landmarks x landmarks.
+inline bool has_references(Method method) {
+  return method == Method::kLandmarkIsomap || method == Method::kLandmarkMvu;
+}
 
 /// Whether the method works on the neighbour graph.
 bool on_graph(Method method);

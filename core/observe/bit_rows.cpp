@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <bit>
 
+#include "core/base/vectorised.hpp"
 #include "core/observe/features.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr Eigen::Index kBits = 64;
-
-// By the processor's own instruction, where it has it.
-#if defined(__x86_64__)
-#define MAPPROOF_POPCOUNT [[gnu::target_clones("popcnt", "default")]]
-#else
-#define MAPPROOF_POPCOUNT
-#endif
 
 /// The bits that both have, for one row and some others, which follow each other.
 MAPPROOF_POPCOUNT void count_in_common(const std::uint64_t* row, const std::uint64_t* others,
@@ -28,27 +22,30 @@ MAPPROOF_POPCOUNT void count_in_common(const std::uint64_t* row, const std::uint
   }
 }
 
+/// Which values of the first steps are as `is` finds them.
+template <typename Is>
+BitRows bits_of(const HistoryBlocks& history, Eigen::Index steps, const Is& is) {
+  BitRows bits(history.landmarks(), steps);
+  std::vector<std::uint64_t> words(static_cast<std::size_t>(history.landmarks()));
+  for_blocks(history, steps, [&](Eigen::Index first, const Eigen::MatrixXd& values) {
+    for (Eigen::Index begin = 0; begin < values.cols(); begin += kBits) {
+      std::ranges::fill(words, 0);
+      for (Eigen::Index j = begin; j < std::min(begin + kBits, values.cols()); ++j)
+        for (Eigen::Index i = 0; i < values.rows(); ++i)
+          words[static_cast<std::size_t>(i)] |= std::uint64_t{is(values(i, j))} << (j - begin);
+      for (Eigen::Index i = 0; i < values.rows(); ++i)
+        bits.set_word(i, first + begin, words[static_cast<std::size_t>(i)]);
+    }
+  });
+  return bits;
+}
+
 }  // namespace
 
 BitRows::BitRows(Eigen::Index rows, Eigen::Index columns)
     : rows_(rows),
       words_in_row_((columns + kBits - 1) / kBits),
       words_(static_cast<std::size_t>(rows_ * words_in_row_)) {}
-
-BitRows::BitRows(const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& bits)
-    : BitRows(bits.rows(), bits.cols()) {
-  std::vector<std::uint64_t> together(static_cast<std::size_t>(rows_));
-  for (Eigen::Index word = 0; word < words_in_row_; ++word) {
-    std::ranges::fill(together, 0);
-    const Eigen::Index first = word * kBits;
-    for (Eigen::Index j = first; j < std::min(first + kBits, bits.cols()); ++j)
-      for (Eigen::Index i = 0; i < rows_; ++i)
-        together[static_cast<std::size_t>(i)] |= std::uint64_t{bits(i, j)} << (j - first);
-    for (Eigen::Index i = 0; i < rows_; ++i)
-      words_[static_cast<std::size_t>(i * words_in_row_ + word)] =
-          together[static_cast<std::size_t>(i)];
-  }
-}
 
 Eigen::MatrixXd BitRows::in_common(const BitRows& other) const {
   // Down the columns of the result: its row i is that of `other`, the rows of this are the columns.
@@ -63,10 +60,18 @@ void BitRows::in_common(Eigen::Index i, const BitRows& other, Eigen::Index first
   count_in_common(row(i), other.row(first), words_in_row_, count, counts);
 }
 
+BitRows seen_bits(const HistoryBlocks& history, Eigen::Index steps) {
+  return bits_of(history, steps, [](double value) { return value > 0.0; });
+}
+
+BitRows observed_bits(const HistoryBlocks& history, Eigen::Index steps) {
+  return bits_of(history, steps, [](double value) { return value == value; });
+}
+
 bool are_bits(const HistoryBlocks& history, Eigen::Index steps) {
   if (history.sensor() != Sensor::kVisibility) return false;
   bool all = true;
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& block) {
+  for_blocks(history, steps, [&](Eigen::Index, const Eigen::MatrixXd& block) {
     const auto values = block.array();
     all = all && (values == 0.0 || values == 1.0 || values.isNaN()).all();
   });

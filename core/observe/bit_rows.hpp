@@ -13,16 +13,13 @@ namespace mapproof {
 class BitRows {
  public:
   BitRows() = default;
-  /// A bit for each entry, 1 where it is not zero.
-  /// @note rows * columns / 8 bytes.
-  explicit BitRows(
-      const Eigen::Ref<const Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>>& bits);
-
-  /// Of rows that are set one by one, all zero at first.
+  /// All zero. @note rows * columns / 8 bytes.
   BitRows(Eigen::Index rows, Eigen::Index columns);
-  void set(Eigen::Index row, Eigen::Index column) {
-    words_[static_cast<std::size_t>(row * words_in_row_ + column / 64)] |= std::uint64_t{1}
-                                                                          << (column % 64);
+
+  /// Sets 64 columns of a row, of which the first is the lowest bit.
+  /// @param first_column  A multiple of 64.
+  void set_word(Eigen::Index row, Eigen::Index first_column, std::uint64_t bits) {
+    words_[static_cast<std::size_t>(row * words_in_row_ + first_column / 64)] = bits;
   }
 
   Eigen::Index rows() const { return rows_; }
@@ -44,6 +41,12 @@ class BitRows {
   Eigen::Index words_in_row_ = 0;
   std::vector<std::uint64_t> words_;
 };
+
+/// What was seen at each of the first `steps` observations, a row for each landmark: above 0.
+BitRows seen_bits(const HistoryBlocks& history, Eigen::Index steps);
+
+/// Where a value is not missing.
+BitRows observed_bits(const HistoryBlocks& history, Eigen::Index steps);
 
 /// Whether the history is of visibility and its first `steps` columns hold nothing but 0, 1 and
 /// missing entries.

@@ -51,7 +51,7 @@ void require_steps(const HistoryBlocks& history, Eigen::Index steps) {
 Eigen::VectorXd mean_squared_ranges(const HistoryBlocks& history, Eigen::Index steps) {
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(history.landmarks());
   Eigen::VectorXd counts = sums;
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+  for_blocks(history, steps, [&](Eigen::Index, const Eigen::MatrixXd& values) {
     const Mask missing = values.array().isNaN();
     const Eigen::MatrixXd squares = missing.select(0.0, values).array().square();
     sums += squares.rowwise().sum();
@@ -112,6 +112,15 @@ MAPPROOF_VECTORISED_WIDE void directions_of(std::span<const double> angles_rad,
     sine[i] = std::bit_cast<double>((s ^ exchanged) ^ ((quadrant & 2) << 62));
     cosine[i] = std::bit_cast<double>((c ^ exchanged) ^ (((quadrant + 1) & 2) << 62));
   }
+}
+
+Features directions(const Eigen::MatrixXd& bearings_rad) {
+  Features result;
+  result.values.resize(bearings_rad.rows(), 2 * bearings_rad.cols());
+  const auto size = static_cast<std::size_t>(bearings_rad.size());
+  directions_of({bearings_rad.data(), size}, {result.values.data(), size},
+                {result.values.data() + size, size});
+  return result;
 }
 
 }  // namespace mapproof

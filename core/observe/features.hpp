@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-
 #include <span>
 
 #include <Eigen/Core>
@@ -35,19 +33,12 @@ Features features(const ObservationHistory& history, Eigen::Index steps);
 Features features_of(const Eigen::MatrixXd& values, Sensor sensor,
                      const Eigen::VectorXd& mean_squares);
 
+/// The unit vectors of complete bearings, as features_of() has them but for the last bit: see
+/// directions_of().
+Features directions(const Eigen::MatrixXd& bearings_rad);
+
 /// Each landmark's mean squared range over the first `steps` observations in which it was measured.
 Eigen::VectorXd mean_squared_ranges(const HistoryBlocks& history, Eigen::Index steps);
-
-/// Steps that are taken together where values are read in blocks: their vectors fit the last cache.
-inline constexpr Eigen::Index kStepsAtATime = 4096;
-
-/// Calls take(first, values) for the first `steps` observations, `count` of them at a time.
-template <typename Take>
-void for_blocks(const HistoryBlocks& history, Eigen::Index steps, Eigen::Index count,
-                const Take& take) {
-  for (Eigen::Index first = 0; first < steps; first += count)
-    take(first, history.values(first, std::min(count, steps - first)));
-}
 
 /// The cosines and sines of angles, to 2e-16: some ten times as fast as one after the other.
 /// Same bits whatever vectors the processor has; not those of libm, which may differ in the last

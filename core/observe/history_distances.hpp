@@ -7,7 +7,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/graph/components.hpp"
 #include "core/model/detection_log.hpp"
-#include "core/model/observation_history.hpp"
+#include "core/model/histories/history_blocks.hpp"
 
 namespace mapproof {
 
@@ -25,12 +25,15 @@ struct HistoryDistances {
 /// Of what one sensor observed. Visibility that is sparse is counted over the steps of each
 /// landmark; bits are counted in words; all else is multiplied block by block.
 ///
-/// @param history  Of landmarks that were all observed. It has to outlive the result.
-/// @param rows_at_a_time  Of a block; 0: as many as take 256 MB, from 64 to 4096.
+/// @param history  Of landmarks that were all observed. What it reads from has to outlive the
+///                 result.
+/// @param rows_at_a_time  Of a block; 0: from 64 to 4096, as memory allows.
 /// @throws InvalidInput unless 1 <= steps <= history.steps().
 /// @note A visit takes O(M^2 N) time, or O(sum of k^2) over steps with k landmarks where that is
-///       less; memory for two blocks of rows, 512 MB or less, besides the history.
-HistoryDistances history_distances(const ObservationHistory& history, Eigen::Index steps,
+///       less. Besides the history it takes two blocks of rows and their products: 512 MB, or two
+///       of 64 rows where these take more (of 2e6 bearings, 4 GB), and as much as one of them while
+///       a block is read.
+HistoryDistances history_distances(const HistoryBlocks& history, Eigen::Index steps,
                                    Eigen::Index rows_at_a_time = 0);
 
 /// Of the visibility of a log of detections, which need not outlive the result.

@@ -55,34 +55,6 @@ Proximities of_common(CommonSums sums, Sensor sensor) {
   return result;
 }
 
-/// Whether a value of the first steps is missing.
-bool misses_any(const HistoryBlocks& history, Eigen::Index steps) {
-  if (history.is_complete()) return false;
-  bool any = false;
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
-    any = any || values.array().isNaN().any();
-  });
-  return any;
-}
-
-/// Which values of the first steps are as `is` finds them.
-template <typename Is>
-BitRows bits_of(const HistoryBlocks& history, Eigen::Index steps, const Is& is) {
-  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> bits(history.landmarks(), steps);
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index first, const Eigen::MatrixXd& values) {
-    bits.middleCols(first, values.cols()) = is(values.array());
-  });
-  return BitRows(bits);
-}
-
-BitRows seen_bits(const HistoryBlocks& history, Eigen::Index steps) {
-  return bits_of(history, steps, [](const auto& values) { return values > 0.0; });
-}
-
-BitRows observed_bits(const HistoryBlocks& history, Eigen::Index steps) {
-  return bits_of(history, steps, [](const auto& values) { return values == values; });
-}
-
 /// Of rows of 0 and 1 alone, which are counted.
 Proximities of_bits(const HistoryBlocks& history, Eigen::Index steps) {
   const BitRows seen = seen_bits(history, steps);
@@ -97,16 +69,6 @@ Proximities of_bits(const HistoryBlocks& history, Eigen::Index steps) {
                    Sensor::kVisibility);
 }
 
-/// Unit vectors of complete bearings, as features_of() has them.
-Features directions(const Eigen::MatrixXd& bearings_rad) {
-  Features result;
-  result.values.resize(bearings_rad.rows(), 2 * bearings_rad.cols());
-  const auto size = static_cast<std::size_t>(bearings_rad.size());
-  directions_of({bearings_rad.data(), size}, {result.values.data(), size},
-                {result.values.data() + size, size});
-  return result;
-}
-
 /// Some steps after the other: the vectors of all would take twice the memory of the bearings.
 Proximities of_vectors(const HistoryBlocks& history, Eigen::Index steps) {
   const Eigen::Index n = history.landmarks();
@@ -118,7 +80,7 @@ Proximities of_vectors(const HistoryBlocks& history, Eigen::Index steps) {
   // Of longer histories than any study's, whose records keep libm's last bits.
   const bool is_fast =
       history.sensor() == Sensor::kBearing && !are_missing && steps > kStepsAtATime;
-  for_blocks(history, steps, kStepsAtATime, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+  for_blocks(history, steps, [&](Eigen::Index, const Eigen::MatrixXd& values) {
     Features rows = is_fast ? directions(values) : features_of(values, history.sensor(), means);
     add_gram(rows.values, 1.0, sums.products);
     sums.all += static_cast<double>(rows.values.cols());
@@ -175,6 +137,15 @@ Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor senso
   return result;
 }
 
+bool misses_any(const HistoryBlocks& history, Eigen::Index steps) {
+  if (history.is_complete()) return false;
+  bool any = false;
+  for_blocks(history, steps, [&](Eigen::Index, const Eigen::MatrixXd& values) {
+    any = any || values.array().isNaN().any();
+  });
+  return any;
+}
+
 std::vector<Eigen::Index> unseen_landmarks(const HistoryBlocks& history, Eigen::Index steps) {
   require_steps(history, steps);
   constexpr Eigen::Index kSteps = 256;  // Most landmarks are seen within few.
@@ -188,6 +159,17 @@ std::vector<Eigen::Index> unseen_landmarks(const HistoryBlocks& history, Eigen::
     });
   }
   return rows;
+}
+
+std::vector<Eigen::Index> other_rows(const std::vector<Eigen::Index>& rows, Eigen::Index count) {
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (!std::ranges::binary_search(rows, i)) others.push_back(i);
+  return others;
+}
+
+std::vector<Eigen::Index> seen_landmarks(const HistoryBlocks& history, Eigen::Index steps) {
+  return other_rows(unseen_landmarks(history, steps), history.landmarks());
 }
 
 ObservationHistory with_rows(const ObservationHistory& history,

@@ -49,6 +49,16 @@ Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor senso
 /// @throws InvalidInput if `steps` is out of bounds.
 std::vector<Eigen::Index> unseen_landmarks(const HistoryBlocks& history, Eigen::Index steps);
 
+/// The other landmarks, ascending: those that a map can hold.
+/// @throws InvalidInput if `steps` is out of bounds.
+std::vector<Eigen::Index> seen_landmarks(const HistoryBlocks& history, Eigen::Index steps);
+
+/// The rows of `count` that are not among those. @param rows  Ascending.
+std::vector<Eigen::Index> other_rows(const std::vector<Eigen::Index>& rows, Eigen::Index count);
+
+/// Whether a value of the first `steps` observations is missing.
+bool misses_any(const HistoryBlocks& history, Eigen::Index steps);
+
 /// The history of some landmarks alone, in the order given.
 ObservationHistory with_rows(const ObservationHistory& history,
                              const std::vector<Eigen::Index>& rows);

@@ -11,7 +11,7 @@ inline EnumNames enum_names(FitVerdict) {
   return names_up_to(FitVerdict::kNotTestable, "fit_verdict");
 }
 inline EnumNames enum_names(FitCode) { return names_up_to(FitCode::kDisconnected, "fit_code"); }
-inline EnumNames enum_names(FitMissing) { return names_up_to(FitMissing::kMetric, "fit_missing"); }
+inline EnumNames enum_names(FitMissing) { return names_up_to(FitMissing::kSize, "fit_missing"); }
 
 namespace record_rules {
 

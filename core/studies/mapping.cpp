@@ -49,9 +49,14 @@ std::vector<MethodFiles> files_of_methods(const Experiment& experiment) {
 
 StudyPlan plan_mapping(std::string_view text, const std::string& source,
                        const PlanOptions& options) {
-  const Experiment experiment = ordered_experiment(text, source, options);
+  Experiment experiment = ordered_experiment(text, source, options);
   const std::vector<MethodFiles> method_files = files_of_methods(experiment);
-  const auto others = std::make_shared<MethodProcesses>(experiment.external_methods);
+  const auto others =
+      std::make_shared<MethodProcesses>(experiment.external_methods, options.disclosed);
+  // The processes have the commands as they are; the records have them as they may be shown.
+  if (options.disclosed)
+    for (ExternalMethod& method : experiment.external_methods)
+      for (std::string& word : method.command) word = options.disclosed(word);
   const auto start = [=](Provenance made_by) {
     made_by.method_files = method_files;
     return study_start(experiment, made_by);
@@ -105,7 +110,7 @@ void read_mapping(const fs::path& folder, const std::string& text, const Content
   contents.results = results_of(study);
   for (const ExternalMethod& method : study.experiment.external_methods)
     for (const MethodSetting& setting : settings_of({{method_of(method), method.values}}))
-      contents.labels.methods[slug(setting)] = label(setting);
+      contents.labels.add_method(slug(setting), label(setting));
   if (asked.seconds) contents.seconds = seconds_of(read_timings(folder));
 }
 

@@ -31,6 +31,8 @@ struct PlanOptions {
   std::filesystem::path folder = {};
   /// methods.json, whose methods are added; they are started in its folder.
   std::optional<std::filesystem::path> methods = {};
+  /// Of the commands of methods, and of what they say, in records.
+  std::function<std::string(std::string text)> disclosed = {};
 };
 
 /// What one worker does.

@@ -103,7 +103,7 @@ void read_topic_parts(const fs::path& folder, const std::string& text, const Con
   for (const TopicSetup& setup : study.design.setups)
     contents.labels.setups[setup.id] = setup.title;
   for (const StudiedMethod& method : study.design.methods)
-    contents.labels.methods[method.id] = method.label;
+    contents.labels.add_method(method.id, method.label);
   for (const fs::path& path : part_files(folder)) {
     contents.runs[path.stem().string()] = "";
     try_file(contents, folder, path, asked, [&] {

@@ -26,8 +26,10 @@
 #include "core/records/detections/detections.hpp"
 #include "core/records/detections/mrclam.hpp"
 #include "core/records/detections/scan_rows.hpp"
+#include "core/records/experiments/external_methods.hpp"
 #include "core/records/maps/map_csv.hpp"
 #include "core/records/maps/map_json.hpp"
+#include "core/records/metrics/metrics_json.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/observations/landmarks_csv.hpp"
 #include "core/records/observations/observation_json.hpp"
@@ -38,6 +40,7 @@
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
+#include "core/records/studies/study_page.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
 #include "core/records/tables/respelling.hpp"
 #include "core/records/tables/table_stream.hpp"
@@ -309,6 +312,11 @@ constexpr std::array kOtherFiles = {
               [](auto text, auto& source) { parse_observations(text, source, std::nullopt); }},
     StudyFile{"mapproof.detections",
               [](auto text, auto& source) { parse_detections(text, source); }},
+    StudyFile{"mapproof.methods",
+              [](auto text, auto& source) { parse_external_methods(text, source); }},
+    StudyFile{kMetricsSchema,
+              [](auto text, auto& source) { parse_metrics(text, source, Better::kLower); }},
+    StudyFile{kPageSchema, [](auto text, auto& source) { parse_page_data(text, source); }},
 };
 
 /// Null if core has no such schema.
@@ -322,6 +330,13 @@ const StudyFile* file_of(std::string_view schema) {
   return find(kOtherFiles);
 }
 
+/// Whether it is a format that mapproof writes for others and never reads again.
+bool is_only_written(const SchemaId& schema) {
+  constexpr std::array<std::string_view, 3> kWritten = {"mapproof.diff", "mapproof.history",
+                                                        "mapproof.nightly_run"};
+  return schema.version == 1 && std::ranges::find(kWritten, schema.name) != kWritten.end();
+}
+
 void check_json(std::string_view text, const ForeignReader& foreign, Finding& finding) {
   const JsonDocument document = parse_json(text, finding.path);
   const SchemaId schema = schema_of(document.cursor());
@@ -330,7 +345,7 @@ void check_json(std::string_view text, const ForeignReader& foreign, Finding& fi
     known->check(text, finding.path);
   else if (foreign && foreign(schema.name, text, finding.path))
     return;
-  else if (!schema.name.starts_with("mapproof."))
+  else if (foreign ? !is_only_written(schema) : !schema.name.starts_with("mapproof."))
     document.cursor().at("schema").at("name").fail("unknown schema " + in_quotes(schema.name));
 }
 

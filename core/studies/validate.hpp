@@ -48,8 +48,9 @@ using ForeignReader =
     std::function<bool(std::string_view schema, std::string_view text, const std::string& source)>;
 
 /// Checks a file or stream, or every file of a study's or a map's folder, in the order of their
-/// paths. Measured trouble is a finding, never an exception. A JSON schema that neither core nor
-/// `foreign` knows is accepted by its heading alone when it starts with "mapproof.".
+/// paths. Measured trouble is a finding, never an exception. JSON that mapproof writes and never
+/// reads again, such as "mapproof.diff", is accepted by its heading alone; without `foreign`, so is
+/// all that it writes and core does not know.
 std::vector<Finding> validate(const std::filesystem::path& path,
                               const ForeignReader& foreign = nullptr,
                               const ValidateOptions& options = {});

@@ -169,10 +169,7 @@ bool joined_by_affine(Method method) {
 SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index steps,
                               const MethodSetting& setting, const SubmapOptions& options) {
   const Eigen::Index M = history.landmarks();
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index i = 0; i < M; ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen.push_back(i);
+  const std::vector<Eigen::Index> seen = seen_landmarks(history, steps);
   SubmapEmbedding result;
   result.embedding.coordinates.setConstant(M, 2, kNaN);
   result.median_residual = kNaN;
@@ -191,8 +188,8 @@ SubmapEmbedding embed_submaps(const ObservationHistory& history, Eigen::Index st
     add_map(embedder.embed(fitting(setting, rows.size())), rows, mapped);
   }
   result.embedding.statuses = statuses_of(mapped, groups.size());
-  if (!unseen.empty())
-    result.embedding.statuses.push_back(status_of<StatusReason::kNeverObserved>(unseen.size(), M));
+  if (const Eigen::Index unseen = M - std::ssize(seen); unseen > 0)
+    result.embedding.statuses.push_back(status_of<StatusReason::kNeverObserved>(unseen, M));
   if (mapped.maps.empty()) {
     result.embedding.statuses.push_back(status_of<StatusReason::kNoSubmap>());
     return result;

@@ -96,10 +96,12 @@ class IncompleteHistory {
  public:
   IncompleteHistory(const TopicTask& context, const ObservationHistory& history,
                     const TopicSetup& setup, double level, TopicPart& part)
-      : context_(context), setup_(setup), level_(level), part_(part), all_(history.landmarks()) {
-    const std::vector<Eigen::Index> unseen = unseen_landmarks(history, history.steps());
-    for (Eigen::Index i = 0; i < all_; ++i)
-      if (!std::ranges::binary_search(unseen, i)) seen_.push_back(i);
+      : context_(context),
+        setup_(setup),
+        level_(level),
+        part_(part),
+        all_(history.landmarks()),
+        seen_(seen_landmarks(history, history.steps())) {
     history_ = with_rows(history, seen_);
     options_.ppca.dimensions = options_.pca.dimensions =
         static_cast<int>(number_option(context.experiment, "dimensions"));

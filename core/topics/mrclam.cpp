@@ -298,11 +298,8 @@ Made make_map(const MrclamMethod& entry, const RealSet& set, const TopicTask& co
   MethodSetting setting{*entry.method, std::nullopt};
   if (on_graph(*entry.method)) setting.parameter = number_option(context.experiment, "neighbours");
   // Landmarks without a detection would only make the others' map fail.
-  const std::vector<Eigen::Index> unseen = unseen_in(set.source.log);
   const auto landmarks = std::ssize(set.source.log.names);
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index i = 0; i < landmarks; ++i)
-    if (!std::ranges::binary_search(unseen, i)) rows.push_back(i);
+  const std::vector<Eigen::Index> rows = other_rows(unseen_in(set.source.log), landmarks);
   Proximities all = detected_proximities(set.source.log, entry.sensor);
   all.inner_products = Eigen::MatrixXd(all.inner_products(rows, rows));
   all.squared_distances = Eigen::MatrixXd(all.squared_distances(rows, rows));

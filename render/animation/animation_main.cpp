@@ -49,11 +49,20 @@ void encode() {
     throw std::runtime_error("the file cannot be written");
 }
 
+/// Whether AddressSanitizer maps terabytes for its own use.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer);
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// A file of a stranger may ask for more than any image needs.
 void set_limits() {
   constexpr rlimit kMemory{rlim_t{4} << 30, rlim_t{4} << 30};
   constexpr rlimit kSeconds{60, 60};
-  ::setrlimit(RLIMIT_AS, &kMemory);
+  if (!kSanitized) ::setrlimit(RLIMIT_AS, &kMemory);
   ::setrlimit(RLIMIT_CPU, &kSeconds);
 }
 

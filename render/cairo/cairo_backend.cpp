@@ -131,23 +131,20 @@ std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_f
   errno = 0;
   std::vector<SurfaceHandle> images;
   SurfaceHandle surface(create(append_to, &bytes, drawing.width, drawing.height));
-  // Cairo 1.16 makes a copy of an image before it destroys it, and dies where it has no memory for
-  // that. So the images stay: less than 1 KiB each, the pixels belong to the drawing.
-  const auto keep = [&images] {
-    for (SurfaceHandle& image : images) static_cast<void>(image.release());
-  };
   try {
     set_words(drawing, surface.get());
     draw_page(drawing, surface.get(), images);
     // Nor does it report every piece of memory that it did not get.
     if (errno == ENOMEM) throw std::bad_alloc();
   } catch (...) {
-    // Cairo goes on with what failed when such a surface is closed, up to an abort.
+    // Cairo goes on with what failed when such a surface is closed, up to an abort. Of an image that
+    // the surface refers to Cairo 1.16 makes a copy before it destroys it, and dies where it has no
+    // memory for that. So all of them stay.
     static_cast<void>(surface.release());
-    keep();
+    for (SurfaceHandle& image : images) static_cast<void>(image.release());
     throw;
   }
-  keep();
+  surface.reset();  // Before its images.
   return bytes;
 }
 

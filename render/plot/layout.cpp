@@ -312,7 +312,7 @@ class CellGrid {
       for (int i = 0; i < kMostHeights; ++i) {
         const Box cell{room_.x0, room_.y0, room_.x0 + width, room_.y0 + height};
         Drawing attempt;
-        lay_out_panel(panel, p, cell, theme_, attempt);
+        lay_out_panel(panel, 0, cell, theme_, attempt);  // The only panel of the attempt.
         const double frame = attempt.frames.back().height();
         if (frame >= kTooLow * theme_.font_pt) break;
         height += kLowestFrame * theme_.font_pt - frame;

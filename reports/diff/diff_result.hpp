@@ -66,6 +66,8 @@ struct SharedCause {
 /// The comparison of two studies, two folders or two files.
 struct DiffResult {
   std::string baseline, current;  ///< As the user named them.
+  /// What pages call them: "nightly run 2"; empty: as the user named them.
+  std::string baseline_title = {}, current_title = {};
   bool has_baseline = true;       ///< Else there is nothing yet to compare with.
   Judgement judgement;            ///< On the whole: the heaviest verdict and the counts.
   bool passes = false;
@@ -74,6 +76,14 @@ struct DiffResult {
   std::vector<SharedCause> shared;   ///< Causes that three or more items have in common.
   std::vector<DiffItem> items;       ///< By weight of verdict, then records first, then by id.
 };
+
+/// What a page calls a side.
+inline const std::string& shown_baseline(const DiffResult& result) {
+  return result.baseline_title.empty() ? result.baseline : result.baseline_title;
+}
+inline const std::string& shown_current(const DiffResult& result) {
+  return result.current_title.empty() ? result.current : result.current_title;
+}
 
 /// The number of items of each verdict, in the order of kVerdicts.
 std::vector<int> counts_of(const DiffResult& result);

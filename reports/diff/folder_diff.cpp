@@ -400,6 +400,18 @@ bool holds_items(const fs::path& folder) {
   return !record_locations(folder).empty() || !list_items(folder).empty();
 }
 
+void judge_records_as(DiffResult& result, const Judgement& judgement) {
+  const auto records = std::ranges::find(result.items, ItemKind::kRecords, &DiffItem::kind);
+  if (records == result.items.end()) return;
+  const std::string follows = fmt::format("it follows from {}: ", records->id);
+  records->judgement = judgement;
+  records->passes = passes(judgement, result.allowed);
+  for (DiffItem& item : result.items)
+    for (std::string* cause : {&item.judgement.cause, &item.judgement.shared_cause})
+      if (cause->starts_with(follows)) *cause = follows + judgement.cause;
+  conclude(result);
+}
+
 void rename_files(DiffResult& result,
                   const std::function<std::string(const std::string& text)>& renamed) {
   const auto rename = [&](std::string& text) { text = renamed(text); };

@@ -21,6 +21,10 @@ DiffResult folder_diff(const std::filesystem::path& baseline, const std::filesys
 /// @throws IoError if it cannot be listed.
 bool holds_items(const std::filesystem::path& folder);
 
+/// Gives the records another judgement, made by other rules on the same values, and so to what
+/// follows from them; the whole is judged again. Nothing where no records were compared.
+void judge_records_as(DiffResult& result, const Judgement& judgement);
+
 /// Changes every text of the result that can name a file: a side may be in a temporary folder.
 void rename_files(DiffResult& result,
                   const std::function<std::string(const std::string& text)>& renamed);

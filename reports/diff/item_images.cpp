@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/text/percent.hpp"
+#include "core/records/studies/folder_lock.hpp"
 #include "render/output/write_figure.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
@@ -30,11 +31,13 @@ std::string file_name(std::string_view text) {
   return percent_encoded(text, [](char c) { return is_plain(c, "-._/@+"); });
 }
 
+/// Removes what an earlier call wrote, or began to write, by its list, which stays.
+/// @param folder  Locked, and rid of leftovers.
 void remove_earlier(const OutputFolder& folder) {
   std::error_code error;
   const fs::path path = folder.path();
-  if (!fs::exists(path, error) || fs::is_empty(path, error)) return;
-  if (!fs::is_regular_file(path / kList, error))
+  if (fs::is_empty(path, error)) return;
+  if (!fs::is_regular_file(fs::symlink_status(path / kList, error)))
     throw InvalidInput(
         fmt::format("--images {}: holds files that are not images of an earlier "
                     "comparison; name another folder",
@@ -45,14 +48,41 @@ void remove_earlier(const OutputFolder& folder) {
     if (end > at) {
       const fs::path file = list.substr(at, end - at);
       folder.remove(file);
-      // The folders that held it alone.
-      for (fs::path above = file.parent_path();
-           !above.empty() && fs::remove(path / above, error) && !error; above = above.parent_path())
-        continue;
+      // The folders that held it alone, or with what a killed process left.
+      for (fs::path above = file.parent_path(); !above.empty(); above = above.parent_path()) {
+        if (fs::is_directory(fs::symlink_status(path / above, error)))
+          remove_leftovers(path / above);
+        fs::remove(path / above, error);
+        if (fs::exists(fs::symlink_status(path / above, error))) break;
+      }
     }
     at = end + 1;
   }
-  folder.remove(kList);
+}
+
+std::string change_path(const DiffItem& item) {
+  return file_name(item.id + ".change") + "/difference.png";
+}
+
+/// The folder of the images of one file.
+std::string images_path(const DiffItem& item, const ImageFile& file) {
+  return file_name(item.id + "." + file.format) + "/";
+}
+
+bool has_images(const DiffItem& item) { return item.judgement.verdict > Verdict::kWithinTolerance; }
+
+/// Every path that a call may write: stopped at any moment, its files are in the list.
+std::string possible_paths(const DiffResult& result) {
+  std::string list;
+  for (const DiffItem& item : result.items) {
+    if (!has_images(item)) continue;
+    list += change_path(item) + "\n";
+    for (const ImageFile& file : item.images)
+      for (const std::string& name :
+           {"baseline." + file.format, "current." + file.format, std::string("difference.png")})
+        list += images_path(item, file) + name + "\n";
+  }
+  return list;
 }
 
 /// Copies one side. @return Its path; empty if it cannot be read.
@@ -120,23 +150,24 @@ std::string ImageLinks::joined(const std::string& path) const {
 }
 
 std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,
-                                          const OutputFolder& folder) {
+                                          const fs::path& to) {
+  const LockedFolder locked(to);
+  const OutputFolder& folder = locked.files();
   remove_earlier(folder);
-  make_folder(folder.path());
+  folder.write_durably(kList, possible_paths(result));
   std::vector<ItemImages> all;
   std::string list;
   for (const DiffItem& item : result.items) {
-    if (item.judgement.verdict <= Verdict::kWithinTolerance) continue;
+    if (!has_images(item)) continue;
     const auto keep = [&](ItemImages images) {
       for (const std::string& path : images.paths()) list += path + "\n";
       if (!images.paths().empty()) all.push_back(std::move(images));
     };
     ItemImages change{.id = item.id, .format = "change"};
-    change.difference =
-        write_change(item, file_name(item.id + ".change") + "/difference.png", folder);
+    change.difference = write_change(item, change_path(item), folder);
     keep(std::move(change));
     for (const ImageFile& file : item.images) {
-      const std::string start = file_name(item.id + "." + file.format) + "/";
+      const std::string start = images_path(item, file);
       ItemImages images{.id = item.id, .format = file.format};
       images.baseline = copy(file.baseline, start + "baseline." + file.format, folder);
       images.current = copy(file.current, start + "current." + file.format, folder);

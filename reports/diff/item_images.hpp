@@ -1,9 +1,9 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "core/base/files/output_folder.hpp"
 #include "reports/diff/diff_result.hpp"
 #include "reports/diff/diff_settings.hpp"
 
@@ -31,11 +31,11 @@ struct ImageLinks {
 /// Writes the images of each item that is neither identical nor within tolerance:
 /// ID.FORMAT/baseline.FORMAT, /current.FORMAT as they are, and /difference.png if both can be
 /// compared pixel by pixel; and where data changed, ID.change/difference.png: change_figure(). In
-/// names, bytes other than letters, digits and "-._/@+" are "%XX". What an earlier call wrote to
-/// the folder is removed first.
+/// names, bytes other than letters, digits and "-._/@+" are "%XX". The folder is locked meanwhile.
+/// What an earlier call wrote to it is removed first, also if that was stopped.
 /// @throws IoError; InvalidInput if the folder holds files, but none of an earlier call.
 /// @note Compares the images of one file after the other again.
 std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,
-                                          const OutputFolder& folder);
+                                          const std::filesystem::path& folder);
 
 }  // namespace mapproof

@@ -15,6 +15,7 @@
 #include "core/base/text/words.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/signed_rank.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 
@@ -246,7 +247,7 @@ std::string range_words(const Quantity& quantity, double low, double high) {
                      worse_percent(quantity, high));
 }
 
-std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : fmt::format("p = {:.2g}", p); }
+std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : "p = " + significant(p, 2); }
 
 NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                           std::size_t tests, const StudyEvidence& evidence) {
@@ -259,11 +260,11 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           .quantity = quantity.id,
           .since = evidence.trend.nightly_runs.back().number,
           .sentence = fmt::format(
-              "{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {:.4g} → "
+              "{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {} → "
               "{}{}; {}, {} corrected for {}",
               comparison.shown, quantity.label, worse_words(quantity, change.shift),
-              evidence.reference->nightly_run, interval, comparison.before,
-              with_unit(fmt::format("{:.4g}", comparison.after), quantity.unit),
+              evidence.reference->nightly_run, interval, significant(comparison.before, 4),
+              with_unit(significant(comparison.after, 4), quantity.unit),
               comparison.has_steps ? " at the last step" : "", units, p_text(p),
               counted(static_cast<long long>(tests), "test")),
           .change = change_of(quantity, change.shift)};

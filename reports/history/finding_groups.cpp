@@ -81,16 +81,25 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// "K = 6 and 8" of "K = 6" and "K = 8".
+/// The part before the value that settings differ in: "K = " of "K = 6", "noise=" of "noise=0.1";
+/// empty where there is more than one value.
+std::string head_of(const std::string& setting) {
+  for (const std::string_view is : {" = ", "="}) {
+    const std::size_t at = setting.find(is);
+    if (at == std::string::npos) continue;
+    const std::string value = setting.substr(at + is.size());
+    return value.find(" ") == std::string::npos ? setting.substr(0, at + is.size()) : "";
+  }
+  return "";
+}
+
+/// "K = 6 and 8" of "K = 6" and "K = 8", "noise=0.1 and 0.2" of two levels.
 std::string settings_text(const std::vector<std::string>& settings) {
   constexpr std::size_t kMost = 6;
-  constexpr std::string_view kIs = " = ";
   std::vector<std::string> values;
-  const std::size_t is = settings.front().find(kIs);
-  const std::string head = settings.front().substr(0, is == std::string::npos ? 0 : is + kIs.size());
+  const std::string head = head_of(settings.front());
   for (const std::string& setting : settings)
-    if (!head.empty() && setting.starts_with(head) && setting.find(", ") == std::string::npos)
-      values.push_back(setting.substr(head.size()));
+    if (!head.empty() && head_of(setting) == head) values.push_back(setting.substr(head.size()));
   if (values.size() == settings.size()) return head + listed(values, kMost);
   // Settings with levels hold commas of their own.
   std::string text;
@@ -161,11 +170,11 @@ std::string FindingGroup::change_text() const {
                      in_points ? "points" : "%");
 }
 
-std::string FindingGroup::headline() const {
-  std::string text = method + ": " + change_text();
-  if (!settings.empty()) text += " (" + settings_text(settings) + ")";
-  return text;
+std::string FindingGroup::change_of_settings() const {
+  return change_text() + (settings.empty() ? "" : " (" + settings_text(settings) + ")");
 }
+
+std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
 
 std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,
@@ -226,6 +235,12 @@ std::string local_time(const NightlyFacts& nightly_run) {
                         offset % 60);
   return fmt::format("{}-{:02}-{:02} {:02}:{:02} {}", int(local.year()), unsigned(local.month()),
                      unsigned(local.day()), minutes / 60, minutes % 60, place);
+}
+
+std::string dated_name(const NightlyFacts& nightly_run) {
+  return fmt::format(
+      "nightly run {}, {}{}", nightly_run.number, local_time(nightly_run),
+      nightly_run.commit.empty() ? "" : ", commit " + short_commit(nightly_run.commit));
 }
 
 }  // namespace mapproof

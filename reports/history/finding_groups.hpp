@@ -56,6 +56,8 @@ struct FindingGroup {
 
   /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost".
   std::string change_text() const;
+  /// "MPE +17.6 % (K = 6 and 8)".
+  std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;
 };
@@ -75,5 +77,9 @@ std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> 
 /// "2026-11-22 03:30 +01:00": when a nightly run began, by the clock of the place where it ran; in
 /// UTC "2026-11-22 02:30 UTC". What is not a time stays as it is.
 std::string local_time(const NightlyFacts& nightly_run);
+
+/// "nightly run 3, 2026-11-22 03:30 +01:00, commit 5fb294c0f", without the commit if it is not
+/// known.
+std::string dated_name(const NightlyFacts& nightly_run);
 
 }  // namespace mapproof

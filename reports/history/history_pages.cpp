@@ -15,6 +15,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "core/base/version.hpp"
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
@@ -506,9 +507,10 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   NightlyLinks links(folders);
   page.figures = trend_figures(trend, findings);
   page.report.title = trend.name + ", by nightly run";
-  page.report.subtitle = fmt::format("Nightly runs {} to {}", trend.nightly_runs.front().number,
-                                     trend.nightly_runs.back().number);
   const NightlyFacts& this_run = trend.nightly_runs.back();
+  page.report.subtitle =
+      fmt::format("Nightly runs {} to {}, the last one: {}", trend.nightly_runs.front().number,
+                  this_run.number, dated_name(this_run));
   const std::vector<FindingGroup> groups =
       grouped(found_on(this_run.number, findings), std::span(&trend, 1), notes);
   page.report.opening.standing = study_standing(this_run, groups, trend.name, is_compared);
@@ -529,6 +531,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   HistoryPage page;
   Report& report = page.report;
   report.title = "Nightly runs";
+  report.footer = fmt::format("Made by mapproof {} ({}).", version(), source_commit());
   if (facts.nightly_runs.empty()) {
     report.sections.push_back(
         {"last", "The last nightly run", {Paragraph{{{"No nightly run was recorded yet."}}}}});
@@ -559,13 +562,36 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   return page;
 }
 
+namespace {
+
+/// Makes a figure of what got worse the one of the first screen; the one that was is a small one.
+void show_regressed(Report& report) {
+  Opening& opening = report.opening;
+  const auto all = figures(report);
+  const auto is_worse = [](const FigureBlock* figure) { return !figure->regressed.empty(); };
+  const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
+  const auto worse = std::ranges::find_if(all, is_worse);
+  if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;
+  std::erase(opening.figure_ids, (*worse)->id);
+  if (!opening.main_figure.empty())
+    opening.figure_ids.insert(opening.figure_ids.begin(), opening.main_figure);
+  opening.main_figure = (*worse)->id;
+  constexpr std::size_t kMostSmall = 6;
+  if (opening.figure_ids.size() > kMostSmall) opening.figure_ids.resize(kMostSmall);
+}
+
+}  // namespace
+
 void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links) {
   const NightlyRun& nightly_run = study.nightly_run;
   const LostNightlyRuns& lost = study.lost;
   Opening& opening = report.opening;
+  report.subtitle +=
+      fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
   opening.standing =
       study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
   mark_regressed(report, study.figures, study.groups, study.name);
+  show_regressed(report);
   std::optional<Phrase> reference;
   if (study.is_compared && nightly_run.facts.reference)
     reference = links.report(*nightly_run.facts.reference, study.name);

@@ -59,18 +59,22 @@ Quantities read_quantities(Database& database, std::int64_t study) {
   return quantities;
 }
 
-/// The name of each kind of label in the table.
-constexpr std::array kLabelKinds = {std::pair("setup", &StudyLabels::setups),
-                                    std::pair("method", &StudyLabels::methods)};
-
-/// Adds what a study called its setups and methods; labels that are there already are replaced.
-void read_labels(Database& database, std::int64_t study, StudyLabels& labels) {
-  for (const auto& [kind, of_kind] : kLabelKinds) {
-    Statement rows(database, "SELECT id, label FROM labels WHERE study = ? AND kind = ?");
-    rows.bind(study).bind(kind);
-    while (rows.step()) (labels.*of_kind)[rows.text(0)] = rows.text(1);
-  }
+/// What a study called its setups and methods.
+StudyLabels read_labels(Database& database, std::int64_t study) {
+  StudyLabels labels;
+  Statement rows(database,
+                 "SELECT kind, id, label FROM labels WHERE study = ? ORDER BY position, id");
+  rows.bind(study);
+  while (rows.step())
+    if (rows.text(0) == "method")
+      labels.add_method(rows.text(1), rows.text(2));
+    else
+      labels.setups[rows.text(1)] = rows.text(2);
+  return labels;
 }
+
+/// A trend has no infinite points: an infinite value is missing there, and stays among the scores.
+double finite_or_nan(double value) { return std::isfinite(value) ? value : kNaN; }
 
 template <typename Row>
 std::int64_t id_of(Database& database, Statement& find, Statement& insert, const Row& bind) {
@@ -86,11 +90,28 @@ std::int64_t id_of(Database& database, Statement& find, Statement& insert, const
   return database.last_row();
 }
 
+/// Refuses a folder whose history is gone: its nightly runs would be compared with nothing. A
+/// damaged one that was renamed is left for a new one on purpose.
+void refuse_lost_history(const fs::path& path) {
+  std::error_code error;
+  const std::string kept = path.filename().string() + ".damaged-";
+  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end;
+       entry.increment(error))
+    if (entry->path().filename().string().starts_with(kept)) return;
+  for (fs::directory_iterator entry(path.parent_path() / "nightly_runs", error), end;
+       !error && entry != end; entry.increment(error))
+    if (std::error_code unknown; fs::exists(entry->path() / "nightly_run.json", unknown))
+      throw IoError(path.string(),
+                    "is gone, and nightly_runs/ has nightly runs that it recorded; put a copy of "
+                    "it back, or move nightly_runs/ away, and a new history begins");
+}
+
 /// Makes a history without nightly runs. It is renamed into place when it is whole: a file without
 /// tables is damage.
 void begin_history(const fs::path& path) {
   const fs::path journal = path.string() + "-journal";
   std::error_code error;
+  refuse_lost_history(path);
   if (fs::exists(fs::symlink_status(journal, error)))
     throw IoError(journal.string(), "belongs to a history that is gone; move it where that is");
   const fs::path beside = path.string() + ".part";
@@ -198,7 +219,7 @@ std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
                     "SELECT file, digest, bytes FROM figures WHERE study = ? ORDER BY file");
     files.bind(rows.integer(0));
     study.quantities = read_quantities(*database_, rows.integer(0));
-    read_labels(*database_, rows.integer(0), study.labels);
+    study.labels = read_labels(*database_, rows.integer(0));
     while (files.step()) study.figures.push_back({files.text(0), files.text(1), files.integer(2)});
     studies.push_back(std::move(study));
   }
@@ -241,7 +262,7 @@ StudyTrend HistoryStore::trend(const std::string& study, const std::string& expe
   std::ranges::reverse(trend.peak_memory_mib);
   if (!ids.empty()) trend.quantities = read_quantities(*database_, ids.back());
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    read_labels(*database_, ids[i], trend.labels);
+    trend.labels.add(read_labels(*database_, ids[i]));
     Statement medians(
         *database_,
         "SELECT s.sensor, s.method, s.step, s.quantity, t.median, t.level FROM trends t "
@@ -319,10 +340,18 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
         .bind(quantity.unit)
         .bind(name(quantity.better))
         .run();
-  Statement call(*database_, "INSERT INTO labels (study, kind, id, label) VALUES (?, ?, ?, ?)");
-  for (const auto& [kind, of_kind] : kLabelKinds)
-    for (const auto& [what, label] : study.labels.*of_kind)
-      call.bind(id).bind(kind).bind(what).bind(label).run();
+  Statement call(*database_,
+                 "INSERT INTO labels (study, kind, id, label, position) VALUES (?, ?, ?, ?, ?)");
+  for (const auto& [setup, label] : study.labels.setups)
+    call.bind(id).bind("setup").bind(setup).bind(label).bind(0).run();
+  int position = 0;
+  for (const std::string& method : study.labels.ordered())
+    call.bind(id)
+        .bind("method")
+        .bind(method)
+        .bind(study.labels.methods.at(method))
+        .bind(position++)
+        .run();
 
   Statement find_series(*database_,
                         "SELECT id FROM series WHERE sensor = ? AND method = ? AND step = ? AND "
@@ -349,8 +378,8 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
       score.bind(id).bind(series).bind(run->second).bind(value.value).run();
     }
     median.bind(id).bind(series).bind(static_cast<int>(values.size()));
-    median.bind(known_median(values));
-    median.bind(level_of(study.quantities.at(key.quantity), values)).run();
+    median.bind(finite_or_nan(known_median(values)));
+    median.bind(finite_or_nan(level_of(study.quantities.at(key.quantity), values))).run();
   }
   Statement figure(*database_,
                    "INSERT INTO figures (study, file, digest, bytes) VALUES (?, ?, ?, ?)");

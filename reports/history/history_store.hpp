@@ -22,8 +22,9 @@ class HistoryStore {
   /// Opens the store to append to it; one that does not exist is created. One of an older version
   /// is migrated after a copy of it was kept, which remarks() report. The folder should be locked
   /// (see FolderLock).
-  /// @throws IoError if it cannot be opened, is not ours, of a later version, or damaged: then it
-  ///         stays as it is, and the message explains how to begin a new one.
+  /// @throws IoError if it cannot be opened, is not ours, of a later version, damaged, or gone
+  ///         although its nightly runs are there: then all stays as it is, and the message explains
+  ///         how to begin a new one.
   static HistoryStore open(const std::filesystem::path& store);
 
   /// To read it, and for prune and pin. @throws IoError if there is none, it is damaged, or of

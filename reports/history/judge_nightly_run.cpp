@@ -12,6 +12,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "core/statistics/signed_rank.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/cost_rule.hpp"
 #include "reports/history/nightly_run.hpp"
@@ -86,11 +87,11 @@ NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
           .subject = series.subject,
           .quantity = series.quantity,
           .since = since,
-          .sentence = fmt::format("{}: {} {} since about nightly run {}, {}; p = {:.2g} corrected "
+          .sentence = fmt::format("{}: {} {} since about nightly run {}, {}; p = {} corrected "
                                   "for {} series of {} nightly runs",
                                   series.shown, label, change, since,
-                                  known.change.gradual ? "a slow drift" : "a step", p, tests,
-                                  known.values.size()),
+                                  known.change.gradual ? "a slow drift" : "a step",
+                                  significant(p, 2), tests, known.values.size()),
           .change = accuracy ? change_of(trend.quantities.at(series.quantity), known.change.rise)
                              : 100.0 * std::expm1(known.change.rise)};
 }
@@ -169,8 +170,7 @@ void add_this_run(StudyTrend& trend, const NightlyFacts& facts, const NightlyStu
   };
   add(trend.medians, [](const SeriesId&, const auto& values) { return known_median(values); });
   for (const Quantity& quantity : study.quantities.declared()) trend.quantities.declare(quantity);
-  for (const auto& [id, label] : study.labels.setups) trend.labels.setups[id] = label;
-  for (const auto& [id, label] : study.labels.methods) trend.labels.methods[id] = label;
+  trend.labels.add(study.labels);
   add(trend.levels, [&](const SeriesId& series, const auto& values) {
     return level_of(trend.quantities.at(series.quantity), values);
   });

@@ -91,12 +91,55 @@ std::vector<std::string> texts_of(const Row& row) {
   return texts;
 }
 
-/// Whether cells name the method with one of its settings: "ISOMAP, K = 6", or "ISOMAP" and "K = 6".
-bool names_method(const Row& row, const FindingGroup& group) {
+/// The values of a setting's levels: "0.1" and "2" of "noise=0.1 pace=2"; none of "K = 6".
+std::vector<std::string> level_values(const std::string& setting) {
+  std::vector<std::string> values;
+  for (std::size_t is = setting.find('='); is != std::string::npos; is = setting.find('=', is + 1))
+    if (is > 0 && setting[is - 1] != ' ')
+      values.push_back(setting.substr(is + 1, setting.find(' ', is) - is - 1));
+  return values;
+}
+
+/// Whether a text has the value as a word of its own: "noise 0.1" has "0.1", "noise 0.15" has not.
+bool has_word(const std::string& text, const std::string& value) {
+  constexpr std::string_view kEnds = " ,:;=()[]\u00A0";
+  const auto ends = [&](std::size_t at) {
+    return at >= text.size() || kEnds.find(text[at]) != std::string_view::npos;
+  };
+  for (std::size_t at = text.find(value); at != std::string::npos; at = text.find(value, at + 1))
+    if ((at == 0 || ends(at - 1)) && ends(at + value.size())) return true;
+  return false;
+}
+
+/// Whether a table shows a setting's levels: in a cell of the row, as the title of a column, or in
+/// its caption.
+bool shows_levels(const Table& table, const std::vector<std::string>& row,
+                  const std::string& setting) {
+  const std::vector<std::string> values = level_values(setting);
+  return !values.empty() && std::ranges::all_of(values, [&](const std::string& value) {
+    return holds(row, value) || has_word(table.caption, value) ||
+           std::ranges::find(table.columns, value, &Column::title) != table.columns.end();
+  });
+}
+
+/// Whether a row is about the method with one of its settings: "ISOMAP, K = 6", "ISOMAP" and
+/// "K = 6", or "MCL" in a table of the levels.
+bool names_method(const Table& table, const Row& row, const FindingGroup& group) {
   const std::vector<std::string> texts = texts_of(row);
   const auto is_there = [&](const std::string& text) { return holds(texts, text); };
   if (std::ranges::any_of(group.lines, is_there)) return true;
-  return is_there(group.method) && std::ranges::any_of(group.settings, is_there);
+  return is_there(group.method) && std::ranges::any_of(group.settings, [&](const auto& setting) {
+           return is_there(setting) || shows_levels(table, texts, setting);
+         });
+}
+
+/// Whether the table's columns are levels, of which a row has several.
+bool has_level_columns(const Table& table, const FindingGroup& group) {
+  return std::ranges::any_of(group.settings, [&](const std::string& setting) {
+    return std::ranges::any_of(level_values(setting), [&](const std::string& value) {
+      return std::ranges::find(table.columns, value, &Column::title) != table.columns.end();
+    });
+  });
 }
 
 /// Whether a table is about the setup: its caption, its id or a cell names it.
@@ -120,8 +163,9 @@ bool shows_quantity(const Table& table, const std::string& quantity) {
 void mark_table(Table& table, const FindingGroup& group) {
   if (!shows_quantity(table, group.quantity)) return;
   for (Row& row : table.rows)
-    if (names_method(row, group) && is_of_setup(table, row, group.setup))
-      add(row.regressed, group.change_text());
+    if (names_method(table, row, group) && is_of_setup(table, row, group.setup))
+      add(row.regressed,
+          has_level_columns(table, group) ? group.change_of_settings() : group.change_text());
 }
 
 std::string label_of(const Layer& layer) {

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -201,7 +202,7 @@ ErrorLinesSpec named_spec(const Reported& reported, const std::string& id,
   ErrorLinesSpec spec;
   const bool named = reported.location.among_others;
   spec.id = bounded_id("trend-" + (named ? id_of(reported.trend.name) + "-" : "") + id, kLongestId);
-  spec.title = (named ? reported.trend.name + ", " : "") + title + ", by nightly run";
+  spec.title = (named ? reported.trend.name + ", " : "") + title;
   return spec;
 }
 
@@ -211,15 +212,19 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
     spec.caption += " Large marks: nightly runs that have a finding about it.";
   spec.panels.push_back(std::move(panel));
   Figure figure = error_lines_figure(spec);
+  // Changes lie around 0, by one percent or point at least: lines at 0 are in the middle.
+  if (spec.quantity.starts_with("change of ")) {
+    const Range found = figure.panels.front().y.limits.value_or(Range{0.0, 0.0});
+    figure.panels.front().y.limits = Range{std::min(found.low, -1.0), std::max(found.high, 1.0)};
+  }
   figure.varies = varies;
   return figure;
 }
 
-/// A method has one style in all figures; the second of two settings gets one that is left.
+/// The style of a method in all figures, its report's too.
 std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string& method) {
   if (!labels.methods.empty()) {
-    std::vector<std::string> ids;
-    for (const auto& [id, label] : labels.methods) ids.push_back(id);
+    const std::vector<std::string> ids = labels.ordered();
     const auto found = std::ranges::find(ids, base_method(labels, method));
     return found == ids.end() ? std::nullopt
                               : std::optional(series_of_methods(
@@ -229,14 +234,31 @@ std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string
   return known ? std::optional(method_series(*known)) : std::nullopt;
 }
 
+/// What got worse of a quantity in the last nightly run, or that nothing did.
+std::string course_of(const Reported& reported, const std::string& sensor,
+                      const Quantity& quantity) {
+  std::vector<NightlyFinding> worse;
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (nightly_run + 1 == reported.trend.nightly_runs.size() && finding->quantity == quantity.id)
+      worse.push_back(*finding);
+  const std::string setup = shown_setup(reported.trend.labels, sensor);
+  std::vector<std::string> words;
+  for (const FindingGroup& group : grouped(worse, std::span(&reported.trend, 1), {}))
+    if (group.setup == setup || group.setup.empty())
+      words.push_back(group.method + ": " + group.change_text());
+  constexpr std::size_t kMostNamed = 2;
+  const std::string text =
+      words.empty() ? quantity.label + " has not got worse" : listed(words, kMostNamed);
+  return setup.empty() ? text : setup + ": " + text;
+}
+
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
   const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
   if (lines.empty()) return std::nullopt;
   const Quantity& facts = reported.trend.quantities.at(quantity);
-  const std::string setup = shown_setup(reported.trend.labels, sensor);
   ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
-                                   setup.empty() ? facts.label : setup + ": " + facts.label);
+                                   course_of(reported, sensor, facts));
   const bool by_ratio =
       facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
   const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
@@ -253,7 +275,10 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
           : "",
       changes ? ", as its change since " + base_words(reported) : "");
   ErrorPanel panel = panel_of(reported.trend);
+  std::map<std::size_t, std::size_t> settings;  // That have a style already, by their method's.
   for (const Line& line : lines) {
+    std::optional<std::size_t> series = style_of(reported.trend.labels, line.id.method);
+    if (series) series = series_of_setting(*series, settings[*series]++);
     const std::string label = shown_method(reported.trend.labels, line.id.method);
     const std::vector<double> values =
         changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
@@ -261,7 +286,7 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
                            .mean = values,
-                           .series = style_of(reported.trend.labels, line.id.method)});
+                           .series = series});
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
@@ -275,7 +300,7 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   if (std::ranges::none_of(known, [](double value) { return std::isfinite(value); }))
     return std::nullopt;
   const std::vector<double> mib = changes_of(known, base_of(reported), true);
-  ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory");
+  ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory over the nightly runs");
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;
   spec.quantity = "change of peak memory";

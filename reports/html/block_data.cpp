@@ -96,7 +96,6 @@ std::string link_of(Emphasis emphasis, const std::string& text) {
   return emphasis == Emphasis::kUrl ? web_link(text) : "";
 }
 
-constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
 constexpr std::size_t kLongCell = 80;      ///< Longer texts scroll in a box of their own.
 
 bool any_group(const Table& table) {
@@ -525,9 +524,14 @@ class BlockVisitor {
     out.set("where", item.where);
     out.set("failed", item.failed);
     out.set("count", fmt::format("{} of {}", item.count, counted(item.of, "map")));
-    list locations;
+    list locations, others;
     for (const StatusList::Location& location : item.locations) {
       data entry;
+      if (location.detail.empty()) {
+        entry.set("record", location.record_id);
+        others.push_back(std::move(entry));
+        continue;
+      }
       entry.set("record", location.record_id);
       entry.set("detail", location.detail);
       entry.set("long", location.detail.size() > kLong);
@@ -535,6 +539,8 @@ class BlockVisitor {
     }
     out.set("any_locations", !item.locations.empty());
     out.set("locations", locations);
+    out.set("any_others", !others.empty());
+    out.set("others", others);
     const int more = item.count - static_cast<int>(item.locations.size());
     out.set("more", more > 0 ? data(fmt::format("and {} more", more)) : data(false));
     return out;

@@ -11,6 +11,8 @@
 
 namespace mapproof {
 
+inline constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
+
 /// Facts on the figures of a page besides their blocks.
 struct FigureContext {
   SvgLookup svg = {};

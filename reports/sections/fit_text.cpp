@@ -311,6 +311,8 @@ std::string why_text(FitMissing missing) {
       return "there is no odometry that ranges could be compared with.";
     case FitMissing::kMetric:
       return "the observations have no unit in which they could be compared with the map.";
+    case FitMissing::kSize:
+      return "the tests take maps of at most 5000 landmarks and lists of at most 20 million entries.";
   }
   return "";
 }

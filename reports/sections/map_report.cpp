@@ -184,11 +184,28 @@ std::string meaning_of(const ErrorWords& error, const MapRecord& record) {
                      error.limit.empty() ? "" : ", ", error.limit);
 }
 
+/// How far the map puts the anchor that it misses most from where it was given.
+std::optional<Highlights::Item> worst_anchor(const MapRecord& record) {
+  if (record.frame != Frame::kGroundTruth || !any_ground_truth(record)) return std::nullopt;
+  const Eigen::VectorXd errors = (record.estimate - *record.ground_truth_m).rowwise().norm();
+  std::optional<Index> worst;
+  for (const Index anchor : record.anchors)
+    if (std::isfinite(errors(anchor)) && (!worst || errors(anchor) > errors(*worst)))
+      worst = anchor;
+  if (!worst) return std::nullopt;
+  return Highlights::Item{"greatest distance of an anchor from its given position",
+                          page_metres(errors(*worst)),
+                          fmt::format("{}, of {}", record.names[static_cast<std::size_t>(*worst)],
+                                      counted(std::ssize(record.anchors), "anchor")),
+                          kPositions};
+}
+
 Highlights numbers_of(const MapRecord& record) {
   Highlights out;
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
       out.items.push_back({error.name, error.value, meaning_of(error, record), kPositions});
+  if (auto anchor = worst_anchor(record)) out.items.push_back(*std::move(anchor));
   out.items.push_back({"landmarks mapped",
                        fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
                        counted(record.step, "observation") + " used", kPositions});

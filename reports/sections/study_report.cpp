@@ -56,7 +56,8 @@ void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& sec
                           counted(std::ssize(ranks.methods), "method"))));
 }
 
-constexpr std::size_t kLocationsShown = 5;
+constexpr std::size_t kLocationsShown = 5;     ///< With what was found; of the others the id alone.
+constexpr std::size_t kLocationsListed = 1000;  ///< Some 60 kB of a page.
 
 /// Sensor and method: what statuses are counted by, over all parameters.
 using StatusKind = std::pair<Sensor, Method>;
@@ -66,11 +67,11 @@ StatusKind kind_of(const RunRecord& record) { return {record.sensor, record.sett
 void add_record(StatusList::Item& item, const RunId& run, const RunRecord& record,
                 StatusCode code) {
   ++item.count;
-  if (item.locations.size() >= kLocationsShown) return;
+  const bool is_short = item.locations.size() >= kLocationsShown;
   for (const Status& status : record.statuses)
-    if (status.code == code)
-      item.locations.push_back(
-          {record_id(run, record.sensor, record.setting, record.step), status_text(status)});
+    if (status.code == code && item.locations.size() < kLocationsListed)
+      item.locations.push_back({record_id(run, record.sensor, record.setting, record.step),
+                                is_short ? "" : status_text(status)});
 }
 
 /// Severest first: no map, then by share.
@@ -132,11 +133,8 @@ void add_ends(const Study& study, BulletList& findings) {
 std::vector<Callout> caveats(const Study& study) {
   std::vector<Callout> found;
   const Experiment& experiment = study.experiment;
-  const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
-  if (static_cast<long>(study.runs.size()) < planned)
-    found.push_back({Callout::Tone::kWarning, "Incomplete",
-                     plain(fmt::format("{} of {} are done; every number below rests on these.",
-                                       study.runs.size(), counted(planned, "run")))});
+  if (const std::string incomplete = mapping_incomplete(study); !incomplete.empty())
+    found.push_back({Callout::Tone::kWarning, "Incomplete", plain(incomplete)});
   if (const std::string smaller = smaller_than_paper(experiment); !smaller.empty())
     found.push_back({Callout::Tone::kNote, "Not the paper\u2019s protocol",
                      plain(smaller + "The printed values are shown for orientation.")});
@@ -144,6 +142,13 @@ std::vector<Callout> caveats(const Study& study) {
 }
 
 }  // namespace
+
+std::string mapping_incomplete(const Study& study) {
+  const long planned = static_cast<long>(study.experiment.layouts) * study.experiment.poses;
+  if (static_cast<long>(study.runs.size()) >= planned) return "";
+  return fmt::format("{} of {} are done; every number below rests on these.", study.runs.size(),
+                     counted(planned, "run"));
+}
 
 Report study_report(const StudyReportInput& input) {
   const Experiment& experiment = input.study.experiment;

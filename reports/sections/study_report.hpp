@@ -18,6 +18,9 @@ struct StudyReportInput {
   std::string command;  ///< The one that makes this study and report again, ready to be typed.
 };
 
+/// What is still to be run, a sentence; empty: nothing.
+std::string mapping_incomplete(const Study& study);
+
 /// The whole report of a study: summary, accuracy, figures, variations, warnings, provenance.
 Report study_report(const StudyReportInput& input);
 

@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMap{"TooManyNeighbours", kSeen, kAnchors, {"-K", "5"}, "K = 5 needs more than 5"},
         BadMap{"HalfANeighbour", kSeen, kAnchors, {"-K", "2.5"}, "-K: K = 2.5"},
         BadMap{"NoNeighbour", kSeen, kAnchors, {"-K", "0"}, "-K: K = 0"},
-        BadMap{"NanNeighbours", kSeen, kAnchors, {"--parameter", "nan"}, "--parameter: K = nan"},
+        BadMap{"NanNeighbours", kSeen, kAnchors, {"--parameter", "nan"}, "--parameter: \"nan\" is not"},
         BadMap{"NeighboursOfAKernel",
                kSeen,
                kAnchors,

@@ -122,6 +122,7 @@ TEST(Environment, WhereNobodyReadsTheOutputEndsWithoutACrash) {
 }
 
 TEST(Environment, WithLimitsGivesTheSameMapOrOneLine) {
+  skip_if_sanitized();
   // Of files, processes and threads, the stack, seconds of the processor, and core files.
   for (const char* limit : {"ulimit -n 8", "ulimit -n 16", "ulimit -u 1", "ulimit -s 256",
                             "ulimit -c 0", "ulimit -l 0", "ulimit -f 0", "ulimit -v 250000"}) {

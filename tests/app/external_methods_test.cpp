@@ -308,7 +308,7 @@ TEST_F(ExternalMethods, AreNeverStartedByRecords) {
 TEST_F(ExternalMethods, StandInTheExperimentToo) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
   json file = json::parse(read_file(experiment()));
-  file["external_methods"] = {client("partly")};
+  file["external_methods"] = json::array({client("partly")});
   write_file(at("methods/mine.json"), file.dump());
   const Outcome outcome = mapproof({"reproduce", at("methods/mine.json"), "--out", at("out")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;

@@ -142,7 +142,8 @@ TEST(ForeignFiles, AreFineForValidateIfTheyAreForMap) {
     if (file.ground_truth != "refused" && file.attempts == 1) words.push_back(file.path.string());
   const Outcome outcome = mapproof(words);
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const json& file : json::parse(outcome.out).at("files"))
+  const json result = json::parse(outcome.out);
+  for (const json& file : result.at("files"))
     EXPECT_EQ(file.at("problem"), "") << file.at("path");
 }
 

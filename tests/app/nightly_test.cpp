@@ -119,6 +119,7 @@ TEST(Nightly, RefusesAStoreWhoseLastNumberIsTaken) {
   const TemporaryFolder folder;
   fs::create_directories(folder / "h/nightly_runs/2147483647");
   write_file(folder / "h/nightly_runs/2147483647/nightly_run.json", "{}");
+  write_file(folder / "h/history.sqlite.damaged-1", "its history, set aside");
   const Outcome outcome = nightly_run(folder / "h");
   EXPECT_EQ(outcome.exit_code, 2) << outcome.error;
   EXPECT_EQ(lines_with(outcome.error, "no number is left after nightly run 2147483647"), 1U)

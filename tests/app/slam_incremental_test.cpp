@@ -16,6 +16,7 @@
 #include "core/model/points.hpp"
 #include "tests/app/streamed_input.hpp"
 #include "tests/support/packing.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -31,7 +32,7 @@ struct RangeTable {
     Random random(11);
     for (double& coordinate : landmarks_m.reshaped()) coordinate = random.uniform(0.0, 20.0);
     for (int step = 0; step < steps; ++step) {
-      const Eigen::RowVector2d robot(random.uniform(0.0, 20.0), random.uniform(0.0, 20.0));
+      const Eigen::RowVector2d robot = uniform_point(random, 0.0, 20.0);
       for (Eigen::Index n = 0; n < 7; ++n)
         rows += fmt::format("{},b{},{:.17g}\n", 0.5 * step, n, (landmarks_m.row(n) - robot).norm());
     }

@@ -52,7 +52,8 @@ TEST(Slam, WithoutAGroundTruthClaimsNoError) {
             {.odometry = true, .ground_truth = false, .landmarks = false});
   const Outcome outcome = mapproof({"slam", folder / "log", "--out", folder / "out", "--json"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
-  for (const json& method : json::parse(outcome.out).at("methods"))
+  const json result = json::parse(outcome.out);
+  for (const json& method : result.at("methods"))
     EXPECT_TRUE(method.at("errors").empty()) << method;
   EXPECT_NE(outcome.error.find("The true path is not known"), std::string::npos) << outcome.error;
 }

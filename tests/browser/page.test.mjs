@@ -58,6 +58,42 @@ test("the first screen of a phone has the verdict and the figure it rests on", a
   await close();
 });
 
+// The pages of all kinds: "name=folder", separated by colons.
+const kinds = (process.env.MAPPROOF_PAGES ?? "").split(":").filter(Boolean)
+  .map((each) => each.split("="));
+
+for (const [name, folder] of kinds) {
+  test(`${name}: the first screen has a figure that can be read, and the page 16 screens at most`,
+    async () => {
+      const { page, errors, close } = await open({ viewport: { width: 1280, height: 800 } }, folder);
+      const { screens, opening, words, bottom, made } = await page.evaluate(async () => {
+        const image = document.querySelector(".main-figure img");
+        const found = { screens: document.documentElement.scrollHeight / innerHeight,
+          opening: document.querySelector("#opening").getBoundingClientRect().bottom,
+          made: document.querySelector("header").textContent };
+        if (!image) return found;
+        await image.decode();
+        const { width, height, bottom } = image.getBoundingClientRect();
+        const text = decodeURIComponent(image.src.replace(/^data:[^,]*,/, ""));
+        const [, , wide, high] = /viewBox="([^"]+)"/.exec(text)[1].split(" ").map(Number);
+        const sizes = [...text.matchAll(/scale\(([\d.]+)/g)].map((one) => 2048 * Number(one[1]));
+        return { ...found, bottom, words: Math.min(width / wide, height / high) *
+          Math.min(...sizes.filter((size) => size > 3)) };
+      });
+      assert.ok(screens <= 16, `${screens} screens`);
+      if (words !== undefined) {
+        assert.ok(words >= 8.8, `words of ${words} px`);
+        assert.ok(bottom <= 800, `the figure ends at ${bottom}`);
+      }
+      assert.ok(opening <= 920, `the opening ends at ${opening}`);
+      assert.match(made, /mapproof \d\S+ \(.+\)/);
+      // The page of a map, made once more, has the same bytes.
+      if (name !== "map") assert.match(made, /\d{4}-\d\d-\d\d/);
+      assert.deepEqual(errors, []);
+      await close();
+    });
+}
+
 test("a report opens at 16 screens or less, and folds the rest, whole on paper", async () => {
   const { page, close } = await open({ viewport: { width: 1440, height: 900 } });
   const height = await page.evaluate(() => document.documentElement.scrollHeight);
@@ -106,6 +142,46 @@ test("the search finds figures by words that are outlines, and opens what is fol
   await field.fill("no such words");
   assert.equal(await found.count(), 0);
   assert.equal(await page.locator(".contents > output").textContent(), "0 found");
+  await close();
+});
+
+test("the search finds the texts of the page, and leads to them", async () => {
+  const { page, close } = await open();
+  const field = page.getByRole("searchbox", { name: "Search this page" });
+  await field.fill("that no person estimated");
+  assert.equal(await page.locator(".found a").count(), 0);
+  const words = await page.locator("#opening .finding").first().textContent();
+  await field.fill(words.trim().split(/\s+/).slice(0, 4).join(" "));
+  const found = page.locator(".found a");
+  assert.ok(await found.count() >= 1);
+  assert.match(await found.first().textContent(), new RegExp(words.trim().split(/\s+/)[0]));
+  await found.first().click();
+  assert.equal(await page.locator(await found.first().getAttribute("href")).count(), 1);
+  await close();
+});
+
+test("the list of methods has methods alone", async () => {
+  const { page, close } = await open();
+  const list = page.locator("select.method");
+  await list.waitFor({ state: "attached" });
+  const names = (await list.locator("option").allTextContents()).slice(1);
+  const rows = await page.locator("main tbody th[scope=row]").allTextContents();
+  assert.ok(names.length >= 9, `${names}`);
+  for (const name of names) assert.ok(rows.some((row) => row.includes(name)), name);
+  await close();
+});
+
+test("a step fills the box also on a wide page", async () => {
+  const { page, close } = await open();
+  const film = await figure(page, "forming-bearing");
+  await film.getByRole("slider").fill("2");
+  const { frame, box } = await film.evaluate((each) => ({
+    frame: [...each.querySelectorAll("svg > g.frame")].map((one) => one.getBoundingClientRect())
+      .find((one) => one.width > 0).width,
+    box: each.querySelector(".drawing").clientWidth }));
+  assert.ok(frame >= .55 * box, `${frame} of ${box}`);
+  await film.getByRole("slider").fill("0");
+  assert.equal(await page.locator(".stepped").count(), 0);
   await close();
 });
 

@@ -4,6 +4,7 @@ import { open, textOf } from "./support.mjs";
 
 async function firstTable(page) {
   const holder = page.locator(".table:has(input[type=search])").first();
+  await holder.evaluate((each) => unfold(each));
   const id = (await holder.getAttribute("id")).replace("table-", "");
   return { holder, id };
 }

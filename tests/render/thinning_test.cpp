@@ -6,6 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -23,7 +24,7 @@ Trajectory wandering(int size) {
   Points points(size, 2);
   points.row(0).setZero();
   for (int i = 1; i < size; ++i)
-    points.row(i) = points.row(i - 1) + Eigen::RowVector2d(random.normal(), random.normal());
+    points.row(i) = points.row(i - 1) + normal_point(random);
   return path_of(points);
 }
 

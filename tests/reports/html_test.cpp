@@ -3,6 +3,7 @@
 #include <regex>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
@@ -155,12 +156,64 @@ TEST(ReportHtml, FoldsFindingsThatWouldPushTheFigureOffTheFirstScreen) {
   for (const char* words : {"one", "two", "three", "four", "five"})
     report.opening.findings.push_back({{phrase(words)}});
   const std::string page = report_html(report, load_templates(), {});
+  const std::size_t fold = page.find("<summary>1 more finding</summary>");
+  ASSERT_NE(fold, std::string::npos);
+  EXPECT_LT(page.find("four"), fold);
+  EXPECT_GT(page.find("five"), fold);
+  report.opening.findings.resize(4);
+  EXPECT_EQ(report_html(report, load_templates(), {}).find("more finding"), std::string::npos);
+}
+
+TEST(ReportHtml, FoldsLongFindingsButNeverWhatIsWrong) {
+  Report report;
+  report.opening.findings = {{{phrase("done")}},
+                             {{phrase("long " + std::string(600, 'x'))}},
+                             {{phrase("short")}},
+                             {{strong("Warnings"), phrase(": something is wrong")}}};
+  const std::string page = report_html(report, load_templates(), {});
   const std::size_t fold = page.find("<summary>2 more findings</summary>");
   ASSERT_NE(fold, std::string::npos);
-  EXPECT_LT(page.find("three"), fold);
-  EXPECT_GT(page.find("four"), fold);
-  report.opening.findings.resize(3);
-  EXPECT_EQ(report_html(report, load_templates(), {}).find("more finding"), std::string::npos);
+  EXPECT_LT(page.find("something is wrong"), fold);
+  EXPECT_GT(page.find("long xxx"), fold);
+}
+
+/// A report of studies of some sections each, each with a table and figures.
+Report large_report(int studies, int sections) {
+  Report report;
+  for (int i = 0; i < studies; ++i)
+    for (int j = 0; j < sections; ++j) {
+      const std::string id = fmt::format("s{}-{}", i, j);
+      Table table{.id = id, .caption = "c", .columns = {{"Method", "", "", ""}}};
+      for (int row = 0; row < 10; ++row) table.rows.push_back({{TextCell{"m"}}, ""});
+      Gallery gallery;
+      for (int k = 0; k < 4; ++k)
+        gallery.figures.push_back({.id = fmt::format("{}-{}", id, k), .title = "f"});
+      report.sections.push_back(
+          {id, "Section " + id, {gallery, table}, fmt::format("study {}", i)});
+    }
+  return report;
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(ReportHtml, OfManyStudiesFoldsSectionsButTheFirstOfEachAndWhatGotWorse) {
+  const std::string small = report_html(large_report(1, 2), load_templates(), {});
+  EXPECT_EQ(small.find("class=\"fold\""), std::string::npos) << "a short page is open";
+  Report report = large_report(10, 6);
+  std::get<Table>(report.sections.back().blocks[1]).rows[0].regressed = "MPE +18 %";
+  const std::string page = report_html(report, load_templates(), {});
+  const std::size_t closed = count_of(page, " class=\"closed\"");
+  EXPECT_GT(closed, 30U);
+  for (const char* open : {"s0-0", "s9-0", "s9-5"}) {
+    const std::size_t at = page.find(fmt::format("<section id=\"section-{}\"", open));
+    ASSERT_NE(at, std::string::npos) << open;
+    EXPECT_EQ(page.substr(at, page.find('>', at) - at).find("closed"), std::string::npos) << open;
+  }
 }
 
 TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -100,6 +101,23 @@ bool synced(int folder, const char* path) {
   return opened.get() >= 0 && (::fsync(opened.get()) == 0 || errno == EINVAL || errno == ENOSYS);
 }
 
+/// The bytes of a regular file of the folder.
+std::string bytes_of(const Parent& parent, const std::string& name) {
+  const Descriptor file(
+      ::openat(parent.folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (file.get() < 0) refuse_change(parent.path / name, "cannot be read");
+  std::string bytes;
+  std::array<char, 1 << 16> block;
+  for (;;) {
+    const ssize_t count = ::read(file.get(), block.data(), block.size());
+    if (count == 0) return bytes;
+    if (count > 0)
+      bytes.append(block.data(), static_cast<std::size_t>(count));
+    else if (errno != EINTR)
+      refuse_change(parent.path / name, "cannot be read");
+  }
+}
+
 void write_into(const Parent& parent, const std::string& name, std::string_view bytes,
                 bool durably) {
   require_replaceable(parent, name);
@@ -136,6 +154,17 @@ OutputFolder OutputFolder::operator/(const fs::path& inner) const {
   return folder;
 }
 
+std::optional<std::string> OutputFolder::read(const fs::path& file) const {
+  const fs::path inner = inner_ / file;
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status((named_ / inner).parent_path(), error))) return std::nullopt;
+  const Parent parent = opened_below(named_, inner.parent_path(), false);
+  const std::string name = inner.filename();
+  require_replaceable(parent, name);
+  if (type_of(parent, name) == 0) return std::nullopt;
+  return bytes_of(parent, name);
+}
+
 void OutputFolder::write(const fs::path& file, std::string_view bytes) const {
   const fs::path inner = inner_ / file;
   write_into(opened_below(named_, inner.parent_path(), true), inner.filename(), bytes, false);
@@ -154,6 +183,9 @@ void OutputFolder::append(const fs::path& file, std::string_view bytes) const {
   require_replaceable(parent, name);
   Descriptor opened(::openat(parent.folder.get(), name.c_str(),
                              O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, kFileMode));
+  struct stat facts {};
+  if (opened.get() >= 0 && ::fstat(opened.get(), &facts) == 0 && facts.st_nlink > 1)
+    return write_into(parent, name, bytes_of(parent, name).append(bytes), false);
   const off_t size = opened.get() < 0 ? -1 : ::lseek(opened.get(), 0, SEEK_END);
   if (size >= 0 && write_all(opened, bytes) && opened.close()) return;
   const int why = errno;

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,14 +30,17 @@ class OutputFolder {
 
   /// A folder below it.
   OutputFolder operator/(const std::filesystem::path& inner) const;
-  std::filesystem::path path() const { return named_ / inner_; }
+  std::filesystem::path path() const { return inner_.empty() ? named_ : named_ / inner_; }
 
+  /// The bytes of a regular file; nothing if it is missing.
+  std::optional<std::string> read(const std::filesystem::path& file) const;
   /// Replaces the file, or makes it. Folders above it are made.
   void write(const std::filesystem::path& file, std::string_view bytes) const;
   /// The same, and returns when a loss of power cannot undo it: syncs the file and its folder.
   void write_durably(const std::filesystem::path& file, std::string_view bytes) const;
   /// Adds to the end of the file, which is made if it is missing. If the disk is full, nothing is
-  /// added; after a kill a part of `bytes` may be there.
+  /// added; after a kill a part of `bytes` may be there. A file that has another name as well (a
+  /// hard link) is replaced by a longer copy: what the other name leads to stays as it is.
   void append(const std::filesystem::path& file, std::string_view bytes) const;
   /// Removes a file, or a folder with all that is in it; a link, not what it leads to. What is
   /// missing counts as removed.

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include "core/base/not_finite.hpp"
+#include "core/graph/disjoint_sets.hpp"
 #include "core/linalg/decompositions.hpp"
 
 namespace mapproof::unfolding {
@@ -13,14 +13,31 @@ namespace {
 
 constexpr double kSamePosition = 1e-14;
 
-/// All pairs within a neighbourhood and all edges, ascending.
-std::vector<Pair> kept_pairs(const Eigen::MatrixXd& distances, const NeighbourOptions& options,
-                             const Graph& graph) {
+/// Numbers the positions of landmarks, from 0 in the order of their lowest landmark.
+std::vector<Eigen::Index> positions(const Eigen::MatrixXd& distances,
+                                    const std::vector<Pair>& pairs, double largest) {
+  DisjointSets sets(static_cast<std::size_t>(distances.rows()));
+  for (const auto& [a, b] : pairs) {
+    const double ratio = distances(a, b) / largest;
+    if (largest > 0.0 && ratio * ratio > kSamePosition) continue;
+    const auto [low, high] = std::minmax(
+        {sets.of(static_cast<std::size_t>(a)), sets.of(static_cast<std::size_t>(b))});
+    sets.merge(high, low);  // The lowest landmark stands for its set.
+  }
+  std::vector<Eigen::Index> position(static_cast<std::size_t>(distances.rows()));
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    const std::size_t root = sets.of(i);
+    position[i] = root == i ? count++ : position[root];
+  }
+  return position;
+}
+
+}  // namespace
+
+std::vector<Pair> kept_pairs(const NeighbourLists& nearest, const Graph& graph) {
   std::vector<Pair> pairs;
-  const auto keep = [&](Eigen::Index a, Eigen::Index b) {
-    if (std::isfinite(distances(a, b))) pairs.emplace_back(std::minmax(a, b));
-  };
-  const auto nearest = nearest_neighbours(distances, options);
+  const auto keep = [&](Eigen::Index a, Eigen::Index b) { pairs.emplace_back(std::minmax(a, b)); };
   for (std::size_t i = 0; i < nearest.size(); ++i)
     for (std::size_t a = 0; a < nearest[i].size(); ++a) {
       keep(static_cast<Eigen::Index>(i), nearest[i][a].to);
@@ -33,37 +50,12 @@ std::vector<Pair> kept_pairs(const Eigen::MatrixXd& distances, const NeighbourOp
   return pairs;
 }
 
-/// Numbers the positions of landmarks, from 0 in the order of their lowest landmark.
-std::vector<Eigen::Index> positions(const Eigen::MatrixXd& distances,
-                                    const std::vector<Pair>& pairs, double largest) {
-  std::vector<Eigen::Index> lowest(static_cast<std::size_t>(distances.rows()));
-  std::iota(lowest.begin(), lowest.end(), 0);
-  const auto find = [&](Eigen::Index i) {
-    while (lowest[static_cast<std::size_t>(i)] != i) i = lowest[static_cast<std::size_t>(i)];
-    return i;
-  };
-  for (const auto& [a, b] : pairs) {
-    const double ratio = distances(a, b) / largest;
-    if (largest > 0.0 && ratio * ratio > kSamePosition) continue;
-    const Eigen::Index root_a = find(a);
-    const Eigen::Index root_b = find(b);
-    lowest[static_cast<std::size_t>(std::max(root_a, root_b))] = std::min(root_a, root_b);
-  }
-  std::vector<Eigen::Index> position(lowest.size());
-  Eigen::Index count = 0;
-  for (std::size_t i = 0; i < lowest.size(); ++i) {
-    const Eigen::Index root = find(static_cast<Eigen::Index>(i));
-    position[i] =
-        root == static_cast<Eigen::Index>(i) ? count++ : position[static_cast<std::size_t>(root)];
-  }
-  return position;
-}
-
-}  // namespace
-
 Problem neighbourhood_problem(const Eigen::MatrixXd& distances, const NeighbourOptions& options,
                               const Graph& graph) {
-  const std::vector<Pair> landmarks = kept_pairs(distances, options, graph);
+  std::vector<Pair> landmarks = kept_pairs(nearest_neighbours(distances, options), graph);
+  std::erase_if(landmarks, [&](const Pair& pair) {
+    return !std::isfinite(distances(pair.first, pair.second));
+  });
   double largest = 0.0;
   for (const auto& [a, b] : landmarks) largest = std::max(largest, distances(a, b));
 

@@ -36,6 +36,10 @@ struct Problem {
   bool is_one_point() const { return points() <= 1; }
 };
 
+/// All pairs within {i} and the neighbours listed of i, for every i, and all edges; ascending, the
+/// first of a pair the lower.
+std::vector<Pair> kept_pairs(const NeighbourLists& nearest, const Graph& graph);
+
 /// The program that keeps the distances of all pairs within {i} and its K nearest, for every i, and
 /// those of `bridges`. Landmarks at one position (squared distance up to 1e-14 of the largest)
 /// become one point.

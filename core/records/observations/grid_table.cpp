@@ -355,22 +355,23 @@ PackedSource read_grid(ByteSource& source, Sensor sensor, const TableFormat& for
 }
 
 HistoryBlocks PackedHistory::blocks() const {
-  const auto read = [this](Eigen::Index first, Eigen::Index count, Eigen::Index stride) {
-    Eigen::MatrixXd values(landmarks(), count);
-    const PackedTable::Range chosen{static_cast<std::size_t>(first),
-                                    static_cast<std::size_t>(count),
-                                    static_cast<std::size_t>(stride)};
-    const auto M = static_cast<std::size_t>(landmarks());
-    // Landmarks before and behind the column that holds none of them.
-    const std::size_t before = is_transposed ? label_column.value_or(M) : 0;
+  const auto read = [this](const HistoryBlocks::Part& part) {
+    Eigen::MatrixXd values(part.rows, part.count);
+    const auto size = [](Eigen::Index index) { return static_cast<std::size_t>(index); };
+    const PackedTable::Range steps_of{size(part.first), size(part.count), size(part.stride)};
+    const std::size_t first = size(part.first_row), rows = size(part.rows);
     if (is_transposed) {
-      if (before > 0) table->read(chosen, {0, before, 1}, values.data(), M, 1);
-      if (before < M)
-        table->read(chosen, {before + 1, M - before, 1}, values.data() + before, M, 1);
+      // Landmarks before and behind the column that holds none of them.
+      const std::size_t label = label_column.value_or(size(landmarks()));
+      const std::size_t before = label > first ? std::min(label - first, rows) : 0;
+      if (before > 0) table->read(steps_of, {first, before, 1}, values.data(), rows, 1);
+      if (before < rows)
+        table->read(steps_of, {first + before + 1, rows - before, 1}, values.data() + before, rows,
+                    1);
     } else {
       const std::size_t skipped = label_column ? 1 : 0;
-      table->read({0, M, 1}, {chosen.first + skipped, chosen.count, chosen.stride}, values.data(),
-                  1, M);
+      table->read({first, rows, 1}, {steps_of.first + skipped, steps_of.count, steps_of.stride},
+                  values.data(), 1, rows);
     }
     understand(values, sensor, form);
     return values;

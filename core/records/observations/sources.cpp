@@ -31,7 +31,7 @@ ObservationSource observations_of(DetectionSource source, Sensor sensor) {
 }
 
 ObservationHistory PackedHistory::array() const {
-  return {.sensor = sensor, .names = names, .values = blocks().values(0, steps)};
+  return array_of(blocks());
 }
 
 ObservationSource unpacked(const PackedSource& source) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -16,16 +17,17 @@
 #include <utility>
 
 #include "core/base/errors.hpp"
+#include "core/records/studies/study_folder.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The process that was writing NAME.part-PID-RANDOM (earlier versions: NAME.part-PID); empty for
-/// any other name.
+/// The process that was writing NAME.part-PID-RANDOM, see part_name(); empty for any other name.
 std::optional<pid_t> writer(const fs::path& file) {
   constexpr std::string_view kMark = ".part-";
+  constexpr std::size_t kDigits = 16;
   const std::string name = file.filename().string();
   const std::size_t mark = name.rfind(kMark);
   if (mark == std::string::npos) return std::nullopt;
@@ -33,11 +35,18 @@ std::optional<pid_t> writer(const fs::path& file) {
   const char* end = name.data() + name.size();
   const auto [stop, error] = std::from_chars(name.data() + mark + kMark.size(), end, process);
   const std::string_view random(stop, end);
-  const bool is_part =
-      random.empty() || (random.starts_with('-') &&
-                         random.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos);
+  const bool is_part = random.size() == 1 + kDigits && random.starts_with('-') &&
+                       random.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos;
   if (error != std::errc() || !is_part || process <= 0) return std::nullopt;
   return process;
+}
+
+/// Whether the program writes to a folder of that name, and those below it, in a folder of records.
+bool is_written(const fs::path& folder) {
+  constexpr std::array<std::string_view, 14> kNames = {
+      "runs",    "maps",   "details",       "paths",          "convergence",  "parts",  "errors",
+      "figures", "tables", "figures-paper", "figures-styled", "nightly_runs", "trends", "objects"};
+  return std::ranges::find(kNames, folder.filename().string()) != kNames.end() || is_study(folder);
 }
 
 Descriptor opened(const fs::path& folder) {
@@ -61,6 +70,11 @@ bool is_at(const Descriptor& folder, const fs::path& path) {
   }, there{};
   return ::fstat(folder.get(), &held) == 0 && ::stat(path.c_str(), &there) == 0 &&
          held.st_dev == there.st_dev && held.st_ino == there.st_ino;
+}
+
+const fs::path& made(const fs::path& folder) {
+  make_folder(folder);
+  return folder;
 }
 
 bool is_running(pid_t process) {
@@ -94,10 +108,20 @@ void remove_leftovers(const fs::path& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
+    std::error_code unknown;
+    const fs::file_type type = entry->symlink_status(unknown).type();
+    if (type == fs::file_type::directory &&
+        (entry.depth() == 0 || is_study(entry->path().parent_path())) && !is_written(entry->path()))
+      entry.disable_recursion_pending();
+    if (type != fs::file_type::regular) continue;
     const std::optional<pid_t> process = writer(entry->path());
     if (process && !is_running(*process)) ::unlink(entry->path().c_str());
   }
   if (error) throw IoError(folder.string(), "cannot be searched: " + error.message());
+}
+
+LockedFolder::LockedFolder(const fs::path& folder) : files_(folder), lock_(made(folder)) {
+  remove_leftovers(folder);
 }
 
 }  // namespace mapproof

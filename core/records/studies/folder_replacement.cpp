@@ -13,6 +13,8 @@
 #include <system_error>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/base/errors.hpp"
 #include "core/base/files/descriptor.hpp"
 #include "core/base/files/files.hpp"
@@ -257,6 +259,18 @@ void FolderReplacement::commit() {
             : static_cast<void>(exchange(folder_, copy_));
     throw;
   }
+}
+
+void FolderReplacement::remove_old() {
+  remove_all_of(copy_);
+  std::error_code error, gone;
+  if (!fs::exists(fs::symlink_status(copy_, gone))) return;
+  fs::remove_all(copy_, error);  // Once more, for the reason.
+  if (fs::exists(fs::symlink_status(copy_, gone)))
+    throw IoError(folder_.string(),
+                  fmt::format("is replaced, but what it held before, {}, cannot be removed; the "
+                              "next mapproof approve tries again: {}",
+                              copy_.string(), error.message()));
 }
 
 void recover_folder(const fs::path& folder) {

@@ -47,6 +47,10 @@ class FolderReplacement {
   /// @throws IoError, and leaves the old folder.
   void commit();
 
+  /// Removes the old folder, after commit(); the destructor ignores that it cannot.
+  /// @throws IoError that names what is left.
+  void remove_old();
+
  private:
   void require_changeable(const std::filesystem::path& file) const;
 

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/output_folder.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
 
@@ -23,6 +24,7 @@ bool is_study(const fs::path& folder) {
 void require_study(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) throw IoError(folder.string(), "does not exist");
+  refuse_links_out(folder);
   if (is_study(folder)) return;
   if (!fs::exists(folder / "results.csv", error))
     throw IoError(folder.string(), "holds no study: study.json is missing");

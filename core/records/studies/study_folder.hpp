@@ -17,7 +17,8 @@ inline constexpr const char* kResultsFile = "results.csv";
 /// Whether the folder holds a study.json.
 bool is_study(const std::filesystem::path& folder);
 
-/// @throws IoError if the folder is not there or holds no study.json.
+/// Every reader of a study asks it first.
+/// @throws IoError if the folder is not there, holds no study.json, or a link that leads out of it.
 void require_study(const std::filesystem::path& folder);
 
 /// The schema that the folder's study.json names, be the rest readable or not; empty if

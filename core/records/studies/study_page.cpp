@@ -120,7 +120,10 @@ PageData parse_page(std::string_view html, const std::string& source) {
     throw IoError(source,
                   "carries no data: it is not the page of a mapproof report, or of an older "
                   "version; name the study's folder");
-  const std::string text = unpacked(*content, source);
+  return parse_page_data(unpacked(*content, source), source);
+}
+
+PageData parse_page_data(std::string_view text, const std::string& source) {
   PageData data = from_json_text<PageData>(text, source);
   std::set<std::string_view> names;
   for (std::size_t i = 0; i < data.files.size(); ++i)

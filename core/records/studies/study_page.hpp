@@ -77,6 +77,9 @@ bool carries_data(std::string_view html);
 ///         mapproof, more than kMostPageBytes, names that pages do not carry or that come twice.
 PageData parse_page(std::string_view html, const std::string& source);
 
+/// Reads the data as they stand in the element, unpacked. @throws IoError as parse_page().
+PageData parse_page_data(std::string_view text, const std::string& source);
+
 /// A page whose data are unpacked into a temporary folder while this object lives.
 class StudyPage {
  public:

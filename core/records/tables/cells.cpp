@@ -79,16 +79,14 @@ std::string FullTurn::remark() const {
 }
 
 void remark_on_angles(const HistoryBlocks& ranges, std::vector<std::string>& remarks) {
-  constexpr Eigen::Index kSteps = 4096;
   FullTurn turn;
   Eigen::VectorXd before = Eigen::VectorXd::Constant(ranges.landmarks(), kNaN);
-  for (Eigen::Index first = 0; first < ranges.steps(); first += kSteps) {
-    const Eigen::MatrixXd values = ranges.values(first, std::min(kSteps, ranges.steps() - first));
+  for_blocks(ranges, ranges.steps(), [&](Eigen::Index, const Eigen::MatrixXd& values) {
     for (Eigen::Index j = 0; j < values.cols(); ++j) {
       for (Eigen::Index i = 0; i < values.rows(); ++i) turn.add(values(i, j), before(i));
       before = values.col(j);
     }
-  }
+  });
   if (std::string remark = turn.remark(); !remark.empty()) remarks.push_back(std::move(remark));
 }
 

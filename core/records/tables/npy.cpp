@@ -106,13 +106,15 @@ NpyArray::NpyArray(std::string_view bytes, const std::string& source) {
   is_fortran_ = field(header, "fortran_order", source) == "True";
   shape_ = lengths_in(field(header, "shape", source), source);
 
-  std::size_t count = 1;
+  std::size_t count = is_empty() ? 0 : 1;
   for (const std::size_t n : shape_) {
-    require(n == 0 || count <= data_.size() / n);
+    require(count <= data_.size() / std::max<std::size_t>(n, 1));
     count *= n;
   }
   require(count * size_ <= data_.size());
 }
+
+bool NpyArray::is_empty() const { return std::ranges::find(shape_, 0U) != shape_.end(); }
 
 void NpyArray::append(std::string& text, std::size_t row, std::size_t column) const {
   const std::size_t rows = shape_[0], columns = shape_.size() > 1 ? shape_[1] : 1;
@@ -124,6 +126,9 @@ void NpyArray::append_rows(std::string& text, const std::string& source) const {
   if (shape_.size() != 2)
     throw IoError(source, fmt::format("a NumPy array of shape ({}); a table has two dimensions",
                                       fmt::join(shape_, ", ")));
+  if (is_empty())
+    throw IoError(source,
+                  fmt::format("a NumPy array of {} x {} holds no number", shape_[0], shape_[1]));
   for (std::size_t row = 0; row < shape_[0]; ++row)
     for (std::size_t column = 0; column < shape_[1]; ++column) {
       append(text, row, column);

@@ -16,11 +16,14 @@ class NpyArray {
 
   /// Its lengths, slowest first, whatever the order of the elements in the file.
   const std::vector<std::size_t>& shape() const { return shape_; }
+  /// Whether one of them is 0.
+  bool is_empty() const;
 
   /// Appends the element in a row and column, a column of one dimension, as text; NaN: nothing.
   void append(std::string& text, std::size_t row, std::size_t column) const;
 
-  /// Appends the rows of an array of two dimensions as CSV. @throws IoError if it has others.
+  /// Appends the rows of an array of two dimensions as CSV.
+  /// @throws IoError if it has others, or is empty.
   void append_rows(std::string& text, const std::string& source) const;
 
  private:
@@ -34,7 +37,7 @@ class NpyArray {
   bool is_fortran_ = false;
 };
 
-/// The array in a file as CSV. @throws IoError as NpyArray, or if it has other dimensions.
+/// The array in a file as CSV. @throws IoError as NpyArray and append_rows().
 std::string npy_csv(std::string_view bytes, const std::string& source);
 
 }  // namespace mapproof

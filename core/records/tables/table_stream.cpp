@@ -20,27 +20,36 @@ bool is_comment(std::string_view line) {
   return !content.empty() && content.front() == '#';
 }
 
-/// Bytes up to the last end of a row: of a line that no quotes run on beyond.
-/// @param searched  So many bytes at the start hold no end of a row.
-std::size_t whole_rows(std::string_view bytes, std::size_t searched = 0) {
-  if (bytes.find('"') == std::string_view::npos) {
-    const auto* end =
-        static_cast<const char*>(::memrchr(bytes.data() + searched, '\n', bytes.size() - searched));
-    return end == nullptr ? 0 : static_cast<std::size_t>(end - bytes.data()) + 1;
+}  // namespace
+
+std::size_t RowEnds::in(std::string_view bytes) {
+  if (!has_quotes_) {
+    has_quotes_ = bytes.find('"', searched_) != std::string_view::npos;
+    if (!has_quotes_) {
+      const auto* end = static_cast<const char*>(
+          ::memrchr(bytes.data() + searched_, '\n', bytes.size() - searched_));
+      searched_ = bytes.size();
+      if (end != nullptr) whole_ = static_cast<std::size_t>(end - bytes.data()) + 1;
+      return whole_;
+    }
+    line_ = whole_;  // The lines before hold no quotes.
   }
-  std::size_t whole = 0;
-  bool is_quoted = false;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::size_t end = bytes.find('\n', at);
-    if (end == std::string_view::npos) break;
-    const std::string_view line = bytes.substr(at, end - at);
-    if (is_quoted || !is_comment(line))
-      is_quoted = is_quoted != (std::ranges::count(line, '"') % 2 == 1);
-    at = end + 1;
-    if (!is_quoted) whole = at;
+  for (;;) {
+    const std::size_t end = bytes.find('\n', std::max(line_, searched_));
+    searched_ = bytes.size();
+    if (end == std::string_view::npos) return whole_;
+    const std::string_view line = bytes.substr(line_, end - line_);
+    if (is_quoted_ || !is_comment(line))
+      is_quoted_ = is_quoted_ != (std::ranges::count(line, '"') % 2 == 1);
+    line_ = searched_ = end + 1;
+    if (!is_quoted_) whole_ = line_;
   }
-  return whole;
 }
+
+namespace {
+
+/// Bytes up to the last end of a row.
+std::size_t whole_rows(std::string_view bytes) { return RowEnds().in(bytes); }
 
 }  // namespace
 
@@ -76,11 +85,10 @@ bool TableStream::read_rows() {
   lines_ += static_cast<std::size_t>(std::count(bytes_.begin(), bytes_.begin() + whole_, '\n'));
   bytes_.erase(0, whole_);
   whole_ = 0;
-  std::size_t searched = bytes_.size();
+  RowEnds ends;
   while (whole_ == 0 && !is_over_) {
     is_over_ = !source_.append(bytes_, kBlock);
-    whole_ = is_over_ ? bytes_.size() : whole_rows(bytes_, searched);
-    searched = bytes_.size();
+    whole_ = is_over_ ? bytes_.size() : ends.in(bytes_);
     if (whole_ == 0 && bytes_.size() > longest_row_)
       throw IoError(
           source(), fmt::format("line {}", lines_ + 1),

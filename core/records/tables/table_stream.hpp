@@ -4,12 +4,25 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/files/byte_source.hpp"
 #include "core/records/tables/table_reader.hpp"
 
 namespace mapproof {
+
+/// Finds the last end of a row in bytes that become more: of a line that no quotes run on beyond.
+/// Each byte is searched once.
+class RowEnds {
+ public:
+  /// Bytes up to the last end of a row. @param bytes  Those before and more.
+  std::size_t in(std::string_view bytes);
+
+ private:
+  std::size_t searched_ = 0, line_ = 0, whole_ = 0;  ///< Up to which; where a line and the rest begin.
+  bool has_quotes_ = false, is_quoted_ = false;
+};
 
 /// Whether a table's first row is of some sort. The table stays unread; comments before the row do
 /// not count. False if there is no row, or if it does not end within 16 MB.

@@ -212,6 +212,12 @@ SeriesStyle series_style(std::size_t i) {
           kMarkers[(i + 3 * (i / kMarkers.size())) % kMarkers.size()]};
 }
 
+std::size_t series_of_setting(std::size_t series, std::size_t k) {
+  constexpr std::size_t kColours = 7;  // The least number that brings both again.
+  static_assert(kColours == kMarkers.size() && kDashes.size() == 5);
+  return series + kColours * kDashes.size() * k;
+}
+
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked) {
   std::vector<std::size_t> series(asked.size());
   std::vector<std::size_t> left;

@@ -18,6 +18,11 @@ struct SeriesStyle {
 };
 SeriesStyle series_style(std::size_t i);
 
+/// What series_style() counts the k-th setting of a method as: it has the colour and the dash of
+/// the method, and up to seven settings have a marker each. @param series  The method's, setting
+/// 0's.
+std::size_t series_of_setting(std::size_t series, std::size_t k);
+
 /// An error over something. All vectors are as long as `x`; NaN: nothing known.
 struct ErrorLine {
   std::string label;           ///< In the legend; lines of one label have one style in all panels.

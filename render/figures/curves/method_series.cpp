@@ -61,10 +61,11 @@ std::optional<std::size_t> series_of_id(const std::string& id) {
 }  // namespace
 
 std::size_t method_series(Method method) {
-  // Behind all others, whose styles stay; the colour that no other method on the neighbour graph
-  // has.
-  constexpr std::size_t kOfLandmarkIsomap = 4 + 7 * 100;
+  // Behind all others, whose styles stay; Landmark ISOMAP has the colour that no other method on the
+  // neighbour graph has, landmark MVU that of HLLE, which it is not compared with.
+  constexpr std::size_t kOfLandmarkIsomap = 4 + 7 * 100, kOfLandmarkMvu = 7 * 100;
   if (method == Method::kLandmarkIsomap) return kOfLandmarkIsomap;
+  if (method == Method::kLandmarkMvu) return kOfLandmarkMvu;
   // There are seven colours: the last three methods take those of the first three, with other
   // dashes and markers. No two methods of one figure of the paper share a colour.
   constexpr std::array kOrder = {

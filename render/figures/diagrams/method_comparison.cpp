@@ -336,6 +336,23 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
   return figure;
 }
 
+std::string ranking_title(const CriticalDifferenceSpec& spec, const std::string& by) {
+  if (spec.methods.empty()) return "";
+  const RankedMethod& best = *std::ranges::min_element(spec.methods, {}, &RankedMethod::mean_rank);
+  const auto alike =
+      std::ranges::count_if(spec.methods,
+                            [&](const RankedMethod& method) {
+                              return method.mean_rank - best.mean_rank < spec.critical_difference;
+                            }) -
+      1;
+  const auto others = std::ssize(spec.methods) - 1;
+  return fmt::format("{} ranks best by {}; {}", best.label, by,
+                     alike == 0 ? "all others differ from it"
+                     : alike == others
+                         ? std::string("no other differs from it significantly")
+                         : fmt::format("{} of {} others do not differ from it", alike, others));
+}
+
 Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
   require_consistent(spec);
   Diagram diagram(spec);

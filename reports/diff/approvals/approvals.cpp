@@ -533,6 +533,7 @@ void apply(ApprovalPlan& plan, const fs::path& baseline) {
     step.from.empty() ? next.remove(step.file) : next.write(step.file, read_file(step.from));
   if (renew_results_table(plan, next)) plan.made.emplace_back(kResultsFile);
   next.commit();
+  next.remove_old();
 }
 
 void approve_file(const fs::path& baseline, const fs::path& current) {

@@ -68,7 +68,8 @@ std::map<std::string, ApprovalRefusal> approval_refusals(const std::filesystem::
 /// Applies a plan in one step: after a kill at any moment the baseline is wholly the old one or
 /// wholly the new one (see FolderReplacement). The caller holds its lock, if it exists. Where
 /// records of a study are taken without its results.csv, that table is made again from the records.
-/// @throws IoError, and leaves the old baseline.
+/// @throws IoError, and leaves the old baseline; after the last step only for what was left of the
+///         old one.
 void apply(ApprovalPlan& plan, const std::filesystem::path& baseline);
 
 /// Replaces a single baseline file by another file, in one step.

@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -222,6 +223,13 @@ bool is_provenance(const std::string& id) {
 /// The end of the region to leave out that begins at `at`; `at` if none begins there.
 std::size_t region_end(std::string_view html, std::size_t at,
                        const std::function<bool(const std::string& id)>& is_reported) {
+  // Which version made the page, and when.
+  constexpr std::pair<std::string_view, std::string_view> kMadeBy[] = {
+      {"<p class=\"subtitle made\"", "</p>"}, {"<footer class=\"footer\"", "</footer>"}};
+  for (const auto& [open, close] : kMadeBy)
+    if (html.substr(at).starts_with(open))
+      if (const std::size_t end = html.find(close, at); end != std::string_view::npos)
+        return end + close.size();
   for (const Region& region : kRegions) {
     const auto id = id_at(html, at, region);
     if (!id || !(is_provenance(*id) || (!id->starts_with("section ") && is_reported(*id))))

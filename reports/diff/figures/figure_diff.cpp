@@ -208,9 +208,8 @@ std::string data_cause(const FigureDiff& diff) {
   if (text.empty() && records != diff.changes.end())
     text = std::string(kMadeOfOthers) + ", " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
-    text +=
-        fmt::format("; mean error {}",
-                    change_text(*diff.baseline_error, *diff.current_error, "", true));
+    text += fmt::format("; mean error {}",
+                        change_text(*diff.baseline_error, *diff.current_error, "m", true));
   return text;
 }
 

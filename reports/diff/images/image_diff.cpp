@@ -40,9 +40,12 @@ struct Side {
   std::string reason = {};
 };
 
+/// One that is not held whole comes here only beside one that cannot be read: its pixels are not
+/// needed.
 void read_side(std::string_view bytes, Side& side) {
   try {
-    side.png = read_png(bytes);
+    side.png = read_png_remarks(bytes);
+    if (is_held_whole(side.png.header)) side.png = read_png(bytes);
   } catch (const InvalidInput& error) {
     side.reason = error.what();
   }

@@ -114,11 +114,16 @@ std::vector<std::string> reasons(const FigureDiff& diff, const Ties& ties, const
   return why;
 }
 
+/// Whether a figure shows ranks, which can stay while the values of the records change.
+bool shows_ranks(const std::string& id) {
+  return id.starts_with("ranks-") || id.find("-ranks-") != std::string::npos;
+}
+
 }  // namespace
 
 bool is_stale(const std::string& id, const std::vector<std::string>& record_ids,
               const RecordContext& context) {
-  if (context.records.empty() || record_ids.empty()) return false;
+  if (context.records.empty() || record_ids.empty() || shows_ranks(id)) return false;
   const Ties ties = ties_of(record_ids, context);
   if (ties.farthest != nullptr) return true;
   return std::ranges::any_of(ties.comparisons, [&](const Comparison* comparison) {

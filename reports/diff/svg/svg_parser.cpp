@@ -92,10 +92,12 @@ class Builder {
   std::exception_ptr failure;  ///< Of a handler.
 
  private:
-  /// Nothing is thrown through expat.
+  /// Nothing is thrown through expat, which calls the handler of the end of an empty element though
+  /// that of its start has stopped it.
   template <typename Handler>
   static void guarded(void* self, const Handler& handler) noexcept {
     auto& builder = *static_cast<Builder*>(self);
+    if (builder.failure || !builder.refusal.empty()) return;
     try {
       std::invoke(handler, builder);
     } catch (...) {
@@ -105,13 +107,11 @@ class Builder {
   }
 
   void refuse(const std::string& why) {
-    if (!refusal.empty()) return;
     refusal = fmt::format("line {}: {}", line_of(parser_), why);
     XML_StopParser(parser_, XML_FALSE);
   }
 
   void open(std::string_view full_name, const char** attributes) {
-    if (!refusal.empty()) return;
     const int index = static_cast<int>(tree.elements.size());
     if (tree.elements.size() >= kMostSvgElements)
       return refuse(fmt::format("more than {} elements", kMostSvgElements));

@@ -386,8 +386,11 @@ KeyValues whole_facts(const DiffResult& result) {
   const auto add = [&](const std::string& key, const std::string& text, Emphasis emphasis) {
     if (!text.empty()) facts.items.push_back({key, {text, emphasis}});
   };
-  add("Baseline", result.baseline, Emphasis::kData);
-  add("Current", result.current, Emphasis::kData);
+  const auto side = [](const std::string& title, const std::string& path) {
+    return title.empty() ? path : fmt::format("{}: {}", title, path);
+  };
+  add("Baseline", side(result.baseline_title, result.baseline), Emphasis::kData);
+  add("Current", side(result.current_title, result.current), Emphasis::kData);
   std::vector<std::string> allowed;
   for (const Verdict verdict : result.allowed) allowed.emplace_back(label(verdict));
   add("Also allowed to pass", listed(allowed, kVerdicts.size()), Emphasis::kPlain);

@@ -4,6 +4,7 @@
 #include <new>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "core/base/files/files.hpp"
@@ -14,6 +15,8 @@ namespace mapproof {
 namespace {
 
 constexpr int kBusyMilliseconds = 10'000;
+/// Bytes of a text, or of a row: a command line has at most 2 MiB on Linux.
+constexpr int kLongestValue = 1 << 22;
 
 /// SQLite reports a write that fails for want of room as either.
 bool is_full(int code) {
@@ -48,6 +51,7 @@ void refuse_code_in_schema(sqlite3* handle) {
                            SQLITE_DBCONFIG_TRUSTED_SCHEMA})
     sqlite3_db_config(handle, option, 0, nullptr);
   sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_limit(handle, SQLITE_LIMIT_LENGTH, kLongestValue);
 }
 
 }  // namespace
@@ -173,6 +177,9 @@ void Database::fail() const {
     throw IoError(path_.string(), "cannot be written: the disk is full; what it held is untouched");
   if ((code & 0xFF) == SQLITE_BUSY) throw IoError(path_.string(), "is in use by another process");
   if (is_damage(code)) throw DamagedFile(path_.string(), sqlite3_errmsg(handle_));
+  if ((code & 0xFF) == SQLITE_TOOBIG)
+    throw DamagedFile(path_.string(),
+                      fmt::format("a text in it has more than {} bytes", kLongestValue));
   throw IoError(path_.string(), sqlite3_errmsg(handle_));
 }
 

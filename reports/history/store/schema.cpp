@@ -197,8 +197,13 @@ INSERT INTO facts (name, value)
   FROM (SELECT lower(hex(randomblob(16))) AS h);
 )";
 
+/// The order of a study's methods, which their styles in figures depend on.
+constexpr const char* kVersion8 = R"(
+ALTER TABLE labels ADD COLUMN position INTEGER NOT NULL DEFAULT 0;
+)";
+
 constexpr std::array kVersions = {kVersion1, kVersion2, kVersion3, kVersion4,
-                                  kVersion5, kVersion6, kVersion7};
+                                  kVersion5, kVersion6, kVersion7, kVersion8};
 
 int pragma(Database& database, const std::string& name) {
   Statement statement(database, "PRAGMA " + name);
@@ -293,6 +298,60 @@ std::string damage_of_quantities(Database& database) {
   return "";
 }
 
+/// Of the numbers that trends are drawn of: SQLite's columns hold any text and infinity, too.
+std::string damage_of_trends(Database& database) {
+  Statement rows(database,
+                 "SELECT u.nightly_run, u.name, s.sensor, s.method, s.step, s.quantity "
+                 "FROM trends t JOIN studies u ON u.id = t.study JOIN series s ON s.id = t.series "
+                 "WHERE typeof(t.median) NOT IN ('real', 'integer', 'null') "
+                 "OR typeof(t.level) NOT IN ('real', 'integer', 'null') "
+                 "OR abs(t.median) > 1.7976931348623157e308 "
+                 "OR abs(t.level) > 1.7976931348623157e308");
+  if (!rows.step()) return "";
+  const SeriesId series{.sensor = rows.text(2),
+                        .method = rows.text(3),
+                        .step = static_cast<int>(rows.integer(4)),
+                        .quantity = rows.text(5)};
+  return printable(fmt::format("nightly run {}, study {}: the trend of {} of {} is not a number",
+                               rows.integer(0), rows.text(1), series.quantity, subject_of(series)),
+                   1000);
+}
+
+/// Of texts that SQLite refuses to read for their length: fails where there is one.
+std::string damage_of_texts(Database& database) {
+  for (const char* all :
+       {"SELECT max(length(started_utc), length(ended_utc), length(command), length(provenance), "
+        "length(host), length(processor), length(commit_id), length(repository), length(build)) "
+        "FROM nightly_runs",
+        "SELECT max(length(name), length(kind), length(experiment_digest)) FROM studies",
+        "SELECT max(length(sensor), length(method), length(quantity)) FROM series",
+        "SELECT max(length(name), length(unit)) FROM runs",
+        "SELECT max(length(study), length(subject), length(quantity), length(sentence)) "
+        "FROM findings",
+        "SELECT max(length(study), length(subject), length(quantity), length(text), "
+        "length(written_utc)) FROM notes",
+        "SELECT max(length(id), length(label)) FROM labels", "SELECT length(value) FROM facts"}) {
+    Statement rows(database, all);
+    rows.run();
+  }
+  return "";
+}
+
+/// Of seconds and memory, which costs are judged by.
+std::string damage_of_costs(Database& database) {
+  Statement rows(database,
+                 "SELECT nightly_run, name FROM studies "
+                 "WHERE typeof(seconds) NOT IN ('real', 'integer', 'null') "
+                 "OR typeof(peak_memory_mib) NOT IN ('real', 'integer', 'null') "
+                 "OR abs(seconds) > 1.7976931348623157e308 "
+                 "OR abs(peak_memory_mib) > 1.7976931348623157e308");
+  if (!rows.step()) return "";
+  return printable(fmt::format("nightly run {}, study {}: its seconds or its memory are not a "
+                               "number",
+                               rows.integer(0), rows.text(1)),
+                   1000);
+}
+
 bool is_file_name(std::string_view name) {
   constexpr std::size_t kLongest = 255;
   return !name.empty() && name.size() <= kLongest && name != "." && name != ".." &&
@@ -335,6 +394,8 @@ std::string damage_of_rows(Database& database) {
     if (!note_kind_named(notes.text(1)))
       return fmt::format("nightly run {} has a note of the unknown kind \"{}\"", notes.integer(0),
                          printable(notes.text(1)));
+  for (const auto& damage_of : {damage_of_texts, damage_of_trends, damage_of_costs})
+    if (std::string damage = damage_of(database); !damage.empty()) return damage;
   return damage_of_quantities(database);
 }
 

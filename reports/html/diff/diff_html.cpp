@@ -67,9 +67,9 @@ data stage_data(const ShownImages& shown, const std::string& id, const DiffResul
   if (shown.format.empty()) return data(false);
   list panes;
   if (shown.baseline)
-    panes.push_back(pane_data(*shown.baseline, {"baseline", "Baseline", all.baseline}, id));
+    panes.push_back(pane_data(*shown.baseline, {"baseline", "Baseline", shown_baseline(all)}, id));
   if (shown.current)
-    panes.push_back(pane_data(*shown.current, {"current", "Current", all.current}, id));
+    panes.push_back(pane_data(*shown.current, {"current", "Current", shown_current(all)}, id));
   data out;
   out.set("both", shown.baseline.has_value() && shown.current.has_value());
   out.set("has_heat", shown.heat.has_value());
@@ -261,8 +261,8 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("label", std::string(label(result.judgement.verdict)));
   page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
-  page.set("baseline_name", printable(result.baseline, kMostPath));
-  page.set("current_name", printable(result.current, kMostPath));
+  page.set("baseline_name", printable(shown_baseline(result), kMostPath));
+  page.set("current_name", printable(shown_current(result), kMostPath));
   page.set("baseline", percent_encoded(result.baseline));
   page.set("current", percent_encoded(result.current));
   std::error_code error;

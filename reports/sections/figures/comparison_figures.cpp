@@ -12,6 +12,7 @@
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/run_scores.hpp"
@@ -51,7 +52,6 @@ void add_ranks(FigureSource& source, const SensorStudy& sensor, std::vector<Figu
   if (!ranks.test || ranks.critical_difference <= 0.0) return;
   CriticalDifferenceSpec spec;
   spec.id = fmt::format("ranks-{}", name(sensor.sensor.sensor));
-  spec.title = fmt::format("{}: mean ranks by MPE", title_of(sensor.sensor.sensor));
   for (std::size_t i = 0; i < ranks.methods.size(); ++i)
     spec.methods.push_back(
         {std::string(info(ranks.methods[i].method).label), ranks.test->mean_ranks[i]});
@@ -59,6 +59,7 @@ void add_ranks(FigureSource& source, const SensorStudy& sensor, std::vector<Figu
   spec.alpha = ranks.alpha;
   spec.units = ranks.test->units;
   spec.friedman_p = ranks.test->chi_square_p;
+  spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), ranking_title(spec, "MPE"));
   for (const SettingSummary& best : source.best(sensor)) spec.record_ids.push_back(source_of(best));
   figures.push_back(critical_difference_figure(spec));
 }
@@ -170,14 +171,18 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     ParetoSpec spec;
     spec.id = fmt::format("cost-{}", name(sensor.sensor.sensor));
-    spec.title = fmt::format("{}: error against seconds a map", title_of(sensor.sensor.sensor));
     for (const SettingSummary& best : source.best(sensor)) {
       const auto cost = seconds.of(best.sensor, best.step, best.setting);
       if (!cost || !best.mpe_m) continue;
       spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
       spec.record_ids.push_back(source_of(best));
     }
-    if (!spec.settings.empty()) figures.push_back(pareto_figure(spec));
+    if (spec.settings.empty()) continue;
+    const auto best = std::ranges::min_element(spec.settings, {}, &CostedSetting::mpe_m);
+    // Without the seconds, which vary from run to run.
+    spec.title = fmt::format("{}: {} has the lowest MPE; what each method costs",
+                             title_of(sensor.sensor.sensor), best->label);
+    figures.push_back(pareto_figure(spec));
   }
   return figures;
 }

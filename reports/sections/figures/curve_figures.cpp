@@ -7,6 +7,7 @@
 #include "core/base/not_finite.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -67,8 +68,8 @@ std::string caption(const std::vector<Steps>& curves, const Measure& measure,
   for (const Steps& steps : curves) {
     const auto& estimate = steps.back().*measure.estimate;
     if (!estimate) continue;
-    ends += fmt::format("{}{}: {:.3g} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
-                        estimate->mean, measure.unit);
+    ends += fmt::format("{}{}: {} {}", ends.empty() ? "" : "; ", label(steps.back().setting),
+                        significant(estimate->mean), measure.unit);
   }
   const SettingSummary& first = curves.front().back();
   return fmt::format("{}{}: {} ({}) over observations. After {} of them \u2013 {}.{}",

@@ -40,6 +40,8 @@ std::string short_label(const MethodSetting& setting) {
       return with("KPCA poly");
     case Method::kLandmarkIsomap:
       return with("L-ISOMAP");
+    case Method::kLandmarkMvu:
+      return with("L-MVU");
     default:
       return with(info(setting.method).label);
   }

@@ -195,26 +195,6 @@ bool is_apart_by_ranks(const MethodComparison& comparison, std::size_t i) {
   return std::abs(ranks[i] - ranks[0]) >= critical_difference(comparison);
 }
 
-/// "EKF 4, Scan matching 2" of what has no value, the most first; empty if nothing is lost.
-std::string losses_of(const ResultsView& view) {
-  std::vector<std::pair<long, std::string>> lost;
-  long all = 0;
-  for (const Label& method : view.study().methods) {
-    const long count = std::ranges::count_if(view.study().results.rows, [&](const Result& row) {
-      return row.method == method.id && is_lost(row.value);
-    });
-    if (count > 0) lost.emplace_back(count, method.label);
-    all += count;
-  }
-  if (all == 0) return "";
-  std::ranges::stable_sort(lost, std::greater(), &decltype(lost)::value_type::first);
-  constexpr std::size_t kMostNamed = 4;
-  std::vector<std::string> names;
-  for (const auto& [count, label] : lost) names.push_back(fmt::format("{} {}", label, count));
-  return fmt::format("{} of {} results have no value: {}.", all, view.study().results.rows.size(),
-                     listed(names, kMostNamed));
-}
-
 /// How often each method is the best by one quantity, and which are worse everywhere.
 std::string tally_of(const ResultsView& view, const Quantity& quantity,
                      const std::vector<const MethodComparison*>& comparisons) {
@@ -252,6 +232,25 @@ std::string tally_of(const ResultsView& view, const Quantity& quantity,
 }
 
 }  // namespace
+
+std::string losses_of(const ResultsView& view) {
+  std::vector<std::pair<long, std::string>> lost;
+  long all = 0;
+  for (const Label& method : view.study().methods) {
+    const long count = std::ranges::count_if(view.study().results.rows, [&](const Result& row) {
+      return row.method == method.id && is_lost(row.value);
+    });
+    if (count > 0) lost.emplace_back(count, method.label);
+    all += count;
+  }
+  if (all == 0) return "";
+  std::ranges::stable_sort(lost, std::greater(), &decltype(lost)::value_type::first);
+  constexpr std::size_t kMostNamed = 4;
+  std::vector<std::string> names;
+  for (const auto& [count, label] : lost) names.push_back(fmt::format("{} {}", label, count));
+  return fmt::format("{} of {} results have no value: {}.", all, view.study().results.rows.size(),
+                     listed(names, kMostNamed));
+}
 
 bool is_significant(const ComparedMethod& method) {
   return method.change && method.corrected_p < kSignificanceOfMethods;
@@ -352,7 +351,6 @@ std::vector<std::string> headlines_of(const ResultsView& view,
         headlines.push_back(tally_of(view, *of_quantity.front()->quantity, of_quantity));
     }
   }
-  if (std::string losses = losses_of(view); !losses.empty()) headlines.push_back(std::move(losses));
   return headlines;
 }
 

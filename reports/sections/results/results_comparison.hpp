@@ -65,6 +65,10 @@ std::string disagreement_of(const MethodComparison& comparison, const ResultsVie
 /// As many comparisons open a report with a sentence each.
 inline constexpr std::size_t kFewComparisons = 4;
 
+/// "4 of 720 results have no value: EKF 3 and Scan matching 1.", the most first; empty if nothing
+/// is lost.
+std::string losses_of(const ResultsView& view);
+
 /// What to know first of all comparisons and of what was lost: each by a sentence while they are
 /// few, else what they come to, quantity by quantity.
 std::vector<std::string> headlines_of(const ResultsView& view,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/maps/map.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/sections/method_ranks.hpp"
 
 namespace mapproof {
@@ -207,10 +209,31 @@ std::string in_sentence(std::string label) {
 /// Which method is best over the axis; empty of a quantity that has no better side.
 std::string finding_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
                        const std::string& x_label) {
-  if (quantity.better == Better::kNeither) return "";
+  if (quantity.better == Better::kNeither || lines.size() < 2) return "";
   return best_over(lines,
                    {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower},
                    line_axis(x_label));
+}
+
+/// What lines do where none of them is called the best: of one, how it goes from the first x to the
+/// last; of several, between which values they lie. Empty if nothing is known.
+std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity) {
+  std::vector<double> known;
+  for (const ErrorLine& line : lines)
+    std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
+  if (known.empty()) return "";
+  const auto words = [&](double value) {
+    return with_unit(rounded_text(value, decimals_of(known)), quantity.unit);
+  };
+  const std::string first = words(known.front()), last = words(known.back());
+  if (lines.size() == 1)
+    return first == last
+               ? fmt::format("{} stays at {}", in_sentence(quantity.label), first)
+               : fmt::format("{} {} from {} to {}", in_sentence(quantity.label),
+                             known.back() < known.front() ? "falls" : "rises", first, last);
+  const auto [least, greatest] = std::ranges::minmax(known);
+  return fmt::format("{} between {} and {}", in_sentence(quantity.label), words(least),
+                     words(greatest));
 }
 
 /// The values of the runs that the curves are means of, if these are too few for intervals; none
@@ -254,6 +277,8 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   if (!distinguishes(spec.methods)) return std::nullopt;
   if (const std::string best = finding_of(spec.methods, quantity, spec.x_label); !best.empty())
     spec.title = block.title + ": " + best;
+  else if (const std::string course = course_of(spec.methods, quantity); !course.empty())
+    spec.title = block.title + ": " + course;
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   Figure figure = level_curve_figure(spec);
   if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
@@ -358,9 +383,6 @@ std::optional<Figure> rank_figure(const ResultsView& view, const MethodCompariso
   CriticalDifferenceSpec spec;
   spec.alpha = kSignificanceOfMethods;
   spec.id = figure_id(comparison.id, "ranks-" + comparison.quantity->id);
-  spec.title = fmt::format("{}{}{}: mean ranks by {}", comparison.block->title,
-                           comparison.level.empty() ? "" : ", ", comparison.level,
-                           comparison.quantity->label);
   for (std::size_t i = 0; i < comparison.methods.size(); ++i)
     spec.methods.push_back({view.study().methods[comparison.methods[i].method].label,
                             comparison.ranks->mean_ranks[i]});
@@ -368,6 +390,9 @@ std::optional<Figure> rank_figure(const ResultsView& view, const MethodCompariso
   spec.units = comparison.ranks->units;
   spec.unit = "group";
   spec.friedman_p = comparison.ranks->chi_square_p;
+  spec.title =
+      fmt::format("{}{}{}: {}", comparison.block->title, comparison.level.empty() ? "" : ", ",
+                  comparison.level, ranking_title(spec, in_sentence(comparison.quantity->label)));
   spec.record_ids = {record_of(*comparison.block)};
   Figure figure = critical_difference_figure(spec);
   if (const std::string note = disagreement_of(comparison, view); !note.empty())

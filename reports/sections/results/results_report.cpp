@@ -12,6 +12,7 @@
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "render/figures/number_text.hpp"
@@ -63,6 +64,11 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
   if (setup != study.design.setups.end() && !setup->factors.empty())
     title += ", " + level_words(*setup, map.at);
   title += ": " + series_label(study.design, map.method);
+  constexpr double kMostTurned_percent = 25.0;  // Of triples; 50 are chance.
+  if (const auto& score = map.map.score)
+    title += score->moe_percent > kMostTurned_percent ? ": no usable map"
+             : std::isfinite(score->mpe_m)            ? ": " + error_text(score->mpe_m) + " off"
+                                                      : "";
   if (map.uncertainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
@@ -307,18 +313,24 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
   std::vector<std::string> shown;
   for (const MethodComparison& comparison : input.comparisons) {
     const std::string label = comparison.quantity->label;
-    if (numbers.items.size() == kMostNumbers || std::ranges::find(shown, label) != shown.end())
+    // "ATE, RMSE", "ATE, mean" and "ATE, median" are one thing.
+    const std::string stem = label.substr(0, label.find(','));
+    if (numbers.items.size() == kMostNumbers || std::ranges::find(shown, stem) != shown.end())
       continue;
-    shown.push_back(label);
+    shown.push_back(stem);
     const ComparedMethod& best = comparison.methods.front();
     const auto worse = std::ranges::count_if(comparison.methods, is_significant);
-    const std::string& unit = comparison.quantity->unit;
+    const std::string others = counted(std::ssize(comparison.methods) - 1, "other method");
+    const ComparedMethod& next = comparison.methods[1];
     numbers.items.push_back(
         {fmt::format("best mean of {}, {}", label, where_of(comparison)),
-         significant(best.mean, 3) + (unit.empty() ? "" : "\u00a0" + unit),
-         fmt::format("{}; significantly better than {} of {}",
-                     input.view.study().methods[best.method].label, worse,
-                     counted(std::ssize(comparison.methods) - 1, "other method")),
+         with_unit(significant(best.mean, 3), comparison.quantity->unit),
+         comparison.groups < 2
+             ? fmt::format("{}; {} {}", input.view.study().methods[best.method].label,
+                           input.view.study().methods[next.method].label,
+                           with_unit(significant(next.mean, 3), comparison.quantity->unit))
+             : fmt::format("{}; significantly better than {} of {}",
+                           input.view.study().methods[best.method].label, worse, others),
          comparison.block->id});
   }
 }
@@ -407,6 +419,17 @@ Highlights numbers_of(const ResultsReportInput& input) {
   return numbers;
 }
 
+/// What is wrong, in one paragraph: what is missing or lost, and what whoever knows the study says.
+Paragraph warnings_paragraph(const ResultsReportInput& input) {
+  std::vector<std::string> wrong = input.warnings;
+  if (!input.incomplete.empty()) wrong.push_back("incomplete: " + input.incomplete);
+  if (std::string losses = losses_of(input.view); !losses.empty()) wrong.push_back(losses);
+  std::string text = wrong.empty() ? "none; every result has a value." : "";
+  for (const std::string& one : wrong) text += (text.empty() ? "" : "; ") + one;
+  if (!text.ends_with('.')) text += '.';
+  return {{strong("Warnings"), phrase(": " + text)}};
+}
+
 /// Where a map or a path is, it is what a reader wants to open: it comes before curves, one of each
 /// group first, and before all the best method's map where it is best.
 std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
@@ -447,9 +470,7 @@ Report results_report(const ResultsReportInput& input) {
       if (report.opening.findings.size() < kFewComparisons)
         report.opening.findings.push_back(plain(conclusion));
   report.opening.numbers = numbers_of(input);
-  if (!input.incomplete.empty())
-    report.opening.findings.push_back(
-        {{strong("Warnings"), phrase(": incomplete: " + input.incomplete)}});
+  report.opening.findings.insert(report.opening.findings.begin(), warnings_paragraph(input));
   choose_figures(figure_ids_of(input.view, input.figures), input.figures, report.opening);
   report.footer = input.footer;
   report.date = input.date;

@@ -23,10 +23,11 @@ struct ResultsReportInput {
   std::vector<std::string> conclusions = {};
   Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
   std::string incomplete = {};  ///< What is still missing, a sentence; empty: nothing.
+  std::vector<std::string> warnings = {};  ///< What is wrong with data or maps, a clause each.
   std::vector<std::string> remarks =
       {};                        ///< On the study's files beside the table, a sentence each.
   std::vector<Table> cost = {};  ///< What it took.
-  std::string footer = "Made by mapproof.";
+  std::string footer = {};       ///< What made the records; empty: the page says what made it.
   std::string date = {};  ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 

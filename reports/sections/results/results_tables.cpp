@@ -245,7 +245,7 @@ std::vector<Table> results_tables(const ResultsView& view, const ResultsBlock& b
 std::vector<Table> overview_tables(const ResultsView& view, const ResultsOverview& overview) {
   std::vector<Table> tables;
   for (const std::string& id : view.study().quantities) {
-    const Quantity& quantity = view.study().results.quantities.at(id);
+    const Quantity& quantity = view.quantity(id);
     std::vector<ResultsLine> lines;
     for (const ResultsBlock* block : overview.blocks)
       for (const ResultsLine& line : view.lines(*block, quantity))

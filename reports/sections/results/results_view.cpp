@@ -44,7 +44,31 @@ bool ResultsBlock::has_axis() const {
   return !factor.empty() && std::ranges::all_of(levels, is_number);
 }
 
+namespace {
+
+/// By how much short times are multiplied, so that a reader sees "141 µs" in place of "0.000141 s";
+/// and their unit.
+std::pair<double, std::string> scale_of_seconds(std::vector<double> seconds) {
+  std::erase_if(seconds, [](double value) { return is_lost(value) || value == 0.0; });
+  if (seconds.empty()) return {1.0, "s"};
+  for (double& value : seconds) value = std::abs(value);
+  const double middle = median(seconds);
+  return middle < 1e-3  ? std::pair(1e6, std::string("µs"))
+         : middle < 0.1 ? std::pair(1e3, std::string("ms"))
+                        : std::pair(1.0, std::string("s"));
+}
+
+}  // namespace
+
 ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
+  std::map<std::string, std::pair<double, std::string>> scales;  // By quantity.
+  for (const std::string& id : study.quantities) {
+    if (study.results.quantities.at(id).unit != "s") continue;
+    std::vector<double> seconds;
+    for (const Result& row : study.results.rows)
+      if (row.quantity == id) seconds.push_back(row.value);
+    scales[id] = scale_of_seconds(std::move(seconds));
+  }
   std::vector<std::string> ids;
   for (const Label& method : study.methods) ids.push_back(method.id);
   series_ = series_of_methods(ids);
@@ -56,17 +80,21 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
       lost_[key].insert(row.run);
       continue;
     }
+    const auto scale = scales.find(row.quantity);
+    const double value = scale == scales.end() ? row.value : scale->second.first * row.value;
     auto& [sum, count] = sums_[key][row.run];
-    sum += row.value;
+    sum += value;
     ++count;
-    auto& [least, greatest] = ranges_.try_emplace(row.quantity, row.value, row.value).first->second;
-    least = std::min(least, row.value);
-    greatest = std::max(greatest, row.value);
+    auto& [least, greatest] = ranges_.try_emplace(row.quantity, value, value).first->second;
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
   }
   for (const std::string& id : study.quantities) {
     Quantity quantity = study.results.quantities.at(id);
     const auto label = std::ranges::find(study.quantity_labels, id, &Label::id);
     if (label != study.quantity_labels.end()) quantity.label = label->label;
+    if (const auto scale = scales.find(id); scale != scales.end())
+      quantity.unit = scale->second.second;
     quantities_.emplace(id, std::move(quantity));
   }
   for (const RunOutcome& outcome : study.results.outcomes)

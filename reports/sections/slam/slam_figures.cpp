@@ -7,14 +7,17 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/convergence.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/fit.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
@@ -40,10 +43,33 @@ std::string numbered(const std::string& id) {
   return number + ". ";
 }
 
+/// How far a method's path is off: "0.19 m off"; empty without ground truth.
+std::string off_words(const SlamRun& run, SlamMethod method) {
+  const TrajectoryError* error = error_of(run, method);
+  return error == nullptr || !std::isfinite(error->mean_m) ? ""
+                                                           : error_text(error->mean_m, 2) + " off";
+}
+
+/// The error of the best path, and what it is compared with.
+std::string path_title(const SlamRun& run) {
+  const std::string name = run.simulated ? "Simulation" : title_of(run);
+  for (const SlamMethod method :
+       {SlamMethod::kRefined, SlamMethod::kSpectral, SlamMethod::kSpectralKnown}) {
+    const std::string off = off_words(run, method);
+    if (off.empty()) continue;
+    const std::string plain = off_words(run, SlamMethod::kDeadReckoning);
+    const auto length = length_m(run.log);
+    return fmt::format("{}: the {} path is {}{}{}", name, info(method).label, off,
+                       length ? fmt::format(" over {:.0f} m", *length) : "",
+                       plain.empty() ? "" : ", dead reckoning " + plain);
+  }
+  return fmt::format("{}: {} from ranges", name,
+                     counted(std::ssize(run.log.landmarks), "landmark"));
+}
+
 Figure path_figure(const SlamRun& run) {
   const std::string id = path_figure_id(run);
-  const std::string title = run.simulated ? "Landmarks and path, true and recovered"
-                                          : "Paths and landmarks, " + title_of(run);
+  const std::string title = path_title(run);
   return path_map_figure({id, numbered(id) + title, run, shown_methods(run)});
 }
 
@@ -68,7 +94,25 @@ std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
   add(4, {SlamMethod::kSpectral, SlamMethod::kSpectralKnown});
   add(7, {SlamMethod::kSpectral7, SlamMethod::kSpectralKnown7});
   if (spec.panels.empty()) return std::nullopt;
+  // What the method rests on: after its rank singular values are small.
+  const SingularValues& first = spec.panels.front();
+  if (first.values.size() > first.rank && first.values[first.rank] > 0.0)
+    spec.title =
+        fmt::format("{}: singular value {} is {} times the next one", title_of(run), first.rank,
+                    significant(first.values[first.rank - 1] / first.values[first.rank], 2));
   return singular_values_figure(spec);
+}
+
+/// How many starts end at the least cost.
+std::string starts_words(const std::vector<RefinementStart>& starts) {
+  constexpr double kSame = 1.01;  // Of the cost.
+  double least = kInfinity;
+  for (const RefinementStart& start : starts)
+    if (start.cost < least) least = start.cost;
+  const auto same = std::ranges::count_if(
+      starts, [&](const RefinementStart& start) { return start.cost <= kSame * least; });
+  return fmt::format("{} of {} end at the same, least cost", same,
+                     counted(std::ssize(starts), "start"));
 }
 
 /// What is known of one run.
@@ -77,11 +121,14 @@ std::vector<Figure> run_figures(const SlamRun& run) {
   if (!run.records.empty()) figures.push_back(path_figure(run));
   if (auto spectrum = spectrum_figure_of(run)) figures.push_back(*std::move(spectrum));
   if (run.windows && !run.windows->lengths_s.empty())
-    figures.push_back(window_curve_figure(
-        {"windows-" + run.id, "Window lengths, " + title_of(run), *run.windows, run.id}));
+    figures.push_back(
+        window_curve_figure({"windows-" + run.id,
+                             fmt::format("{}: windows of {} predict ranges best", title_of(run),
+                                         format_duration(run.windows->chosen_s)),
+                             *run.windows, run.id}));
   if (!run.starts.empty())
     figures.push_back(refinement_starts_figure(
-        {"starts-" + run.id, "Starts of the refinement, " + title_of(run), run.starts, run.id}));
+        {"starts-" + run.id, title_of(run) + ": " + starts_words(run.starts), run.starts, run.id}));
   return figures;
 }
 
@@ -95,7 +142,14 @@ std::vector<Figure> convergence_figures(const SlamStudy& study) {
   };
   const std::string id = is_of_paper(study) ? "fig-1b" : "convergence-simulation";
   figures.push_back(convergence_figure(id, first));
-  figures.back().title = numbered(id) + figures.back().title;
+  const double slope = convergence_slope(first);
+  figures.back().title =
+      numbered(id) +
+      (std::isfinite(slope)
+           ? fmt::format(
+                 "The error falls with the power {} of the measurements (theory: \u22121/2)",
+                 significant(slope, 2))
+           : figures.back().title);
   figures.back().caption += variant_words(study);
   if (any(&ConvergencePoint::sine))
     figures.push_back(subspace_angle_figure("angle-simulation", first));
@@ -140,7 +194,17 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
       any = any || map.setting;
       spec.maps.push_back(titled_map(study, map));
     }
-    if (any) figures.push_back(map_wall_figure(spec));
+    if (!any) continue;
+    const auto error_of_map = [](const TitledMap& map) {
+      const double error = map.map.score ? map.map.score->mpe_all_fitted_m : kNaN;
+      return std::isnan(error) ? kInfinity : error;
+    };
+    const auto best = std::ranges::min_element(spec.maps, {}, error_of_map);
+    if (std::isfinite(error_of_map(*best)))
+      spec.title =
+          fmt::format("On {} {} has the lowest error, {}", squared ? "squared ranges" : "ranges",
+                      best->title, error_text(error_of_map(*best)));
+    figures.push_back(map_wall_figure(spec));
   }
   return figures;
 }

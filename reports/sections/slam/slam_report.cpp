@@ -483,6 +483,13 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
                                    warnings.empty() ? "none" : "each listed with its reason",
                                    "slam-warnings"});
   opening.findings.push_back(what_was_done(study));
+  if (is_of_paper(study))
+    opening.findings.push_back(
+        {{strong("Compared with"),
+          phrase(
+              ": dead reckoning, the paper\u2019s own spectral method, an extended Kalman filter "
+              "and theory. The paper prints no errors of its methods, so that no published "
+              "number stands beside ours.")}});
   for (const SlamRun& run : study.runs)
     if (run.fit)
       opening.findings.push_back({{strong(title_of(run)), phrase(": " + verdict_text(*run.fit))}});

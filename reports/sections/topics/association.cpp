@@ -56,10 +56,12 @@ TopicHeadline association_headline(const TopicStudy& study) {
     const double given = topic_mean(study, at, "given", "mpe_m");
     const double estimated = topic_mean(study, at, "estimated", "mpe_m");
     if (level == 0.0 || std::isnan(given + estimated)) continue;
-    return {fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
-            fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
-            fmt::format("MPE {}; {} with the IDs as given", page_metres(estimated),
-                        page_metres(given))};
+    return {
+        fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
+        fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
+        fmt::format("MPE {}; {} with the IDs as given", page_metres(estimated), page_metres(given)),
+        estimated < given ? "a better map than without" : "no better map than without",
+        estimated >= given};
   }
   return {};
 }

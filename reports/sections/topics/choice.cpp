@@ -72,10 +72,14 @@ std::vector<std::string> choice_conclusions(const TopicStudy& study) {
 TopicHeadline choice_headline(const TopicStudy& study) {
   const auto [best, least] = best_criterion(study, "regret_m");
   if (best.empty()) return {};
+  const double fixed = mean_over_all(study, kFixedMethod, "regret_m");
   return {page_metres(least), "worse than the best map: the map that a criterion picks",
-          fmt::format("{}; a fixed method {}, a random pick {}", best,
-                      page_metres(mean_over_all(study, kFixedMethod, "regret_m")),
-                      page_metres(mean_over_all(study, kRandomPick, "regret_m")))};
+          fmt::format("{}; a fixed method {}, a random pick {}", best, page_metres(fixed),
+                      page_metres(mean_over_all(study, kRandomPick, "regret_m"))),
+          std::isnan(fixed) ? ""
+          : least < fixed   ? "better than a fixed method"
+                            : "no better than a fixed method",
+          least >= fixed};
 }
 
 }  // namespace

@@ -76,8 +76,14 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
   std::string detail;
   if (logs > 0.0)
     detail = fmt::format("alarms in {:.1f}\u00a0% of {:g} fault-free logs", alarms, logs);
+  constexpr double kMostAlarms = 5.0;  // Percent, the level of the test.
+  const bool is_over = alarms > kMostAlarms;
   return {fmt::format("{:.0f}\u00a0%", sum / count), "of faults in range-only logs reported",
-          std::move(detail)};
+          std::move(detail),
+          logs == 0.0 ? ""
+          : is_over   ? "more alarms than the 5\u00a0% aimed at"
+                      : "no more alarms than the 5\u00a0% aimed at",
+          is_over};
 }
 
 }  // namespace

@@ -73,11 +73,13 @@ TopicHeadline incremental_headline(const TopicStudy& study) {
   const double through =
       topic_mean(study, condition_at(first, last), methods[0], "steps_gone_through");
   if (std::isnan(through)) return {};
-  constexpr double kNothing_ppm = 1e-3;
+  constexpr double kNothing_ppm = 1e-3, kSame_ppm = 1.0;
   return {fmt::format("{:g} of {:g}", through, last), "observations used by an update of a map",
           greatest < kNothing_ppm
               ? std::string("less than 0.001 ppm from the map computed again")
-              : fmt::format("{:.2g} ppm at most from the map computed again", greatest)};
+              : fmt::format("{:.2g} ppm at most from the map computed again", greatest),
+          greatest < kSame_ppm ? "the same map, for less work" : "not the same map",
+          greatest >= kSame_ppm};
 }
 
 }  // namespace

@@ -96,10 +96,13 @@ std::vector<std::string> missing_conclusions(const TopicStudy& study) {
 TopicHeadline missing_headline(const TopicStudy& study) {
   const double regret = regret_m(study, "auto");
   if (std::isnan(regret)) return {};
+  const double pairwise = regret_m(study, "pairwise-complete-smacof-knn");
+  const double ppca = regret_m(study, "ppca-smacof-knn");
+  const bool is_best = !(regret > pairwise) && !(regret > ppca);
   return {page_metres(regret), "worse than the best map: the strategy chosen for missing data",
-          fmt::format("always pairwise-complete {}, always PPCA {}",
-                      page_metres(regret_m(study, "pairwise-complete-smacof-knn")),
-                      page_metres(regret_m(study, "ppca-smacof-knn")))};
+          fmt::format("always pairwise-complete {}, always PPCA {}", page_metres(pairwise),
+                      page_metres(ppca)),
+          is_best ? "as good as the better of both" : "one of both is better everywhere", !is_best};
 }
 
 }  // namespace

@@ -109,9 +109,11 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
     const BestSeries mix = best_series(study, at, kMixes);
     if (single.method == nullptr || mix.method == nullptr) continue;
     const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
+    const std::string verdict = difference ? verdict_words(*difference) : "";
     return {page_metres(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
-            fmt::format("{} alone {}{}", single.method->label, page_metres(single.mean_m),
-                        difference ? ": " + verdict_words(*difference) : "")};
+            fmt::format("{} alone {}", single.method->label, page_metres(single.mean_m)),
+            verdict.empty() ? "" : verdict + ", compared with the best sensor alone",
+            !verdict.starts_with("better")};
   }
   return {};
 }

@@ -73,12 +73,16 @@ TopicHeadline moved_headline(const TopicStudy& study) {
   const double named = topic_mean(study, at, "permutations", "named_percent");
   if (std::isnan(named)) return {};
   const double still = named_without_move(study);
-  return {fmt::format("{:.0f}\u00a0%", named),
-          "of moved landmarks named, " + level_words(setup, at),
-          std::isnan(still) ? std::string()
-                            : fmt::format("where nothing moves, one is named in {:.1f}\u00a0% of "
-                                          "the logs; the level is 5\u00a0%",
-                                          still)};
+  constexpr double kLevel = 5.0;  // Percent.
+  return {
+      fmt::format("{:.0f}\u00a0%", named), "of moved landmarks named, " + level_words(setup, at),
+      std::isnan(still)
+          ? std::string()
+          : fmt::format("where nothing moves, one is named in {:.1f}\u00a0% of the logs", still),
+      std::isnan(still) ? ""
+      : still > kLevel  ? "more false names than the 5\u00a0% aimed at"
+                        : "no more false names than the 5\u00a0% aimed at",
+      still > kLevel};
 }
 
 }  // namespace

@@ -77,6 +77,31 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Whether the map of a set cannot be used: a quarter of its landmark triples and more are turned
+/// the wrong way round, where half are by chance.
+bool is_unusable(const TopicPart& part) {
+  constexpr double kMostTurned_percent = 25.0;
+  return method_value(part, "pairs", "moe_percent") > kMostTurned_percent;
+}
+
+std::vector<std::string> mrclam_warnings(const TopicStudy& study) {
+  std::vector<std::string> sentences;
+  for (const TopicPart& part : study.parts) {
+    const double given = method_value(part, "pairs", "mpe_m");
+    const double corrected = method_value(part, "swapped-corrected", "mpe_m");
+    if (is_unusable(part))
+      sentences.push_back(fmt::format("no usable map of {}: MOE {:.0f} %, where 50 % are chance",
+                                      part.id, method_value(part, "pairs", "moe_percent")));
+    // The correction puts right what the log itself holds, besides what was exchanged in the copy.
+    else if (corrected < 0.5 * given)
+      sentences.push_back(fmt::format(
+          "barcodes of {} are exchanged in the log itself: {} off as given, {} with landmark IDs "
+          "corrected",
+          part.id, page_metres(given), page_metres(corrected)));
+  }
+  return sentences;
+}
+
 TopicHeadline mrclam_headline(const TopicStudy& study) {
   std::vector<double> together, alone;
   for (const TopicPart& part : study.parts) {
@@ -91,19 +116,25 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
     if (std::isfinite(least)) alone.push_back(least);
   }
   if (together.empty()) return {};
+  const auto failed =
+      std::ranges::count_if(study.parts, [](const TopicPart& part) { return is_unusable(part); });
   return {page_metres(median(together)), "median MPE from range and bearing together",
-          alone.empty() ? counted(std::ssize(together), "data set")
-                        : fmt::format("{}; by the best single sensor {}",
-                                      counted(std::ssize(together), "data set"),
-                                      page_metres(median(alone)))};
+          alone.empty()
+              ? counted(std::ssize(together), "data set")
+              : fmt::format("{}; by the best single sensor {}",
+                            counted(std::ssize(together), "data set"), page_metres(median(alone))),
+          failed == 0 ? "usable on every data set"
+                      : fmt::format("no usable map of {} of {}", failed,
+                                    counted(std::ssize(study.parts), "data set")),
+          failed > 0};
 }
 
 }  // namespace
 
-const TopicWords kMrclamWords = {
-    .topic = "mrclam",
-    .question = mrclam_question,
-    .conclusions = mrclam_conclusions,
-    .headline = mrclam_headline};
+const TopicWords kMrclamWords = {.topic = "mrclam",
+                                 .question = mrclam_question,
+                                 .conclusions = mrclam_conclusions,
+                                 .headline = mrclam_headline,
+                                 .warnings = mrclam_warnings};
 
 }  // namespace mapproof

@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/model/method.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -13,29 +17,51 @@ namespace {
 std::string references_question(const TopicExperiment& experiment) {
   return fmt::format(
       "{} landmarks are mapped by ISOMAP, which searches the shortest paths from every landmark, "
-      "and by Landmark ISOMAP, which searches them from a few reference landmarks alone. How many "
-      "references does a map need?",
+      "and by Landmark ISOMAP, which searches them from a few reference landmarks alone; and by "
+      "landmark MVU, which unfolds the references alone, as SDE unfolds all. How many references "
+      "does a map need?",
       experiment.world.landmarks);
 }
 
-/// The mean error of ISOMAP, and that with the fewest and the most references.
+/// The design's method whose id begins so; empty: it has none.
+std::string method_of(const TopicStudy& study, const std::string& start) {
+  for (const auto& method : study.design.methods)
+    if (method.id.starts_with(start + "-K")) return method.id;
+  return "";
+}
+
+/// The mean error of each exact method, and that of its approximation with the fewest and the most
+/// references.
 std::vector<std::string> references_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
-  const std::string& exact = study.design.methods.at(0).id;
-  const std::string& approximate = study.design.methods.at(1).id;
-  for (const TopicSetup& setup : study.design.setups) {
-    const std::vector<double> levels = levels_of(setup);
-    const auto of = [&](double level, const std::string& method, const char* quantity) {
-      return topic_mean(study, condition_at(setup, level), method, quantity);
-    };
-    sentences.push_back(fmt::format(
-        "{}: with {:g} references the mean MPE is {}, with {:g} it is {}; that of ISOMAP is {}. "
-        "The "
-        "maps with {:g} references differ from those of ISOMAP by {:.2g} % of their size.",
-        setup.title, levels.front(), page_metres(of(levels.front(), approximate, "mpe_m")),
-        levels.back(), page_metres(of(levels.back(), approximate, "mpe_m")),
-        page_metres(of(levels.back(), exact, "mpe_m")), levels.back(),
-        of(levels.back(), approximate, "gap_percent")));
+  const std::pair<const char*, const char*> pairs[] = {{"isomap", "landmark-isomap"},
+                                                       {"sde", "landmark-mvu"}};
+  for (const auto& [exact_name, approximate_name] : pairs) {
+    const std::string exact = method_of(study, exact_name);
+    const std::string approximate = method_of(study, approximate_name);
+    if (approximate.empty()) continue;
+    for (const TopicSetup& setup : study.design.setups) {
+      const auto of = [&](double level, const std::string& method, const char* quantity) {
+        return topic_mean(study, condition_at(setup, level), method, quantity);
+      };
+      std::vector<double> levels = levels_of(setup);
+      std::erase_if(levels,
+                    [&](double level) { return std::isnan(of(level, approximate, "mpe_m")); });
+      if (levels.empty()) continue;
+      const Method method = *method_named(approximate_name);
+      std::string sentence = fmt::format(
+          "{}, {}: with {:g} references the mean MPE is {}, with {:g} it is {}", setup.title,
+          info(method).label, levels.front(),
+          page_metres(of(levels.front(), approximate, "mpe_m")), levels.back(),
+          page_metres(of(levels.back(), approximate, "mpe_m")));
+      if (!exact.empty())
+        sentence += fmt::format(
+            "; that of {} is {}. The maps with {:g} references differ from those by {:.2g} % of "
+            "their size",
+            info(*info(method).approximates).label, page_metres(of(levels.back(), exact, "mpe_m")),
+            levels.back(), of(levels.back(), approximate, "gap_percent"));
+      sentences.push_back(sentence + ".");
+    }
   }
   return sentences;
 }

@@ -32,6 +32,12 @@ std::vector<std::string> conclusions_of(const TopicStudy& study) {
                                                  : words->conclusions(study);
 }
 
+std::vector<std::string> warnings_of(const TopicStudy& study) {
+  const TopicWords* words = words_of(study.experiment.topic);
+  return words == nullptr || words->warnings == nullptr ? std::vector<std::string>{}
+                                                        : words->warnings(study);
+}
+
 TopicHeadline headline_of(const TopicStudy& study) {
   const TopicWords* words = words_of(study.experiment.topic);
   return words == nullptr || study.parts.empty() ? TopicHeadline{} : words->headline(study);

@@ -14,6 +14,10 @@ struct TopicHeadline {
   std::string value;   ///< "89 %"; empty: there is none.
   std::string label;   ///< "of wrong landmark IDs corrected".
   std::string detail;  ///< "mean MPE 0.086 m; 0.125 m with the IDs as given".
+  /// Whether that is as it should be: "fewer errors than with the IDs as given"; empty: nothing is
+  /// aimed at.
+  std::string verdict = {};
+  bool falls_short = false;
 };
 
 /// The words of a topic (core/topics/topic.hpp).
@@ -24,6 +28,8 @@ struct TopicWords {
   /// What came out, with numbers, a sentence each.
   std::vector<std::string> (*conclusions)(const TopicStudy& study) = nullptr;
   TopicHeadline (*headline)(const TopicStudy& study) = nullptr;
+  /// What is wrong with the data or the maps, a sentence each; null: nothing is looked for.
+  std::vector<std::string> (*warnings)(const TopicStudy& study) = nullptr;
 };
 
 extern const TopicWords kUncertaintyWords, kChoiceWords, kAssociationWords, kDoubtWords,
@@ -38,6 +44,9 @@ std::string question_of(const TopicExperiment& experiment);
 
 /// None of a topic that is not known, or without any part.
 std::vector<std::string> conclusions_of(const TopicStudy& study);
+
+/// None of a topic that looks for nothing.
+std::vector<std::string> warnings_of(const TopicStudy& study);
 
 /// Without a value for a topic that is not known, or without any part.
 TopicHeadline headline_of(const TopicStudy& study);

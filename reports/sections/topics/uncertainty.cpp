@@ -67,7 +67,10 @@ TopicHeadline uncertainty_headline(const TopicStudy& study) {
   if (low > high) return {};
   return {fmt::format("{:.0f} to {:.0f}\u00a0%", low, high),
           "of landmarks have the method\u2019s mean map in their 95\u00a0% ellipse",
-          "aimed at: 93 to 97\u00a0%"};
+          "by method and level",
+          low >= 93.0 && high <= 97.0 ? "within the 93 to 97\u00a0% aimed at"
+                                      : "not within the 93 to 97\u00a0% aimed at",
+          !(low >= 93.0 && high <= 97.0)};
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct FaultCase {
 
 inline std::ostream& operator<<(std::ostream& out, const FaultCase& one) { return out << one.name; }
 
-/// run, reproduce, report, render, diff, approve, check, nightly, map, slam.
+/// run, merge, reproduce, report, render, diff, approve, check, nightly, map, slam.
 const std::vector<FaultCase>& fault_cases();
 
 /// Those whose next run goes on from what a kill left, or removes it: run, report, approve,

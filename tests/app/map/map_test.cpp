@@ -194,11 +194,12 @@ TEST(Map, CanBeWrittenAgainOverAnEarlierOneAndWhatAKillLeft) {
   const std::vector<std::string> job = {"map",      std::string(MAPPROOF_TEST_DATA) + "/mrclam",
                                         "--method", "lpca",
                                         "--out",    folder / "map"};
-  folder.file("map/map.csv.part-999999999", "torn");  // of a process that is no more
+  folder.file("map/map.csv.part-999999999-0123456789abcdef",
+              "torn");  // of a process that is no more
   ASSERT_EQ(mapproof(job).exit_code, 0);
   const auto first = contents(folder / "map");
   for (const auto& [file, bytes] : first) EXPECT_EQ(file.find(".part"), std::string::npos) << file;
-  folder.file("map/map.json.part-999999999", "torn");
+  folder.file("map/map.json.part-999999999-0123456789abcdef", "torn");
   fs::remove(folder / "map" / "report.html");
   ASSERT_EQ(mapproof(job).exit_code, 0);
   EXPECT_EQ(contents(folder / "map"), first);

@@ -119,6 +119,51 @@ TEST(Disclosure, WritesATildeForTheHomeFolderAndNothingElse) {
   EXPECT_EQ(full.text("/home/ann o'x/a"), "/home/ann o'x/a");
 }
 
+TEST(Disclosure, FindsTheHomeFolderBehindDetours) {
+  const Environment environment{{{"HOME", "/x/real/ann"}, {"USER", "bob"}, {"LOGNAME", "bob"}}};
+  const Disclosure reduced(false);
+  EXPECT_EQ(reduced.text("/x/media/../real/ann/b.csv"), "~/b.csv");
+  EXPECT_EQ(reduced.text("see /x//real/./ann, \"/a/b/../../x/real/c/../ann/d\""), "see ~, \"~/d\"");
+  EXPECT_EQ(reduced.words({"--out=/x/my media/../real/ann/b"}),
+            (std::vector<std::string>{"--out=~/b"}));
+  for (const char* other : {"/x/media/../real/anna/b", "../../x/real/an/../b", "http://x/real/ann",
+                            "/x/real/../ann/b", "a/../b", "//", "/../"})
+    EXPECT_EQ(reduced.text(other), other);
+}
+
+TEST(Provenance, OfMethodsOfOthersNamesNoUserHostOrHome) {
+  const Person person;
+  const std::string order = person.in("small.json", "tests/data/experiments/small.json");
+  const std::string script = person.in("client.sh", "tests/data/experiments/small.json");
+  write_file(script, "echo \"$0: no licence\" >&2; exit 3\n");
+  const std::string methods = person.home / "in/methods.json";
+  const nlohmann::json method{{"name", "other"},
+                              {"label", "Other"},
+                              {"input", "distances"},
+                              {"command", std::vector<std::string>{"sh", script}}};
+  const nlohmann::json file{{"schema", {{"name", "mapproof.methods"}, {"version", 1}}},
+                            {"methods", std::vector<nlohmann::json>{method}}};
+  write_file(methods, file.dump());
+  const std::string out = person.home / "out";
+  for (int i = 0; i < 2; ++i)
+    expect_done(
+        {"run", order, "--methods", methods, "--profile", "tiny", "--jobs", "1", "--out", out});
+  expect_done({"report", out});
+  expect_anonymous(out);
+  const std::string run = read_file(out + "/runs/layout-1-pose-1.json");
+  EXPECT_NE(run.find("~/in/client.sh: no licence"), std::string::npos)
+      << "the command was started where it is";
+}
+
+TEST(Provenance, OfTheCommandThatBuildsNamesNoHome) {
+  const Person person;
+  const std::string order = person.in("small.json", "tests/data/experiments/small.json");
+  const std::string store = person.home / "store";
+  expect_done({"nightly", order, "--profile", "tiny", "--jobs", "1", "--store", store, "--build",
+               "make -C '" + (person.home / "project").string() + "'"});
+  expect_anonymous(store);
+}
+
 TEST(Disclosure, NamesNoUserHostOrAddressInACommand) {
   const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
   const Disclosure reduced(false);

@@ -1,5 +1,10 @@
+#include <signal.h>
+#include <sys/wait.h>
+
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -148,6 +153,127 @@ TEST(HandedOverResults, AreReadFromTheirFolderAlone) {
   }
 }
 
+/// A map with its figures.
+fs::path map_in(const TemporaryFolder& folder) {
+  const fs::path map = folder / "map";
+  EXPECT_EQ(mapproof({"map", kBearings, "--sensor", "bearing", "--method", "lpca", "--out", map})
+                .exit_code,
+            0);
+  return map;
+}
+
+TEST(HandedOverMap, LeadsNoFigureOutOfItsFolder) {
+  const TemporaryFolder folder;
+  const fs::path map = map_in(folder), all = folder / "all";
+  fs::create_directory(all);
+  fs::copy(map / "figures/map.figure.json", all);
+  fs::copy(map / "report.html", all / "page.html");
+  const std::string file = all / "map.figure.json", page = all / "page.html";
+  struct Case {
+    fs::path link;
+    std::vector<std::string> command;
+  };
+  for (const auto& [link, command] :
+       {Case{map / "figures", {"render", map, "--as", "svg"}},
+        Case{map / "figures-paper", {"render", map, "--theme", "paper", "--as", "svg"}},
+        Case{map / "figures-styled", {"render", map, "--theme", "dark", "--as", "svg"}},
+        Case{all / "figures-styled", {"render", file, "--theme", "dark", "--as", "svg"}},
+        Case{all / "figures-styled", {"render", page, "--theme", "dark", "--as", "svg"}}}) {
+    const Trap trap(folder);
+    trap.put_at(link, true);
+    expect_named(mapproof(command), link);
+    trap.expect_untouched();
+    fs::remove(link);
+  }
+}
+
+TEST(HandedOverMap, IsDrawnFromItsFolderAlone) {
+  const TemporaryFolder folder;
+  const fs::path map = map_in(folder);
+  for (const char* file : {"map.json", "figures", "figures/map.figure.json"}) {
+    const fs::path moved = folder / "moved";
+    fs::rename(map / file, moved);
+    fs::create_symlink(moved, map / file);
+    expect_named(mapproof({"render", map, "--out", folder / "out"}), file);
+    expect_named(mapproof({"render", "--panel", map, map, "--out", folder / "out"}), file);
+    EXPECT_FALSE(fs::exists(folder / "out"));
+    fs::remove(map / file);
+    fs::rename(moved, map / file);
+  }
+}
+
+TEST(HandedOverStudy, IsReadFromItsFolderAlone) {
+  for (const char* file :
+       {"study.json", "results.csv", "runs/layout-1-pose-1.json", "maps/layout-1-pose-1.json"}) {
+    const TemporaryFolder folder;
+    const fs::path study = folder / "study", moved = folder / "moved";
+    fs::copy(kStudy, study, fs::copy_options::recursive);
+    fs::rename(study / file, moved);
+    fs::create_symlink(moved, study / file);
+    expect_named(mapproof({"results", study}), file);
+    expect_named(mapproof({"export", study, "--out", folder / "out"}), file);
+    expect_named(mapproof({"import", study, folder / "none", "--out", folder / "out"}), file);
+    EXPECT_FALSE(fs::exists(folder / "out"));
+  }
+}
+
+TEST(ExampleCommand, WritesThroughNoLinkBelowItsFolder) {
+  const TemporaryFolder folder;
+  const Trap trap(folder);
+  trap.put_at(folder / "out/drive", true);
+  expect_named(mapproof({"example", "drive", "--out", folder / "out"}), "drive");
+  trap.expect_untouched();
+}
+
+TEST(CommandsThatWrite, HoldTheLockOfTheFolderThatEachOfThemWrites) {
+  const TemporaryFolder folder;
+  const fs::path map = map_in(folder), images = folder / "images", example = folder / "example";
+  const TwoStudies two;
+  two.change_image();
+  fs::create_directory(images);
+  fs::create_directory(example);
+  for (const auto& [locked, command] :
+       {std::pair(map, std::vector<std::string>{"render", map, "--as", "svg"}),
+        {map,
+         {"map", kBearings, "--sensor", "bearing", "--method", "lpca", "--force", "--out", map}},
+        {images, {"diff", two.before, two.after, "--images", images}},
+        {example, {"example", "drive", "--out", example}}}) {
+    const FolderLock lock(locked);
+    const Outcome outcome = mapproof(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command.front();
+    EXPECT_NE(outcome.error.find("is in use by another mapproof"), std::string::npos)
+        << outcome.error;
+  }
+}
+
+TEST(DiffCommand, WritesTheSameImagesAfterItWasStoppedAtAnyMoment) {
+  const TwoStudies two;
+  two.change_image();
+  const std::string whole = two.folder / "whole", images = two.folder / "images";
+  ASSERT_EQ(mapproof({"diff", two.before, two.after, "--images", whole}).exit_code, 1);
+  const Contents expected = contents(whole);
+  ASSERT_GT(expected.size(), 2U);
+  // As a kill leaves it: the list, some of the images, a part of one.
+  for (std::size_t left = 0; left <= expected.size(); ++left) {
+    fs::remove_all(images);
+    ASSERT_EQ(mapproof({"diff", two.before, two.after, "--images", images}).exit_code, 1);
+    for (std::size_t i = left; i < expected.size(); ++i)
+      if (expected[i].first != "mapproof-images.txt") fs::remove(images + "/" + expected[i].first);
+    write_file(images + "/map-usual.png/current.png.part-999999999-0123456789abcdef", "half");
+    EXPECT_EQ(mapproof({"diff", two.before, two.after, "--images", images}).exit_code, 1);
+    expect_same(contents(images), expected);
+  }
+  for (const int milliseconds : {1, 10, 30, 60, 100, 200}) {
+    fs::remove_all(images);
+    const pid_t child = start_mapproof({"diff", two.before, two.after, "--images", images});
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(mapproof({"diff", two.before, two.after, "--images", images}).exit_code, 1);
+    expect_same(contents(images), expected);
+  }
+}
+
 TEST(ApproveCommand, TakesRegularFilesAlone) {
   const TwoStudies two;
   two.change_image();
@@ -173,10 +299,6 @@ TEST(ReportCommand, WaitsForNobodyWhoWritesInTheFolder) {
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_NE(outcome.error.find("is in use by another mapproof"), std::string::npos);
   }
-  fs::create_directory(study / "figures");
-  const FolderLock lock(study / "figures");
-  EXPECT_EQ(mapproof({"render", study, "--figure", "map-bearing-isomap"}).exit_code, 2);
-  fs::remove(study / "figures");
   expect_same(contents(study), before);
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "noisy_scans.hpp"
 #include "tests/support/samples/scans.hpp"
 
@@ -56,11 +57,11 @@ TEST(FindMoved, RefusesOptionsOutOfBounds) {
 std::vector<PositionChange> hanging_slices(double rho, Random& random) {
   std::vector<PositionChange> landmarks(9);
   for (PositionChange& change : landmarks) {
-    Eigen::Vector2d x(random.normal(), random.normal());
+    Eigen::Vector2d x = normal_point(random).transpose();
     x /= std::sqrt(1.0 - rho * rho);
     for (int k = 0; k < 30; ++k) {
       change.asked.push_back({Eigen::Matrix2d::Identity(), x});
-      x = rho * x + Eigen::Vector2d(random.normal(), random.normal());
+      x = rho * x + normal_point(random).transpose();
     }
     change.residual = change.asked;
   }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/base/random.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/samples/scans.hpp"
 #include "tests/support/samples/worlds.hpp"
 
@@ -19,7 +20,7 @@ Points noisy_landmarks() {
   Points positions = 2.0 * grid(5, 3);
   Random random(3);
   for (Eigen::Index i = 0; i < positions.rows(); ++i)
-    positions.row(i) += Eigen::RowVector2d(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4));
+    positions.row(i) += uniform_point(random, -0.4, 0.4);
   return positions;
 }
 

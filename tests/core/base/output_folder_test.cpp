@@ -45,6 +45,18 @@ TEST(OutputFolder, WritesFollowNoLinkBelowTheNamedFolder) {
   handed.expect_untouched();
 }
 
+TEST(OutputFolder, AppendsToNoFileThatHasANameElsewhere) {
+  const HandedOver handed;
+  fs::create_hard_link(handed.mine, handed.inside / "timings.jsonl");
+  const OutputFolder folder(handed.inside);
+  folder.append("timings.jsonl", " and more");
+  EXPECT_EQ(read_file(handed.inside / "timings.jsonl"), "mine and more");
+  folder.append("timings.jsonl", ".");
+  EXPECT_EQ(folder.read("timings.jsonl"), "mine and more.");
+  EXPECT_EQ(folder.read("never/there"), std::nullopt);
+  handed.expect_untouched();
+}
+
 TEST(OutputFolder, RemovesALinkAndNotWhatItLeadsTo) {
   const HandedOver handed;
   fs::create_directory_symlink(handed.outside, handed.inside / "runs");

@@ -1,10 +1,16 @@
 
 #include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
 #include "core/embed/pca.hpp"
+#include "core/observe/history_vectors.hpp"
+#include "core/observe/proximities.hpp"
+#include "core/observe/seen_lists.hpp"
 #include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
@@ -92,6 +98,43 @@ TEST(LpcaOfVectors, ReportsVectorsOnOneLine) {
   ASSERT_FALSE(map.statuses.empty());
   EXPECT_EQ(map.statuses.front().code, StatusCode::kRankDeficient);
   EXPECT_THROW(lpca_of_vectors(Eigen::MatrixXd::Zero(50, 10)), InvalidInput);
+}
+
+// Of detections alone, and some steps at a time, as of all vectors.
+TEST(LpcaOfVectors, NeedsNoArrayOfThem) {
+  const auto seen_at = [](Eigen::Index i, Eigen::Index t) {
+    return (3 * i + 7 * t) % 23 < 1 || std::abs(i - t) < 30;
+  };
+  ObservationHistory seen{.sensor = Sensor::kVisibility,
+                          .names = std::vector<std::string>(120, "a"),
+                          .values = Eigen::MatrixXd::Zero(120, 140)};
+  for (Eigen::Index t = 0; t < 140; ++t)
+    for (Eigen::Index i = 0; i < 120; ++i)
+      if (seen_at(i, t)) seen.values(i, t) = 1.0;
+  ASSERT_TRUE(unseen_landmarks(seen, 140).empty());
+  const SeenLists lists(seen, 140);
+  const Embedding of_lists = lpca_of_vectors(visibility_vectors(lists));
+  const Embedding of_array = lpca(proximities(seen, 140).squared_distances);
+  EXPECT_LT((of_lists.coordinates - of_array.coordinates).norm(),
+            1e-9 * of_array.coordinates.norm());
+
+  for (const Sensor sensor : {Sensor::kBearing, Sensor::kRange}) {
+    ObservationHistory history{.sensor = sensor,
+                               .names = seen.names,
+                               .values = 0.1 * Eigen::MatrixXd::Random(120, 300).cwiseAbs()};
+    for (Eigen::Index i = 0; i < 120; ++i)
+      for (Eigen::Index t = 0; t < 300; ++t)
+        history.values(i, t) +=
+            std::abs(0.02 * static_cast<double>(i) - 0.008 * static_cast<double>(t));
+    const Embedding held = lpca_of_vectors(history_vectors(history, 300));
+    const Embedding streamed = lpca_of_vectors(history_vectors(history, 300, 0));
+    const Embedding expected = lpca(proximities(history, 300).squared_distances);
+    EXPECT_LT((held.coordinates - expected.coordinates).norm(),
+              1e-9 * expected.coordinates.norm());
+    EXPECT_LT((streamed.coordinates - expected.coordinates).norm(),
+              1e-9 * expected.coordinates.norm());
+  }
+  EXPECT_THROW(history_vectors(seen, 140), InvalidInput);
 }
 
 }  // namespace

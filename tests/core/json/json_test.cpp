@@ -47,6 +47,19 @@ TEST(JsonParser, StopsAtDeepNesting) {
             "f.json: line 1, column 65: nested deeper than 64 levels");
 }
 
+TEST(JsonTree, HoldsSoManyValuesAndNoMore) {
+  const auto list_of = [](std::size_t values) {
+    std::string text = "[{}";
+    for (std::size_t i = 2; i < values; ++i) text += ",{}";
+    return text + "]";
+  };
+  EXPECT_EQ(parse_json(list_of(1000), "f.json").tree().size(), 999U);
+  const JsonDocument most = parse_json(list_of(kMostJsonTreeValues + 1), "f.json");
+  EXPECT_EQ(test::error_of([&] { most.tree(); }),
+            "f.json: holds 4000001 values of JSON; at most 4000000 are read as a table, compared or "
+            "merged");
+}
+
 TEST(JsonParser, GivesOneShortLineForANumberOfAMillionDigits) {
   const std::string error = parse_error("[" + std::string(1'000'000, '9') + "]");
   EXPECT_NE(error.find("is beyond what a double holds"), std::string::npos);

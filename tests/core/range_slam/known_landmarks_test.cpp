@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/range_slam/factors/squared_ranges.hpp"
 #include "tests/core/range_slam/range_worlds.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/slam_checks.hpp"
 
 namespace mapproof {
@@ -37,7 +38,7 @@ Points on_circle(Eigen::Index n, double radius_m, double center_m) {
 
 RC_GTEST_PROP(KnownLandmarks, GiveBackAnyWorldWithoutNoise, (std::uint64_t seed)) {
   Random random(seed);
-  const Eigen::RowVector2d center(random.uniform(-500.0, 500.0), random.uniform(-500.0, 500.0));
+  const Eigen::RowVector2d center = test::uniform_point(random, -500.0, 500.0);
   const Points landmarks = points_about(*rc::gen::inRange(4, 12), random, 10.0, center);
   const Points path = points_about(*rc::gen::inRange(5, 300), random, 10.0, center);
   // A world that determines the map: neither four landmarks nor the path nearly on a line or

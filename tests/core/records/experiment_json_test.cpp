@@ -358,7 +358,8 @@ TEST(ExperimentJson, RefusesWhatHasNoNameOrNoSensors) {
             "e.json: /sensors: expected at least 1 of visibility, bearing, range, got 0");
   EXPECT_EQ(experiment_error("/sensors/range/methods", json::object()),
             "e.json: /sensors/range/methods: expected at least 1 of lpca, smacof, smacof-knn, "
-            "kpca-gaussian, kpca-polynomial, isomap, lle, lem, hlle, sde, landmark-isomap, got 0");
+            "kpca-gaussian, kpca-polynomial, isomap, lle, lem, hlle, sde, landmark-isomap, "
+            "landmark-mvu, got 0");
 }
 
 }  // namespace

@@ -378,6 +378,9 @@ TEST(NumpyArrays, OfEveryElementAndOrderHoldTheSame) {
 }
 
 TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
+  for (const auto& [rows, columns] : {std::pair(4, 0), std::pair(0, 5)})
+    EXPECT_EQ(table_error(npy_of<std::int64_t>("<i8", Eigen::MatrixXd(rows, columns), false)),
+              fmt::format("a NumPy array of {} x {} holds no number", rows, columns));
   const std::string bytes = npy_of<double>("<f8", expected_ranges(), false);
   for (std::size_t length = 6; length < bytes.size(); ++length)
     EXPECT_NE(table_error(bytes.substr(0, length)), "no error") << length;

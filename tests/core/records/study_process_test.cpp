@@ -106,7 +106,7 @@ TEST(StudyWriter, EndsInTheSameBytesAfterAKill) {
     StudyWriter store = open(folder / "killed");
     store.write(part_of(made_up_result({2, 1})));
     const std::string leftover =
-        "killed/runs/layout-1-pose-1.json.part-" + std::to_string(::getpid());
+        "killed/runs/layout-1-pose-1.json.part-" + std::to_string(::getpid()) + "-0123456789abcdef";
     folder.file(leftover, "half of a run");
     new StudyWriter(std::move(store));  // Never closed: the kill comes first.
   });

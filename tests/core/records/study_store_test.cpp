@@ -208,15 +208,27 @@ TEST(StudyWriter, RemovesWhatAKilledProcessLeft) {
   const TemporaryFolder folder;
   open_store(folder / "study").write(part_of(made_up_result({1, 1})));
   const std::string before = contents(folder.path());
-  folder.file("study/study.json.part-999999999", "half");
-  folder.file("study/runs/layout-1-pose-2.json.part-999999999", "half");
-  folder.file("study/figures/map.svg.part-999999999", "half");
-  folder.file("new/study.json.part-999999999", "half");
+  folder.file("study/study.json.part-999999999-0123456789abcdef", "half");
+  folder.file("study/runs/layout-1-pose-2.json.part-999999999-0123456789abcdef", "half");
+  folder.file("study/figures/map.svg.part-999999999-0123456789abcdef", "half");
+  folder.file("new/study.json.part-999999999-0123456789abcdef", "half");
   open_store(folder / "study");
   EXPECT_EQ(contents(folder / "study"), contents(folder / "study"));
   open_store(folder / "new");
   fs::remove_all(folder / "new");
   EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(StudyWriter, RemovesNoFileOfTheUserWithTheNameOfALeftover) {
+  const TemporaryFolder folder;
+  open_store(folder / "study");
+  const std::vector<std::string> mine = {
+      "study/movie.part-99999",  "study/notes.part-4000000-abc",
+      "study/big.tar.part-123",  "study/runs/a.part-999999999-0123456789ABCDEF",
+      "study/sub/x.part-123456", "study/sub/study.json.part-999999999-0123456789abcdef"};
+  for (const std::string& file : mine) folder.file(file, "mine");
+  open_store(folder / "study");
+  for (const std::string& file : mine) EXPECT_EQ(read_file(folder / file), "mine") << file;
 }
 
 TEST(StudyReader, TellsAStudyFromOtherFolders) {

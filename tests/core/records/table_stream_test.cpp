@@ -87,6 +87,30 @@ TEST(TableStream, ItsFirstRowIsSeenBeforeItIsRead) {
   EXPECT_FALSE(first_row_is(endless, is_header));
 }
 
+TEST(RowEnds, AreTheSameInBytesThatGrow) {
+  const std::string text = "a,b\n# it's \" so\n1,\"x\ny\n\"\n2,\"\"\"\n\"\n3,4\n\"5\n";
+  for (std::size_t first = 0; first <= text.size(); ++first)
+    for (std::size_t second = first; second <= text.size(); ++second) {
+      RowEnds ends;
+      ends.in(std::string_view(text).substr(0, first));
+      const std::size_t grown = ends.in(std::string_view(text).substr(0, second));
+      EXPECT_EQ(grown, RowEnds().in(std::string_view(text).substr(0, second)))
+          << first << ", " << second;
+    }
+  EXPECT_EQ(RowEnds().in(text), text.size() - 3);
+}
+
+// One open quote over megabytes: each of them is searched once.
+TEST(RowEnds, SearchEachByteOnce) {
+  std::string text = "1,\"";
+  RowEnds ends;
+  for (int k = 0; k < 200; ++k) {
+    text += std::string(20'000, k % 3 == 0 ? '\n' : 'x');
+    EXPECT_EQ(ends.in(text), 0U);
+  }
+  EXPECT_EQ(ends.in(text + "\"\n"), text.size() + 2);
+}
+
 TEST(TableStream, AnEmptyFileIsAnError) {
   const test::TemporaryFolder folder;
   const auto path = folder.file("a.csv", "");

@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
 #include "core/submaps/submap_embedding.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/samples/worlds.hpp"
 
 namespace mapproof {
@@ -22,7 +23,7 @@ Points elsewhere(const Points& points, JoinKind kind, Random& random) {
   if (random.uniform() < 0.5) linear.row(0) *= -1.0;
   linear *= std::exp(random.uniform(-1.0, 1.0));
   if (kind == JoinKind::kAffine) linear.col(1) *= std::exp(random.uniform(-0.5, 0.5));
-  const Eigen::RowVector2d offset(random.uniform(-5, 5), random.uniform(-5, 5));
+  const Eigen::RowVector2d offset = test::uniform_point(random, -5, 5);
   return (points * linear).rowwise() + offset;
 }
 

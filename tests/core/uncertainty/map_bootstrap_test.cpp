@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/errors.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 
 namespace mapproof {
 namespace {
@@ -37,10 +38,10 @@ TEST(BootstrapMap, HasItsNominalCoverageForMeansOfCorrelatedSeries) {
   for (int s = 0; s < kSeries; ++s) {
     Random random(1000 + s);
     Eigen::MatrixXd values(500, 2);
-    Eigen::RowVector2d x(random.normal(), random.normal());
+    Eigen::RowVector2d x = test::normal_point(random);
     for (Eigen::Index t = 0; t < 500; ++t) {
       values.row(t) = x;
-      x = 0.6 * x + 0.8 * Eigen::RowVector2d(random.normal(), random.normal());
+      x = 0.6 * x + 0.8 * test::normal_point(random);
     }
     const MapUncertainty found =
         bootstrap_map(1, 500, mean_of(values), {.replicates = 100, .block = 20});

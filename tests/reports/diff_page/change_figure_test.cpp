@@ -160,7 +160,7 @@ TEST(ItemImages, HoldWhatMovedBesideAChangeOfData) {
   const TemporaryFolder folder;
   write_figure(landmarks(), report_theme(), OutputFolder(folder / "a"));
   write_figure(moved(), report_theme(), OutputFolder(folder / "b"));
-  write_item_images(folder_diff(folder / "a", folder / "b"), {}, OutputFolder(folder / "images"));
+  write_item_images(folder_diff(folder / "a", folder / "b"), {}, folder / "images");
   EXPECT_TRUE(read_file(folder / "images/map.change/difference.png").starts_with("\x89PNG"));
 }
 

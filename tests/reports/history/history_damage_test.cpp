@@ -9,6 +9,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
@@ -67,6 +68,57 @@ TEST(HistoryStore, WithWhatIsNoQuantityIsRefusedAsItIs) {
     Database(history_file(folder.path()), Database::Access::kWrite).execute(change);
     expect_refused(folder.path(), words);
   }
+}
+
+TEST(HistoryStore, WithTrendsThatAreNoNumbersIsRefusedByItsRow) {
+  for (const auto& [change, words] :
+       {std::pair("UPDATE trends SET median = 9e999",
+                  "is damaged: nightly run 1, study sample: the trend of "),
+        std::pair("UPDATE trends SET level = 'x'",
+                  "is damaged: nightly run 1, study sample: the trend of "),
+        std::pair("UPDATE studies SET seconds = -9e999",
+                  "is damaged: nightly run 1, study sample: its seconds or its memory ")}) {
+    const TemporaryFolder folder;
+    HistoryStore::open(folder.path()).append(sample_nightly_run(1, 1));
+    Database(history_file(folder.path()), Database::Access::kWrite).execute(change);
+    expect_refused(folder.path(), words);
+  }
+}
+
+TEST(HistoryStore, WithATextThatNoCommandLineCouldGiveIsRefused) {
+  for (const char* table : {"nightly_runs SET provenance", "nightly_runs SET build",
+                            "studies SET name", "findings SET sentence", "facts SET value"}) {
+    const TemporaryFolder folder;
+    NightlyRun nightly_run = sample_nightly_run(1, 1);
+    nightly_run.findings.push_back({.study = "sample", .sentence = "a finding"});
+    HistoryStore::open(folder.path()).append(nightly_run);
+    sqlite3* handle = nullptr;
+    ASSERT_EQ(sqlite3_open(history_file(folder.path()).c_str(), &handle), SQLITE_OK);
+    const std::string change =
+        std::string("UPDATE ") + table + " = replace(hex(zeroblob(3000000)), '0', 'a')";
+    ASSERT_EQ(sqlite3_exec(handle, change.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+    sqlite3_close(handle);
+    expect_refused(folder.path(), "is damaged: ");
+  }
+}
+
+TEST(HistoryStore, ThatIsGoneIsNotBegunAgainBesideItsNightlyRuns) {
+  const TemporaryFolder folder;
+  const fs::path path = history_file(folder.path());
+  folder.file("nightly_runs/0001/nightly_run.json", "{}");
+  for (int i = 0; i < 2; ++i) {
+    try {
+      HistoryStore::open(folder.path());
+      ADD_FAILURE() << "begun";
+    } catch (const IoError& error) {
+      EXPECT_NE(std::string(error.what()).find("history.sqlite: is gone, and nightly_runs/ has "),
+                std::string::npos)
+          << error.what();
+    }
+    EXPECT_FALSE(fs::exists(path));
+  }
+  folder.file("history.sqlite.damaged-1", "of which a person knows");
+  EXPECT_TRUE(HistoryStore::open(folder.path()).nightly_runs().empty());
 }
 
 TEST(HistoryStore, ThatIsCutAtAnyLengthIsRefusedAsItIs) {

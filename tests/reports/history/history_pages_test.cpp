@@ -228,7 +228,7 @@ TEST(HistoryPages, TakeNoTwoMethodsOfAnotherProgramForSettingsOfOne) {
   const Figure figure = trend_figures(trend, {}).front();
   EXPECT_EQ(curves(figure),
             (std::vector<std::string>{"Walk isomap-K5", "Walk isomap-K6", "Walk isomap-K7"}));
-  EXPECT_EQ(figure.title, "By compass: MPE, by nightly run");
+  EXPECT_EQ(figure.title, "By compass: MPE has not got worse");
   EXPECT_EQ(std::get<TextCell>(accuracy_table(trend).rows[0].cells[0]).text,
             "By compass, Walk isomap-K5, 150 steps");
 }

@@ -116,7 +116,12 @@ TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsAndMethods) {
                          .methods = {{"lpca", "Mine, renamed"}, {"smacof", "Gone later"}}};
   EXPECT_EQ(store.trend("sample", "d", 60, 2).labels, both);
   EXPECT_EQ(store.trend("sample", "d", 60, 1).labels, first);
-  store.remove({1, 2});
+  StudyLabels unsorted;
+  for (const char* id : {"smacof", "lpca", "isomap"}) unsorted.add_method(id, "Mine");
+  append(3, unsorted);
+  EXPECT_EQ(store.studies(3)[0].labels.ordered(), unsorted.order);
+  EXPECT_EQ(store.trend("sample", "d", 60, 3).labels.ordered(), unsorted.order);
+  store.remove({1, 2, 3});
   Database database(history_file(folder.path()), Database::Access::kRead);
   Statement left(database, "SELECT count(*) FROM labels");
   ASSERT_TRUE(left.step());

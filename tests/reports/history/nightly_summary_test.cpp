@@ -179,6 +179,38 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
             "bearing, ISOMAP, K = 6: MPE +20.0\u00a0%");
 }
 
+TEST(RegressionMarks, AreOnTheRowsOfTablesWhoseColumnsAreLevels) {
+  const FindingGroup group{.study = "mine",
+                           .setup = "indoors",
+                           .method = "MCL",
+                           .settings = {"noise=0.1", "noise=0.2"},
+                           .quantity = "error",
+                           .changes = {18.0},
+                           .lines = {"MCL, noise=0.1", "MCL, noise=0.2"}};
+  const auto of_levels = [](const std::string& caption, const std::string& level) {
+    Table table{.id = "t", .caption = caption, .columns = {{"Method", "", "", ""}}};
+    table.columns.push_back({level, "", "noise", ""});
+    table.rows = {{{TextCell{"MCL"}, NumberCell{1.0}}, ""},
+                  {{TextCell{"EKF"}, NumberCell{1.0}}, ""}};
+    return table;
+  };
+  Report report{.sections = {{"s",
+                              "S",
+                              {of_levels("indoors: error [m], by noise", "0.1"),
+                               of_levels("indoors: error [m], by noise", "0.15"),
+                               of_levels("indoors, noise 0.2: error [m]", "Mean"),
+                               of_levels("indoors, noise 0.25: error [m]", "Mean")}}}};
+  mark_regressed(report, {}, std::vector{group}, "mine");
+  const auto marks = [&](std::size_t block, std::size_t row) {
+    return std::get<Table>(report.sections[0].blocks[block]).rows[row].regressed;
+  };
+  EXPECT_EQ(marks(0, 0), "error +18.0\u00a0% (noise=0.1 and 0.2)");
+  EXPECT_EQ(marks(0, 1), "");
+  EXPECT_EQ(marks(1, 0), "") << "another level";
+  EXPECT_EQ(marks(2, 0), "error +18.0\u00a0%");
+  EXPECT_EQ(marks(3, 0), "") << "another level";
+}
+
 TEST(RegressionMarks, AreOnTheRowsAndFiguresOfWhatGotWorse) {
   const NightlySummary summary = summary_of();
   Table table{.id = "t", .caption = "Bearing: MPE", .columns = {{"Method", "", "", ""}}};

@@ -18,11 +18,7 @@ Eigen::MatrixXd observed_distances(int landmarks, Sensor sensor, int steps, std:
   const World world = scatter_landmarks(room, random);
   const Path path = random_walk(world, {}, steps, random);
   const ObservationHistory history = observe(world, path, {.sensor = sensor}, random);
-  const std::vector<Eigen::Index> unseen = unseen_landmarks(history, steps);
-  std::vector<Eigen::Index> seen;
-  for (Eigen::Index i = 0; i < landmarks; ++i)
-    if (!std::ranges::binary_search(unseen, i)) seen.push_back(i);
-  return proximities(with_rows(history, seen), steps).squared_distances.cwiseSqrt();
+  return proximities(with_rows(history, seen_landmarks(history, steps)), steps).squared_distances.cwiseSqrt();
 }
 
 }  // namespace mapproof::test

@@ -11,6 +11,7 @@
 #include "core/simulate/world.hpp"
 #include "render/figures/diagrams/fit.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
 namespace mapproof::test {
@@ -345,7 +346,7 @@ IdeaSpec sample_idea(Sensor sensor) {
   spec.map.ground_truth_m = spec.world.landmarks_m;
   for (Eigen::Index i = 0; i < 50; ++i)
     spec.map.estimate.row(i) =
-        spec.world.landmarks_m.row(i) + 0.06 * Eigen::RowVector2d(random.normal(), random.normal());
+        spec.world.landmarks_m.row(i) + 0.06 * normal_point(random);
   spec.map.anchors = place_anchors(spec.world, 4, AnchorPlacement::kWalls, random);
   spec.steps = 100;
   return spec;

@@ -7,6 +7,7 @@
 
 #include "core/base/random.hpp"
 #include "render/figures/maps/map.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/samples/sample_comparisons.hpp"
 #include "tests/support/samples/sample_slam.hpp"
 #include "tests/support/samples/sample_studies.hpp"
@@ -164,7 +165,7 @@ MapRecord sample_map(int landmarks, double error_m, std::uint64_t seed) {
   for (int i = 0; i < landmarks; ++i) {
     record.names.push_back(fmt::format("L{:02}", i + 1));
     ground_truth.row(i) << random.uniform(0.1, kRoom_m - 0.1), random.uniform(0.1, kRoom_m - 0.1);
-    const Eigen::RowVector2d error(error_m * random.normal(), error_m * random.normal());
+    const Eigen::RowVector2d error = error_m * normal_point(random);
     record.estimate.row(i) = ground_truth.row(i) + error;
     sum += error.norm();
   }

@@ -6,6 +6,7 @@
 
 #include "core/base/random.hpp"
 #include "core/model/method.hpp"
+#include "tests/support/samples/drawn_points.hpp"
 #include "tests/support/samples/sample_scenes.hpp"
 #include "tests/support/samples/sample_slam.hpp"
 
@@ -229,7 +230,7 @@ RangeHistoryStudy sample_histories() {
                         .statuses = {},
                         .score = {}};
     for (Index i = 0; i < 30; ++i)
-      map.positions_m.row(i) += error_m * Eigen::RowVector2d(random.normal(), random.normal());
+      map.positions_m.row(i) += error_m * normal_point(random);
     map.score = Score{1.25 * error_m, 4.0 * error_m, 1.25 * error_m, 4.0 * error_m};
     study.maps.push_back(map);
   };
