@@ -89,12 +89,17 @@ bool is_end_of_name(std::string_view text, std::size_t at) {
   return at >= text.size() || !is_of_name(text[at]);
 }
 
+/// Whether a host is behind the slash at `at`, as in "http://host": it is not a folder.
+bool begins_host(std::string_view text, std::size_t at) {
+  return at >= 2 && at < text.size() && text.substr(at - 2).starts_with("://");
+}
+
+constexpr std::size_t kLongestPath = 4096;
+
 void replace_folder(std::string& text, const std::string& folder) {
   for (std::size_t at = text.find(folder); at != std::string::npos; at = text.find(folder, at)) {
     const std::size_t end = at + folder.size();
-    // The host of an address is not a folder.
-    const bool is_host = at >= 2 && text.compare(at - 2, 3, "://") == 0;
-    const bool begins = at == 0 || (!is_of_name(text[at - 1]) && !is_host);
+    const bool begins = at == 0 || (!is_of_name(text[at - 1]) && !begins_host(text, at));
     if (begins && is_end_of_name(text, end)) text.replace(at, folder.size(), "~");
     ++at;
   }
@@ -105,7 +110,6 @@ void replace_folder(std::string& text, const std::string& folder) {
 std::size_t end_of_folder(std::string_view text, std::size_t at,
                           const std::vector<std::string_view>& names) {
   constexpr std::string_view kEnds = "\"'<>\n\t";
-  constexpr std::size_t kLongestPath = 4096;
   const std::size_t end = std::min(text.size(), at + kLongestPath);
   std::vector<std::string_view> there;
   while (at < end && text[at] == '/') {
@@ -151,7 +155,6 @@ std::vector<std::string_view> names_of(std::string_view folder) {
 
 /// The same where the path takes a detour, as "/media/../home/ann".
 void replace_detours(std::string& text, const std::string& folder) {
-  constexpr std::size_t kLongestPath = 4096;
   const std::vector<std::string_view> names = names_of(folder);
   std::size_t tried = 0;  // No path that begins before it is open.
   for (std::size_t at = 0; (at = text.find('/', at)) != std::string::npos; ++at) {
@@ -162,8 +165,7 @@ void replace_detours(std::string& text, const std::string& folder) {
       begin = std::max(begin, line);
     for (; (begin = text.find('/', begin)) <= at; ++begin) {
       if (begin > 0 && (is_of_name(text[begin - 1]) || text[begin - 1] == '/')) continue;
-      // The host of an address is not a folder.
-      if (begin > 0 && text.compare(begin - 1, 3, "://") == 0) continue;
+      if (begins_host(text, begin + 1)) continue;
       const std::size_t end = end_of_folder(text, begin, names);
       if (end == std::string::npos || end <= at) continue;
       text.replace(begin, end - begin, "~");
