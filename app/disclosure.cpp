@@ -114,20 +114,10 @@ std::size_t end_of_folder(std::string_view text, std::size_t at,
   std::vector<std::string_view> there;
   while (at < end && text[at] == '/') {
     while (at < end && text[at] == '/') ++at;
-    const bool is_begin =
-        there.size() < names.size() && std::equal(there.begin(), there.end(), names.begin());
-    if (is_begin) {
-      const std::string_view next = names[there.size()];
-      const std::size_t behind = at + next.size();
-      if (text.substr(at).starts_with(next) &&
-          (there.size() + 1 == names.size() ? is_end_of_name(text, behind)
-                                            : behind < end && text[behind] == '/')) {
-        there.push_back(next);
-        at = behind;
-        if (there.size() == names.size()) return at;
-        continue;
-      }
-    }
+    // What follows the last name is any end of a name: a blank, a comma.
+    if (there.size() + 1 == names.size() && std::equal(there.begin(), there.end(), names.begin()) &&
+        text.substr(at).starts_with(names.back()) && is_end_of_name(text, at + names.back().size()))
+      return at + names.back().size();
     const std::size_t stop = std::min(text.find_first_of(kEnds, at), end);
     const std::size_t slash = text.find('/', at);
     if (slash >= stop) break;

@@ -5,7 +5,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
-#include <system_error>
+#include <string_view>
 
 #include "core/base/errors.hpp"
 #include "core/base/out_of_memory.hpp"
@@ -32,11 +32,10 @@ int try_work(const std::function<int()>& work, const std::string& of) {
     return report_failure(of + error.what(), kInternal);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::system_error& error) {
-    if (error.code() == std::errc::resource_unavailable_try_again)
-      return report_failure(of + kNoThread, kInternal);
-    return report_failure(of + "internal error: " + error.what(), kInternal);
   } catch (const std::exception& error) {
+    // The standard library and oneTBB pass on why pthread_create failed.
+    if (std::string_view(error.what()).ends_with(std::strerror(EAGAIN)))
+      return report_failure(of + kNoThread, kInternal);
     return report_failure(of + "internal error: " + error.what(), kInternal);
   }
 }

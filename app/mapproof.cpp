@@ -12,6 +12,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -226,6 +228,26 @@ void open_standard_streams() {
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDWR);  // The lowest free number.
 }
 
+/// Raises the limit of the stack to what is usual, as far as it may be raised, for this thread, those
+/// that follow and programs that are started. Eigen keeps arrays of up to 128 KiB on the stack.
+/// @throws InvalidInput if the stack stays too small.
+void take_stack() {
+  constexpr rlim_t kUsual = rlim_t{8} << 20;
+  constexpr rlim_t kLeast = rlim_t{512} << 10;  // `slam` of Plaza 1 takes between 224 and 256 KiB.
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= kUsual) return;
+  limit.rlim_cur = std::min(kUsual, limit.rlim_max);
+  if (limit.rlim_cur < kLeast)
+    throw InvalidInput(fmt::format("a stack of {} KiB (ulimit -s) is too small: {} are needed",
+                                   limit.rlim_cur >> 10, kLeast >> 10));
+  ::setrlimit(RLIMIT_STACK, &limit);
+  pthread_attr_t threads;
+  if (::pthread_getattr_default_np(&threads) != 0) return;
+  ::pthread_attr_setstacksize(&threads, limit.rlim_cur);
+  ::pthread_setattr_default_np(&threads);
+  ::pthread_attr_destroy(&threads);
+}
+
 }  // namespace
 
 }  // namespace mapproof
@@ -235,5 +257,8 @@ int main(int argc, char** argv) {
   open_standard_streams();
   // A limit on file sizes then fails the write, which says so and cleans up, not the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  return exit_code_of([&] { return run_command_of(argc, argv); });
+  return exit_code_of([&] {
+    take_stack();
+    return run_command_of(argc, argv);
+  });
 }

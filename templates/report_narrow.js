@@ -102,6 +102,12 @@ function thinLabels(svg, labels) {
   });
 }
 
+// What moves words that end right of the frame back into it, as far as there is room.
+function backInto(frame, x, width) {
+  const over = x + width - frame.right;
+  return over <= 0 ? 0 : Math.max(-over, Math.min(0, frame.x - x));
+}
+
 function narrowPart(svg, part, { before, after, across, down, at, marks }) {
   const elements = [part, ...part.querySelectorAll("*")];
   for (const element of elements.filter((each) => !each.closest("[transform*='scale(']"))) {
@@ -126,7 +132,10 @@ function narrowPart(svg, part, { before, after, across, down, at, marks }) {
       const isBelow = middle.y > before.bottom;
       shift = isBelow ? { x: at(middle).x - middle.x, y: after.bottom - before.bottom }
         : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
-    } else shift = shiftOfWords(words, box, marks, before, after, at);
+    } else {
+      shift = shiftOfWords(words, box, marks, before, after, at);
+      if (kindOf(part) === "mark-label") shift.x += backInto(after, box.x + shift.x, box.width);
+    }
     moveWords(svg, words, shift.x, shift.y);
   }
 }

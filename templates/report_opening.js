@@ -63,7 +63,8 @@ function firstPanel(svg, parts) {
 }
 
 // The drawing for a wide page: of several panels the first one alone, where in all of them words were
-// too small to be read in the box. Returns what to show, and whether its title is left out.
+// too small to be read in the box. Returns what to show, whether its title is left out, and the height
+// at which its words can be read, if it can be.
 function readable(text, width_px, height_px) {
   const box = document.createElement("div");
   box.className = "measured";
@@ -81,7 +82,9 @@ function readable(text, width_px, height_px) {
     svg.setAttribute("height", first.height);
   }
   box.remove();
-  return { text: isBetter ? new XMLSerializer().serializeToString(svg) : text, untitled: isBetter };
+  const shown = isBetter ? first : parts.whole;
+  return { text: isBetter ? new XMLSerializer().serializeToString(svg) : text, untitled: isBetter,
+    least_px: kLeastOpening_px / least * shown.height };
 }
 
 function addImage(link, alt, drawing) {
@@ -100,7 +103,7 @@ function addOpeningImages() {
   }
   const link = document.querySelector(".main-figure a");
   if (!link) return;
-  const kBelow_px = 8;
+  const kBelow_px = 8, kBorders_px = 2, kTitleGap_px = 5;
   const kLeastHeight_px = 272, kMostHeight_px = 640;
   const { clientWidth } = link.parentElement;
   const left = innerHeight - link.getBoundingClientRect().top - scrollY - kBelow_px;
@@ -109,15 +112,18 @@ function addOpeningImages() {
     addImage(link, link.dataset.alt, (text) => narrowed(text, clientWidth, left));
     return;
   }
-  // As high as the first screen has room for.
+  // As high as the first screen has room for, and higher where words could not be read.
   const height = Math.min(Math.max(left, kLeastHeight_px), kMostHeight_px);
-  link.parentElement.style.setProperty("--most", `${height}px`);
+  link.querySelector("img")?.classList.add("untitled");
+  const title_px = height - kBorders_px - link.querySelector("bdi").offsetHeight - kTitleGap_px;
   let isUntitled = false;
   addImage(link, link.dataset.alt, (text) => {
-    const shown = readable(text, clientWidth - 2, height - 2);
+    const whole = readable(text, clientWidth - kBorders_px, height - kBorders_px);
+    const shown = whole.untitled ? readable(text, clientWidth - kBorders_px, title_px) : whole;
     isUntitled = shown.untitled;
-    const kTitle_px = isUntitled ? 24 : 0;  // Below the image, as text of the page.
-    link.parentElement.style.setProperty("--most", `${height - kTitle_px}px`);
+    const most_px = Math.max(isUntitled ? title_px : height - kBorders_px, shown.least_px);
+    link.parentElement.style.setProperty("--most",
+      `${Math.min(most_px, kMostHeight_px) + kBorders_px}px`);
     return shown.text;
   });
   link.querySelector("img")?.classList.toggle("untitled", isUntitled);

@@ -44,6 +44,7 @@ std::string map_title(const std::string& observations) {
 /// The map first, as drawn with what is known of it, then the others.
 std::vector<Figure> figures_of(const MapResult& map) {
   std::vector<Figure> figures = {map_figure(map.record, "map")};
+  figures.front().title = title_with_error(figures.front().title, map.record.score);
   if (map.uncertainty) add_ellipses(map.record, *map.uncertainty, figures.front());
   if (!map.fit.tests.empty()) figures.push_back(fit_figure(map.fit, kFitSection, {map.record.id}));
   figures.insert(figures.end(), map.figures.begin(), map.figures.end());
@@ -162,8 +163,8 @@ PageData page_data(const fs::path& folder, const MapRecord& map,
     shown.insert(figure.id);
   }
   const bool is_large = map.names.size() > kMostLandmarksOfPage;
-  return page_content(is_large ? PageData{} : page_records(folder, disclosure), images, shown,
-                      disclosure)
+  return FigureData(images, disclosure)
+      .content(is_large ? PageData{} : page_records(folder, disclosure), shown)
       .data;
 }
 

@@ -19,6 +19,7 @@
 #include "core/records/studies/study_store.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
+#include "render/figures/score_text.hpp"
 #include "render/plot/figure_json.hpp"
 #include "render/scene/scene_json.hpp"
 
@@ -65,6 +66,7 @@ Figure figure_of_map(const fs::path& file) {
   const std::string text = read_file(file);
   const MapRecord record = parse_map(text, file.string());
   Figure figure = map_figure(record, "map");
+  figure.title = title_with_error(figure.title, record.score);
   if (const auto uncertainty = parse_map_uncertainty(text, file.string()))
     add_ellipses(record, *uncertainty, figure);
   return figure;

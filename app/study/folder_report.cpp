@@ -16,6 +16,7 @@
 #include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/files/gzip.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/version.hpp"
@@ -128,31 +129,53 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
 }
 
-/// As many of each part's numbers, findings, under its title, and figures as leave room for the
-/// others'; of each one at least.
-Opening joined_opening(const std::vector<FolderReport>& parts) {
-  Opening all;
-  const std::size_t count = parts.size();
-  const bool are_many = count > kMostNumbers;
+/// The first number of each part, and what it is compared with: as a finding where there are too
+/// many of them for a tile to have it.
+void add_first_numbers(const std::vector<FolderReport>& parts, Opening& all) {
+  all.findings = extent_of(parts);  // The sections of each have the others.
+  const bool are_many = parts.size() > kMostNumbers;
   for (const FolderReport& part : parts) {
-    const Opening& own = part.report.opening;
-    const auto& numbers = own.numbers.items;
-    const auto taken =
-        static_cast<std::ptrdiff_t>(std::min(numbers.size(), share_of(kMostNumbers, count)));
-    all.numbers.items.insert(all.numbers.items.end(), numbers.begin(), numbers.begin() + taken);
+    const auto& numbers = part.report.opening.numbers.items;
+    if (numbers.empty()) continue;
+    Highlights::Item number = numbers.front();
+    if (are_many) {
+      all.findings.push_back(
+          {{strong(part.report.title),
+            phrase(fmt::format(": {} {}{}.", number.value, number.label,
+                               number.detail.empty() ? "" : "; " + number.detail))}});
+      number.detail.clear();
+    }
+    all.numbers.items.push_back(std::move(number));
   }
-  if (are_many) all.findings = extent_of(parts);  // The sections of each have the others.
+}
+
+/// As many of each part's numbers and findings, under its title, as leave room for the others'.
+void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
   for (const FolderReport& part : parts) {
-    if (are_many) break;
-    std::size_t left = share_of(kMostFindings, count);
+    const auto& numbers = part.report.opening.numbers.items;
+    const auto taken =
+        static_cast<std::ptrdiff_t>(std::min(numbers.size(), share_of(kMostNumbers, parts.size())));
+    all.numbers.items.insert(all.numbers.items.end(), numbers.begin(), numbers.begin() + taken);
+    std::size_t left = share_of(kMostFindings, parts.size());
     for (Paragraph finding : part.report.opening.findings) {
       if (left-- == 0) break;
       finding.phrases.insert(finding.phrases.begin(), strong(part.report.title + ". "));
       all.findings.push_back(std::move(finding));
     }
   }
+}
+
+/// What the reader of several papers or studies sees first.
+Opening joined_opening(const std::vector<FolderReport>& parts) {
+  Opening all;
+  if (parts.size() > 1 && std::ranges::none_of(parts, &FolderReport::of_paper))
+    add_first_numbers(parts, all);
+  else
+    add_shares(parts, all);
   all.main_figure = main_figure_of(parts);
-  all.figure_ids = in_turns<std::string>(parts, kMostThumbnails, [&](const Opening& own) {
+  // Many tiles leave room for one row of small figures.
+  const std::size_t small = parts.size() > kMostNumbers ? kMostThumbnails / 2 : kMostThumbnails;
+  all.figure_ids = in_turns<std::string>(parts, small, [&](const Opening& own) {
     std::vector<std::string> ids = own.figure_ids;
     if (!own.main_figure.empty() && own.main_figure != all.main_figure)
       ids.insert(ids.begin(), own.main_figure);
@@ -276,6 +299,28 @@ std::set<std::string> shown_figures(const Report& report, const SvgLookup& drawi
   return shown;
 }
 
+std::size_t bytes_of_drawings(const std::set<std::string>& ids, const SvgLookup& drawing) {
+  std::size_t bytes = 0;
+  for (const std::string& id : ids) bytes += drawing(id).size();
+  return bytes;
+}
+
+/// Reduces what the page may hold of drawings until it is small enough with its data.
+/// @param rest_bytes  What it takes beside drawings and the data of figures.
+void fit_drawings(const Report& report, const SvgLookup& drawing, std::size_t rest_bytes,
+                  FigureData& figures, HtmlOptions& options) {
+  // A figure that is linked takes its data along, for which others may come.
+  constexpr std::size_t kStep = 100'000;
+  while (options.drawing_bytes > kLeastDrawings) {
+    const std::set<std::string> shown = shown_figures(report, drawing, options);
+    const std::size_t bytes = rest_bytes + bytes_of_drawings(shown, drawing) + figures.bytes(shown);
+    if (bytes <= kMostPage) break;
+    options.drawing_bytes =
+        std::max(kLeastDrawings, options.drawing_bytes -
+                                     std::min(options.drawing_bytes, bytes - kMostPage + kStep));
+  }
+}
+
 }  // namespace
 
 fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
@@ -302,24 +347,22 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   };
   HtmlOptions options;
   options.link_words = report.link_words;
-  const PageData records = page_records(report.folder, outputs.disclosure);
-  PageContent content;
   const auto page = [&] {
-    content = page_content(records, images_of(report), shown_figures(shown, drawing, options),
-                           outputs.disclosure);
-    return with_page_data(
-        outputs.disclosure.text(report_html(shown, outputs.page, drawing, options)), content.data);
+    return outputs.disclosure.text(report_html(shown, outputs.page, drawing, options));
   };
   std::string html = page();
-  while (html.size() > kMostPage && options.drawing_bytes > kLeastDrawings) {
-    // A figure that is linked takes its data along, for which others may come.
-    constexpr std::size_t kSpare = 100'000;
-    const std::size_t excess = html.size() - kMostPage + kSpare;
-    options.drawing_bytes =
-        std::max(kLeastDrawings, options.drawing_bytes - std::min(options.drawing_bytes, excess));
-    html = page();
-  }
-  folder.write(kReportFile, html);
+  PageData records = page_records(report.folder, outputs.disclosure);
+  std::size_t rest = html.size();
+  for (const PageFile& file : records.files) rest += gzipped(file.text).size() / 3 * 4;
+  rest -= std::min(rest, bytes_of_drawings(shown_figures(shown, drawing, options), drawing));
+  const Images images = images_of(report);
+  FigureData figures(images, outputs.disclosure);
+  const std::size_t most = options.drawing_bytes;
+  fit_drawings(shown, drawing, rest, figures, options);
+  if (options.drawing_bytes < most) html = page();
+  const PageContent content =
+      std::move(figures).content(std::move(records), shown_figures(shown, drawing, options));
+  folder.write(kReportFile, with_page_data(std::move(html), content.data));
   if (const std::string left = left_out_text(content); outputs.note && !left.empty())
     outputs.note(left);
   if (!drawn.scene_error.empty()) throw SceneError(drawn.scene_error);

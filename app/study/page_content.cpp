@@ -21,34 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds figures as long as there is room for them.
-class FigureFiles {
- public:
-  FigureFiles(const std::set<std::string>& shown, const Disclosure& disclosure, PageData& data)
-      : shown_(shown), disclosure_(disclosure), data_(data) {}
-
-  void add(const std::string& id, const char* ending, const std::string& json) {
-    const std::string name = "figures/" + id + ending;
-    if (!shown_.contains(id) || !is_page_file(name) || data_.files.size() >= kMostPageFiles)
-      return void(++left_);
-    std::string text = disclosure_.text(json);
-    const std::size_t bytes = gzipped(text).size() / 3 * 4;  // In base64.
-    if (held_ + bytes > kMostFigureData) return void(++left_);
-    held_ += bytes;
-    ++kept_;
-    data_.files.push_back({name, std::move(text)});
-  }
-
-  std::size_t kept() const { return kept_; }
-  std::size_t left() const { return left_; }
-
- private:
-  const std::set<std::string>& shown_;
-  const Disclosure& disclosure_;
-  PageData& data_;
-  std::size_t held_ = 0, kept_ = 0, left_ = 0;
-};
-
 /// @param inner  Of a study below the folder: "plaza/"; else empty.
 void add_study(const fs::path& folder, const std::string& inner, const Disclosure& disclosure,
                PageData& data) {
@@ -75,16 +47,46 @@ PageData page_records(const fs::path& folder, const Disclosure& disclosure) {
   return records;
 }
 
-PageContent page_content(PageData records, const Images& images, const std::set<std::string>& shown,
-                         const Disclosure& disclosure) {
-  PageContent content{.data = std::move(records)};
-  FigureFiles files(shown, disclosure, content.data);
+FigureData::FigureData(const Images& images, const Disclosure& disclosure)
+    : disclosure_(disclosure) {
   for (const Figure* figure : images.figures)
-    files.add(figure->id, ".figure.json", figure_to_json(*figure));
+    entries_.push_back({figure->id, "figures/" + figure->id + ".figure.json",
+                        [figure] { return figure_to_json(*figure); }});
   for (const Scene* scene : images.scenes)
-    files.add(scene->id, ".scene.json", scene_to_json(*scene));
-  content.figures_kept = files.kept();
-  content.figures_left = files.left();
+    entries_.push_back({scene->id, "figures/" + scene->id + ".scene.json",
+                        [scene] { return scene_to_json(*scene); }});
+}
+
+std::vector<FigureData::Entry*> FigureData::kept(const std::set<std::string>& shown) {
+  std::vector<Entry*> all;
+  std::size_t held = 0;
+  for (Entry& entry : entries_) {
+    if (!shown.contains(entry.id) || !is_page_file(entry.name)) continue;
+    if (!entry.text) {
+      entry.text = disclosure_.text(entry.json());
+      entry.bytes = gzipped(*entry.text).size() / 3 * 4;  // In base64.
+    }
+    if (held + entry.bytes > kMostFigureData) continue;
+    held += entry.bytes;
+    all.push_back(&entry);
+  }
+  return all;
+}
+
+std::size_t FigureData::bytes(const std::set<std::string>& shown) {
+  std::size_t bytes = 0;
+  for (const Entry* entry : kept(shown)) bytes += entry->bytes;
+  return bytes;
+}
+
+PageContent FigureData::content(PageData records, const std::set<std::string>& shown) && {
+  PageContent content{.data = std::move(records)};
+  for (Entry* entry : kept(shown)) {
+    if (content.data.files.size() >= kMostPageFiles) break;
+    content.data.files.push_back({entry->name, *std::exchange(entry->text, std::nullopt)});
+    ++content.figures_kept;
+  }
+  content.figures_left = entries_.size() - content.figures_kept;
   return content;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,11 +36,32 @@ struct PageContent {
 /// @throws IoError if they cannot be read.
 PageData page_records(const std::filesystem::path& folder, const Disclosure& disclosure);
 
-/// The records, and the figures that the page shows. Figures that need more than kMostFigureData
-/// are left out, 3-D figures first.
-/// @param shown  Ids of the figures in the page.
-PageContent page_content(PageData records, const Images& images, const std::set<std::string>& shown,
-                         const Disclosure& disclosure);
+/// The data of figures as a page carries them: each is written and measured once, however often a
+/// page is composed of them. Figures that need more than kMostFigureData are left out, 3-D figures
+/// first.
+class FigureData {
+ public:
+  FigureData(const Images& images, const Disclosure& disclosure);
+
+  /// What the data of the figures take of a page, packed one by one.
+  /// @param shown  Ids of the figures in the page.
+  std::size_t bytes(const std::set<std::string>& shown);
+
+  /// The records, and the figures that the page shows.
+  PageContent content(PageData records, const std::set<std::string>& shown) &&;
+
+ private:
+  struct Entry {
+    std::string id, name;
+    std::function<std::string()> json;
+    std::optional<std::string> text = {};  ///< What the page carries, once it was measured.
+    std::size_t bytes = 0;                 ///< Packed.
+  };
+  std::vector<Entry*> kept(const std::set<std::string>& shown);
+
+  const Disclosure& disclosure_;
+  std::vector<Entry> entries_;
+};
 
 /// "report.html carries … 30 figures; those of 4 more … are in figures/ alone"; empty if it carries
 /// all.

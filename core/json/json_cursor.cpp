@@ -110,21 +110,20 @@ nlohmann::json JsonDocument::tree() const {
     throw IoError(source, fmt::format("holds {} bytes of JSON; at most {} are read as a table, "
                                       "compared or merged",
                                       text_.size(), kLargestJsonTree));
-  std::size_t values = 1;
-  for (const JsonNode& node : nodes_) values += node.count;
-  if (values > kMostJsonTreeValues)
+  if (values_ > kMostJsonTreeValues)
     throw IoError(source,
                   fmt::format("holds {} values of JSON; at most {} are read as a table, compared or "
                               "merged",
-                              values, kMostJsonTreeValues));
+                              values_, kMostJsonTreeValues));
   return nlohmann::json::parse(text_);
 }
 
 const std::string& JsonCursor::source() const { return document_->source; }
 
 std::string JsonCursor::pointer() const {
-  const bool is_container = is_array() || is_object();
-  const std::uint32_t holder = is_container ? document_->nodes_[node_].parent : node_;
+  if (node_ == JsonNode::kNone) return "";
+  const JsonNode& own = document_->nodes_[node_];
+  const std::uint32_t holder = own.begin == offset_ ? own.parent : node_;
   if (holder == JsonNode::kNone) return "";
   const JsonNode& node = document_->nodes_[holder];
   const JsonCursor outer(*document_, node.begin, holder);
@@ -248,8 +247,9 @@ JsonCursor JsonCursor::element(std::size_t index) const {
 }
 
 std::size_t JsonCursor::size() const {
-  if (is_array() || is_object()) return document_->nodes_[node_].count;
-  return is_null() ? 0 : 1;
+  if (!is_array() && !is_object()) return is_null() ? 0 : 1;
+  const JsonNode& node = document_->nodes_[node_];
+  return node.begin == offset_ ? node.count : 0;  // An empty one has no node.
 }
 
 std::int64_t JsonCursor::integer(std::int64_t least, std::int64_t most) const {

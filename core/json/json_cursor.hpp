@@ -27,8 +27,8 @@ class JsonItems;
 inline constexpr std::size_t kLargestJsonTree = std::size_t{1} << 25;  ///< Bytes.
 inline constexpr std::size_t kMostJsonTreeValues = 4'000'000;          ///< Containers included.
 
-/// An array or an object in the text of a JSON file. Plain values have none: they are read where
-/// they stand.
+/// An array or an object in the text of a JSON file. Plain values and empty containers have none:
+/// they are read where they stand.
 struct JsonNode {
   static constexpr std::uint32_t kNone = UINT32_MAX;
 
@@ -62,6 +62,7 @@ class JsonDocument {
   std::unique_ptr<const std::string> owned_;
   std::string_view text_;
   std::deque<JsonNode> nodes_;
+  std::size_t values_ = 0;  ///< Containers included.
 };
 
 enum class JsonKind { kNull, kBoolean, kNumber, kString, kArray, kObject };

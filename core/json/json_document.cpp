@@ -60,6 +60,7 @@ class Indexer : public nlohmann::json_sax<Json> {
   const char* seen;  ///< Behind the last byte that the parser took.
   std::string problem;
   std::optional<std::size_t> offset;  ///< Of the problem, if it is known better.
+  std::size_t values = 0;             ///< Containers included.
 
   bool null() override { return put(); }
   bool boolean(bool) override { return put(); }
@@ -93,10 +94,11 @@ class Indexer : public nlohmann::json_sax<Json> {
   }
 
  private:
-  /// A container that is not closed yet, and the last container in it.
+  /// A container that is not closed yet, the last container in it, and that before it in its parent.
   struct Open {
     std::uint32_t node;
     std::uint32_t last = JsonNode::kNone;
+    std::uint32_t before = JsonNode::kNone;
   };
 
   /// "invalid literal" out of "[json...] parse error at line 1, column 2: syntax error while
@@ -111,6 +113,7 @@ class Indexer : public nlohmann::json_sax<Json> {
   std::uint32_t position() const { return static_cast<std::uint32_t>(seen - text_.data()); }
 
   bool put() {
+    ++values;
     if (!open_.empty()) ++nodes_[open_.back().node].count;
     return true;
   }
@@ -123,21 +126,35 @@ class Indexer : public nlohmann::json_sax<Json> {
     put();
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     JsonNode node{.begin = position() - 1};
+    Open opened{.node = index};
     if (!open_.empty()) {
       Open& outer = open_.back();
       node.parent = outer.node;
-      (outer.last == JsonNode::kNone ? nodes_[outer.node].first : nodes_[outer.last].next) = index;
+      opened.before = outer.last;
+      next_of(outer, outer.last) = index;
       outer.last = index;
     }
     nodes_.push_back(node);
-    open_.push_back({index});
+    open_.push_back(opened);
     return true;
   }
 
+  /// An empty container needs no node, but for the root.
   bool close() {
-    nodes_[open_.back().node].end = position();
+    const Open closed = open_.back();
     open_.pop_back();
+    nodes_[closed.node].end = position();
+    if (open_.empty() || nodes_[closed.node].count > 0) return true;
+    nodes_.pop_back();
+    Open& outer = open_.back();
+    outer.last = closed.before;
+    next_of(outer, outer.last) = JsonNode::kNone;
     return true;
+  }
+
+  /// What names the container behind `last` in its parent: the parent itself if there is none yet.
+  std::uint32_t& next_of(const Open& outer, std::uint32_t last) {
+    return last == JsonNode::kNone ? nodes_[outer.node].first : nodes_[last].next;
   }
 
   /// A key as it stands between its quotes, and the offset of the first quote.
@@ -251,6 +268,7 @@ JsonDocument parse_json(std::string_view text, const std::string& source) {
   const bool good =
       Json::sax_parse(CountingIterator(text.data(), &indexer.seen),
                       CountingIterator(text.data() + text.size(), &indexer.seen), &indexer);
+  document.values_ = indexer.values;
   if (good) return document;
   const auto stopped = static_cast<std::size_t>(indexer.seen - text.data());
   const std::size_t offset = indexer.offset.value_or(stopped == 0 ? 0 : stopped - 1);

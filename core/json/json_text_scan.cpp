@@ -22,6 +22,8 @@ std::uint32_t skip_plain(std::string_view text, std::uint32_t offset) {
       if (text[offset] == '\\') ++offset;
     return offset + 1;
   }
+  if (offset < text.size() && (text[offset] == '[' || text[offset] == '{'))
+    return skip_blanks(text, offset + 1) + 1;
   const auto ends = [](char c) { return is_blank(c) || c == ',' || c == ']' || c == '}'; };
   while (offset < text.size() && !ends(text[offset])) ++offset;
   return offset;

@@ -11,7 +11,7 @@ namespace json_text_scan {
 
 /// The offset behind blanks.
 std::uint32_t skip_blanks(std::string_view text, std::uint32_t offset);
-/// The offset behind the string, number or word that begins here.
+/// The offset behind the string, number, word or empty container that begins here.
 std::uint32_t skip_plain(std::string_view text, std::uint32_t offset);
 /// The string with its quotes that begins here, decoded.
 std::string decoded(std::string_view quoted);

@@ -8,6 +8,8 @@
 #include <immintrin.h>
 #endif
 
+#include "core/base/parallel.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -61,6 +63,9 @@ void multiply_with_fma(const double* rows, const double* columns, Index depth, d
 
 constexpr Index kDepth = 256;     ///< Columns of A at a time.
 constexpr Index kBlockRows = 96;  ///< Rows of A that stay in the second cache.
+
+/// Multiplications from which on threads share them: some milliseconds.
+constexpr Index kWorthSharing = Index{1} << 27;
 
 /// Rows of some columns of A in panels of so many, each k by k, the last one filled with zeros.
 template <Index kHeight>
@@ -137,8 +142,20 @@ void add(const ConstBlock& A, const ConstBlock& B, double sign, bool lower_only,
     pack<kTileRows>(A, first, depth, rows);
     pack<kTileColumns>(B, first, depth, columns);
     const Packed packed{rows, columns, B.rows(), depth, lower_only};
-    for (Index block = 0; block < A.rows(); block += kBlockRows)
+    const auto add_one = [&](Index block) {
       add_block(packed, block, std::min(block + kBlockRows, A.rows()), sign, out);
+    };
+    if (A.rows() * B.rows() * depth < kWorthSharing) {
+      for (Index block = 0; block < A.rows(); block += kBlockRows) add_one(block);
+      continue;
+    }
+    // While a thread waits for others it must not begin a product that would pack its own.
+    const Index blocks = (A.rows() + kBlockRows - 1) / kBlockRows;
+    run_isolated([&] {
+      parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t i) {
+        add_one((blocks - 1 - static_cast<Index>(i)) * kBlockRows);
+      });
+    });
   }
 }
 

@@ -15,7 +15,8 @@ using ConstBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 ///
 /// Every entry is summed in the same order, over blocks of 256 columns, each product added with one
 /// rounding, whatever the width of the processor's vectors, which only decide how many entries are
-/// summed at a time: same bits on all, as a BLAS would not give.
+/// summed at a time: same bits on all, as a BLAS would not give. Threads share large products by
+/// rows, which changes no sum.
 /// @param A     n x c, no part of `out`.
 /// @param sign  1 or -1.
 /// @param out   n x n.

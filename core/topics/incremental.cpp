@@ -42,7 +42,7 @@ TopicDesign incremental_design(const TopicExperiment& experiment) {
                      Better::kLower),
       study_quantity("beyond_percent", "Updates so far beyond the stated bound", "%",
                      Better::kLower),
-      study_quantity("steps_gone_through", "Observations processed for the update", "",
+      study_quantity("steps_gone_through", "Number of observations processed for an update", "",
                      Better::kLower)};
   return design;
 }

@@ -31,4 +31,14 @@ std::string score_text(const Score& score) {
   return text;
 }
 
+std::string title_with_error(const std::string& subject, const std::optional<Score>& score) {
+  if (!score) return subject;
+  if (std::isfinite(score->mpe_m))
+    return fmt::format("{}: {} off in the mean", subject, error_text(score->mpe_m, 2));
+  if (std::isfinite(score->mpe_all_fitted_m))
+    return fmt::format("{}: {} off after the best affine fit", subject,
+                       error_text(score->mpe_all_fitted_m, 2));
+  return subject;
+}
+
 }  // namespace mapproof

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,9 @@ std::vector<ErrorWords> error_words(const Score& score);
 /// The same in one line: "MPE 0.219 m, MOE 4.70 %" or "MPE 0.310 m after the best affine fit to
 /// all landmarks, MOE 4.20 % up to a mirror"; empty if no error is known.
 std::string score_text(const Score& score);
+
+/// A title that states how far a map is off: "SMACOF · bearing · 200 steps: 0.14 m off in the mean";
+/// `subject` alone if no position error is known.
+std::string title_with_error(const std::string& subject, const std::optional<Score>& score);
 
 }  // namespace mapproof

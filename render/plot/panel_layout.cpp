@@ -182,13 +182,18 @@ class Arranger {
   /// Shares out the width that equal scales leave free on both sides.
   void centre(Arrangement& found, const Box& room) const {
     Box& frame = found.axes.frame;
-    double end = frame.x1;
+    double end = frame.x1 + bar_room(frame);
     if (found.legend_at)
       end = std::max(end, found.legend_at->x + legend_.size(found.legend_columns).x);
     const double shift = std::max(0.0, (room.x1 - end) / 2.0);
     frame.x0 += shift;
     frame.x1 += shift;
     if (found.legend_at) found.legend_at->x += shift;
+  }
+
+  /// What a colour bar takes, right of the frame.
+  double bar_room(const Box& frame) const {
+    return colour_bar_room(panel_, frame.height(), theme_);
   }
 
   static double area(const Arrangement& arrangement) {
@@ -203,7 +208,7 @@ class Arranger {
     rest.x1 -= size.x + gap;
     Arrangement found{layout_.within(rest), std::nullopt, 1};
     const Box& frame = found.axes.frame;
-    found.legend_at = Point{frame.x1 + beside_frame_ + gap, frame.y0};
+    found.legend_at = Point{frame.x1 + bar_room(frame) + beside_frame_ + gap, frame.y0};
     if (size.y > frame.height()) found.axes.frame = {};  // Too long: no choice.
     return found;
   }

@@ -30,6 +30,8 @@ void require_usable(const FormingSceneSpec& spec) {
       throw InvalidInput("forming_scene: a map is not of the world's landmarks");
     if (map.frame != Frame::kGroundTruth)
       throw InvalidInput("forming_scene: a map is not in the frame of the ground truth");
+    if (spec.path_m.rows() > 0 && spec.path_m.rows() < map.step)
+      throw InvalidInput("forming_scene: the path has fewer positions than a map has steps");
     if (i > 0 && map.step <= spec.maps[i - 1].step)
       throw InvalidInput("forming_scene: the steps do not ascend");
     for (const Eigen::Index row : map.anchors)
@@ -55,11 +57,13 @@ class Forming {
     most_m_ = std::max(most_m_, 1e-6);
   }
 
-  /// Views of those maps.
-  Scene make(std::string id, const std::vector<std::size_t>& shown) const {
+  /// Views of those maps; with the path, that up to the last of them.
+  Scene make(std::string id, const std::vector<std::size_t>& shown, bool with_path) const {
     Scene scene{.id = std::move(id), .title = spec_.title, .lights = usual_lights()};
     scene.columns = std::min(kColumns, shown.size());
-    scene.parts = {floor_of(side_), walls_of(side_), landmarks(false), landmarks(true)};
+    scene.parts = {floor_of(side_), walls_of(side_), anchors(),
+                   rings(spec_.world.landmarks_m, rows(true), pillar_radius_m(spec_.world))};
+    if (with_path) add_path(spec_.maps[shown.back()].step, scene);
     const std::size_t shared = scene.parts.size();
     Displacements lost;
     for (const std::size_t i : shown) {
@@ -67,8 +71,11 @@ class Forming {
       if (shown.size() > 1) view.rules.clear();
       view.title = title_of(i);
       for (std::size_t part = 0; part < shared; ++part) view.parts.push_back(part);
-      view.parts.push_back(scene.parts.size());
-      scene.parts.emplace_back(arrows(i, scene.views.empty()));
+      const bool is_first = scene.views.empty();
+      for (Rods part : {landmarks(i, is_first), arrows(i, is_first)}) {
+        view.parts.push_back(scene.parts.size());
+        scene.parts.emplace_back(std::move(part));
+      }
       scene.views.push_back(std::move(view));
       scene.record_ids.push_back(spec_.maps[i].id);
       lost.far += found_[i].far;
@@ -81,25 +88,57 @@ class Forming {
   }
 
  private:
-  Rods landmarks(bool anchors) const {
-    const World& world = spec_.world;
+  void add_path(Eigen::Index steps, Scene& scene) const {
+    if (spec_.path_m.rows() < steps || steps < 2) return;
+    for (Tube& piece : fading_path(spec_.path_m, steps - 1, side_)) {
+      if (!piece.label.empty()) piece.label = "path, its last steps";  // One text in all frames.
+      scene.parts.emplace_back(std::move(piece));
+    }
+    const Eigen::RowVector2d at = spec_.path_m.row(steps - 1);
+    if (at.allFinite()) scene.parts.emplace_back(robot_at(at, side_));
+  }
+
+  std::vector<Eigen::Index> rows(bool of_anchors) const {
     const std::vector<Eigen::Index>& given = spec_.maps.back().anchors;
     std::vector<Eigen::Index> rows;
-    for (Eigen::Index i = 0; i < world.landmarks_m.rows(); ++i)
-      if ((std::ranges::find(given, i) != given.end()) == anchors) rows.push_back(i);
-    Rods rods = pillars(world.landmarks_m, rows, pillar_radius_m(world), landmark_height(side_));
-    rods.label = rods.from.empty() ? "" : anchors ? "anchor" : "landmark";
-    rods.style.colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kSeries1;
+    for (Eigen::Index i = 0; i < spec_.world.landmarks_m.rows(); ++i)
+      if ((std::ranges::find(given, i) != given.end()) == of_anchors) rows.push_back(i);
+    return rows;
+  }
+
+  Rods pillars_of(const std::vector<Eigen::Index>& rows) const {
+    return pillars(spec_.world.landmarks_m, rows, pillar_radius_m(spec_.world),
+                   landmark_height(side_));
+  }
+
+  Rods anchors() const {
+    Rods rods = pillars_of(rows(true));
+    rods.label = rods.from.empty() ? "" : "anchor";
+    rods.style.colour = ThemeColour::kText;
+    return rods;
+  }
+
+  /// The landmarks of a map by their errors, grey where it has none.
+  Rods landmarks(std::size_t map, bool in_legend) const {
+    const Points& landmarks_m = spec_.world.landmarks_m;
+    const std::vector<Eigen::Index> shown = rows(false);
+    Rods rods = pillars_of(shown);
+    rods.style.colour = ThemeColour::kMuted;
+    rods.tones.limits = {0.0, most_m_};
+    for (const Eigen::Index row : shown)
+      if (landmarks_m.row(row).allFinite())
+        rods.tones.values.push_back(
+            (spec_.maps[map].estimate.row(row) - landmarks_m.row(row)).norm());
+    if (in_legend && !rods.from.empty())
+      rods.label =
+          fmt::format("landmark, its error from 0 to {} m or more", significant(most_m_, 2));
     return rods;
   }
 
   Rods arrows(std::size_t map, bool in_legend) const {
     Rods arrows = found_[map].arrows;
-    if (in_legend)
-      arrows.label = fmt::format("true to estimated position, 0 to {} m", significant(most_m_));
+    if (in_legend) arrows.label = "true to estimated position";
     arrows.style.colour = ThemeColour::kText;
-    arrows.tones.values = found_[map].errors_m;
-    arrows.tones.limits = {0.0, most_m_};
     return arrows;
   }
 
@@ -130,10 +169,9 @@ class Forming {
   void describe(Scene& scene, const std::vector<std::size_t>& shown) const {
     scene.caption = fmt::format(
         "{}: the map after so many steps, with its mean position error. Pillars stand at true "
-        "positions; arrows lead to where the map has them, and their colours are their lengths, "
-        "cut "
-        "at {} m, the 95th percentile over all steps.",
-        method_label(spec_.maps.front()), significant(most_m_));
+        "positions, coloured by their errors up to {} m, the 95th percentile over all steps; "
+        "arrows lead to where the map has them.",
+        method_label(spec_.maps.front()), significant(most_m_, 2));
     scene.alt =
         "A room with arrows from true to estimated positions of landmarks; mean position "
         "error ";
@@ -158,7 +196,7 @@ Scene forming_scene(const FormingSceneSpec& spec) {
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < count; ++i)
     shown.push_back(count > 1 ? i * (size - 1) / (count - 1) : size - 1);
-  return Forming(spec).make(spec.id, shown);
+  return Forming(spec).make(spec.id, shown, false);
 }
 
 Film forming_film(const FormingSceneSpec& spec) {
@@ -166,7 +204,7 @@ Film forming_film(const FormingSceneSpec& spec) {
   const Forming forming(spec);
   Film film{.id = spec.id, .frames = {}};
   for (std::size_t i = 0; i < spec.maps.size(); ++i)
-    film.frames.push_back(forming.make(fmt::format("{}-{}", spec.id, i + 1), {i}));
+    film.frames.push_back(forming.make(fmt::format("{}-{}", spec.id, i + 1), {i}, true));
   return film;
 }
 

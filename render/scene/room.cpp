@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -17,28 +18,35 @@ constexpr double kLeastRadiusShare = 0.005;  // Of a pillar, of the room's side.
 constexpr double kWallTint = 0.25;           // Pale: shadows show on them.
 constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels of the axes.
 
-std::vector<Rule> floor_rules(double side_m) {
-  const Range range{0.0, side_m};
-  return {{.from = {0.0, 0.0, 0.0},
-           .to = {side_m, 0.0, 0.0},
-           .range = range,
+constexpr double kPathRadius = 0.0035;  // Of the room's side.
+constexpr int kPathPieces = 10;
+constexpr double kMostCovered = 0.2;  // Of the floor, by the path.
+
+Ground room_ground(double side_m) { return {{0.0, 0.0}, {side_m, side_m}}; }
+
+std::vector<Rule> floor_rules(const Ground& ground) {
+  const auto& [low, high] = ground;
+  return {{.from = {low.x, low.y, 0.0},
+           .to = {high.x, low.y, 0.0},
+           .range = {low.x, high.x},
            .label = "x [m]",
            .away = -Point3::UnitY()},
-          {.from = {side_m, 0.0, 0.0},
-           .to = {side_m, side_m, 0.0},
-           .range = range,
+          {.from = {high.x, low.y, 0.0},
+           .to = {high.x, high.y, 0.0},
+           .range = {low.y, high.y},
            .label = "y [m]",
            .away = Point3::UnitX()}};
 }
 
-/// Corners of the room and of the strip that the axes' labels need.
-std::vector<Point3> corners(double side_m, double height_m, std::span<const Point3> also) {
-  const double low = -kLabelRoom * side_m, high = (1.0 + kLabelRoom) * side_m;
+/// Corners of the ground and of the strip that the axes' labels need.
+std::vector<Point3> corners(const Ground& ground, double height_m, std::span<const Point3> also) {
+  const double strip = kLabelRoom * ground.side();
+  const auto& [low, high] = ground;
   std::vector<Point3> points(also.begin(), also.end());
-  for (const double x : {0.0, high})
-    for (const double y : {low, side_m}) points.emplace_back(x, y, 0.0);
-  for (const double x : {0.0, side_m})
-    for (const double y : {0.0, side_m}) points.emplace_back(x, y, height_m);
+  for (const double x : {low.x, high.x + strip})
+    for (const double y : {low.y - strip, high.y}) points.emplace_back(x, y, 0.0);
+  for (const double x : {low.x, high.x})
+    for (const double y : {low.y, high.y}) points.emplace_back(x, y, height_m);
   return points;
 }
 
@@ -79,23 +87,31 @@ void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Poi
   surface.triangles.push_back({first, first + 2, first + 3});
 }
 
-Surface floor_of(double side_m) {
+Surface floor_of(const Ground& ground) {
   Surface floor{.style = {.colour = ThemeColour::kMuted, .share = 0.12, .lit = false}};
-  add_rectangle(floor, {0.0, 0.0, 0.0}, {side_m, 0.0, 0.0}, {side_m, side_m, 0.0},
-                {0.0, side_m, 0.0});
+  const auto& [low, high] = ground;
+  add_rectangle(floor, {low.x, low.y, 0.0}, {high.x, low.y, 0.0}, {high.x, high.y, 0.0},
+                {low.x, high.y, 0.0});
   return floor;
 }
 
-Surface walls_of(double side_m) {
+Surface floor_of(double side_m) { return floor_of(room_ground(side_m)); }
+
+Surface walls_of(const Ground& ground, double height_m) {
   Surface walls{.style = {.colour = ThemeColour::kMuted, .share = kWallTint}};
-  const double top = kWallShare * side_m, s = side_m;
-  const std::array<Point3, 5> foot = {
-      {{0.0, 0.0, 0.0}, {s, 0.0, 0.0}, {s, s, 0.0}, {0.0, s, 0.0}, {0.0, 0.0, 0.0}}};
-  const Point3 up = top * Point3::UnitZ();
+  const auto& [low, high] = ground;
+  const std::array<Point3, 5> foot = {{{low.x, low.y, 0.0},
+                                       {high.x, low.y, 0.0},
+                                       {high.x, high.y, 0.0},
+                                       {low.x, high.y, 0.0},
+                                       {low.x, low.y, 0.0}}};
+  const Point3 up = height_m * Point3::UnitZ();
   for (std::size_t i = 0; i + 1 < foot.size(); ++i)
     add_rectangle(walls, foot[i], foot[i + 1], foot[i + 1] + up, foot[i] + up);
   return walls;
 }
+
+Surface walls_of(double side_m) { return walls_of(room_ground(side_m), kWallShare * side_m); }
 
 double landmark_height(double side_m) { return kHeightShare * side_m; }
 
@@ -110,6 +126,59 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
   return rods;
 }
 
+Surface rings(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius) {
+  constexpr double kInner = 2.3, kOuter = 2.8, kLift = 0.05;  // Of the radius; below shadows.
+  constexpr std::uint32_t kSides = 48;
+  Surface all{.style = {.colour = ThemeColour::kText, .lit = false}};
+  for (const Eigen::Index row : rows) {
+    if (!points_m.row(row).allFinite()) continue;
+    const auto first = static_cast<std::uint32_t>(all.points.size());
+    for (std::uint32_t i = 0; i < kSides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kSides;
+      const Point3 out = radius * Point3(std::cos(angle), std::sin(angle), 0.0);
+      const Point3 middle = on_floor(points_m.row(row), kLift * radius);
+      all.points.push_back(middle + kInner * out);
+      all.points.push_back(middle + kOuter * out);
+      const std::uint32_t a = first + 2 * i, b = first + 2 * ((i + 1) % kSides);
+      all.triangles.push_back({a, a + 1, b + 1});
+      all.triangles.push_back({a, b + 1, b});
+    }
+  }
+  return all;
+}
+
+std::vector<Tube> fading_path(const Points& path_m, Eigen::Index last, double side_m) {
+  const Eigen::Index first = std::max<Eigen::Index>(0, last - kShownSteps);
+  std::vector<Tube> pieces;
+  if (last < 1) return pieces;
+  double length_m = 0.0;
+  for (Eigen::Index i = first + 1; i <= last; ++i) {
+    const double step = (path_m.row(i) - path_m.row(i - 1)).norm();
+    if (std::isfinite(step)) length_m += step;
+  }
+  const double covering = kMostCovered * side_m * side_m / (2.0 * std::max(length_m, 1e-9));
+  for (int piece = 0; piece < kPathPieces; ++piece) {
+    const auto end_of = [&](int count) { return first + (last - first) * count / kPathPieces; };
+    Tube tube{.radius = std::min(kPathRadius * side_m, covering),
+              .style = {.colour = ThemeColour::kSeries1,
+                        .share = static_cast<double>(piece + 1) / kPathPieces}};
+    for (Eigen::Index i = end_of(piece); i <= end_of(piece + 1); ++i)
+      if (path_m.row(i).allFinite()) tube.points.push_back(on_floor(path_m.row(i), tube.radius));
+    if (piece + 1 == kPathPieces) tube.label = fmt::format("path, the last {} steps", last - first);
+    if (tube.points.size() > 1) pieces.push_back(std::move(tube));
+  }
+  return pieces;
+}
+
+Rods robot_at(const Eigen::RowVector2d& at, double side_m) {
+  constexpr double kRadius = 0.02, kHeight = 0.016;  // Of the room's side.
+  return {.label = "robot",
+          .from = {on_floor(at)},
+          .to = {on_floor(at, kHeight * side_m)},
+          .radius = kRadius * side_m,
+          .style = {.colour = ThemeColour::kSeries1}};
+}
+
 Point3 on_floor(const Eigen::RowVector2d& at, double height) { return {at.x(), at.y(), height}; }
 
 double pillar_radius_m(const World& world) {
@@ -122,18 +191,24 @@ std::string words_of_pillars(const World& world) {
   return fmt::format("Landmarks are drawn {} times as wide as they are.", significant(times, 2));
 }
 
-Shot room_view(double side_m, double height_m, std::span<const Point3> also, double aspect) {
+Shot ground_view(const Ground& ground, double height_m, std::span<const Point3> also,
+                 double aspect) {
   Shot view;
-  view.camera = tight_camera(corners(side_m, height_m, also), {0.42, -1.0, 0.95}, false, aspect);
-  view.rules = floor_rules(side_m);
+  view.camera = tight_camera(corners(ground, height_m, also), {0.42, -1.0, 0.95}, false, aspect);
+  view.rules = floor_rules(ground);
   return view;
+}
+
+Shot room_view(double side_m, double height_m, std::span<const Point3> also, double aspect) {
+  return ground_view(room_ground(side_m), height_m, also, aspect);
 }
 
 Shot room_plan(double side_m, std::span<const Point3> also) {
   Shot view;
+  const Ground ground = room_ground(side_m);
   view.camera =
-      tight_camera(corners(side_m, landmark_height(side_m), also), Point3::UnitZ(), true, 1.6);
-  view.rules = floor_rules(side_m);
+      tight_camera(corners(ground, landmark_height(side_m), also), Point3::UnitZ(), true, 1.6);
+  view.rules = floor_rules(ground);
   return view;
 }
 

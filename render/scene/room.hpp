@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/model/points.hpp"
 #include "core/model/world.hpp"
+#include "render/base/geometry.hpp"
 #include "render/scene/scene.hpp"
 
 namespace mapproof {
@@ -25,12 +27,25 @@ bool has_room(const World& world);
 /// From above and from two sides, so that neighbouring faces differ.
 std::vector<Light> usual_lights();
 
+/// A rectangle of ground, its sides along x and y.
+struct Ground {
+  Point low, high;
+
+  double side() const { return std::max(high.x - low.x, high.y - low.y); }
+};
+
 /// Two triangles per rectangle of corners a, b, c, d in turn.
 void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Point3& c,
                    const Point3& d);
 
+/// A floor at height 0.
+Surface floor_of(const Ground& ground);
+
 /// The floor [0, side] x [0, side] at height 0.
 Surface floor_of(double side_m);
+
+/// Boards of that height around the ground.
+Surface walls_of(const Ground& ground, double height_m);
 
 /// Low boards around the floor.
 Surface walls_of(double side_m);
@@ -42,6 +57,20 @@ double landmark_height(double side_m);
 Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius,
              double height);
 
+/// Flat rings on the floor around those rows of `points_m` that have finite positions: what sets
+/// their pillars apart from dark ones.
+Surface rings(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius);
+
+/// The steps of a path that fading_path() shows.
+inline constexpr Eigen::Index kShownSteps = 150;
+
+/// The path's last steps up to row `last`, the earlier ones paler: all of a long walk would hide
+/// the floor. Long paths are thin. Nothing of fewer than two finite positions.
+std::vector<Tube> fading_path(const Points& path_m, Eigen::Index last, double side_m);
+
+/// A disc as large as can be seen, where the robot is.
+Rods robot_at(const Eigen::RowVector2d& at, double side_m);
+
 Point3 on_floor(const Eigen::RowVector2d& at, double height = 0.0);
 
 /// Radius of the landmarks' pillars: the true one, or what can still be seen in a room so large.
@@ -50,8 +79,12 @@ double pillar_radius_m(const World& world);
 /// "Landmarks are drawn 12 times as wide as they are.", or nothing.
 std::string words_of_pillars(const World& world);
 
-/// Sees the whole room up to a height, and what else is said, with axes along its front edges, from
-/// the south in perspective.
+/// Sees a ground up to a height, and what else is said, with axes along its front edges, from the
+/// south in perspective.
+Shot ground_view(const Ground& ground, double height_m, std::span<const Point3> also = {},
+                 double aspect = 1.6);
+
+/// The same of a room: sees the whole room up to a height, and what else is said.
 Shot room_view(double side_m, double height_m, std::span<const Point3> also = {},
                double aspect = 1.6);
 

@@ -17,7 +17,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kSpaceAspect = 2.0;  // One view under the other.
+constexpr double kSpaceAspect = 1.7;  // One view under the other.
 const Point3 kToSpaceCamera{0.55, -1.0, 0.62};
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
@@ -96,10 +96,14 @@ class SpaceScene {
                                       .style = {.colour = ThemeColour::kSeries1}});
   }
 
+  /// All of a long flight would be a tangle.
+  Eigen::Index shown_steps() const { return std::min(run_.positions_m.rows(), kShownSteps); }
+
   Tube path() const {
-    Tube tube{.label = "true path, start (dark) to end",
-              .points = as_points(run_.positions_m),
-              .radius = 0.0026 * box_.size()};
+    Tube tube{
+        .label = fmt::format("true path, the last {} steps from dark to bright", shown_steps()),
+        .points = as_points(run_.positions_m.bottomRows(shown_steps())),
+        .radius = 0.0026 * box_.size()};
     for (std::size_t i = 0; i < tube.points.size(); ++i)
       tube.tones.values.push_back(static_cast<double>(i));
     tube.tones.limits = {0.0, static_cast<double>(tube.points.size() - 1)};
@@ -147,9 +151,14 @@ class SpaceScene {
     Tube tube{.label = is_first ? "estimated path" : "",
               .radius = 0.0016 * box_.size(),
               .style = {.colour = ThemeColour::kText, .share = 0.75}};
-    for (const Point3& p : as_points(estimate.positions_m))
-      if ((p - middle).norm() < box_.size()) tube.points.push_back(p);
-    const auto far = estimate.positions_m.rows() - std::ssize(tube.points);
+    Eigen::Index far = 0;
+    const std::vector<Point3> all = as_points(estimate.positions_m);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool is_near = (all[i] - middle).norm() < box_.size();
+      far += is_near ? 0 : 1;
+      if (is_near && std::ssize(all) - static_cast<Eigen::Index>(i) <= shown_steps())
+        tube.points.push_back(all[i]);
+    }
     if (far > 0)
       scene_.notes.push_back(
           {fmt::format("{}: {} far outside.", title,
@@ -179,10 +188,11 @@ class SpaceScene {
 
   void describe() {
     scene_.caption = fmt::format(
-        "{} in space and a flight of {}, from ranges alone ({}): rank 5 instead of 4. Paths as "
+        "{} in space and a flight of {}, of which the last {} are drawn, from ranges alone ({}): "
+        "rank 5 instead of 4. Paths as "
         "estimated; errors of landmarks {}.",
         counted(run_.landmarks_m.rows(), "landmark"), counted(run_.positions_m.rows(), "step"),
-        run_.noise,
+        shown_steps(), run_.noise,
         factor_ == 1.0 ? "drawn as long as they are"
                        : fmt::format("drawn {:g} times as long as they are", factor_));
     scene_.alt =

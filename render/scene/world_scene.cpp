@@ -86,10 +86,6 @@ Field field_of(const std::vector<Sample>& samples, const ErrorRamp& scale, doubl
   return field;
 }
 
-constexpr double kPathRadius = 0.0035;   // Of the room's side.
-constexpr Eigen::Index kShownSteps = 150;
-constexpr int kPathPieces = 10;
-constexpr double kMostCovered = 0.2;    // Of the floor, by the path.
 constexpr std::size_t kMostWorst = 3;
 
 void require_usable(const WorldSceneSpec& spec) {
@@ -128,7 +124,8 @@ class WorldScene {
  private:
   void add_parts() {
     scene_.parts = {floor_of(side_), walls_of(side_), landmarks(false), landmarks(true)};
-    add_path();
+    for (Tube& piece : fading_path(spec_.path_m, spec_.path_m.rows() - 1, side_))
+      scene_.parts.emplace_back(std::move(piece));
     Rods arrows = found_.arrows;
     arrows.label = "true to estimated position";
     arrows.style.colour = ThemeColour::kText;
@@ -158,44 +155,12 @@ class WorldScene {
     std::vector<double> errors_m;
     for (const Eigen::Index row : rows) {
       if (!world_.landmarks_m.row(row).allFinite()) continue;
-      const double error =
-          (spec_.map.estimate.row(row) - world_.landmarks_m.row(row)).norm();
+      const double error = (spec_.map.estimate.row(row) - world_.landmarks_m.row(row)).norm();
       tones.values.push_back(std::isfinite(error) ? error : kNaN);
       if (std::isfinite(error)) errors_m.push_back(error);
     }
     tones.limits = {0.0, errors_m.empty() ? 1.0 : ErrorRamp(errors_m).most_m};
     return tones;
-  }
-
-  /// Long paths are thin: they cover at most a share of the floor.
-  double path_radius() const {
-    double length_m = 0.0;
-    for (Eigen::Index i = std::max<Eigen::Index>(1, spec_.path_m.rows() - kShownSteps);
-         i < spec_.path_m.rows(); ++i) {
-      const double step = (spec_.path_m.row(i) - spec_.path_m.row(i - 1)).norm();
-      if (std::isfinite(step)) length_m += step;
-    }
-    const double covering = kMostCovered * side_ * side_ / (2.0 * std::max(length_m, 1e-9));
-    return std::min(kPathRadius * side_, covering);
-  }
-
-  /// The last steps, the earlier ones paler: all of a long walk would hide the floor.
-  void add_path() {
-    const Eigen::Index last = spec_.path_m.rows() - 1;
-    const Eigen::Index first = std::max<Eigen::Index>(0, last - kShownSteps);
-    if (last < 1) return;
-    for (int piece = 0; piece < kPathPieces; ++piece) {
-      const auto end_of = [&](int pieces) { return first + (last - first) * pieces / kPathPieces; };
-      Tube tube{.radius = path_radius(),
-                .style = {.colour = ThemeColour::kSeries1,
-                          .share = static_cast<double>(piece + 1) / kPathPieces}};
-      for (Eigen::Index i = end_of(piece); i <= end_of(piece + 1); ++i)
-        if (spec_.path_m.row(i).allFinite())
-          tube.points.push_back(on_floor(spec_.path_m.row(i), tube.radius));
-      if (piece + 1 == kPathPieces)
-        tube.label = fmt::format("path, the last {} steps", last - first);
-      if (tube.points.size() > 1) scene_.parts.emplace_back(std::move(tube));
-    }
   }
 
   void add_association() {
@@ -232,8 +197,7 @@ class WorldScene {
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
         significant(1000.0 * world_.landmark_diameter_m),
         scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)",
-        std::min(spec_.path_m.rows(), kShownSteps + 1),
-        method_label(spec_.map), spec_.map.step);
+        std::min(spec_.path_m.rows(), kShownSteps + 1), method_label(spec_.map), spec_.map.step);
     scene_.alt =
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),
                     significant(side_), counted(landmarks, "landmark"), spec_.map.anchors.size());

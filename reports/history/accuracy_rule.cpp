@@ -18,6 +18,7 @@
 #include "render/figures/number_text.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -247,8 +248,6 @@ std::string range_words(const Quantity& quantity, double low, double high) {
                      worse_percent(quantity, high));
 }
 
-std::string p_text(double p) { return p < 1e-9 ? "p < 1e-9" : "p = " + significant(p, 2); }
-
 NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                           std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
@@ -265,7 +264,7 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
               comparison.shown, quantity.label, worse_words(quantity, change.shift),
               evidence.reference->nightly_run, interval, significant(comparison.before, 4),
               with_unit(significant(comparison.after, 4), quantity.unit),
-              comparison.has_steps ? " at the last step" : "", units, p_text(p),
+              comparison.has_steps ? " at the last step" : "", units, small_p_words(p),
               counted(static_cast<long long>(tests), "test")),
           .change = change_of(quantity, change.shift)};
 }
@@ -280,7 +279,7 @@ NightlyFinding finding_of(const Losses& losses, double p, const StudyEvidence& e
       .sentence = fmt::format(
           "{}: {} of the {} results of nightly run {} no longer come out, {} do that did not; {}",
           losses.shown, losses.lost, losses.of, evidence.reference->nightly_run, losses.gained,
-          p_text(p))};
+          small_p_words(p))};
 }
 
 NightlyFinding finding_of(const Vanished& vanished, const StudyEvidence& evidence) {

@@ -65,6 +65,9 @@ std::vector<SeriesId> last_steps(const StudyTrend& trend) {
 /// Figures of the index: its reader sees the course at a glance, the trends have all.
 constexpr std::size_t kMostOnIndex = 2;
 
+/// Small figures of a first screen.
+constexpr std::size_t kMostSmall = 6;
+
 /// Links to nightly runs in one sentence at most; the index lists all.
 constexpr std::size_t kMostLinked = 10;
 
@@ -501,6 +504,39 @@ Table accuracy_table(const StudyTrend& trend) {
   return table;
 }
 
+/// The first figure is that of the first screen, others are small ones.
+void show_first(const std::vector<Figure>& figures, Opening& opening) {
+  if (figures.empty()) return;
+  opening.main_figure = figures.front().id;
+  for (std::size_t i = 1; i < figures.size() && i <= kMostSmall; ++i)
+    opening.figure_ids.push_back(figures[i].id);
+}
+
+/// What the last nightly run ran, and what it was compared with.
+std::vector<Paragraph> last_findings(const IndexFacts& facts, NightlyLinks& links) {
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  std::vector<std::string> studies;
+  std::vector<Phrase> to;
+  for (const StudyTrend& trend : facts.trends)
+    if (trend.nightly_runs.back().number == this_run.number) {
+      studies.push_back(trend.name);
+      to.push_back(links.report(this_run.number, trend.name));
+      to.push_back(links.trends(trend.name));
+    }
+  std::vector<Paragraph> findings = {
+      {{strong("Last"),
+        phrase(fmt::format(": {}, of {}.", dated_name(this_run),
+                           studies.empty() ? "no study that is still there" : listed(studies, 4)))}}};
+  const auto reference =
+      std::ranges::find(facts.nightly_runs, this_run.reference.value_or(0), &NightlyFacts::number);
+  findings.push_back({{strong("Compared with"),
+                       phrase(": " + (reference == facts.nightly_runs.end()
+                                          ? std::string("no earlier nightly run.")
+                                          : dated_name(*reference) + "."))}});
+  if (!to.empty() && to.size() <= kMostLinked) findings.push_back(ways(std::move(to), std::nullopt));
+  return findings;
+}
+
 HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings, bool is_compared,
                        const HistoryFolders& folders, std::span<const NightlyNote> notes) {
   HistoryPage page;
@@ -523,6 +559,7 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
+  show_first(page.figures, page.report.opening);
   page.link_words = links.words();
   return page;
 }
@@ -548,8 +585,9 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   if (auto worse = worse_section(facts, summary, links)) report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, links));
   page.figures = course(facts);
+  report.opening.findings = last_findings(facts, links);
+  show_first(page.figures, report.opening);
   if (!page.figures.empty()) {
-    report.opening.main_figure = page.figures.front().id;
     report.sections.push_back(
         {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
   }
@@ -576,7 +614,6 @@ void show_regressed(Report& report) {
   if (!opening.main_figure.empty())
     opening.figure_ids.insert(opening.figure_ids.begin(), opening.main_figure);
   opening.main_figure = (*worse)->id;
-  constexpr std::size_t kMostSmall = 6;
   if (opening.figure_ids.size() > kMostSmall) opening.figure_ids.resize(kMostSmall);
 }
 

@@ -12,12 +12,12 @@
 #include "core/base/not_finite.hpp"
 #include "core/statistics/robust_noise.hpp"
 #include "core/statistics/signed_rank.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/cost_rule.hpp"
 #include "reports/history/nightly_run.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -87,11 +87,11 @@ NightlyFinding finding_of(const Known& known, double p, std::size_t tests,
           .subject = series.subject,
           .quantity = series.quantity,
           .since = since,
-          .sentence = fmt::format("{}: {} {} since about nightly run {}, {}; p = {} corrected "
+          .sentence = fmt::format("{}: {} {} since about nightly run {}, {}; {} corrected "
                                   "for {} series of {} nightly runs",
                                   series.shown, label, change, since,
                                   known.change.gradual ? "a slow drift" : "a step",
-                                  significant(p, 2), tests, known.values.size()),
+                                  small_p_words(p), tests, known.values.size()),
           .change = accuracy ? change_of(trend.quantities.at(series.quantity), known.change.rise)
                              : 100.0 * std::expm1(known.change.rise)};
 }

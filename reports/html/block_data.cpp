@@ -381,8 +381,9 @@ list highlight_items(const Highlights& highlights) {
     data out;
     out.set("label", item.label);
     out.set("value", item.value);
-    out.set("detail", item.detail);
+    out.set("detail", text_or_false(item.detail));
     out.set("section", text_or_false(item.section));
+    out.set("falls_short", data(item.falls_short));
     items.push_back(std::move(out));
   }
   return items;

@@ -29,9 +29,9 @@ using kainjow::mustache::list;
 
 /// Heights in pixels on a page 1280 wide, measured on the pages of every kind of study.
 namespace height {
-constexpr double kMost = 13.5 * 800;  ///< Of what is open: about fifteen screens with the opening.
+constexpr double kMost = 12.75 * 800;  ///< Of what is open: about fifteen screens with the opening.
 constexpr double kSection = 105, kFold = 42, kText = 30, kLine = 24;
-constexpr double kTable = 165, kRow = 36, kFigure = 530, kWideFigure = 720;
+constexpr double kTable = 165, kRow = 36, kFigure = 530, kWideFigure = 860;
 constexpr std::size_t kCharacters = 105;  ///< Of a line of text.
 }  // namespace height
 

@@ -20,11 +20,17 @@ constexpr const char* kMinus = "\u2212";
 constexpr const char* kReplacement = "\uFFFD";
 constexpr double kLargest = 1e9;  ///< Beyond any coordinate on Earth, an exponent reads better.
 
+constexpr int kDecimalsOfP = 3;  ///< As many as kLeastP has.
 constexpr int kManyDecimals = 6;  ///< What has these is small as a whole.
+
+bool is_below_least(const NumberCell& cell) {
+  return cell.least > 0.0 && cell.value < cell.least;
+}
 
 struct CellFormatter {
   std::string operator()(const TextCell& cell) const { return displayable(cell.text); }
   std::string operator()(const NumberCell& cell) const {
+    if (is_below_least(cell)) return "< " + format_number(cell.least, cell.decimals);
     return format_number(cell.value, cell.decimals, cell.with_sign);
   }
   std::string operator()(const IntervalCell& cell) const {
@@ -80,8 +86,23 @@ std::string page_metres(double error_m, int decimals) {
   return great.empty() ? page_number(error_m, decimals) + " m" : great;
 }
 
+NumberCell p_cell(double p) {
+  return {.value = p, .decimals = kDecimalsOfP, .least = kLeastP};
+}
+
+std::string p_words(double p) {
+  if (p >= 1.0) return "p = 1";
+  return (p < kLeastP ? "p " : "p = ") + format_cell(p_cell(p));
+}
+
+std::string small_p_words(double p) {
+  if (p >= kLeastP) return p_words(p);
+  return p < 1e-9 ? "p < 10⁻⁹" : "p = " + with_power(fmt::format("{:.1e}", p));
+}
+
 std::string page_cell(const Cell& cell, const Column& column) {
   const auto* number = std::get_if<NumberCell>(&cell);
+  if (number != nullptr && is_below_least(*number)) return format_cell(cell);
   const bool errors_m = column.errors_m.value_or(column.unit == "m") ||
                         (number != nullptr && number->error_m);
   const auto shown = [&](double value, int decimals, bool with_sign) {

@@ -29,6 +29,18 @@ std::string page_metres(double error_m, int decimals = 3);
 /// diverged are "over 1 km".
 std::string page_cell(const Cell& cell, const Column& column);
 
+/// Smaller p-values are shown as being smaller than this.
+inline constexpr double kLeastP = 1e-3;
+
+/// A p-value in a column of them: "0.034", "< 0.001"; files have its digits.
+NumberCell p_cell(double p);
+
+/// A p-value in prose: "p = 0.034", "p < 0.001"; of a test corrected for many, "p = 1".
+std::string p_words(double p);
+
+/// That of a test at a level of kLeastP or less: "p = 3.2 × 10⁻⁷", "p < 10⁻⁹".
+std::string small_p_words(double p);
+
 /// "MPE: Mean [m]": group, title and unit of a column.
 std::string full_heading(const Column& column);
 

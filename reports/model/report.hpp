@@ -48,6 +48,7 @@ struct Highlights {
     std::string detail;
     std::string section =
         {};  ///< Id of the section that says more; empty: the item links to nothing.
+    bool falls_short = false;  ///< Of what it is compared with; a page marks it.
   };
   std::vector<Item> items;
 };
@@ -71,6 +72,7 @@ struct NumberCell {
   int decimals = 3;
   bool with_sign = false;  ///< Positive values carry a plus.
   bool error_m = false;    ///< As Column::errors_m, in a column of several quantities.
+  double least = 0.0;      ///< What is smaller is shown as "< 0.001", if it is 0.001.
 };
 
 struct IntervalCell {

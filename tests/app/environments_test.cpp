@@ -124,7 +124,7 @@ TEST(Environment, WhereNobodyReadsTheOutputEndsWithoutACrash) {
 TEST(Environment, WithLimitsGivesTheSameMapOrOneLine) {
   skip_if_sanitized();
   // Of files, processes and threads, the stack, seconds of the processor, and core files.
-  for (const char* limit : {"ulimit -n 8", "ulimit -n 16", "ulimit -u 1", "ulimit -s 256",
+  for (const char* limit : {"ulimit -n 8", "ulimit -n 16", "ulimit -u 1", "ulimit -s 512",
                             "ulimit -c 0", "ulimit -l 0", "ulimit -f 0", "ulimit -v 250000"}) {
     SCOPED_TRACE(limit);
     const TemporaryFolder folder;
@@ -137,6 +137,25 @@ TEST(Environment, WithLimitsGivesTheSameMapOrOneLine) {
       EXPECT_NE(outcome.error.find("mapproof: "), std::string::npos) << outcome.error;
     }
   }
+}
+
+TEST(Environment, WithAStackThatIsTooSmallEndsInOneLine) {
+  skip_if_sanitized();
+  for (const char* limit : {"ulimit -s 64", "ulimit -s 256"}) {
+    SCOPED_TRACE(limit);
+    const TemporaryFolder folder;
+    const Outcome outcome = in_shell(std::string(limit) + "; MAP", folder / "out");
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(lines_of_program(outcome), 1) << outcome.error;
+    EXPECT_NE(outcome.error.find("KiB (ulimit -s) is too small: 512 are needed\n"),
+              std::string::npos)
+        << outcome.error;
+  }
+  // A limit that the program may raise itself is none.
+  const TemporaryFolder folder;
+  const Outcome outcome = in_shell("ulimit -S -s 64; MAP", folder / "out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
+  expect_same(usual_map(), map_in(folder));
 }
 
 TEST(Environment, UmaskDeterminesTheModesAndNoByte) {

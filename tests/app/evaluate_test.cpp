@@ -104,7 +104,7 @@ TEST_F(Trajectories, SeveralFilesOfASystemAreItsRuns) {
   const std::string line = at("stretched") + "/line.txt";
   const Outcome outcome = mapproof({"evaluate", "--ground-truth", at("ground-truth") + "/line.txt",
                                     "a=" + line, "a=" + at("shifted") + "/line.txt", "b=" + line,
-                                    "b=" + line, "--align", "none", "--out", at("out")});
+                                    "b=" + at("ground-truth") + "/line.txt", "--align", "none", "--out", at("out")});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
   const std::string table = read_file(at("out") + "/tables/evaluation-poses-means.csv");
   EXPECT_NE(outcome.out.find("a, line-2"), std::string::npos) << outcome.out;

@@ -1,5 +1,5 @@
 // Processor seconds of semidefinite embeddings, ours beside CSDP's, on simulated observations.
-//   mapproof_sde_bench M...   a table row for each M, sensor and K; CSDP up to M = 200
+//   mapproof_sde_bench M...   a table row for each M, sensor and K; CSDP up to M = 500
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
@@ -14,7 +14,7 @@ namespace mapproof {
 namespace {
 
 constexpr int kSteps = 2000;
-constexpr int kMostLandmarksForCsdp = 200;
+constexpr int kMostLandmarksForCsdp = 500;
 
 struct Timed {
   Embedding map;

@@ -82,10 +82,10 @@ for (const [name, folder] of kinds) {
       });
       assert.ok(screens <= 16, `${screens} screens`);
       if (words !== undefined) {
-        assert.ok(words >= 8.8, `words of ${words} px`);
+        assert.ok(words >= 9, `words of ${words} px`);
         assert.ok(bottom <= 800, `the figure ends at ${bottom}`);
       }
-      assert.ok(opening <= 920, `the opening ends at ${opening}`);
+      assert.ok(opening <= 900, `the opening ends at ${opening}`);
       assert.match(made, /mapproof \d\S+ \(.+\)/);
       // The page of a map, made once more, has the same bytes.
       if (name !== "map") assert.match(made, /\d{4}-\d\d-\d\d/);
@@ -312,7 +312,7 @@ test("on a phone no figure is moved sideways, and its words have 10 px at least"
         outside: words.map((one) => one.getBoundingClientRect())
           .filter((one) => one.left < left - 1 || one.right > right + 1).length };
     });
-    assert.equal(wider, 0, id);
+    assert.ok(wider <= 1, `${id}: ${wider}`);  // Both widths are rounded.
     assert.equal(outside, 0, id);
     assert.ok(least >= 9.99, `${id}: ${least}`);
   }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <climits>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -57,14 +58,20 @@ void expect_same(const std::string& way, const Read& one, const Read& other) {
 Read through_pipe(std::string_view bytes, const ReadText& read) {
   int ends[2];
   if (::pipe(ends) != 0) std::abort();
-  std::jthread writer([&, end = ends[1]] {
+  const auto write_all = [&, end = ends[1]] {
     for (std::size_t at = 0; at < bytes.size();) {
       const ssize_t count = ::write(end, bytes.data() + at, bytes.size() - at);
       if (count <= 0) break;
       at += static_cast<std::size_t>(count);
     }
     ::close(end);
-  });
+  };
+  // A thread for what a pipe does not hold.
+  std::jthread writer;
+  if (bytes.size() <= PIPE_BUF)
+    write_all();
+  else
+    writer = std::jthread(write_all);
   Read result = read_of(ByteSource("/dev/fd/" + std::to_string(ends[0])), read);
   // A reader that stopped at an error leaves bytes behind.
   char rest[4096];
@@ -98,7 +105,8 @@ std::string read_in_any_way(std::string_view bytes, const ReadText& read) {
   const std::size_t piece = 1 + hash % 61;
   expect_same("in pieces of " + std::to_string(piece), whole,
               read_of(test::source_of(text, piece, kSource), read));
-  if (hash / 64 % 16 == 0) {
+  // Bytes that hold the name of a stream themselves would be changed by without_name().
+  if (hash / 64 % 16 == 0 && bytes.find("/fd/") == std::string_view::npos) {
     const Descriptor file = anonymous_file(bytes, kSource);
     expect_same("from a file", whole, read_of(ByteSource(path_of(file)), read));
     expect_same("through a pipe", whole, through_pipe(bytes, read));

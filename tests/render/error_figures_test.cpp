@@ -105,6 +105,7 @@ TEST(BestLine, OverAnAxisIsOneOrChanges) {
   EXPECT_EQ(best_over({a, a}, {}, {"noise"}), "");  // Neither is better.
   EXPECT_EQ(best_over({}, {}, {"noise"}), "");
   EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "A has the lowest MPE, 1.0\u00A0m at K = 1");
+  EXPECT_EQ(best_of_all({a}, {}, {"K"}), "the lowest MPE of A is 1.0\u00A0m at K = 1");
 }
 
 TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
@@ -123,6 +124,14 @@ TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
   EXPECT_LT(figure.panels[0].y.limits->high, 100.0);
   ASSERT_EQ(figure.notes.size(), 1U);
   EXPECT_EQ(figure.notes[0].text, "2 values lie above the frame.");
+  // The line does not lead to what is not there; a mark inside the frame says where it would.
+  const Polyline line = layers_of<Polyline>(figure.panels[0]).at(0);
+  EXPECT_TRUE(std::isnan(line.y[0]));
+  EXPECT_EQ(line.y[2], 0.2);
+  const Scatter above = layers_of<Scatter>(figure.panels[0]).back();
+  EXPECT_EQ(above.x, std::vector{1.0});
+  EXPECT_LT(above.y.at(0), figure.panels[0].y.limits->high);
+  EXPECT_GT(above.y.at(0), 30.0);
   spec.ceiling = 1e12;
   EXPECT_TRUE(error_lines_figure(spec).notes.empty());
 }

@@ -223,6 +223,12 @@ TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
             "MPE 0.310 m after the best affine fit to all landmarks, MOE 5.00 % up to a mirror");
   EXPECT_EQ(score_text({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
   EXPECT_EQ(score_text({NAN, NAN, NAN, NAN}), "");
+  EXPECT_EQ(title_with_error("A map", Score{0.219, 4.7, 0.2, 4.7}),
+            "A map: 0.22 m off in the mean");
+  EXPECT_EQ(title_with_error("A map", Score{NAN, 95.0, 0.31, 5.0}),
+            "A map: 0.31 m off after the best affine fit");
+  EXPECT_EQ(title_with_error("A map", Score{NAN, NAN, NAN, 4.2}), "A map");
+  EXPECT_EQ(title_with_error("A map", std::nullopt), "A map");
 }
 
 TEST(Words, NumbersAreReadable) {

@@ -192,6 +192,24 @@ TEST(Layout, ALongLabelOfAColourBarIsWrapped) {
   EXPECT_TRUE(flaws(drawing).empty()) << flaws(drawing).front();
 }
 
+TEST(Layout, TheColourBarOfAMapStaysOnThePageAndBesideTheLegend) {
+  for (const double height : {10.0, 20.0, 60.0})
+    for (const std::string label : {"", "ground truth"}) {
+      Figure figure = with_panels(1);
+      Panel& map = figure.panels[0];
+      map.equal_aspect = true;
+      map.layers.push_back(Cells{.x = {0, 40},
+                                 .y = {0, height},
+                                 .columns = 2,
+                                 .values = {0.01, 0.02, 0.03, 0.04},
+                                 .limits = {0.01, 0.04},
+                                 .bar_label = "error [m]"});
+      map.layers.push_back(Polyline{.label = label, .x = {0, 40}, .y = {0, height}});
+      const Drawing drawing = lay_out(figure, report_theme());
+      EXPECT_TRUE(flaws(drawing).empty()) << height << label << ": " << flaws(drawing).front();
+    }
+}
+
 TEST(Layout, PutsTheLegendInACornerThatIsFree) {
   Figure figure = with_panels(1);
   figure.panels[0].layers.push_back(Polyline{.label = "rising", .x = {0, 1}, .y = {0, 1}});

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -5,11 +6,14 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/random.hpp"
+#include "render/scene/drive_scene.hpp"
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
+#include "render/scene/room.hpp"
 #include "render/scene/space_scene.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/samples/sample_scenes.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -211,6 +215,11 @@ FormingSceneSpec forming_spec(int maps) {
   return spec;
 }
 
+/// The pillars of a view's landmarks, before its arrows.
+const Rods& landmarks_of(const Scene& scene, const Shot& view) {
+  return std::get<Rods>(scene.parts[view.parts[view.parts.size() - 2]]);
+}
+
 TEST(FormingScene, IsAFilmStripOfOneCameraFromTheFirstToTheLastMap) {
   const FormingSceneSpec spec = forming_spec(9);
   const Scene scene = forming_scene(spec);
@@ -221,13 +230,43 @@ TEST(FormingScene, IsAFilmStripOfOneCameraFromTheFirstToTheLastMap) {
     EXPECT_EQ(view.camera, scene.views[0].camera);
     const Rods& arrows = std::get<Rods>(scene.parts[view.parts.back()]);
     EXPECT_TRUE(arrows.arrow);
-    EXPECT_EQ(arrows.tones.limits, std::get<Rods>(scene.parts[4]).tones.limits);
-    EXPECT_EQ(arrows.tones.values.size(), arrows.from.size());
+    EXPECT_TRUE(arrows.tones.values.empty());
   }
   EXPECT_EQ(forming_scene(forming_spec(1)).views.size(), 1U);
 }
 
-TEST(FormingFilm, HasAFrameAMapThatDiffersInItsArrowsAlone) {
+TEST(FormingScene, ColoursLandmarksByTheirErrorsOnOneRampForAllMaps) {
+  FormingSceneSpec spec = forming_spec(6);
+  for (int i = 0; i < 6; ++i) spec.maps[i].estimate = sample_map(20, 0.3 / (i + 1), 3).estimate;
+  spec.maps[1].estimate.row(7).setConstant(NAN);
+  const Scene scene = forming_scene(spec);
+  std::vector<double> errors;
+  for (const MapRecord& map : spec.maps)
+    for (Eigen::Index i = 0; i < map.estimate.rows(); ++i)
+      if (map.estimate.row(i).allFinite())
+        errors.push_back((map.estimate.row(i) - map.ground_truth_m->row(i)).norm());
+  std::ranges::sort(errors);
+  for (std::size_t k = 0; k < scene.views.size(); ++k) {
+    const Rods& pillars = landmarks_of(scene, scene.views[k]);
+    ASSERT_EQ(pillars.tones.values.size(), pillars.from.size());
+    EXPECT_EQ(pillars.from.size() + spec.maps[k].anchors.size(), 20U);
+    EXPECT_EQ(pillars.tones.limits.low, 0.0);
+    EXPECT_EQ(pillars.tones.limits.high, errors[std::lround(0.95 * double(errors.size() - 1))]);
+    EXPECT_EQ(std::ranges::count_if(pillars.tones.values, [](double e) { return std::isnan(e); }),
+              k == 1 ? 1 : 0);
+  }
+  // The pillar at a landmark's true position has that landmark's error.
+  const Rods& first = landmarks_of(scene, scene.views[0]);
+  for (std::size_t i = 0; i < first.from.size(); ++i) {
+    Eigen::Index row = 0;
+    const Eigen::RowVector2d at(first.from[i].x(), first.from[i].y());
+    EXPECT_LT((spec.world.landmarks_m.rowwise() - at).rowwise().norm().minCoeff(&row), 1e-15);
+    EXPECT_EQ(first.tones.values[i],
+              (spec.maps[0].estimate.row(row) - spec.world.landmarks_m.row(row)).norm());
+  }
+}
+
+TEST(FormingFilm, HasAFrameAMapThatDiffersInItsErrorsAlone) {
   FormingSceneSpec spec = forming_spec(9);
   spec.maps[2].estimate.row(5) << 1e7, 0.0;
   const Film film = forming_film(spec);
@@ -237,17 +276,139 @@ TEST(FormingFilm, HasAFrameAMapThatDiffersInItsArrowsAlone) {
     EXPECT_EQ(frame.views[0].camera, film.frames[0].views[0].camera);
     EXPECT_EQ(frame.title, film.frames[0].title);
     EXPECT_TRUE(frame.notes.empty());
-    EXPECT_EQ(std::get<Rods>(frame.parts[4]).label, std::get<Rods>(film.frames[0].parts[4]).label);
     Scene other = frame;  // But for what tells frames apart.
     other.id = film.frames[0].id;
     other.alt = film.frames[0].alt;
     other.record_ids = film.frames[0].record_ids;
     other.caption = film.frames[0].caption;
     other.views[0].title = film.frames[0].views[0].title;
-    other.parts[4] = film.frames[0].parts[4];
+    for (const std::size_t part : {other.parts.size() - 2, other.parts.size() - 1}) {
+      Rods& rods = std::get<Rods>(other.parts[part]);
+      const Rods& of_first = std::get<Rods>(film.frames[0].parts[part]);
+      EXPECT_EQ(rods.label, of_first.label);
+      if (rods.arrow) rods.from = of_first.from, rods.to = of_first.to;
+      rods.tones.values = of_first.tones.values;
+    }
     EXPECT_EQ(other, film.frames[0]);
   }
   EXPECT_NE(film.frames[2].views[0].title.find("far outside"), std::string::npos);
+}
+
+TEST(FormingFilm, ShowsTheLastStepsOfThePathUpToEachMapAndTheRobotAtItsEnd) {
+  FormingSceneSpec spec = forming_spec(3);
+  spec.path_m.resize(400, 2);
+  for (Eigen::Index i = 0; i < 400; ++i) spec.path_m.row(i) << 0.005 * double(i), 1.0;
+  const Film film = forming_film(spec);
+  for (std::size_t k = 0; k < film.frames.size(); ++k) {
+    double first = HUGE_VAL, last = -HUGE_VAL, robot = NAN;
+    for (const Part& part : film.frames[k].parts) {
+      if (const auto* tube = std::get_if<Tube>(&part)) {
+        first = std::min(first, tube->points.front().x());
+        last = std::max(last, tube->points.back().x());
+      }
+      if (const auto* rods = std::get_if<Rods>(&part); rods != nullptr && rods->label == "robot")
+        robot = rods->from.at(0).x();
+    }
+    const int steps = spec.maps[k].step;
+    EXPECT_DOUBLE_EQ(last, 0.005 * (steps - 1));
+    EXPECT_DOUBLE_EQ(first, 0.005 * std::max<double>(0, steps - 1 - double(kShownSteps)));
+    EXPECT_EQ(robot, last);
+  }
+  for (const Part& part : forming_scene(spec).parts)
+    EXPECT_FALSE(std::holds_alternative<Tube>(part)) << "Six small rooms have no path.";
+}
+
+/// The landmark pillars and the balls of a drive.
+struct DriveParts {
+  const Surface* path = nullptr;
+  const Rods* pillars = nullptr;
+  const Spheres* balls = nullptr;
+  std::vector<std::string> labels;
+};
+
+DriveParts parts_of(const Scene& scene) {
+  DriveParts parts;
+  for (const Part& part : scene.parts) {
+    if (const auto* surface = std::get_if<Surface>(&part)) {
+      if (!surface->tones.values.empty()) parts.path = surface;
+    }
+    if (const auto* rods = std::get_if<Rods>(&part)) parts.pillars = rods;
+    if (const auto* spheres = std::get_if<Spheres>(&part)) parts.balls = spheres;
+    std::visit([&](const auto& one) { parts.labels.push_back(one.label); }, part);
+  }
+  return parts;
+}
+
+DriveSceneSpec drive_spec(const SlamRun& run) {
+  return {.id = "drive", .title = "t", .run = run, .record_ids = {run.id}};
+}
+
+TEST(DriveScene, ColoursThePathByItsErrorAndSetsLandmarksWhereTheyAre) {
+  const SlamRun run = sample_drive("plaza-1", 800, 3);
+  const SlamRecord& refined =
+      *std::ranges::find(run.records, SlamMethod::kRefined, &SlamRecord::method);
+  const Scene scene = drive_scene(drive_spec(run));
+  const DriveParts parts = parts_of(scene);
+  ASSERT_NE(parts.path, nullptr);
+  const double most = std::ranges::max(refined.error_m);
+  EXPECT_GT(parts.path->tones.limits.high, 0.5 * most);
+  EXPECT_LE(parts.path->tones.limits.high, most);
+  // A thinned path has lost no peak, and lies within half its width of the estimate.
+  EXPECT_NEAR(std::ranges::max(parts.path->tones.values), most, 1e-4 * most);
+  for (const Point3& p : parts.path->points) {
+    const Eigen::RowVector2d at(p.x(), p.y());
+    EXPECT_LT((refined.estimate.path.positions_m.rowwise() - at).rowwise().norm().minCoeff(), 0.5);
+  }
+  ASSERT_EQ(parts.pillars->from.size(), 4U);
+  ASSERT_EQ(parts.balls->at.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    EXPECT_EQ(parts.pillars->from[i].x(), (*run.log.true_landmarks)(row, 0));
+    EXPECT_EQ(parts.balls->at[i].y(), refined.estimate.landmarks_m(row, 1));
+  }
+  EXPECT_NE(std::ranges::find(parts.labels, "true path"), parts.labels.end());
+  EXPECT_NE(std::ranges::find(parts.labels, "dead reckoning"), parts.labels.end());
+}
+
+TEST(DriveScene, WithoutGroundTruthIsColouredByTimeAndClaimsNoError) {
+  SlamRun run = sample_drive("own", 500, 3);
+  run.log.ground_truth.reset();
+  run.log.true_landmarks.reset();
+  for (SlamRecord& record : run.records) record.error_m.clear(), record.errors.clear();
+  const Scene scene = drive_scene(drive_spec(run));
+  const DriveParts parts = parts_of(scene);
+  EXPECT_EQ(parts.path->tones.limits.low, 0.0);
+  EXPECT_LE(parts.path->points.size(), 1000U) << "Two for each position at most.";
+  EXPECT_EQ(parts.path->tones.limits.high, run.records.back().estimate.path.time_s(499));
+  EXPECT_TRUE(std::ranges::none_of(parts.labels, [](const std::string& label) {
+    return label.find("error") != std::string::npos || label.find("true") != std::string::npos;
+  }));
+  EXPECT_EQ(scene.alt.find("error"), std::string::npos);
+}
+
+TEST(DriveScene, LeavesOutWhatIsNotKnownOrFarAway) {
+  SlamRun run = sample_drive("own", 500, 3);
+  SlamRecord& refined = *std::ranges::find(run.records, SlamMethod::kRefined, &SlamRecord::method);
+  refined.estimate.path.positions_m.row(250).setConstant(NAN);
+  refined.estimate.path.positions_m.row(300) << 1e9, 0.0;
+  refined.error_m[300] = NAN;
+  refined.estimate.landmarks_m.row(1).setConstant(NAN);
+  const Scene scene = drive_scene(drive_spec(run));
+  const DriveParts parts = parts_of(scene);
+  EXPECT_EQ(parts.balls->at.size(), 3U);
+  for (const Point3& p : parts.path->points) EXPECT_LT(p.norm(), 1e3);
+  ASSERT_EQ(scene.notes.size(), 1U);
+  EXPECT_TRUE(scene.notes[0].text.starts_with("Outside the image: ")) << scene.notes[0].text;
+}
+
+TEST(DriveScene, NeedsAPathOfTwoPositions) {
+  SlamRun run = sample_drive("own", 500, 3);
+  EXPECT_TRUE(has_drive_scene(run, SlamMethod::kRefined));
+  EXPECT_FALSE(has_drive_scene(run, SlamMethod::kRefinedFromRandom));
+  for (SlamRecord& record : run.records)
+    record.estimate.path.positions_m.bottomRows(499).setConstant(NAN);
+  EXPECT_FALSE(has_drive_scene(run, SlamMethod::kRefined));
+  EXPECT_THROW(drive_scene(drive_spec(run)), InvalidInput);
 }
 
 TEST(FormingScene, RefusesMapsThatAreNotOfOneRoomOneAfterTheOther) {
@@ -263,6 +424,7 @@ TEST(FormingScene, RefusesMapsThatAreNotOfOneRoomOneAfterTheOther) {
   refused([](FormingSceneSpec& s) { s.maps[1].estimate.conservativeResize(3, 2); });
   refused([](FormingSceneSpec& s) { s.world.side_m = NAN; });
   refused([](FormingSceneSpec& s) { s.maps[0].anchors = {99}; });
+  refused([](FormingSceneSpec& s) { s.path_m = Points::Zero(299, 2); });
 }
 
 }  // namespace

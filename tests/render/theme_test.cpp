@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include "core/base/errors.hpp"
 #include "render/theme/font.hpp"
@@ -39,6 +42,92 @@ TEST(Palette, SeriesDifferFromEachOther) {
       EXPECT_GE(std::hypot(a.red - b.red, a.green - b.green, a.blue - b.blue), 60.0)
           << hex(a) << ' ' << hex(b);
     }
+}
+
+using Vision = Eigen::Matrix3d;  ///< Of linear light, to what is seen of it.
+
+/// With all cones, and without those for long or middle waves [machado2009, severity 1].
+const std::vector<Vision>& visions() {
+  static const std::vector<Vision> all = [] {
+    Vision protan, deutan;
+    protan << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
+        1.051998;
+    deutan << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940,
+        0.968881;
+    return std::vector<Vision>{Vision::Identity(), protan, deutan};
+  }();
+  return all;
+}
+
+/// CIELAB under D65.
+Eigen::Vector3d lab_of(Colour colour, const Vision& vision) {
+  const auto linear = [](std::uint8_t channel) {
+    const double c = channel / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  Eigen::Matrix3d to_xyz;
+  to_xyz << 0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522, 0.0721750, 0.0193339, 0.1191920,
+      0.9503041;
+  const Eigen::Vector3d light(linear(colour.red), linear(colour.green), linear(colour.blue));
+  const Eigen::Vector3d seen = (vision * light).cwiseMax(0.0).cwiseMin(1.0);
+  Eigen::Vector3d f = (to_xyz * seen).cwiseQuotient(Eigen::Vector3d(0.95047, 1.0, 1.08883));
+  for (double& t : f) t = t > 0.008856 ? std::cbrt(t) : 7.787 * t + 16.0 / 116.0;
+  return {116.0 * f(1) - 16.0, 500.0 * (f(0) - f(1)), 200.0 * (f(1) - f(2))};
+}
+
+/// The difference of two colours of CIELAB, CIEDE2000 [sharma2005].
+double difference(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  const auto seventh = [](double c) {
+    return std::sqrt(std::pow(c, 7) / (std::pow(c, 7) + 6103515625.0));
+  };
+  const double g = 0.5 * (1.0 - seventh((one.tail<2>().norm() + other.tail<2>().norm()) / 2.0));
+  const double a1 = (1.0 + g) * one(1), a2 = (1.0 + g) * other(1);
+  const double c1 = std::hypot(a1, one(2)), c2 = std::hypot(a2, other(2));
+  const auto hue = [&](double a, double b) {
+    const double angle = a == 0.0 && b == 0.0 ? 0.0 : std::atan2(b, a) / kDegree;
+    return angle < 0.0 ? angle + 360.0 : angle;
+  };
+  const double h1 = hue(a1, one(2)), h2 = hue(a2, other(2));
+  const bool is_grey = c1 * c2 == 0.0;
+  double turn = is_grey ? 0.0 : h2 - h1;
+  if (turn > 180.0) turn -= 360.0;
+  if (turn < -180.0) turn += 360.0;
+  double h = h1 + h2;
+  if (!is_grey && std::abs(h1 - h2) > 180.0) h += h < 360.0 ? 360.0 : -360.0;
+  if (!is_grey) h /= 2.0;
+  const double lightness = (one(0) + other(0)) / 2.0 - 50.0, c = (c1 + c2) / 2.0;
+  const double t = 1.0 - 0.17 * std::cos((h - 30.0) * kDegree) +
+                   0.24 * std::cos(2.0 * h * kDegree) + 0.32 * std::cos((3.0 * h + 6.0) * kDegree) -
+                   0.2 * std::cos((4.0 * h - 63.0) * kDegree);
+  const double square = lightness * lightness;
+  const double of_lightness =
+      (other(0) - one(0)) / (1.0 + 0.015 * square / std::sqrt(20.0 + square));
+  const double of_chroma = (c2 - c1) / (1.0 + 0.045 * c);
+  const double of_hue =
+      2.0 * std::sqrt(c1 * c2) * std::sin(turn / 2.0 * kDegree) / (1.0 + 0.015 * c * t);
+  const double bend = std::exp(-std::pow((h - 275.0) / 25.0, 2));
+  const double rotation = -2.0 * seventh(c) * std::sin(60.0 * bend * kDegree);
+  return std::sqrt(of_lightness * of_lightness + of_chroma * of_chroma + of_hue * of_hue +
+                   rotation * of_chroma * of_hue);
+}
+
+TEST(Palette, DifferencesAreThoseOfThePublishedTestData) {
+  // Pairs 1, 7, 17 and 25 of [sharma2005, Table 1].
+  EXPECT_NEAR(difference({50.0, 2.6772, -79.7751}, {50.0, 0.0, -82.7485}), 2.0425, 1e-4);
+  EXPECT_NEAR(difference({50.0, 0.0, 0.0}, {50.0, -1.0, 2.0}), 2.3669, 1e-4);
+  EXPECT_NEAR(difference({50.0, 2.5, 0.0}, {73.0, 25.0, -18.0}), 27.1492, 1e-4);
+  EXPECT_NEAR(difference({60.2574, -34.0099, 36.2677}, {60.4626, -34.1751, 39.4387}), 1.2644, 1e-4);
+}
+
+TEST(Palette, SeriesDifferForColourBlindReaders) {
+  for (const auto& colours : {kSeriesColours, kDarkSeriesColours})
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      for (std::size_t j = i + 1; j < colours.size(); ++j)
+        for (std::size_t k = 0; k < visions().size(); ++k)
+          EXPECT_GE(difference(lab_of(colours[i], visions()[k]), lab_of(colours[j], visions()[k])),
+                    9.0)
+              << hex(colours[i]) << ' ' << hex(colours[j]) << ", vision " << k;
 }
 
 TEST(Palette, ViridisGrowsLighterAllTheWay) {

@@ -23,8 +23,7 @@ Trajectory wandering(int size) {
   Random random(3);
   Points points(size, 2);
   points.row(0).setZero();
-  for (int i = 1; i < size; ++i)
-    points.row(i) = points.row(i - 1) + normal_point(random);
+  for (int i = 1; i < size; ++i) points.row(i) = points.row(i - 1) + normal_point(random);
   return path_of(points);
 }
 
@@ -112,6 +111,22 @@ TEST(ThinCurve, BreaksAtValuesThatAreNoNumbers) {
   EXPECT_EQ(line.y[3], 3.0);
   EXPECT_THROW(thin_curve(time, {1.0}, 10), InvalidInput);
   EXPECT_THROW(thin_curve(time, std::vector<double>(6), 0), InvalidInput);
+}
+
+TEST(MedianCurve, IsTheMedianOfEachPieceOfTime) {
+  const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(1001, 0.0, 100.0);
+  std::vector<double> values;
+  for (int i = 0; i < 1001; ++i) values.push_back(i % 3 == 0 ? 100.0 : 1.0 + 0.001 * i);
+  const ThinLine line = median_curve(time, values, 10);
+  ASSERT_EQ(line.x.size(), 10U);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(line.x[i], 10.0 * double(i) + 5.0, 0.1);
+    EXPECT_NEAR(line.y[i], 1.0 + 0.1 * double(i) + 0.075, 0.01) << "Two thirds are on the slope.";
+  }
+  values[500] = NAN;  // Between two pieces: breaks the line.
+  EXPECT_EQ(median_curve(time, values, 10).x.size(), 11U);
+  EXPECT_EQ(median_curve(time.head(3), {1.0, 5.0, 2.0}, 10).y, (std::vector{1.0, 5.0, 2.0}));
+  EXPECT_THROW(median_curve(time, {1.0}, 10), InvalidInput);
 }
 
 }  // namespace

@@ -151,6 +151,18 @@ TEST(ReportHtml, LinksTheNumbersOfItsOpeningToTheirSections) {
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
 }
 
+TEST(ReportHtml, MarksANumberThatFallsShortInWordsToo) {
+  Report report;
+  report.opening.numbers.items = {{.label = "of 4 found", .value = "3", .detail = ""}};
+  const std::string met = report_html(report, load_templates(), {});
+  EXPECT_EQ(met.find("falls short"), std::string::npos);
+  EXPECT_EQ(met.find("class=\"detail\""), std::string::npos);
+  report.opening.numbers.items[0].falls_short = true;
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("<div class=\"short\">"), std::string::npos);
+  EXPECT_NE(page.find("(falls short)"), std::string::npos);
+}
+
 TEST(ReportHtml, FoldsFindingsThatWouldPushTheFigureOffTheFirstScreen) {
   Report report;
   for (const char* words : {"one", "two", "three", "four", "five"})

@@ -37,6 +37,23 @@ TEST(PageCell, HasPowersOfTen) {
   EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "%"), "0.5 to 1.00\u00A0×\u00A010¹⁵");
 }
 
+TEST(PValue, HasThreeDecimalsInProseAndInTables) {
+  EXPECT_EQ(p_words(0.0341), "p = 0.034");
+  EXPECT_EQ(p_words(0.5), "p = 0.500");
+  EXPECT_EQ(p_words(1.0), "p = 1");
+  EXPECT_EQ(p_words(4e-7), "p < 0.001");
+  EXPECT_EQ(shown(p_cell(0.0341), ""), "0.034");
+  EXPECT_EQ(shown(p_cell(4e-7), ""), "< 0.001");
+  EXPECT_EQ(format_cell(p_cell(4e-7)), "< 0.001");
+  EXPECT_EQ(p_cell(4e-7).value, 4e-7);  // Files and the order of rows have it.
+}
+
+TEST(PValue, OfAStrictTestHasAPowerOfTen) {
+  EXPECT_EQ(small_p_words(0.0341), "p = 0.034");
+  EXPECT_EQ(small_p_words(3.21e-7), "p = 3.2\u00A0×\u00A010⁻⁷");
+  EXPECT_EQ(small_p_words(0.0), "p < 10⁻⁹");
+}
+
 TEST(PageCell, HasWordsForMapsThatDiverged) {
   EXPECT_EQ(shown(NumberCell{2.79e14, 4}, "m"), "over 1\u00A0km");
   EXPECT_EQ(shown(NumberCell{1900.25, 2}, "m"), "over 1\u00A0km");

@@ -442,6 +442,17 @@ TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
   EXPECT_EQ(first.detail, "even, over 3 data sets");
 }
 
+TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {
+  const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
+  const ResultsView view(study);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+  const Highlights::Item& first = report.opening.numbers.items.at(0);
+  EXPECT_EQ(first.value, "0.150\u00a0m");
+  EXPECT_EQ(first.label, "MPE");
+  EXPECT_EQ(first.detail, "m");
+}
+
 TEST(ResultsView, ShowsShortTimesInUnitsThatFitThem) {
   for (const auto& [seconds, unit, shown] :
        {std::tuple(0.000141, "µs", 141.0), {0.0141, "ms", 14.1}, {1.41, "s", 1.41}}) {
@@ -594,6 +605,25 @@ TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
             "MPE: there is no curve, since the mean is 3\u00A0m at every level, for every method.");
 }
 
+TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c", "d", "e"})
+    for (const double steps : {100.0, 200.0})
+      for (const char* method : {"m", "n", "o", "p", "q", "r"})
+        rows.add(method, run, method[0] < 'p' ? steps : 20.0, {{"steps", steps}});
+  ResultsStudy study = rows.study();
+  for (Label& method : study.methods)
+    method.label = method.id + (method.id < "p" ? ", K = 6, from scratch" : ", incremental");
+  study.methods.back().label = "r";  // Has no end that the others have.
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, {});
+  std::vector<std::string> labels;
+  for (const Layer& layer : figures.groups[0].figures[0].panels[0].layers)
+    if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"K = 6, from scratch (3 methods)",
+                                              "p, incremental and 2 others"}));
+}
+
 TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {
   const auto why = [](Rows& rows, bool are_repeats = true) {
     const ResultsStudy study = rows.study(are_repeats);
@@ -613,7 +643,10 @@ TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {
   }
   EXPECT_EQ(why(lost), "MPE: there is no curve, since no run gave a value.");
   EXPECT_EQ(why(varied), "");
-  EXPECT_EQ(why(repeated.add("m", "a", 3.0).add("m", "b", 3.0)), "");
+  EXPECT_EQ(why(repeated.add("m", "a", 3.0).add("m", "b", 3.0)),
+            "MPE: there is no figure of the distribution over runs, which have fewer than 3 "
+            "different values.");
+  EXPECT_EQ(why(repeated.add("m", "c", 4.0).add("m", "d", 5.0)), "");
   for (const char* terrain : {"a", "b", "c", "d", "e"})
     many.add("m", "a", 1.0, {{"terrain", std::string(terrain)}})
         .add("m", "b", 2.0, {{"terrain", std::string(terrain)}});

@@ -15,6 +15,13 @@ TEST(TopicWords, AreThoseOfEveryTopic) {
   EXPECT_EQ(with_words, topics);
 }
 
+TEST(TopicWords, HaveConclusionsAndAHeadlineOfEveryTopic) {
+  for (const TopicWords* words : all_topic_words()) {
+    EXPECT_NE(words->conclusions, nullptr) << words->topic;
+    EXPECT_NE(words->headline, nullptr) << words->topic;
+  }
+}
+
 TEST(TopicWords, AskAQuestionOfEveryTopic) {
   for (const Topic* topic : all_topics()) {
     TopicExperiment experiment;

@@ -8,6 +8,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -42,6 +43,7 @@ enum class Kind : std::size_t {
   kFork,   ///< A process of any kind.
   kExec,   ///< Another program.
   kLock,   ///< flock, which some network file systems do not know.
+  kThread,
 };
 
 struct Rule {
@@ -52,7 +54,7 @@ struct Rule {
   std::atomic<long> calls = 0;
 };
 
-std::array<Rule, 13> rules{{{"alloc", ENOMEM},
+std::array<Rule, 14> rules{{{"alloc", ENOMEM},
                             {"disk", EIO},
                             {"exchange", EINVAL},
                             {"link", EPERM},
@@ -64,7 +66,8 @@ std::array<Rule, 13> rules{{{"alloc", ENOMEM},
                             {"mmap", ENOMEM},
                             {"fork", EAGAIN},
                             {"exec", EACCES},
-                            {"lock", ENOLCK}}};
+                            {"lock", ENOLCK},
+                            {"thread", EAGAIN}}};
 std::atomic<bool> is_on = false;
 const char* counts = nullptr;  // Programs may clear their environment.
 
@@ -251,6 +254,13 @@ int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_action
                  const posix_spawnattr_t* attributes, char* const words[], char* const names[]) {
   if (fails(Kind::kFork, Kind::kExec)) return errno;
   return real<Spawn>("posix_spawnp")(process, file, actions, attributes, words, names);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*work)(void*),
+                   void* argument) noexcept {
+  if (fails(Kind::kThread)) return errno;
+  return real<int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*)>(
+      "pthread_create")(thread, attributes, work, argument);
 }
 
 // Named by its symbol: the system has a struct of that name too.

@@ -17,7 +17,8 @@
 namespace mapproof {
 namespace {
 
-// Bytes of one call of read_.
+// Bytes of one call of read_, which begin small, so that a small input takes a small buffer.
+constexpr std::size_t kFirstBlock = std::size_t{1} << 12;
 constexpr std::size_t kPackedBlock = std::size_t{1} << 17;
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 constexpr std::size_t kMostGuessed = std::size_t{1} << 26;
@@ -110,7 +111,7 @@ std::size_t ByteSource::fill_unpacked(std::string& bytes, std::size_t count) {
                                ? std::string("is UTF-16, and cut off within a character")
                                : fmt::format("the {}'ed file is cut off", unpacker_.packing()));
     }
-    block.resize(kPackedBlock);
+    block.resize(std::min(next_block(), kPackedBlock));
     const std::size_t got = read_(block);
     is_over_ = got == 0;
     if (is_over_)
@@ -121,12 +122,18 @@ std::size_t ByteSource::fill_unpacked(std::string& bytes, std::size_t count) {
   return bytes.size() - before;
 }
 
+/// Bytes of the next call of read_: each time twice as many.
+std::size_t ByteSource::next_block() {
+  block_ = std::clamp(2 * block_, kFirstBlock, kBlock);
+  return block_;
+}
+
 /// The same for bytes that need no unpacking: reads into `bytes` itself.
 std::size_t ByteSource::fill_plain(std::string& bytes, std::size_t count) {
   const std::size_t before = bytes.size();
   std::size_t filled = 0;
   while (filled < count && !is_over_) {
-    const std::size_t end = std::min(count, filled - filled % kBlock + kBlock);
+    const std::size_t end = std::min(count, filled + next_block());
     bytes.resize(before + end);
     while (filled < end && !is_over_) {
       const std::size_t got = read_(std::span(bytes).subspan(before + filled));
@@ -184,7 +191,8 @@ std::string ByteSource::rest(std::size_t limit) {
   // Of packed input the size is a guess, which must not cost memory that is not needed.
   if (wanted > 0.0 &&
       wanted <= static_cast<double>(unpacker_.packing().empty() ? limit : kMostGuessed))
-    bytes.reserve(bytes.size() + static_cast<std::size_t>(wanted) + kBlock);
+    bytes.reserve(bytes.size() + static_cast<std::size_t>(wanted) +
+                  std::min(static_cast<std::size_t>(wanted), kBlock));
   do {
     if (bytes.size() > limit) throw IoError(name_, fmt::format("is larger than {} bytes", limit));
   } while (append(bytes, kBlock));

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -106,16 +105,10 @@ std::string bytes_of(const Parent& parent, const std::string& name) {
   const Descriptor file(
       ::openat(parent.folder.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.get() < 0) refuse_change(parent.path / name, "cannot be read");
-  std::string bytes;
-  std::array<char, 1 << 16> block;
-  for (;;) {
-    const ssize_t count = ::read(file.get(), block.data(), block.size());
-    if (count == 0) return bytes;
-    if (count > 0)
-      bytes.append(block.data(), static_cast<std::size_t>(count));
-    else if (errno != EINTR)
-      refuse_change(parent.path / name, "cannot be read");
-  }
+  std::string bytes, block(std::size_t{1} << 16, '\0');
+  while (const std::size_t count = read_some(file, block, (parent.path / name).string()))
+    bytes.append(block, 0, count);
+  return bytes;
 }
 
 void write_into(const Parent& parent, const std::string& name, std::string_view bytes,

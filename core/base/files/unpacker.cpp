@@ -339,4 +339,18 @@ double Unpacker::ratio() const {
   return used > 0.0 && state_->unpacked_bytes > 0.0 ? state_->unpacked_bytes / used : 1.0;
 }
 
+std::string zlib_start(std::string_view packed, std::size_t most) {
+  std::string start(most, '\0');
+  z_stream stream{};
+  if (::inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(start.data());
+  stream.avail_out = static_cast<uInt>(start.size());
+  ::inflate(&stream, Z_SYNC_FLUSH);
+  start.resize(start.size() - stream.avail_out);
+  ::inflateEnd(&stream);
+  return start;
+}
+
 }  // namespace mapproof

@@ -50,4 +50,7 @@ class Unpacker {
   std::unique_ptr<State> state_;
 };
 
+/// The first bytes of what zlib packed, `most` or all; fewer where it is damaged.
+std::string zlib_start(std::string_view packed, std::size_t most);
+
 }  // namespace mapproof

@@ -71,9 +71,12 @@ constexpr int kMostPolishingSteps = 5;
 constexpr double kPolished = 1e-9;
 constexpr Index kPairsToCorrectAgain = 6;  // A point.
 constexpr int kMostCorrections = 3;
-constexpr double kTieBreak = 1e-14;     // Lifts a Schur complement that is singular by rounding.
+constexpr double kTieBreak = 1e-14;  // Lifts a Schur complement that is singular by rounding,
+constexpr double kMostTieBreak =
+    1e-11;  // and so far, tenfold at a time, where that leaves no factor.
 constexpr double kUsualCentring = 0.3;  // Where the guess has no information.
-constexpr double kStuck = 1e-7;         // A step as short as this makes no progress.
+constexpr double kStuck = 1e-7;         // A step as short as this makes no progress,
+constexpr double kLeastFall = 0.995;    // nor one that leaves so much of a gap whose pairs fit.
 constexpr double kFirstLength = 0.5;    // As if a step of that length had come before.
 constexpr double kLift = 0.1;           // Of a typical squared distance, into the interior.
 constexpr double kStartWeight = 2.0;    // Of the least that is feasible.
@@ -195,11 +198,24 @@ class InteriorPoint {
 
   MatrixXd slack() const { return reduced_.laplacian(w_) - reduced_.C(); }
 
+  bool pairs_fit() const {
+    const VectorXd rest = reduced_.along_pairs(X_.matrix()) - reduced_.squared();
+    return rest.cwiseAbs().maxCoeff() <= options_.constraint_residual;
+  }
+
   bool is_solved(double relative_gap) {
     product_ = inner(X_.matrix(), Z_.matrix());
-    const VectorXd rest = reduced_.along_pairs(X_.matrix()) - reduced_.squared();
-    return product_ <= relative_gap * std::abs(w_.dot(reduced_.squared())) &&
-           rest.cwiseAbs().maxCoeff() <= options_.constraint_residual;
+    return product_ <= relative_gap * std::abs(w_.dot(reduced_.squared())) && pairs_fit();
+  }
+
+  /// The factor of the matrix of the pairs.
+  bool factor_pairs() {
+    for (double lift = kTieBreak; lift <= kMostTieBreak; lift *= 10.0) {
+      reduced_.schur(X_.matrix(), inverse_Z_, schur_);
+      schur_.diagonal() *= 1.0 + lift;
+      if (factor_cholesky(schur_)) return true;
+    }
+    return false;
   }
 
   /// The step to the centre of `mu`, less a correction of second order times Z^-1.
@@ -247,9 +263,7 @@ class InteriorPoint {
 
   bool advance() {
     inverse_Z_ = Z_.inverse();
-    reduced_.schur(X_.matrix(), inverse_Z_, schur_);
-    schur_.diagonal() *= 1.0 + kTieBreak;
-    if (!factor_cholesky(schur_)) return false;
+    if (!factor_pairs()) return false;
 
     const double mu = product_ / static_cast<double>(reduced_.size());
     const Step guess = step_to(0.0, nullptr);
@@ -264,7 +278,8 @@ class InteriorPoint {
     auto move = corrected(sigma * mu, guess);
     if (!move || !take(*move)) return false;
     last_length_ = move->shortest();
-    return std::max(move->length_X, move->length_Z) > kStuck;
+    if (std::max(move->length_X, move->length_Z) <= kStuck) return false;
+    return inner(X_.matrix(), Z_.matrix()) <= kLeastFall * product_ || !pairs_fit();
   }
 
   /// False if rounding keeps all of a step from being taken. Shortens the steps that are not
@@ -355,28 +370,32 @@ MatrixXd Reduced::laplacian(const VectorXd& w) const {
   return L;
 }
 
-/// Rows of P, as differences of the ends of some pairs: one column for each point, 0 for the
-/// origin.
-void Reduced::differences(const MatrixXd& P, Index first, MatrixXd& out) const {
-  for (Index k = 0; k < out.rows(); ++k) {
-    const auto [a, b] = ends(first + k);
-    for (Index i = 0; i < n_; ++i) out(k, i + 1) = P(i, b) - (a < 0 ? 0.0 : P(i, a));
+/// Rows of the symmetric P, as differences of the ends of some pairs: one column for each point, 0
+/// for the origin.
+void Reduced::differences(const MatrixXd& P, Index first, Index count, MatrixXd& out) const {
+  if (out.rows() < count || out.cols() != n_ + 1) out.resize(count, n_ + 1);
+  out.col(0).setZero();
+  for (Index i = 0; i < n_; ++i) {
+    const double* const column = P.col(i).data();
+    double* const to = out.col(i + 1).data();
+    for (Index k = 0; k < count; ++k) {
+      const auto [a, b] = ends(first + k);
+      to[k] = column[b] - (a < 0 ? 0.0 : column[a]);
+    }
   }
 }
 
-void Reduced::schur(const MatrixXd& P, const MatrixXd& Q, MatrixXd& S) const {
+void Reduced::schur(const MatrixXd& P, const MatrixXd& Q, MatrixXd& S) {
   S.resize(pairs(), pairs());
   for (Index first = 0; first < pairs(); first += kPairsTogether) {
     const Index count = std::min(kPairsTogether, pairs() - first);
-    MatrixXd p = MatrixXd::Zero(count, n_ + 1);
-    MatrixXd q = MatrixXd::Zero(count, n_ + 1);
-    differences(P, first, p);
-    differences(Q, first, q);
+    differences(P, first, count, p_);
+    differences(Q, first, count, q_);
     for (Index l = 0; l < first + count; ++l) {
       const auto& [i, j] = problem_.pairs[static_cast<std::size_t>(l)];
       const Index above = std::max<Index>(0, l - first);
-      multiply_differences({p.col(i).data() + above, p.col(j).data() + above},
-                           {q.col(i).data() + above, q.col(j).data() + above},
+      multiply_differences({p_.col(i).data() + above, p_.col(j).data() + above},
+                           {q_.col(i).data() + above, q_.col(j).data() + above},
                            S.col(l).data() + first + above, count - above);
     }
   }

@@ -30,7 +30,7 @@ class Reduced {
 
   /// (b_k' P b_l)(b_k' Q b_l), on and below the diagonal, P and Q symmetric: the matrix of the
   /// pairs after Newton's other unknowns are eliminated.
-  void schur(const Eigen::MatrixXd& P, const Eigen::MatrixXd& Q, Eigen::MatrixXd& S) const;
+  void schur(const Eigen::MatrixXd& P, const Eigen::MatrixXd& Q, Eigen::MatrixXd& S);
 
  private:
   Pair ends(Eigen::Index k) const {
@@ -38,11 +38,13 @@ class Reduced {
     return {i - 1, j - 1};
   }
 
-  void differences(const Eigen::MatrixXd& P, Eigen::Index first, Eigen::MatrixXd& out) const;
+  void differences(const Eigen::MatrixXd& P, Eigen::Index first, Eigen::Index count,
+                   Eigen::MatrixXd& out) const;
 
   const Problem& problem_;
   Eigen::Index n_;
   Eigen::MatrixXd C_;
+  Eigen::MatrixXd p_, q_;  ///< Differences of some pairs, kept from one matrix to the next.
 };
 
 /// How far (Y, w) is from optimal, apart from the sign of the slack.
@@ -69,10 +71,9 @@ struct KktStep {
 std::optional<KktStep> kkt_newton_step(const Problem& problem, const Rows& Y,
                                        const Eigen::VectorXd& w);
 
-/// Up to here the interior point's matrix of pairs squared is made: 200 MB for each thread that
-/// solves. K = 7 keeps 9 pairs a
-/// landmark.
-inline constexpr Eigen::Index kMostInteriorPairs = 5000;
+/// Up to here the interior point's matrix of pairs squared is made: 800 MB for each thread that
+/// solves. K = 7 keeps 9 pairs a landmark.
+inline constexpr Eigen::Index kMostInteriorPairs = 10'000;
 
 /// When to stop.
 /// What is requested; the steps stop at a part of it (see interior_point.cpp).

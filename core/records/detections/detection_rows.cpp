@@ -37,8 +37,7 @@ Detection DetectionRows::detection_of(const TableRow& row) {
     seen.range_m = scans_.value(row, ColumnRole::kRange, Sensor::kRange);
   if (columns[ColumnRole::kBearing])
     seen.bearing_rad = scans_.value(row, ColumnRole::kBearing, Sensor::kBearing);
-  if (columns[ColumnRole::kX] && (columns[ColumnRole::kY] || columns[ColumnRole::kRight]))
-    take_position(row, seen);
+  if (columns.has_position()) take_position(row, seen);
   if (columns[ColumnRole::kValue]) take_value(row, seen);
   return seen;
 }

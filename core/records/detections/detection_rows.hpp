@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/model/detection_log.hpp"
 #include "core/records/detections/scan_rows.hpp"
@@ -31,6 +33,8 @@ class DetectionRows {
 
   const ScanRows& scans() const { return scans_; }
   const NameList& names() const { return names_; }
+  /// The names, without a copy of them.
+  std::vector<std::string> take_names() && { return std::move(names_).take(); }
 
  private:
   void take_position(const TableRow& row, Detection& seen) const;

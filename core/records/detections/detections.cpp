@@ -51,15 +51,17 @@ class LongDetections {
     if (!rows_.begin(row)) add(row);
     while (stream_.next(row)) add(row);
     if (log_.detections.empty()) throw IoError(stream_.source(), "holds a header and no rows");
+    last_ = {};
     scale_times();
     require_stamps(rows_.scans(), scan_window_s_);
     order();
-    log_.names = rows_.names().names();
     unknown_ = remark_on_unknown();
+    std::vector<std::string> locations = rows_.names().locations();
+    log_.names = std::move(rows_).take_names();
     return {.log = std::move(log_),
             .ground_truth_m = std::nullopt,
             .remarks = remarks(),
-            .locations = rows_.names().locations(),
+            .locations = std::move(locations),
             .path = stream_.source(),
             .reading = reading()};
   }
@@ -79,7 +81,7 @@ class LongDetections {
     if (last_[landmark].run == seen.step)
       refuse_repeat(fmt::format("line {}", row.line), landmark,
                     fmt::format("on line {}", last_[landmark].line));
-    last_[landmark] = {seen.step, row.line};
+    last_[landmark] = {seen.step, static_cast<std::uint32_t>(row.line)};
     reserve(row);
   }
 
@@ -216,7 +218,7 @@ class LongDetections {
   /// Where a landmark was seen last.
   struct LastRow {
     int run = -1;
-    std::size_t line = 0;
+    std::uint32_t line = 0;
   };
   std::vector<LastRow> last_;  ///< By landmark.
   std::size_t bytes_ = 0;      ///< Of the first rows.

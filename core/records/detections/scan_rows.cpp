@@ -79,10 +79,8 @@ void require_detections(const DetectionColumns& columns, const std::string& sour
   if (!columns[ColumnRole::kStep] && !columns[ColumnRole::kTime])
     throw IoError(source, location,
                   "no column is named step or time: which rows are one scan?" + others);
-  const bool has_position =
-      columns[ColumnRole::kX] && (columns[ColumnRole::kY] || columns[ColumnRole::kRight]);
-  if (!columns[ColumnRole::kRange] && !columns[ColumnRole::kBearing] && !has_position &&
-      !columns[ColumnRole::kValue] && !columns.unread.empty())
+  if (!columns.measure(Sensor::kRange) && !columns.measure(Sensor::kBearing) &&
+      !columns.unread.empty())
     throw IoError(source, location,
                   "no column is named range or bearing" + others +
                       "; a list of times and landmarks alone is read as visibility");

@@ -30,6 +30,17 @@ struct DetectionColumns {
   std::optional<std::size_t> operator[](ColumnRole column) const {
     return cell[static_cast<std::size_t>(column)];
   }
+
+  /// Whether they hold a position in the robot's frame.
+  bool has_position() const {
+    return (*this)[ColumnRole::kX] && ((*this)[ColumnRole::kY] || (*this)[ColumnRole::kRight]);
+  }
+
+  /// Whether they hold what the sensor measures, or may: the user states what a value is.
+  bool measure(Sensor sensor) const {
+    return sensor == Sensor::kVisibility || has_position() || (*this)[ColumnRole::kValue] ||
+           (*this)[sensor == Sensor::kRange ? ColumnRole::kRange : ColumnRole::kBearing];
+  }
 };
 
 /// Whether a row names columns of such a table: a landmark and something measured, by the words

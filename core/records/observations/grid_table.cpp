@@ -295,7 +295,7 @@ PackedSource GridTable::result() && {
   result.locations = names.locations();
   PackedHistory& history = result.history;
   history.sensor = sensor_;
-  history.names = names.names();
+  history.names = std::move(names).take();
   const std::size_t values = table_->columns() - (shape.label_column ? 1 : 0);
   history.steps = static_cast<Eigen::Index>(shape.is_transposed ? rows_ : values);
   history.form = form_;

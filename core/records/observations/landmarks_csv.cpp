@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -202,7 +203,7 @@ NamedPoints parse_table(std::string_view text, const std::string& source,
       if (const std::optional<double> height = number_in(row.cells[*columns.height]))
         heights_m.push_back(columns.factor[0] * *height);
   }
-  NamedPoints points = named_points(names, coordinates, source);
+  NamedPoints points = named_points(std::move(names), coordinates, source);
   points.heights = remark_on_heights(heights_m, source);
   return points;
 }
@@ -271,7 +272,7 @@ NamedPoints parse_groundtruth(std::string_view text, const std::string& source) 
       coordinates.push_back(rows[i]);
     }
   }
-  return named_points(names, coordinates, source);
+  return named_points(std::move(names), coordinates, source);
 }
 
 }  // namespace mapproof

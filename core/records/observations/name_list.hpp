@@ -1,10 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <cstdint>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -18,6 +17,7 @@ bool is_word_for_names(std::string_view cell);
 
 /// The names of landmarks as a table is read: not empty, at most kLongestName bytes, at most
 /// kMostLandmarks of them (see limits.hpp).
+/// @note A name takes its string, and 4 bytes for its line and some 16 to find it.
 class NameList {
  public:
   explicit NameList(const std::string& source) : source_(source) {}
@@ -30,26 +30,27 @@ class NameList {
 
   const std::vector<std::string>& names() const { return names_; }
   /// "line 7", of each name.
-  const std::vector<std::string>& locations() const { return locations_; }
+  std::vector<std::string> locations() const;
+
+  /// The names, without a copy of them; the list is empty then.
+  std::vector<std::string> take() &&;
 
  private:
-  /// Of names that are not copied to be looked up: each row of a long table has one.
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view name) const {
-      return std::hash<std::string_view>()(name);
-    }
-  };
+  static constexpr std::uint32_t kFree = UINT32_MAX;
+
+  /// Where the table has the name, or would have it. @pre The table has a free place.
+  std::size_t place_of(std::string_view name) const;
+  void enlarge();
 
   const std::string& source_;
   std::vector<std::string> names_;
-  std::vector<std::string> locations_;
-  std::unordered_map<std::string, Eigen::Index, Hash, std::equal_to<>> index_;
+  std::vector<std::uint32_t> lines_;  ///< Of each name.
+  std::vector<std::uint32_t> table_;  ///< Names by their hash, by index, kFree: none; half full.
 };
 
 /// The landmarks of a whole table. @param coordinates  x and y of each name in turn.
 /// @throws IoError if there are none.
-NamedPoints named_points(const NameList& names, const std::vector<double>& coordinates,
+NamedPoints named_points(NameList names, const std::vector<double>& coordinates,
                          const std::string& source);
 
 }  // namespace mapproof

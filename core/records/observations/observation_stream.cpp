@@ -8,6 +8,7 @@
 #include "core/records/detections/scan_grouping.hpp"
 #include "core/records/detections/scan_rows.hpp"
 #include "core/records/limits.hpp"
+#include "core/records/observations/sources.hpp"
 
 namespace mapproof {
 
@@ -20,26 +21,30 @@ ObservationStream::ObservationStream(std::string source, Sensor sensor, const Ta
 
 void ObservationStream::end() {
   table_.end([this](const TableRow& row) { read_row(row); });
-  if (detections_)
+  if (detections_) {
     detections_->end();
-  else if (!window_s_)
+    take_scans();
+    if (!names().empty() && !is_measured_) refuse_unmeasured(table_.source(), sensor_);
+  } else if (!window_s_) {
     find_window();
+  }
   if (open_) complete_.push_back(*std::exchange(open_, std::nullopt));
 }
 
-std::vector<StreamedStep> ObservationStream::steps() {
-  if (!detections_) return std::exchange(complete_, {});
-  std::vector<StreamedStep> steps;
+/// What the sensor saw in the scans that became complete.
+void ObservationStream::take_scans() {
+  if (!detections_) return;
   for (const StreamedScan& scan : detections_->scans()) {
-    steps.push_back({scan.scan.key, {}});
+    StreamedStep& step = complete_.emplace_back(scan.scan.key);
     for (const Detection& seen : scan.detections) {
       const double value = sensor_ == Sensor::kVisibility ? 1.0
                            : sensor_ == Sensor::kRange    ? seen.range_m
                                                           : seen.bearing_rad;
-      if (!std::isnan(value)) steps.back().values.emplace_back(seen.landmark, value);
+      if (std::isnan(value)) continue;
+      step.values.emplace_back(seen.landmark, value);
+      is_measured_ = true;
     }
   }
-  return steps;
 }
 
 std::vector<std::string> ObservationStream::remarks() const {
@@ -54,7 +59,12 @@ void ObservationStream::read_row(const TableRow& row) {
   const bool first = !std::exchange(begun_, true);
   if (first && (names_detection_columns(row, format_.columns) || starts_detection_list(row)))
     detections_.emplace(table_.source(), format_);
-  if (detections_) return detections_->take(row);
+  if (detections_) {
+    detections_->take(row);
+    if (first && !detections_->rows().scans().columns().measure(sensor_))
+      refuse_unmeasured(table_.source(), sensor_);
+    return;
+  }
   if (first) {
     const bool is_header = values_.begin(row);
     require_stamps(values_.scans(), window_s_);

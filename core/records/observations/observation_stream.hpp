@@ -35,8 +35,8 @@ class ObservationStream {
   ObservationStream(const ObservationStream&) = delete;
   ObservationStream& operator=(const ObservationStream&) = delete;
 
-  /// @throws IoError with the line, as read_observations and StreamedTable; or for a step that is
-  ///         not ascending.
+  /// @throws IoError with the line, as read_observations and StreamedTable; for a step that is not
+  ///         ascending; or for detections without a column that the sensor measures.
   void take(std::string_view bytes) {
     table_.take(bytes, [this](const TableRow& row) { read_row(row); });
   }
@@ -45,11 +45,14 @@ class ObservationStream {
   void drop_half_line() { table_.drop_half_line(); }
 
   /// There will be no more: the last line needs no end, and the last step is complete.
-  /// @throws IoError as take().
+  /// @throws IoError as take(), or if there were detections and the sensor measured none of them.
   void end();
 
   /// The steps that became complete since the last call, ascending.
-  std::vector<StreamedStep> steps();
+  std::vector<StreamedStep> steps() {
+    take_scans();
+    return std::exchange(complete_, {});
+  }
 
   /// Remarks after end(), a sentence each.
   std::vector<std::string> remarks() const;
@@ -61,6 +64,7 @@ class ObservationStream {
 
  private:
   void read_row(const TableRow& row);
+  void take_scans();
   void find_window();
   void add(const ValueRows::Measured& measured);
   bool begins_step(const ValueRows::Measured& measured) const;
@@ -70,7 +74,8 @@ class ObservationStream {
   Sensor sensor_;
   TableFormat format_;
   ValueRows values_;
-  std::optional<ScanGatherer> detections_;    ///< If that is what the header names.
+  std::optional<ScanGatherer> detections_;    ///< If that is what the first row shows.
+  bool is_measured_ = false;                  ///< The sensor measured one of them.
   std::optional<double> window_s_;            ///< Empty: not found yet.
   std::vector<ValueRows::Measured> waiting_;  ///< Until it is.
   std::string grouping_;                      ///< A remark.

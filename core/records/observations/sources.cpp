@@ -8,6 +8,10 @@
 
 namespace mapproof {
 
+void refuse_unmeasured(const std::string& source, Sensor sensor) {
+  throw IoError(source, fmt::format("holds no {}", name(sensor)));
+}
+
 ObservationSource observations_of(DetectionSource source, Sensor sensor) {
   const std::size_t landmarks = source.log.names.size();
   const auto steps = static_cast<std::size_t>(source.log.steps);
@@ -19,8 +23,7 @@ ObservationSource observations_of(DetectionSource source, Sensor sensor) {
                               landmarks, steps, kMostEntries));
   check_size(source.path, "as a whole", landmarks, steps);
   ObservationHistory history = history_of(source.log, sensor);
-  if (history.values.array().isNaN().all())
-    throw IoError(source.path, fmt::format("holds no {}", name(sensor)));
+  if (history.values.array().isNaN().all()) refuse_unmeasured(source.path, sensor);
   if (sensor == Sensor::kRange) remark_on_angles(history, source.remarks);
   return {.history = std::move(history),
           .ground_truth_m = std::move(source.ground_truth_m),

@@ -138,6 +138,9 @@ struct NamedPoints {
   std::string heights = {};
 };
 
+/// Refuses detections of which the sensor measured nothing. @throws IoError.
+[[noreturn]] void refuse_unmeasured(const std::string& source, Sensor sensor);
+
 /// What one sensor observed of detections.
 /// @throws IoError if that were more than 2e8 entries, or there is nothing of that kind.
 ObservationSource observations_of(DetectionSource source, Sensor sensor);

@@ -17,6 +17,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/files/unpacker.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/model/range_log.hpp"
 #include "core/records/limits.hpp"
@@ -111,26 +112,66 @@ bool check_header(const std::string& bytes, const std::string& source) {
   return is_swapped;
 }
 
-/// Follows the elements from tag to tag. @return How many there are.
+constexpr std::size_t kHeadBytes = 160;  // Flags, dimensions and name of a variable.
+
+/// Whether the head is that of an array of doubles whose dimensions and name have possible sizes:
+/// matio takes as much memory as they declare.
+bool is_head_of_doubles(const std::string& head, bool is_swapped) {
+  constexpr std::uint32_t kDoubles = 6;
+  constexpr std::uint32_t kInt32 = 5;
+  constexpr std::uint32_t kInt8 = 1;
+  constexpr std::size_t kFlags = 8, kDimensions = 16, kName = 32;  // Of two dimensions.
+  constexpr std::uint32_t kLongestName = 63;                       // Of MATLAB's.
+  if (head.size() < kName + kTagBytes) return false;
+  const auto word = [&](std::size_t at) { return word_at(head, at, is_swapped); };
+  // The type of a name of up to four characters shares its word with their number.
+  const bool has_name = word(kName) == kInt8
+                            ? word(kName + 4) <= kLongestName
+                            : (word(kName) & 0xFFFF) == kInt8 && word(kName) >> 16 <= 4;
+  return (word(kFlags) & 0xFF) == kDoubles && word(kDimensions) == kInt32 &&
+         word(kDimensions + 4) == 8 && has_name;
+}
+
+/// The variables of a file that may be tables.
+struct MatTables {
+  std::string bytes;  ///< A file of them alone.
+  /// How many numbers the bytes of each could hold: a number has a byte or more, and a byte unpacks
+  /// to 1032 at most.
+  std::vector<std::size_t> most_numbers;
+};
+
+/// Follows the elements from tag to tag.
 /// @throws IoError unless they are variables that fill the file.
-std::size_t count_variables(const std::string& bytes, bool is_swapped, const std::string& source) {
+MatTables tables_alone(const std::string& bytes, bool is_swapped, const std::string& source) {
   constexpr std::uint32_t kMatrix = 14;
   constexpr std::uint32_t kCompressed = 15;
+  constexpr std::size_t kMostUnpacked = 1032;
+  MatTables tables{.bytes = bytes.substr(0, kHeaderBytes), .most_numbers = {}};
   std::size_t count = 0;
-  for (std::size_t at = kHeaderBytes; at < bytes.size(); ++count) {
-    const std::string location = fmt::format("variable {}", count + 1);
-    if (count == kMostVariables)
+  for (std::size_t at = kHeaderBytes; at < bytes.size();) {
+    const std::string location = fmt::format("variable {}", ++count);
+    if (count > kMostVariables)
       throw IoError(source, fmt::format("more than {} variables", kMostVariables));
     if (bytes.size() - at < kTagBytes) throw IoError(source, location, "is cut off");
     const std::uint32_t type = word_at(bytes, at, is_swapped);
     const std::size_t size = word_at(bytes, at + 4, is_swapped);
     if (type != kMatrix && type != kCompressed)
       throw IoError(source, location, fmt::format("is damaged: element of type {}", type));
-    at += kTagBytes;
-    if (size > bytes.size() - at) throw IoError(source, location, "is cut off");
-    at += size;
+    if (size > bytes.size() - at - kTagBytes) throw IoError(source, location, "is cut off");
+    const std::size_t content = at + kTagBytes;
+    const std::string_view element = std::string_view(bytes).substr(content, size);
+    std::string head(element.substr(0, kHeadBytes));
+    if (type == kCompressed) {  // A matrix with its tag.
+      head = zlib_start(element, kTagBytes + kHeadBytes);
+      head.erase(0, kTagBytes);
+    }
+    if (is_head_of_doubles(head, is_swapped)) {
+      tables.bytes.append(bytes, at, kTagBytes + size);
+      tables.most_numbers.push_back(type == kCompressed ? kMostUnpacked * size : size);
+    }
+    at = content + size;
   }
-  return count;
+  return tables;
 }
 
 struct CloseFile {
@@ -147,7 +188,9 @@ bool is_table(const matvar_t& variable) {
          variable.dims != nullptr;
 }
 
-NumberTable read_table(mat_t* file, matvar_t* variable, const std::string& source) {
+/// @param most_numbers  That the bytes of the variable could hold.
+NumberTable read_table(mat_t* file, matvar_t* variable, std::size_t most_numbers,
+                       const std::string& source) {
   const std::string name = "variable " + printable(variable->name);
   const std::size_t rows = variable->dims[0];
   const std::size_t columns = variable->dims[1];
@@ -155,6 +198,9 @@ NumberTable read_table(mat_t* file, matvar_t* variable, const std::string& sourc
     throw IoError(
         source, name,
         fmt::format("{} x {} numbers; at most {} x {}", rows, columns, kMostSteps, kMostColumns));
+  if (rows * columns > most_numbers)
+    throw IoError(source, name,
+                  fmt::format("is damaged: too short for {} x {} numbers", rows, columns));
   NumberTable table{
       .source = source, .row_word = name + ", row", .rows = std::vector<std::size_t>(rows)};
   std::iota(table.rows.begin(), table.rows.end(), std::size_t{1});
@@ -183,22 +229,24 @@ std::map<std::string, NumberTable> read_mat_tables(ByteSource& input) {
   const std::string& source = input.name();
   const std::string bytes = input.rest();
   const bool is_swapped = check_header(bytes, source);
-  const std::size_t count = count_variables(bytes, is_swapped, source);
+  const MatTables alone = tables_alone(bytes, is_swapped, source);
+  const std::vector<std::size_t>& most = alone.most_numbers;
   // matio seeks, and opens by a name: it gets the very bytes that were checked.
-  const Descriptor seekable = anonymous_file(bytes, source);
+  const Descriptor seekable = anonymous_file(alone.bytes, source);
   const MatFile file(Mat_Open(path_of(seekable).c_str(), MAT_ACC_RDONLY));
   if (!file) throw IoError(source, "is not a MATLAB file");
 
   // All heads first: reading numbers moves the position from which matio reads the next head.
   std::vector<MatVariable> variables;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < most.size(); ++i) {
     variables.emplace_back(Mat_VarReadNextInfo(file.get()));
     if (!variables.back()) throw IoError(source, fmt::format("variable {}", i + 1), "is damaged");
   }
   std::map<std::string, NumberTable> tables;
-  for (const MatVariable& variable : variables) {
+  for (std::size_t i = 0; i < most.size(); ++i) {
+    matvar_t* const variable = variables[i].get();
     if (variable->name == nullptr || !is_table(*variable)) continue;
-    if (!tables.emplace(variable->name, read_table(file.get(), variable.get(), source)).second)
+    if (!tables.emplace(variable->name, read_table(file.get(), variable, most[i], source)).second)
       throw IoError(source, "variable " + printable(variable->name), "is there twice");
   }
   return tables;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -49,7 +51,12 @@ std::string line_name(std::size_t line) { return fmt::format("line {}", line); }
 class ResultsReader {
  public:
   ResultsReader(std::string_view text, const std::string& source, const Quantities& quantities)
-      : source_(source), quantities_(quantities), table_(text, source, ',') {}
+      : source_(source), quantities_(quantities), table_(text, source, ',') {
+    // A row takes some ten times its text: no vector of them may grow by halves.
+    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    rows_.reserve(lines);
+    lines_.reserve(lines);
+  }
 
   std::vector<Result> read() {
     if (!table_.next(row_)) throw IoError(source_, "has no header");
@@ -57,18 +64,34 @@ class ResultsReader {
     while (table_.next(row_)) {
       if (row_.cells.size() != columns_.size())
         fail(fmt::format("{} cells where the header has {}", row_.cells.size(), columns_.size()));
-      rows_.emplace_back(row_.line, result_of_row());
+      rows_.push_back(result_of_row());
+      lines_.push_back(static_cast<std::uint32_t>(row_.line));
     }
     check_levels();
-    std::ranges::stable_sort(
-        rows_, [](const auto& a, const auto& b) { return comes_before(a.second, b.second); });
+    sort_rows();
     check_apart();
-    std::vector<Result> results;
-    for (auto& [line, result] : rows_) results.push_back(std::move(result));
-    return results;
+    return std::move(rows_);
   }
 
  private:
+  /// Stably, and without a second place for each row.
+  void sort_rows() {
+    std::vector<std::uint32_t> order(rows_.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, [this](std::uint32_t a, std::uint32_t b) {
+      return comes_before(rows_[a], rows_[b]);
+    });
+    // Place i gets row order[i], along each cycle of the permutation.
+    for (std::uint32_t start = 0; start < order.size(); ++start)
+      for (std::uint32_t to = start; order[to] != to;) {
+        const std::uint32_t from = std::exchange(order[to], to);
+        if (from == start) break;
+        std::swap(rows_[to], rows_[from]);
+        std::swap(lines_[to], lines_[from]);
+        to = from;
+      }
+  }
+
   [[noreturn]] void fail(const std::string& what) const {
     throw IoError(source_, line_name(row_.line), what);
   }
@@ -172,10 +195,10 @@ class ResultsReader {
       std::string cell;
     };
     std::map<std::pair<std::string, std::string>, std::array<Kind, 2>> factors;
-    for (const auto& [line, result] : rows_)
-      for (const Level& level : result.at.levels) {
-        Kind& kind = factors[{level.factor, result.at.setup}][level.value.index()];
-        if (kind.rows++ == 0) kind.line = line, kind.cell = level_text(level);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      for (const Level& level : rows_[i].at.levels) {
+        Kind& kind = factors[{level.factor, rows_[i].at.setup}][level.value.index()];
+        if (kind.rows++ == 0) kind.line = lines_[i], kind.cell = level_text(level);
       }
     for (const auto& [factor, kinds] : factors) {
       const auto& [numbers, texts] = kinds;
@@ -195,10 +218,10 @@ class ResultsReader {
   /// Throws if two rows are of the same quantity.
   void check_apart() {
     for (std::size_t i = 1; i < rows_.size(); ++i)
-      if (!comes_before(rows_[i - 1].second, rows_[i].second)) {
-        row_.line = rows_[i].first;
+      if (!comes_before(rows_[i - 1], rows_[i])) {
+        row_.line = lines_[i];
         fail(fmt::format("has the same setup, levels, method, quantity, run and subject as line {}",
-                         rows_[i - 1].first));
+                         lines_[i - 1]));
       }
   }
 
@@ -207,7 +230,8 @@ class ResultsReader {
   TableReader table_;
   TableRow row_;
   std::vector<std::string> columns_;
-  std::vector<std::pair<std::size_t, Result>> rows_;
+  std::vector<Result> rows_;
+  std::vector<std::uint32_t> lines_;  ///< Of each row.
   std::map<std::string, std::pair<std::string, std::size_t>> groups_;  ///< By run.
 };
 

@@ -60,7 +60,8 @@ const Element& element_of(std::string_view descr, const std::string& source) {
                   "a NumPy array of records (a structured array): in Python, "
                   "pandas.DataFrame(array).to_csv(\"table.csv\", index=False)");
   const std::string_view type = trimmed(descr, "'");
-  const bool has_order = std::string_view("<>|=").find(type.substr(0, 1)) != std::string_view::npos;
+  const bool has_order =
+      !type.empty() && std::string_view("<>|=").find(type.front()) != std::string_view::npos;
   const auto* found =
       std::ranges::find(kElements, has_order ? type.substr(1) : type, &Element::type);
   if (found != std::end(kElements)) return *found;

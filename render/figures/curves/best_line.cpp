@@ -140,6 +140,11 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
   const std::vector<At> known = all_known(lines);
   if (known.empty()) return "";
   const At best = best_in(known, quantity);
+  if (lines.size() == 1)
+    return fmt::format("the {} {} of {} is {} at {}",
+                       quantity.lower_is_better ? "lowest" : "highest", quantity.label,
+                       best.line->label, value_text(best.mean(), quantity),
+                       equation(axis, best.x()));
   return fmt::format("{} {}, {} at {}", best.line->label, has_the_best(quantity, false),
                      value_text(best.mean(), quantity), equation(axis, best.x()));
 }

@@ -1,6 +1,7 @@
 #include "render/figures/curves/convergence.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -32,14 +33,6 @@ std::vector<std::size_t> by_length(const WindowCurve& windows) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::sort(order, {}, [&](std::size_t i) { return windows.lengths_s[i]; });
   return order;
-}
-
-/// Where a mark stands wholly inside the frame, above all errors.
-double near_top(const ErrorAxis& axis) {
-  const auto& [low, high] = axis.limits;
-  constexpr double kShare = 0.97;
-  return axis.scale == Scale::kLog ? low * std::pow(high / low, kShare)
-                                   : std::lerp(low, high, kShare);
 }
 
 constexpr const char* kMeasurements = "ranges";
@@ -87,6 +80,25 @@ LogLogSpec spec_of(const std::string& id, const char* title, const ConvergenceCu
   return spec;
 }
 
+/// How many times as large the error of the landmarks is with the worst noise as with the least,
+/// after the most measurements.
+std::string noise_title(std::span<const ConvergenceCurve> curves) {
+  const auto error_of = [](const ConvergenceCurve& curve) {
+    const double mean = curve.points.empty() ? kNaN : curve.points.back().landmarks_m.mean;
+    return mean > 0.0 && curve.points.back().landmarks_m.values > 0 ? mean : kNaN;
+  };
+  std::vector<const ConvergenceCurve*> known;
+  for (const ConvergenceCurve& curve : curves)
+    if (std::isfinite(error_of(curve))) known.push_back(&curve);
+  if (known.size() < 2) return "Convergence under other noise";
+  const auto [least, most] = std::ranges::minmax(
+      known, {}, [&](const ConvergenceCurve* curve) { return error_of(*curve); });
+  std::string noise = most->title.substr(0, most->title.find(','));
+  noise[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(noise[0])));
+  return fmt::format("{} makes landmarks err {} times as much as {}", noise,
+                     significant(error_of(*most) / error_of(*least), 2), least->title);
+}
+
 /// Costs with the same N or the same T as a line; alone they make none.
 std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool over_steps) {
   const auto fixed = [&](const FactorizationCost& cost) {
@@ -125,7 +137,7 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   Scatter failed{
       .label = "predicts nothing", .colour = ThemeColour::kWarning, .marker = Marker::kCross};
   Scatter chosen{.label = "chosen", .colour = ThemeColour::kSeries2, .filled = false, .size = 2.0};
-  const double top = near_top(axis);
+  const double top = axis.near_top();
   Figure figure;
   figure.alt = "Typical error of held-out ranges by window length:";
   for (const std::size_t i : by_length(windows)) {
@@ -211,8 +223,8 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
 Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCurve> curves) {
   LogLogSpec spec;
   spec.id = id;
-  spec.title = "Convergence under other noise";
-  spec.columns = 1;  // The noise is described in the legend.
+  spec.title = noise_title(curves);
+  spec.columns = 1;  // The noise is described in the legend, which is that of all panels.
   LogLogPanel observation{"Observation model", kMeasurements, kObservation, {}, kRootLaw, {}};
   LogLogPanel landmarks{"Landmarks", kMeasurements, "error [m]", {}, kRootLaw, {}};
   std::string slopes;
@@ -228,7 +240,9 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
   spec.caption = fmt::format("Means and 95 % intervals. Slopes of the observation model: {}.",
                              slopes.empty() ? "none" : slopes);
   spec.panels = {std::move(observation), std::move(landmarks)};
-  return log_log_figure(spec);
+  Figure figure = log_log_figure(spec);
+  figure.shared_x = true;
+  return figure;
 }
 
 Figure factorization_cost_figure(const std::string& id, std::span<const FactorizationCost> costs) {

@@ -15,14 +15,18 @@
 namespace mapproof {
 namespace {
 
-constexpr int kBins = 300;         // Over the time: some two pixels each.
+constexpr int kBins = 80;          // Over the time; an error goes up and down in each.
 constexpr double kLogFrom = 30.0;  // Greatest over least error from which the axis is logarithmic.
-constexpr double kLeastShare = 0.02;  // Of each method's errors that may lie below a log axis.
+constexpr double kLeastShare = 0.02;  // Of each method's medians that may lie below a log axis.
 
-/// Errors of one record that are numbers, ascending.
+ThinLine median_of(const SlamRecord& record) {
+  return median_curve(record.estimate.path.time_s, record.error_m, kBins);
+}
+
+/// What is drawn of a record's errors, ascending.
 std::vector<double> sorted_errors(const SlamRecord& record) {
   std::vector<double> errors;
-  for (const double error : record.error_m)
+  for (const double error : median_of(record).y)
     if (std::isfinite(error)) errors.push_back(error);
   std::ranges::sort(errors);
   return errors;
@@ -57,7 +61,7 @@ std::string label_with_error(const SlamRecord& record) {
 }
 
 Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double start_s) {
-  ThinLine thin = thin_curve(record.estimate.path.time_s, record.error_m, kBins);
+  ThinLine thin = median_of(record);
   for (double& time : thin.x) time -= start_s;
   const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
   const PathStyle style = path_style(record.method);
@@ -66,7 +70,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
           .y = axis.raised(std::move(thin.y)),
           .colour = style.colour,
           .dash = style.dash,
-          .width = 0.8,
+          .width = 1.2,
           .marker = marker,
           .mark = {fmt::format("error-{}", info(record.method).name),
                    {{"path", std::string(info(record.method).label)}}}};
@@ -145,13 +149,14 @@ std::string alt_text(const ErrorCurveSpec& spec, Scale scale) {
 std::optional<Panel> path_error_panel(std::span<const SlamRecord* const> records) {
   std::vector<const SlamRecord*> judged;
   for (const SlamRecord* record : records)
-    if (!sorted_errors(*record).empty()) judged.push_back(record);
+    if (std::ranges::any_of(record->error_m, [](double error) { return std::isfinite(error); }))
+      judged.push_back(record);
   if (judged.empty()) return std::nullopt;
   const ErrorAxis axis = axis_of(judged);
   const double start_s = first_time(judged);
   Panel panel;
   panel.x.label = "time [s]";
-  panel.y = {.label = "error [m]", .scale = axis.scale, .limits = axis.limits};
+  panel.y = {.label = "median error [m]", .scale = axis.scale, .limits = axis.limits};
   for (const SlamRecord* record : judged)
     panel.layers.push_back(error_line(*record, axis, start_s));
   for (const SlamRecord* record : judged)

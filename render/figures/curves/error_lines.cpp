@@ -170,9 +170,13 @@ class Builder {
     }
     for (const ErrorLine& line : from.lines) {
       const SeriesStyle style = this->style(line.label);
-      panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(line.mean), style.colour,
-                                      style.dash, 1.0, style.marker, mark_of(line, prefix)});
+      panel.layers.push_back(Polyline{line.label, line.x, axis_.raised(within_frame(line.mean)),
+                                      style.colour, style.dash, 1.0, style.marker,
+                                      mark_of(line, prefix)});
     }
+    for (const ErrorLine& line : from.lines)
+      if (Scatter above = above_frame(line); !above.x.empty())
+        panel.layers.push_back(std::move(above));
     return panel;
   }
 
@@ -192,6 +196,35 @@ class Builder {
     for (std::size_t i = 0; i < ends.size(); ++i)
       if (line.mean[i] > spec_.ceiling) ends[i] = kNaN;
     return ends;
+  }
+
+  bool is_above(double mean) const {
+    return std::isfinite(spec_.ceiling) && mean > axis_.limits.high;
+  }
+
+  /// NaN above the frame: a line towards such a value would be read at its edge.
+  std::vector<double> within_frame(std::vector<double> means) const {
+    std::ranges::replace_if(
+        means, [this](double mean) { return is_above(mean); }, kNaN);
+    return means;
+  }
+
+  Scatter above_frame(const ErrorLine& line) const {
+    Scatter above{.label = "above the frame",
+                  .colour = style(line.label).colour,
+                  .marker = Marker::kTriangle,
+                  .filled = false,
+                  .size = 1.6};
+    for (std::size_t i = 0; i < line.mean.size(); ++i) {
+      if (!is_above(line.mean[i])) continue;
+      above.x.push_back(line.x[i]);
+      above.y.push_back(axis_.near_top());
+      above.marks.push_back({"",
+                             {{"curve", line.label},
+                              {"x", data_number(line.x[i])},
+                              {"y", data_number(line.mean[i])}}});
+    }
+    return above;
   }
 
   SeriesStyle style(const std::string& label) const {
@@ -262,6 +295,12 @@ std::vector<double> ErrorAxis::raised(std::vector<double> values) const {
     for (double& value : values)
       if (!std::isnan(value)) value = std::max(value, 0.5 * limits.low);
   return values;
+}
+
+double ErrorAxis::near_top() const {
+  constexpr double kShare = 0.97;
+  const auto& [low, high] = limits;
+  return scale == Scale::kLog ? low * std::pow(high / low, kShare) : std::lerp(low, high, kShare);
 }
 
 Figure error_lines_figure(const ErrorLinesSpec& spec) {

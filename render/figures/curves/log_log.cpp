@@ -61,7 +61,7 @@ class PanelBuilder {
       panel.layers.push_back(line(bound, {ThemeColour::kText, Dash::kDashed, Marker::kNone}));
     for (std::size_t i = 0; i < from_.lines.size(); ++i) {
       const SeriesStyle style = series_style(from_.lines[i].series.value_or(i));
-      panel.layers.push_back(bars(from_.lines[i], style));
+      panel.layers.push_back(bars(from_.lines[i], style, aside(i)));
       panel.layers.push_back(line(from_.lines[i], style));
     }
     std::erase_if(panel.layers, is_empty);
@@ -89,12 +89,20 @@ class PanelBuilder {
     return line;
   }
 
-  Segments bars(const ErrorLine& from, const SeriesStyle& style) const {
+  /// Factor by which the bars of a line stand aside, so that those of several lines are seen.
+  double aside(std::size_t line) const {
+    constexpr double kStep = 0.008;  // Of the axis.
+    const double middle = 0.5 * static_cast<double>(from_.lines.size() - 1);
+    const double steps = static_cast<double>(line) - middle;
+    return x_.known() ? std::pow(std::max(x_.high / x_.low, kLeastSpan), kStep * steps) : 1.0;
+  }
+
+  Segments bars(const ErrorLine& from, const SeriesStyle& style, double aside) const {
     Segments bars{.colour = style.colour, .width = 1.6};
     for (std::size_t i = 0; i < from.low.size(); ++i) {
       if (!is_shown(from.x[i]) || !is_shown(from.mean[i]) || !is_shown(from.high[i])) continue;
       const double low = is_shown(from.low[i]) ? std::max(from.low[i], low_end_) : low_end_;
-      add_line(bars, {from.x[i], low}, {from.x[i], from.high[i]});
+      add_line(bars, {aside * from.x[i], low}, {aside * from.x[i], from.high[i]});
     }
     return bars;
   }

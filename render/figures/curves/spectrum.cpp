@@ -83,14 +83,35 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
 constexpr double kFloor = 1e-4;  // Of the greatest; smaller shares stand at the foot.
 constexpr std::size_t kMostShown = 10;
 
-Panel panel_of(const SpectrumPanel& method, std::size_t index) {
+double greatest_of(const SpectrumPanel& method) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(method.eigenvalues.size(), kMostShown); ++i)
+    most = std::max(most, method.eigenvalues[i]);
+  return most;
+}
+
+/// The lower end of the axis: below the least share of all, and two decades at least.
+double foot_of(const std::vector<SpectrumPanel>& methods) {
+  double least = 0.02;
+  for (const SpectrumPanel& method : methods) {
+    const double most = greatest_of(method);
+    for (std::size_t i = 0; i < std::min(method.eigenvalues.size(), kMostShown); ++i)
+      if (method.eigenvalues[i] > kFloor * most)
+        least = std::min(least, method.eigenvalues[i] / most);
+      else if (!std::isnan(method.eigenvalues[i]))
+        least = kFloor;
+  }
+  return std::max(kFloor, 0.5 * least);
+}
+
+/// @param foot  Where the stems end.
+Panel panel_of(const SpectrumPanel& method, std::size_t index, double foot) {
   Panel panel;
   const double gap = spectral_gap(method.eigenvalues);
   panel.title = method.title;
   if (std::isfinite(gap)) panel.title += "\ngap " + significant(gap, 2);
   const std::size_t count = std::min(method.eigenvalues.size(), kMostShown);
-  double most = 0.0;
-  for (std::size_t i = 0; i < count; ++i) most = std::max(most, method.eigenvalues[i]);
+  const double most = greatest_of(method);
   Segments stems{.colour = ThemeColour::kMuted, .width = 0.7};
   Scatter used{.label = "axis of the map", .colour = ThemeColour::kSeries2};
   Scatter rest{
@@ -98,8 +119,8 @@ Panel panel_of(const SpectrumPanel& method, std::size_t index) {
   for (std::size_t i = 0; i < count; ++i) {
     const double value = method.eigenvalues[i];
     if (std::isnan(value) || most <= 0.0) continue;
-    const Point at{static_cast<double>(i + 1), std::max(value / most, kFloor)};
-    add_line(stems, {at.x, kFloor}, at);
+    const Point at{static_cast<double>(i + 1), std::max(value / most, foot)};
+    add_line(stems, {at.x, foot}, at);
     Scatter& points = i < 2 ? used : rest;
     add_point(points, at);
     points.marks.push_back({fmt::format("method-{}-value-{}", index + 1, i + 1),
@@ -169,6 +190,7 @@ Figure spectrum_figure(const SpectrumSpec& spec) {
       "third:";
   std::vector<std::string> without;
   double last = 3.0;
+  const double foot = foot_of(spec.methods);
   for (const SpectrumPanel& method : spec.methods) {
     for (const double value : method.eigenvalues)
       if (std::isinf(value))
@@ -180,7 +202,7 @@ Figure spectrum_figure(const SpectrumSpec& spec) {
     last = std::max(last, static_cast<double>(std::min(method.eigenvalues.size(), kMostShown)));
     figure.alt +=
         fmt::format(" {} {}.", method.title, significant(spectral_gap(method.eigenvalues)));
-    figure.panels.push_back(panel_of(method, figure.panels.size()));
+    figure.panels.push_back(panel_of(method, figure.panels.size(), foot));
   }
   if (figure.panels.empty()) {
     figure.panels.resize(1);
@@ -188,8 +210,7 @@ Figure spectrum_figure(const SpectrumSpec& spec) {
   }
   for (Panel& panel : figure.panels) {
     panel.x = {.label = "eigenvalue", .limits = Range{0.4, last + 0.6}, .whole = true};
-    panel.y = {
-        .label = "share of the greatest", .scale = Scale::kLog, .limits = Range{kFloor, 2.0}};
+    panel.y = {.label = "share of the greatest", .scale = Scale::kLog, .limits = Range{foot, 2.0}};
   }
   figure.caption =
       "Leading eigenvalues of each method in shares of the greatest; filled: those of the map's "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/base/errors.hpp"
@@ -95,11 +96,16 @@ ThinLine thin_path(const Trajectory& path, double tolerance_m) {
   return line;
 }
 
-ThinLine thin_curve(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins) {
+namespace {
+
+/// Calls `use` with each piece of time that has numbers, first row and end, and `skip` where there
+/// are none.
+template <typename Use, typename Skip>
+void for_pieces(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins, Use use,
+                Skip skip) {
   if (time_s.size() != std::ssize(values))
     throw InvalidInput("thin_curve: times and values differ in number");
   if (bins < 1) throw InvalidInput("thin_curve: no bins");
-  ThinLine line;
   const Index size = time_s.size();
   const double span = size > 0 ? time_s(size - 1) - time_s(0) : 0.0;
   const auto bin_of = [&](Index i) {
@@ -108,20 +114,42 @@ ThinLine thin_curve(const Eigen::VectorXd& time_s, const std::vector<double>& va
   };
   for (Index first = 0; first < size;) {
     if (!std::isfinite(values[first])) {
-      add_break(line);
+      skip();
       ++first;
       continue;
     }
     Index end = first + 1;
     while (end < size && bin_of(end) == bin_of(first) && std::isfinite(values[end])) ++end;
+    use(first, end);
+    first = end;
+  }
+}
+
+}  // namespace
+
+ThinLine thin_curve(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins) {
+  ThinLine line;
+  const auto add_ends = [&](Index first, Index end) {
     const auto range = std::pair{values.begin() + first, values.begin() + end};
     const auto [least, greatest] = std::minmax_element(range.first, range.second);
     std::array<Index, 4> rows{first, least - values.begin(), greatest - values.begin(), end - 1};
     std::ranges::sort(rows);
     const auto* last = std::unique(rows.begin(), rows.end());
     for (const auto* row = rows.begin(); row != last; ++row) add(line, time_s(*row), values[*row]);
-    first = end;
-  }
+  };
+  for_pieces(time_s, values, bins, add_ends, [&] { add_break(line); });
+  return line;
+}
+
+ThinLine median_curve(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins) {
+  if (time_s.size() < 2 * bins) return thin_curve(time_s, values, bins);
+  ThinLine line;
+  const auto add_median = [&](Index first, Index end) {
+    add(line, (time_s(first) + time_s(end - 1)) / 2.0,
+        median(std::span(values).subspan(static_cast<std::size_t>(first),
+                                         static_cast<std::size_t>(end - first))));
+  };
+  for_pieces(time_s, values, bins, add_median, [&] { add_break(line); });
   return line;
 }
 

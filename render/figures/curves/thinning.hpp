@@ -27,4 +27,10 @@ ThinLine thin_path(const Trajectory& path, double tolerance_m);
 /// @throws InvalidInput if their numbers differ or bins < 1.
 ThinLine thin_curve(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins);
 
+/// The median of a curve in `bins` equal pieces of time, at their middles: what it is as a rule,
+/// where all of it would be a barcode. Pieces without a number break it; with fewer than two values
+/// a piece, the values themselves.
+/// @throws InvalidInput as above.
+ThinLine median_curve(const Eigen::VectorXd& time_s, const std::vector<double>& values, int bins);
+
 }  // namespace mapproof

@@ -149,7 +149,8 @@ Panel map_panel(const PathErrorLine& line, const Grid& grid,
   cells.bar_label = "error [m]";
   cells.mark = {.id = "errors", .data = {{"method", line.label}}};
   const double longest_m = longest_way(poses);
-  Polyline estimate{.label = "estimate", .colour = ThemeColour::kText, .width = 0.5};
+  // Without a legend, for which a colour bar leaves no room; the caption says what the line is.
+  Polyline estimate{.colour = ThemeColour::kText, .width = 0.5};
   for (Eigen::Index i = 0; i < poses.size(); ++i) {
     const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0);
     const bool follows = poses.distance_m(i) - poses.distance_m(before) <= longest_m;

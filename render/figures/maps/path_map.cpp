@@ -333,7 +333,10 @@ class PathMap {
     if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";
     if (any_ellipse()) text += fmt::format(" {}.", capitalised(ellipse_words()));
     if (with_errors)
-      text += " Below: distance to the true position over time, mean and alignment in the legend.";
+      text +=
+          " Below: distance to the true position over time, the median of short pieces of time; "
+          "its "
+          "mean and alignment in the legend.";
     text += fmt::format(" Paths are thinned for drawing, by {} m at most.",
                         significant(view_.tolerance_m, 1));
     return text;

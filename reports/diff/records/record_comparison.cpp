@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -336,7 +337,7 @@ std::string comparison_text(const Comparison& comparison, const std::string& run
                         comparison.largest.size() == 1 && comparison.lost + comparison.gained == 0;
   std::string p;
   if (comparison.test && comparison.test->powerless_of == 0)
-    p = fmt::format(", p = {:.2g}", comparison.test->p);
+    p = ", " + p_words(comparison.test->p);
   if (is_alone) {
     const PairedValue& only = comparison.largest.front();
     return fmt::format("{} {} in run {} alone of {}{}", quantity.label,

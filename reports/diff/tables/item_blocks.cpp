@@ -22,6 +22,7 @@
 #include "reports/diff/tables/image_tables.hpp"
 #include "reports/diff/tables/table_builder.hpp"
 #include "reports/diff/verdict/tolerances.hpp"
+#include "reports/model/format.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -71,8 +72,7 @@ Row row_of(const Comparison& c) {
            mean(c.current_mean), TextCell{runs_text(c)}},
           "",
           false};
-  row.cells.push_back(c.test ? Cell(TextCell{fmt::format("{:.2g}", c.test->p)})
-                             : Cell(MissingCell{}));
+  row.cells.push_back(c.test ? Cell(p_cell(c.test->p)) : Cell(MissingCell{}));
   row.cells.push_back(c.test ? Cell(NumberCell{c.test->test.effect, 2, true})
                              : Cell(MissingCell{}));
   row.cells.emplace_back(TextCell{std::string(label(verdict_of(c.outcome)))});

@@ -201,11 +201,12 @@ constexpr std::size_t kLongestNote = 2000;
 list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown) {
   list out;
   for (const SharedCause& shared : result.shared)
-    out.push_back(data(
-        "note", printable(fmt::format("{} have one cause, {}: {}. The first {} are shown in full.",
-                                      counted(std::ssize(shared.ids), "item"),
-                                      label(shared.verdict), shared.cause, kExamples),
-                          kLongestNote)));
+    out.push_back(
+        data("note",
+             printable(fmt::format("{} have one cause, {}: {}{} The first {} are shown in full.",
+                                   counted(std::ssize(shared.ids), "item"), label(shared.verdict),
+                                   shared.cause, shared.cause.ends_with('.') ? "" : ".", kExamples),
+                       kLongestNote)));
   for (const std::string& remark : result.remarks)
     out.push_back(data("note", printable(remark, kLongestNote)));
   if (const std::string text = left_out(shown); !text.empty()) out.push_back(data("note", text));
@@ -252,6 +253,15 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
 
 }  // namespace
 
+/// The names of two paths without the folders that they share: "a/b" and "a/c" are "b" and "c".
+std::pair<std::string, std::string> distinct_names(const std::string& a, const std::string& b) {
+  std::size_t shared = 0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i)
+    if (a[i] == '/') shared = i + 1;
+  if (shared == a.size() || shared == b.size()) return {a, b};  // One is within the other.
+  return {a.substr(shared), b.substr(shared)};
+}
+
 std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& shown,
                       const Templates& templates, std::size_t page_bytes) {
   data page;
@@ -261,8 +271,9 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("label", std::string(label(result.judgement.verdict)));
   page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
-  page.set("baseline_name", printable(shown_baseline(result), kMostPath));
-  page.set("current_name", printable(shown_current(result), kMostPath));
+  const auto [baseline, current] = distinct_names(shown_baseline(result), shown_current(result));
+  page.set("baseline_name", printable(baseline, kMostPath));
+  page.set("current_name", printable(current, kMostPath));
   page.set("baseline", percent_encoded(result.baseline));
   page.set("current", percent_encoded(result.current));
   std::error_code error;

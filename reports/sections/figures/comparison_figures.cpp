@@ -12,6 +12,7 @@
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -99,6 +100,19 @@ void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId&
   if (!spec.methods.empty()) figures.push_back(shepard_figure(spec));
 }
 
+/// Where two eigenvalues stand out most and least; empty unless two methods have some.
+std::string gap_words(const std::vector<SpectrumPanel>& methods) {
+  std::vector<std::pair<double, std::string>> gaps;
+  for (const SpectrumPanel& method : methods)
+    if (const double gap = spectral_gap(method.eigenvalues); std::isfinite(gap))
+      gaps.emplace_back(gap, method.title);
+  if (gaps.size() < 2) return "";
+  const auto [least, most] = std::ranges::minmax(gaps);
+  return fmt::format("two eigenvalues stand out most with {} ({} times), least with {} ({} times)",
+                     most.second, significant(most.first, 2), least.second,
+                     significant(least.first, 2));
+}
+
 void add_spectra(FigureSource& source, const SensorStudy& sensor, const RunId& run,
                  std::vector<Figure>& figures) {
   const SensorDetails* details = source.details(run, sensor.sensor.sensor);
@@ -116,7 +130,11 @@ void add_spectra(FigureSource& source, const SensorStudy& sensor, const RunId& r
     any = any || !panel.eigenvalues.empty();
     spec.record_ids.push_back(record_id(run, best.sensor, best.setting, best.step));
   }
-  if (any) figures.push_back(spectrum_figure(spec));
+  if (const std::string gaps = gap_words(spec.methods); !gaps.empty())
+    spec.title = fmt::format("{}: {}", title_of(details->sensor), gaps);
+  if (!any) return;
+  figures.push_back(spectrum_figure(spec));
+  figures.back().caption += fmt::format(" Layout {}, pose {}.", run.layout, run.pose);
 }
 
 /// What the maps of a study took, by sensor, step and setting.

@@ -8,6 +8,7 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -49,6 +50,19 @@ std::string best_setting(const ParameterGroup& group, bool of_mpe) {
   return best_of_all(lines, of_mpe ? LineQuantity{} : LineQuantity{"MOE", "%"}, {group.symbol});
 }
 
+/// "; above 25 m at 8 of 9 values"; empty if none is above.
+std::string above_words(const ParameterGroup& group, double ceiling_m) {
+  std::ptrdiff_t above = 0, all = 0;
+  for (const ParameterLine& method : group.methods) {
+    all += std::ssize(method.line.mean);
+    above += std::ranges::count_if(method.line.mean,
+                                   [ceiling_m](double mean_m) { return mean_m > ceiling_m; });
+  }
+  return above == 0 ? ""
+                    : fmt::format("; above {} m at {} of {} values", significant(ceiling_m, 2),
+                                  above, all);
+}
+
 /// The figure of all methods with that parameter: methods of different ones err on different
 /// scales. Empty if no method has two values of it.
 std::optional<Figure> parameter_figure(const FigureSource& source, const SensorStudy& sensor,
@@ -88,8 +102,11 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
   if (group.methods.empty()) return std::nullopt;
   if (const std::string best = best_setting(group, of_mpe); !best.empty())
     spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), best);
+  if (of_mpe) {
+    spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;
+    spec.title += above_words(group, spec.ceiling);
+  }
   spec.groups.push_back(std::move(group));
-  if (of_mpe) spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;
   return error_by_parameter_figure(spec);
 }
 

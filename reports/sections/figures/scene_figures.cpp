@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "render/figures/number_text.hpp"
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/world_scene.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -58,7 +60,7 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
 }
 
 /// The median run of the best method, at every checkpoint that has a map in the frame of the ground
-/// ground truth; empty with fewer than two.
+/// truth; empty with fewer than two.
 std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStudy& sensor) {
   const std::vector<SettingSummary> all = source.best(sensor);
   const SettingSummary* best = best_of(all);
@@ -75,6 +77,14 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
     if (map != nullptr && map->frame == Frame::kGroundTruth) spec.maps.push_back(*map);
   }
   if (spec.maps.size() < 2) return std::nullopt;
+  const MapRecord &first = spec.maps.front(), &last = spec.maps.back();
+  if (first.score && last.score)
+    spec.title = fmt::format("{}, {}: {} off after {} steps, {} after {}", title_of(best->sensor),
+                             short_label(best->setting), error_text(first.score->mpe_m, 2),
+                             first.step, error_text(last.score->mpe_m, 2), last.step);
+  if (const RunDetails* details = source.details(*id);
+      details != nullptr && details->path.positions_m.rows() >= last.step)
+    spec.path_m = details->path.positions_m;
   return spec;
 }
 

@@ -16,6 +16,7 @@
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "render/figures/number_text.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
 
 namespace mapproof {
@@ -178,8 +179,6 @@ std::string value_words(double value, const Quantity& quantity, const ResultsVie
   const bool has_power = digits.find('e') != std::string::npos;
   return with_unit(has_power ? significant(value) : digits, quantity.unit);
 }
-
-std::string p_words(double p) { return p < 1e-3 ? "p < 0.001" : fmt::format("p = {:.2g}", p); }
 
 std::string label_of(const ComparedMethod& method, const ResultsView& view) {
   return view.study().methods[method.method].label;

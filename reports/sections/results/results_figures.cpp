@@ -111,6 +111,8 @@ constexpr const char* kSingleRunsRemark =
     " Small circles: single runs, which are too few for an interval.";
 /// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
 constexpr double kWideSpan = 20.0;
+/// Fewer different values have no distribution.
+constexpr std::size_t kFewestValues = 3;
 /// More panels than these are too narrow to be read.
 constexpr std::size_t kMostPanels = 4;
 
@@ -179,8 +181,40 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
   return curve;
 }
 
+/// What the labels of some lines end with: "from scratch" of "SMACOF, from scratch" and "ISOMAP,
+/// from scratch"; else the first one with the number of the others.
+std::string joined_label(const std::vector<std::string>& labels) {
+  constexpr std::string_view kComma = ", ";
+  for (std::size_t at = labels.front().find(kComma); at != std::string::npos;
+       at = labels.front().find(kComma, at + 1)) {
+    const std::string end = labels.front().substr(at);
+    if (std::ranges::all_of(labels, [&](const std::string& one) { return one.ends_with(end); }))
+      return fmt::format("{} ({} methods)", end.substr(kComma.size()), labels.size());
+  }
+  return fmt::format("{} and {}", labels.front(), counted(std::ssize(labels) - 1, "other"));
+}
+
+/// Curves that are the same as one: drawn each, the last would hide the others.
+std::vector<ErrorLine> joined(std::vector<ErrorLine> curves) {
+  std::vector<ErrorLine> apart;
+  while (!curves.empty()) {
+    const ErrorLine first = curves.front();
+    std::vector<std::string> labels;
+    std::erase_if(curves, [&](const ErrorLine& one) {
+      const bool is_same = one.x == first.x && one.mean == first.mean;
+      if (is_same) labels.push_back(one.label);
+      return is_same || one.key == first.key;
+    });
+    apart.push_back(first);
+    if (labels.size() < 2) continue;
+    apart.back().label = joined_label(labels);
+    apart.back().series = std::nullopt;
+  }
+  return apart;
+}
+
 /// The curves of a block, those without a value left out; of many, or without intervals, the lines
-/// alone.
+/// alone, and those that are the same joined.
 std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& block,
                                  const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
@@ -197,7 +231,7 @@ std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& bl
     if (is_log) drop_level_0(curve);
     curves.push_back(std::move(curve));
   }
-  return curves;
+  return lines.size() > kMostBands ? joined(std::move(curves)) : curves;
 }
 
 /// "Regret with anchors" as "regret with anchors", but "MPE" as it is.
@@ -341,11 +375,23 @@ std::size_t most_runs(const ResultsView& view, const ResultsBlock& block,
   return most;
 }
 
-/// Where no factor has numbers: the distribution over runs, a panel per level.
+/// How many different values the methods have at the levels of a block.
+std::size_t different_values(const ResultsView& view, const ResultsBlock& block,
+                             const Quantity& quantity) {
+  std::set<double> values;
+  for (const ResultsLine& line : view.lines(block, quantity))
+    for (const Condition& at : block.conditions)
+      for (const auto& [run, value] : view.numbers(at, line, quantity).values) values.insert(value);
+  return values.size();
+}
+
+/// Where no factor has numbers: the distribution over runs, a panel per level. Steps between two
+/// values would show nothing but a share, which the table has.
 std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
                                           const Quantity& quantity) {
   if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels ||
-      most_runs(view, block, quantity) < 2)
+      most_runs(view, block, quantity) < 2 ||
+      different_values(view, block, quantity) < kFewestValues)
     return std::nullopt;
   ErrorLinesSpec spec;
   spec.id = figure_id(block.id, quantity.id);
@@ -544,6 +590,11 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
         "{}: there is no figure of the distribution over runs, since no method has two values at "
         "one level.",
         quantity.label);
+  if (different_values(view, block, quantity) < kFewestValues)
+    return fmt::format(
+        "{}: there is no figure of the distribution over runs, which have fewer than {} different "
+        "values.",
+        quantity.label, kFewestValues);
   return "";
 }
 

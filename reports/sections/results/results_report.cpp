@@ -396,6 +396,29 @@ void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
                            input.view.blocks().front().id});
 }
 
+/// Where nothing is compared: the first method's means of the quantities that a study judges by,
+/// where they are judged first.
+void add_means(const ResultsView& view, Highlights& numbers) {
+  const ResultsStudy& study = view.study();
+  std::vector<std::string> shown;
+  for (const ResultsBlock& block : view.blocks())
+    for (const Quantity* quantity : view.quantities(block)) {
+      const std::vector<ResultsLine> lines = view.lines(block, *quantity);
+      const std::string stem = quantity->label.substr(0, quantity->label.find(','));
+      if (numbers.items.size() == kMostNumbers || quantity->better == Better::kNeither ||
+          lines.empty() || std::ranges::find(shown, stem) != shown.end())
+        continue;
+      const std::size_t last = block.conditions.size() - 1;
+      const auto mean = view.mean(block.conditions[last], lines.front(), *quantity);
+      if (!mean) continue;
+      shown.push_back(stem);
+      numbers.items.push_back(
+          {quantity->label + (block.factor.empty() ? "" : ", " + view.words_of(block, last)),
+           with_unit(significant(mean->mean, 3), quantity->unit),
+           study.methods[lines.front().index].label, block.id});
+    }
+}
+
 Highlights numbers_of(const ResultsReportInput& input) {
   const ResultsStudy& study = input.view.study();
   Highlights numbers;
@@ -405,10 +428,13 @@ Highlights numbers_of(const ResultsReportInput& input) {
   } else {
     add_best_values(input, numbers);
     if (numbers.items.empty()) add_best_over_runs(input, numbers);
+    if (numbers.items.empty()) add_means(input.view, numbers);
   }
-  numbers.items.push_back({"methods compared", fmt::format("{}", study.methods.size()),
-                           counted(static_cast<long long>(input.view.runs()),
-                                   study.runs.empty() ? "run" : "data set")});
+  if (numbers.items.empty())
+    numbers.items.push_back({study.methods.size() == 1 ? "method" : "methods",
+                             fmt::format("{}", study.methods.size()),
+                             counted(static_cast<long long>(input.view.runs()),
+                                     study.runs.empty() ? "run" : "data set")});
   const auto rows = std::ssize(study.results.rows);
   const auto lost = std::ranges::count_if(study.results.rows,
                                           [](const Result& row) { return is_lost(row.value); });

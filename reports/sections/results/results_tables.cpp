@@ -9,6 +9,7 @@
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
@@ -16,9 +17,6 @@ namespace {
 
 constexpr const char* kIntervalHint =
     "95 % interval of the mean, by Student's t over groups; cut where no value can lie.";
-
-/// Smaller p are shown as smaller than this.
-constexpr double kLeastP = 1e-3;
 
 std::string table_id(const std::string& block, std::string what) {
   std::ranges::replace(what, '_', '-');
@@ -302,8 +300,7 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
     if (method.change) {
       row.cells.push_back(NumberCell{method.change->shift, places, true});
       row.cells.push_back(IntervalCell{method.change->low, method.change->high, places});
-      row.cells.push_back(method.corrected_p < kLeastP ? Cell(TextCell{"< 0.001"})
-                                                       : Cell(NumberCell{method.corrected_p, 3}));
+      row.cells.push_back(p_cell(method.corrected_p));
     } else {
       row.cells.insert(row.cells.end(), 3, MissingCell{});
     }

@@ -1,6 +1,7 @@
 #include "reports/sections/slam/slam_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <iterator>
 
@@ -15,6 +16,7 @@
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/scene/drive_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
 #include "reports/model/format.hpp"
@@ -27,13 +29,21 @@
 namespace mapproof {
 namespace {
 
-/// The paths that one figure can show side by side: the paper's, and the refined one.
+/// The paths that one figure can show, of which the last is the finding: those of the paper in its
+/// figures, else the refined one. Lines that lie on each other cannot be distinguished.
 std::vector<SlamMethod> shown_methods(const SlamRun& run) {
-  if (run.simulated) return {SlamMethod::kSpectralKnown, SlamMethod::kSpectral};
   const bool unknown = record_of(run, SlamMethod::kSpectral) != nullptr;
-  return {SlamMethod::kDeadReckoning, unknown ? SlamMethod::kSpectral : SlamMethod::kSpectralKnown,
-          SlamMethod::kRefined};
+  const SlamMethod spectral = unknown ? SlamMethod::kSpectral : SlamMethod::kSpectralKnown;
+  if (run.simulated) return {spectral};
+  const SlamRecord* refined = record_of(run, SlamMethod::kRefined);
+  const bool is_refined =
+      run.figure.empty() && refined != nullptr && refined->estimate.path.size() > 0;
+  return {SlamMethod::kDeadReckoning, is_refined ? SlamMethod::kRefined : spectral};
 }
+
+/// The methods of a drive, the one that is shown first.
+constexpr std::array kBestFirst = {SlamMethod::kRefined, SlamMethod::kSpectral,
+                                   SlamMethod::kSpectralKnown};
 
 /// "Fig. 1A. " for "fig-1a"; empty for ids that are not the paper's.
 std::string numbered(const std::string& id) {
@@ -50,27 +60,29 @@ std::string off_words(const SlamRun& run, SlamMethod method) {
                                                            : error_text(error->mean_m, 2) + " off";
 }
 
-/// The error of the best path, and what it is compared with.
-std::string path_title(const SlamRun& run) {
+/// The error of the path that is shown, and what it is compared with.
+std::string path_title(const SlamRun& run, SlamMethod shown) {
   const std::string name = run.simulated ? "Simulation" : title_of(run);
-  for (const SlamMethod method :
-       {SlamMethod::kRefined, SlamMethod::kSpectral, SlamMethod::kSpectralKnown}) {
-    const std::string off = off_words(run, method);
-    if (off.empty()) continue;
-    const std::string plain = off_words(run, SlamMethod::kDeadReckoning);
-    const auto length = length_m(run.log);
-    return fmt::format("{}: the {} path is {}{}{}", name, info(method).label, off,
-                       length ? fmt::format(" over {:.0f} m", *length) : "",
-                       plain.empty() ? "" : ", dead reckoning " + plain);
-  }
-  return fmt::format("{}: {} from ranges", name,
-                     counted(std::ssize(run.log.landmarks), "landmark"));
+  const std::string off = off_words(run, shown);
+  if (off.empty())
+    return fmt::format("{}: {} from ranges", name,
+                       counted(std::ssize(run.log.landmarks), "landmark"));
+  const auto length = run.simulated ? std::nullopt : length_m(run.log);
+  std::string title = fmt::format("{}: the path is {}{}", name, off,
+                                  length ? fmt::format(" over {:.0f} m", *length) : "");
+  for (const auto& [method, words] :
+       {std::pair{SlamMethod::kDeadReckoning, "dead reckoning"},
+        std::pair{SlamMethod::kSpectralKnown, "with known landmarks"}})
+    if (const TrajectoryError* error = error_of(run, method);
+        method != shown && error != nullptr && std::isfinite(error->mean_m))
+      return title + fmt::format(", {} {}", words, error_text(error->mean_m, 2));
+  return title;
 }
 
 Figure path_figure(const SlamRun& run) {
   const std::string id = path_figure_id(run);
-  const std::string title = path_title(run);
-  return path_map_figure({id, numbered(id) + title, run, shown_methods(run)});
+  const std::vector<SlamMethod> shown = shown_methods(run);
+  return path_map_figure({id, numbered(id) + path_title(run, shown.back()), run, shown});
 }
 
 /// One panel per rank: known landmarks change nothing about the factorised matrix.
@@ -100,20 +112,38 @@ std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
     spec.title =
         fmt::format("{}: singular value {} is {} times the next one", title_of(run), first.rank,
                     significant(first.values[first.rank - 1] / first.values[first.rank], 2));
+  else if (first.values.size() == first.rank && first.noise_level && *first.noise_level > 0.0)
+    spec.title =
+        fmt::format("{}: singular value {} is {} times the noise floor", title_of(run), first.rank,
+                    significant(first.values[first.rank - 1] / *first.noise_level, 2));
   return singular_values_figure(spec);
 }
 
-/// How many starts end at the least cost.
-std::string starts_words(const std::vector<RefinementStart>& starts) {
+/// How many starts end at the least cost, and at how many other ones the others do.
+struct StartEnds {
+  std::ptrdiff_t at_least = 0;
+  std::size_t different = 0;
+};
+
+StartEnds ends_of(const std::vector<RefinementStart>& starts) {
   constexpr double kSame = 1.01;  // Of the cost.
-  double least = kInfinity;
+  std::vector<double> costs;
   for (const RefinementStart& start : starts)
-    if (start.cost < least) least = start.cost;
-  const auto same = std::ranges::count_if(
-      starts, [&](const RefinementStart& start) { return start.cost <= kSame * least; });
-  return fmt::format("{} of {} end at the same, least cost", same,
-                     counted(std::ssize(starts), "start"));
+    if (std::isfinite(start.cost)) costs.push_back(start.cost);
+  std::ranges::sort(costs);
+  StartEnds ends;
+  double end = -1.0;
+  for (const double cost : costs) {
+    if (cost <= kSame * costs.front()) ++ends.at_least;
+    if (end >= 0.0 && cost <= kSame * end) continue;
+    ++ends.different;
+    end = cost;
+  }
+  return ends;
 }
+
+/// Of two ends, the sentence on the page says all.
+constexpr std::size_t kFewestEnds = 3;
 
 /// What is known of one run.
 std::vector<Figure> run_figures(const SlamRun& run) {
@@ -126,9 +156,12 @@ std::vector<Figure> run_figures(const SlamRun& run) {
                              fmt::format("{}: windows of {} predict ranges best", title_of(run),
                                          format_duration(run.windows->chosen_s)),
                              *run.windows, run.id}));
-  if (!run.starts.empty())
+  if (const StartEnds ends = ends_of(run.starts); ends.different >= kFewestEnds)
     figures.push_back(refinement_starts_figure(
-        {"starts-" + run.id, title_of(run) + ": " + starts_words(run.starts), run.starts, run.id}));
+        {"starts-" + run.id,
+         fmt::format("{}: {} of {} end at the same, least cost", title_of(run), ends.at_least,
+                     counted(std::ssize(run.starts), "start")),
+         run.starts, run.id}));
   return figures;
 }
 
@@ -209,14 +242,37 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
   return figures;
 }
 
-/// How the metric upgrade changed the states of one run, where that is known.
+/// The drive from above by the best method that has a path, and how the metric upgrade changed the
+/// states, where these are known.
 std::vector<Scene> run_scenes(const SlamRun& run) {
-  if (!run.upgrade || !has_quadric_scene(*run.upgrade)) return {};
-  return {quadric_scene({.id = "scene-quadric-" + run.id,
-                         .title = "Metric upgrade, " + title_of(run),
-                         .name = title_of(run),
-                         .clouds = *run.upgrade,
-                         .record_ids = {run.id}})};
+  std::vector<Scene> scenes;
+  for (const SlamMethod method : kBestFirst) {
+    if (run.simulated || !has_drive_scene(run, method)) continue;
+    scenes.push_back(drive_scene({.id = "scene-drive-" + run.id,
+                                  .title = path_title(run, method),
+                                  .run = run,
+                                  .method = method,
+                                  .record_ids = {run.id}}));
+    break;
+  }
+  if (run.upgrade && has_quadric_scene(*run.upgrade))
+    scenes.push_back(quadric_scene({.id = "scene-quadric-" + run.id,
+                                    .title = "Metric upgrade, " + title_of(run),
+                                    .name = title_of(run),
+                                    .clouds = *run.upgrade,
+                                    .record_ids = {run.id}}));
+  return scenes;
+}
+
+/// The errors of landmarks in space, with and without known ones.
+std::string space_title(const SpaceRun& run) {
+  std::string title;
+  for (const SpaceRecord& record : run.records)
+    if (record.landmarks_error_m)
+      title += fmt::format("{}{} off with {} known", title.empty() ? "Landmarks in space: " : ", ",
+                           error_text(*record.landmarks_error_m, 2),
+                           record.knows_landmarks ? fmt::format("{}", run.known.size()) : "none");
+  return title.empty() ? "Landmarks in space, from ranges alone" : title;
 }
 
 /// What shows whether the data of a run fit its map.
@@ -274,7 +330,7 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
         "5, and the same factorisation, regression and metric upgrade hold.",
         {},
         {space_scene({.id = "scene-space",
-                      .title = "Landmarks in space, from ranges alone",
+                      .title = space_title(*study.space),
                       .run = *study.space,
                       .record_ids = {"space"}})});
   if (study.histories)

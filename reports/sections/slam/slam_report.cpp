@@ -220,11 +220,12 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
 
 std::string subtitle(const SlamStudy& study) {
   const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
-  std::string text = study.experiment.name;
-  if (real > 0) text += ", " + counted(real, "recorded drive");
+  std::vector<std::string> parts;
+  if (is_of_paper(study)) parts.push_back(study.experiment.name);
+  if (real > 0) parts.push_back(counted(real, "recorded drive"));
   if (std::ssize(study.runs) > real || !study.convergence.empty())
-    text += fmt::format(", simulation with seed {}", study.experiment.seed);
-  return text;
+    parts.push_back(fmt::format("simulation with seed {}", study.experiment.seed));
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 /// The title of a section in a report on this paper alone: without the words that distinguish

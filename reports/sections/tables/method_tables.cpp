@@ -31,10 +31,6 @@ std::string halves_note(const HalfChoices& choices) {
       what, numbers_text(choices.members[0]), numbers_text(choices.members[1]));
 }
 
-std::string p_text(double p) {
-  return p < 0.001 ? "p < 0.001" : fmt::format("p = {}", format_number(p, 3));
-}
-
 /// A letter for each group of methods that do not differ significantly, as "a, b"; beyond z: "27".
 std::string group_letters(const MethodRanks& ranks, int method) {
   std::vector<std::string> letters;
@@ -48,12 +44,12 @@ std::string group_letters(const MethodRanks& ranks, int method) {
 std::string test_note(const MethodRanks& ranks) {
   const FriedmanTest& test = *ranks.test;
   const std::string f = std::isfinite(test.f)
-                            ? fmt::format("F = {}, {}", format_number(test.f, 2), p_text(test.f_p))
+                            ? fmt::format("F = {}, {}", format_number(test.f, 2), p_words(test.f_p))
                             : "F is infinite, all layouts agreeing";
   return fmt::format(
       "Friedman\u2019s test that no method differs, over {}: \u03C7\u00B2 = {}, {}; in Iman and "
       "Davenport\u2019s form {}.",
-      counted(test.units, "layout"), format_number(test.chi_square, 2), p_text(test.chi_square_p),
+      counted(test.units, "layout"), format_number(test.chi_square, 2), p_words(test.chi_square_p),
       f);
 }
 

@@ -66,9 +66,36 @@ std::vector<std::string> references_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// Of Landmark ISOMAP in the first setup, with the most references; of landmark MVU without it.
+TopicHeadline references_headline(const TopicStudy& study) {
+  const TopicSetup& setup = study.design.setups.front();
+  const Condition at = conditions_of(setup).back();
+  for (const char* name : {"landmark-isomap", "landmark-mvu"}) {
+    const std::string approximate = method_of(study, name);
+    const Method exact_method = *info(*method_named(name)).approximates;
+    const std::string exact = method_of(study, std::string(info(exact_method).name));
+    if (approximate.empty() || exact.empty()) continue;
+    const double error_m = topic_mean(study, at, approximate, "mpe_m");
+    const double exact_m = topic_mean(study, at, exact, "mpe_m");
+    if (std::isnan(error_m + exact_m)) continue;
+    const auto difference = topic_difference(study, at, approximate, exact, "mpe_m");
+    const std::string verdict = difference ? verdict_words(*difference) : "";
+    return {page_metres(error_m),
+            fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
+            fmt::format("{} by {}; the maps differ by {:.2g} % of their size", page_metres(exact_m),
+                        info(exact_method).label,
+                        topic_mean(study, at, approximate, "gap_percent")),
+            verdict.empty() ? "" : verdict + ", compared with all landmarks as references",
+            verdict.starts_with("worse")};
+  }
+  return {};
+}
+
 }  // namespace
 
-const TopicWords kReferencesWords = {
-    .topic = "references", .question = references_question, .conclusions = references_conclusions};
+const TopicWords kReferencesWords = {.topic = "references",
+                                     .question = references_question,
+                                     .conclusions = references_conclusions,
+                                     .headline = references_headline};
 
 }  // namespace mapproof

@@ -17,7 +17,7 @@ std::span<const TopicWords* const> all_topic_words() {
   static constexpr const TopicWords* kAll[] = {
       &kUncertaintyWords, &kChoiceWords,  &kAssociationWords, &kDoubtWords,
       &kMissingWords,     &kMixedWords,   &kMovedWords,       &kMrclamWords,
-      &kIncrementalWords, &kSubmapsWords, &kSweepWords,   &kReferencesWords};
+      &kIncrementalWords, &kSubmapsWords, &kSweepWords,       &kReferencesWords};
   return kAll;
 }
 
@@ -40,7 +40,8 @@ std::vector<std::string> warnings_of(const TopicStudy& study) {
 
 TopicHeadline headline_of(const TopicStudy& study) {
   const TopicWords* words = words_of(study.experiment.topic);
-  return words == nullptr || study.parts.empty() ? TopicHeadline{} : words->headline(study);
+  const bool knows = words != nullptr && words->headline != nullptr && !study.parts.empty();
+  return knows ? words->headline(study) : TopicHeadline{};
 }
 
 }  // namespace mapproof

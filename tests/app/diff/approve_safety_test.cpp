@@ -293,6 +293,32 @@ TEST(ApproveCommand, ThatFailsAtAnyStepLeavesTheOldBaselineOrTheNewOneWhole) {
   }
 }
 
+TEST(ApproveCommand, ThatCannotRemoveWhatTheBaselineHeldSaysSoAndTheNextOneDoes) {
+  const Sides sides;
+  long steps = 0;
+  {
+    const Faults none("");
+    EXPECT_EQ(sides.approve().exit_code, 0);
+    steps = none.calls("disk");
+  }
+  // The last changes remove the old folder, which is tried twice.
+  Outcome outcome;
+  for (bool fails = false; !fails && steps > 0; --steps) {
+    sides.put_back();
+    const Faults fail("disk:" + std::to_string(steps) + "-:fail");
+    outcome = sides.approve();
+    fails = outcome.exit_code != 0;
+  }
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_EQ(std::ranges::count(outcome.error, '\n'), 1) << outcome.error;
+  EXPECT_TRUE(outcome.error.starts_with("mapproof: " + sides.baseline + ": is replaced, but "))
+      << outcome.error;
+  expect_same(sides.new_files, contents(sides.baseline));
+  EXPECT_EQ(sides.others(), 1);
+  EXPECT_EQ(sides.approve().exit_code, 0);
+  EXPECT_EQ(sides.others(), 0);
+}
+
 TEST(ApproveCommand, WithoutHardLinksCopiesFilesWholeOrLeavesTheOldBaseline) {
   const Sides sides;
   write_file(fs::path(sides.baseline) / "notes/large", std::string(400'000, 'x'));

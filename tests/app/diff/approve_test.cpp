@@ -56,6 +56,7 @@ TEST(ApproveCommand, TakesAllThatCanBeTakenAndNamesTheRest) {
   const std::string before = read_file(two.before + "/figures/map-usual.png");
   const Outcome outcome = mapproof({"approve", two.before, two.after, "--all"});
   EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+  EXPECT_TRUE(outcome.error.starts_with("mapproof: ")) << outcome.error;
   EXPECT_NE(outcome.error.find("map-usual: not approved: "), std::string::npos) << outcome.error;
   EXPECT_EQ(read_file(two.before + "/figures/map-usual.png"), before);
   EXPECT_TRUE(fs::exists(two.before + "/figures/another.png"));

@@ -187,6 +187,11 @@ void expect_reported(const std::string& kind, const Outcome& outcome) {
     EXPECT_EQ(outcome.exit_code, 3) << outcome.error;
     EXPECT_NE(outcome.error.find("out of memory"), std::string::npos) << outcome.error;
   }
+  if (kind == "thread") {
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.error;
+    EXPECT_NE(outcome.error.find("no further thread can be started"), std::string::npos)
+        << outcome.error;
+  }
 }
 
 /// Removes what the next run removes: parts of files, folders that were to be put in place, and

@@ -39,12 +39,12 @@ std::vector<FaultCase> kill_cases();
 
 /// The kinds of calls that are made to fail.
 inline const std::vector<std::string> kFaultKinds = {"alloc", "open", "write", "fsync", "rename",
-                                                     "close", "mmap", "fork",  "exec"};
+                                                     "close", "mmap", "fork",  "exec",  "thread"};
 
 /// Makes one call of a kind fail per run: each of them in turn, or `at_most` of them at equal
 /// distances. Each run must end with exit code 2 or 3 and one line that
-/// reports it (3 and "out of memory", of "alloc" and "mmap"), or as without the fault. All files
-/// that it leaves are those of before or whole, and the next run writes the same bytes as without
+/// reports it (3 and "out of memory", of "alloc" and "mmap"; 3 and what to do, of "thread"), or as
+/// without the fault. All files that it leaves are those of before or whole, and the next run writes the same bytes as without
 /// the fault.
 /// @param cores  As taskset has them: on one core there is one thread.
 void expect_faults_reported(const FaultCase& tried, const std::string& kind, long at_most,

@@ -1,5 +1,14 @@
-#include <string>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/files/files.hpp"
@@ -37,6 +46,69 @@ TEST(LittleMemory, IsEnoughForWhatIsSmall) {
   const std::vector<std::string> diff = {"diff", two.before, two.after, "--json"};
   EXPECT_EQ(within(kLimit, diff).exit_code, 1);
   EXPECT_EQ(within(kLimit, diff).out, mapproof(diff).out);
+}
+
+/// The most bytes of memory that the program holds at once.
+double most_memory(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {program()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  std::vector<char*> words;
+  for (std::string& word : command) words.push_back(word.data());
+  words.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+      ::dup2(::open("/dev/null", O_WRONLY), stream);
+    ::execv(words[0], words.data());
+    ::_exit(127);
+  }
+  int status = 0;
+  rusage used{};
+  EXPECT_EQ(::wait4(child, &status, 0, &used), child);
+  EXPECT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status);
+  return 1024.0 * static_cast<double>(used.ru_maxrss);
+}
+
+/// Text of `count` parts, written to a file, so that this process does not hold it.
+template <typename Part>
+std::string file_of(const TemporaryFolder& folder, const char* name, const std::string& start,
+                    int count, const Part& part, const std::string& end) {
+  const std::string path = folder / name;
+  std::ofstream file(path);
+  file << start;
+  for (int i = 0; i < count; ++i) file << part(i);
+  file << end;
+  return path;
+}
+
+TEST(LittleMemory, OfTenTimesAFileIsEnoughToReadIt) {
+  skip_if_sanitized();
+  const TemporaryFolder folder;
+  const double itself = most_memory({"--version"});
+  const std::string json = R"({"schema": {"name": "mapproof.observations", "version": 1}, "x": [)";
+  const auto values = [](int) {
+    std::string row = "0.5";
+    for (int i = 1; i < 1000; ++i) row += ",-1.25";
+    return row + "\n";
+  };
+  for (const std::string& file :
+       {file_of(
+            folder, "names.csv", "step,landmark,range,bearing\n", 900'000,
+            [](int i) { return fmt::format("{},n{},{:.2f},0.5\n", i / 9, i, 1.0 + i % 7); }, ""),
+        file_of(
+            folder, "landmarks.csv", "name,x,y\n", 900'000,
+            [](int i) { return fmt::format("n{},{},{}\n", i, i % 1000, i / 1000); }, ""),
+        file_of(
+            folder, "arrays.json", json, 5'000'000, [](int i) { return i == 0 ? "[]" : ",[]"; },
+            "]}"),
+        file_of(
+            folder, "objects.json", json, 2'000'000,
+            [](int i) { return i == 0 ? R"({"a":[]})" : R"(,{"a":[]})"; }, "]}"),
+        file_of(folder, "wide.csv", "", 3'000, values, "")}) {
+    const auto bytes = static_cast<double>(fs::file_size(file));
+    EXPECT_LT((most_memory({"validate", file}) - itself) / bytes, 10.0) << file;
+    fs::remove(file);
+  }
 }
 
 TEST(LittleMemory, StartsNoOtherBlasOfTheMachine) {

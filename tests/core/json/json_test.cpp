@@ -93,6 +93,30 @@ TEST(JsonCursor, NamesFilePlaceAndBounds) {
   EXPECT_EQ(error_of([&] { document.cursor().at("c"); }), "f.json: /: lacks the key \"c\"");
 }
 
+TEST(JsonCursor, FindsItsWayAmongEmptyContainers) {
+  const JsonDocument document = parse_json(
+      R"({"a": [ ], "b": {"c": [[], [2], { }, 1, [[]]], "d": {}}, "e": [{"f":[]}], "g": 7})", "f");
+  const JsonCursor root = document.cursor();
+  const auto pointer = [&](const JsonCursor& json) { return error_of([&] { json.boolean(); }); };
+  const JsonCursor c = root.at("b").at("c");
+  EXPECT_EQ(c.size(), 5U);
+  for (const JsonCursor& empty : {root.at("a"), c.element(0), c.element(2), root.at("b").at("d"),
+                                  c.element(4).element(0)})
+    EXPECT_EQ(empty.size(), 0U);
+  EXPECT_TRUE(root.at("a").elements().empty());
+  EXPECT_TRUE(root.at("b").at("d").members().empty());
+  EXPECT_EQ(c.element(1).element(0).integer(0, 9), 2);
+  EXPECT_EQ(root.at("g").integer(0, 9), 7);
+  EXPECT_TRUE(pointer(root.at("a")).starts_with("f: /a: "));
+  EXPECT_TRUE(pointer(c.element(2)).starts_with("f: /b/c/2: "));
+  EXPECT_TRUE(pointer(c.element(3)).starts_with("f: /b/c/3: "));
+  EXPECT_TRUE(pointer(c.element(4).element(0)).starts_with("f: /b/c/4/0: "));
+  EXPECT_TRUE(pointer(root.at("e").element(0).at("f")).starts_with("f: /e/0/f: "));
+  EXPECT_EQ(parse_json("{}", "f").cursor().size(), 0U);
+  EXPECT_EQ(error_of([] { parse_json(R"({"a": [], "b": {}, "a": 1})", "f"); }),
+            "f: line 1, column 22: the key \"a\" is there twice");
+}
+
 TEST(JsonCursor, AsksWhetherANearbyKeyWasMeant) {
   const JsonDocument document = parse_json(R"({"landmarcks": 1})", "f.json");
   EXPECT_EQ(error_of([&] {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <numbers>
 
@@ -414,6 +416,17 @@ TEST(RangeLogFiles, MayBePacked) {
   expect_same(read_range_log(set), plain, 0.0);
   EXPECT_EQ(read_range_log(set / "ranges.csv.xz").name, "set");
   EXPECT_EQ(validate(set).at(0).problem, "");
+}
+
+TEST(RangeFiles, OfMatlabThatDeclareMoreThanTheyHoldTakeNoMemoryForIt) {
+  const test::TemporaryFolder folder;
+  test::write_mat(sample_log(), folder / "a.mat", false);
+  std::string bytes = read_file(folder / "a.mat");
+  constexpr std::size_t kRowsOfTheFirst = 128 + 8 + 16 + 8;  // Behind header, tag, flags, tag.
+  const std::uint32_t rows = 1'000'000;
+  std::memcpy(bytes.data() + kRowsOfTheFirst, &rows, sizeof rows);
+  EXPECT_EQ(error_of(folder.file("b.mat", bytes)),
+            "variable DR: is damaged: too short for 1000000 x 3 numbers");
 }
 
 TEST(RangeLogFiles, OtherPathsAreNoRangeLogs) {

@@ -386,8 +386,9 @@ TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
     EXPECT_NE(table_error(bytes.substr(0, length)), "no error") << length;
   EXPECT_NE(table_error(npy_of<double>("<c8", expected_ranges(), false)).find("\"<c8\""),
             std::string::npos);
-  EXPECT_NE(table_error(npy_of<double>("|O8", expected_ranges(), false)).find("astype"),
-            std::string::npos);
+  for (const char* type : {"|O8", ">", ""})  // Without a type: found by the fuzzer.
+    EXPECT_NE(table_error(npy_of<double>(type, expected_ranges(), false)).find("astype"),
+              std::string::npos);
   std::string records = npy_of<double>("<f8", expected_ranges(), false);
   records.replace(records.find("'<f8'"), 5, "[('t','<f8')]");
   records[8] = static_cast<char>(records[8] + 8);

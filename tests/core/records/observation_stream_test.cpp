@@ -127,6 +127,32 @@ TEST(ObservationStream, TakesWhatItsSensorSawOfDetections) {
   EXPECT_EQ(all(Sensor::kVisibility), (Values{{{0, 1.0}, {1, 1.0}}, {{1, 1.0}}}));
 }
 
+TEST(ObservationStream, RefusesDetectionsThatItsSensorDidNotMeasureAsTheFileIs) {
+  test::TemporaryFolder folder;
+  const auto refused = [&](const std::string& text, Sensor sensor) {
+    const std::string path = folder.file("seen.csv", text);
+    const std::string of_file = error_of([&] { read_observations(path, sensor); });
+    const std::string of_stream = error_of([&] {
+      ObservationStream stream(path, sensor);
+      stream.take(text);
+      stream.end();
+    });
+    EXPECT_EQ(of_stream, of_file);
+    return of_file.substr(of_file.find(": ") + 2);
+  };
+  // One row with decimal commas: at 1.1, a landmark was seen. Found by the fuzzer.
+  EXPECT_EQ(refused("1,1;,\"ash\"oStep,Valu,1\n", Sensor::kRange), "holds no range");
+  EXPECT_EQ(refused("time,landmark\n0.5,a\n0.75,b\n", Sensor::kBearing), "holds no bearing");
+  EXPECT_EQ(refused("time,landmark,range\n0.5,a,\n0.75,b,\n", Sensor::kRange), "holds no range");
+  // Without such a column nothing can follow; with one, a measurement still may.
+  ObservationStream list("f", Sensor::kRange);
+  EXPECT_EQ(error_of([&] { list.take("0.5,a\n"); }), "f: holds no range");
+  ObservationStream empty("f", Sensor::kRange);
+  empty.take("time,landmark,range\n0.5,a,\n0.75,b,\n1,a,2\n");
+  empty.end();
+  EXPECT_EQ(empty.steps().size(), 3U);
+}
+
 TEST(ObservationStream, NamesTheLineOfWhatIsWrong) {
   const auto error = [](const std::string& text) {
     return error_of([&] {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -80,7 +82,11 @@ const Added kG2oLandmarks({.name = "g2o-landmarks",
 /// Bytes as a file of a data set whose other files are right.
 void read_data_set(std::string_view bytes) {
   static const test::TemporaryFolder folder;
+  static std::map<std::string, std::string> held;
   const auto put = [](const char* name, std::string_view text) {
+    const auto [file, is_new] = held.try_emplace(name);
+    if (!is_new && file->second == text) return;
+    file->second = text;
     std::ofstream(folder / name, std::ios::binary) << text;
   };
   static constexpr std::string_view kBarcodes = "1 5\n6 63\n7 25\n8 45\n";

@@ -65,6 +65,8 @@ std::vector<Bad> bad_images() {
       {"checksum", wrong_sum, "checksum"},
       {"trailing", good + "x", "nothing may follow IEND"},
       {"huge header", png_of(100000, 100000, deflated("")), "more than"},
+      {"more than 2^28 pixels", png_of(20'000, 20'000, deflated("")),
+       "20000 x 20000 pixels are more than the 268435456 that are read"},
       {"large header, few bytes", png_of(8000, 8000, deflated("ab")), "cannot be in"},
       {"wide header", png_of(2'000'000, 100, deflated("")), "more than"},
       {"no pixels", png_of(0, 5, deflated("")), "not a PNG header"},
@@ -97,6 +99,19 @@ TEST(BadImages, EachIsUnreadableWithItsReasonAndNoOtherHarm) {
     if (bad.name.find("svg") != std::string::npos) {
       EXPECT_NE(same.reason.find(bad.reason), std::string::npos) << bad.name << ": " << same.reason;
     }
+  }
+}
+
+TEST(BadImages, BesideOneThatCannotBeReadTheRowsOfALargeOneAreNotAsked) {
+  const TemporaryFolder folder;
+  const std::string good = png_of(4, 2, deflated(std::string(10, '\0')));
+  const auto cut = folder.file("cut.png", good.substr(0, good.size() - 15));
+  // More pixels than are held at once, in rows that are none.
+  const auto large = folder.file("large.png", png_of(16'000, 16'000, std::string(300'000, 'x')));
+  for (const ImageDiff& found : {image_diff(cut, large), image_diff(large, cut)}) {
+    EXPECT_EQ(found.state, ImageState::kUnreadable);
+    EXPECT_NE(found.reason.find("truncated"), std::string::npos) << found.reason;
+    EXPECT_EQ(found.reason.find("more than"), std::string::npos) << found.reason;
   }
 }
 

@@ -37,6 +37,17 @@ int count_of(const std::string& text, const std::string& part) {
 
 std::string uri_of(const std::filesystem::path& path) { return base64(read_file(path)); }
 
+TEST(DiffPage, IsNamedByWhatDistinguishesItsSides) {
+  DiffResult result;
+  result.baseline = "/data/nightly/a/figures";
+  result.current = "/data/nightly/b/figures";
+  EXPECT_NE(page_of(result).find("<bdi>a/figures</bdi> &rarr; <bdi>b/figures</bdi>"),
+            std::string::npos);
+  result.current = "/data/nightly/a/figures/more";
+  EXPECT_NE(page_of(result).find("<bdi>figures</bdi> &rarr; <bdi>figures/more</bdi>"),
+            std::string::npos);
+}
+
 TEST(PercentEncoding, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
   EXPECT_EQ(percent_encoded("sub/fig-7.b_c"), "sub/fig-7.b_c");
   EXPECT_EQ(percent_encoded("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");

@@ -169,6 +169,21 @@ TEST(HistoryPages, LeadToEachOtherInWords) {
                 {"report of nightly run 4", "../../nightly_runs/0004/mine/report.html"}}));
 }
 
+TEST(HistoryPages, BeginWithWhatRanLastAndWhatItWasComparedWith) {
+  const NightlyFacts before{.number = 3, .started_utc = "2026-11-20T01:00:00Z", .commit = "abc1"};
+  const NightlyFacts last{.number = 4, .reference = 3};
+  const HistoryPage index =
+      index_page({.nightly_runs = {before, last}, .trends = {best_got_worse()}}, {});
+  const std::vector<Paragraph>& findings = index.report.opening.findings;
+  ASSERT_EQ(findings.size(), 3U);
+  EXPECT_NE(findings[0].phrases.back().text.find("nightly run 4"), std::string::npos);
+  EXPECT_NE(findings[0].phrases.back().text.find("of mine."), std::string::npos);
+  EXPECT_EQ(findings[1].phrases.front().text, "Compared with");
+  EXPECT_NE(findings[1].phrases.back().text.find("nightly run 3"), std::string::npos);
+  EXPECT_NE(findings[1].phrases.back().text.find("abc1"), std::string::npos);
+  EXPECT_TRUE(links_of(findings[2], index.link_words).contains("report of nightly run 4"));
+}
+
 TEST(HistoryPages, SayThatAHistoryWasDamagedAndWhereItsReportsAre) {
   const NightlyRun nightly_run{.facts = {.number = 5}};
   const LostNightlyRuns lost{.kept_as = {"history.sqlite.damaged-1"}, .reports = {{4, {"mine"}}}};

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "core/base/random.hpp"
+#include "render/scene/drive_scene.hpp"
 #include "render/scene/forming_scene.hpp"
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/projection.hpp"
@@ -14,6 +15,7 @@
 #include "render/scene/space_scene.hpp"
 #include "render/scene/world_scene.hpp"
 #include "tests/support/samples/sample_figures.hpp"
+#include "tests/support/samples/sample_slam.hpp"
 #include "tests/support/samples/sample_studies.hpp"
 
 namespace mapproof::test {
@@ -156,7 +158,11 @@ SpaceRun sample_space_run() {
   return run;
 }
 
-Film sample_film() { return forming_film(forming_spec()); }
+Film sample_film() {
+  FormingSceneSpec spec = forming_spec();
+  spec.path_m = walk(2000);
+  return forming_film(spec);
+}
 
 Scene small_scene() {
   Scene scene{.id = "small",
@@ -235,6 +241,11 @@ std::vector<Scene> sample_scenes() {
   WorldSceneSpec walked = world_spec("world-walked", 0.12);
   walked.path_m = walk(2000);
   scenes.push_back(world_scene(walked, WorldView::kPerspective));
+  const SlamRun drive = sample_drive("plaza-1", 800, 3);
+  scenes.push_back(drive_scene({.id = "drive-usual",
+                                .title = "Plaza 1: the path is 0.19 m off, dead reckoning 16 m",
+                                .run = drive,
+                                .record_ids = {drive.id}}));
   return scenes;
 }
 
