@@ -16,7 +16,6 @@
 #include "app/study/study_outputs.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
-#include "core/base/files/gzip.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/version.hpp"
@@ -353,7 +352,7 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   std::string html = page();
   PageData records = page_records(report.folder, outputs.disclosure);
   std::size_t rest = html.size();
-  for (const PageFile& file : records.files) rest += gzipped(file.text).size() / 3 * 4;
+  for (const PageFile& file : records.files) rest += packed_bytes(file.text);
   rest -= std::min(rest, bytes_of_drawings(shown_figures(shown, drawing, options), drawing));
   const Images images = images_of(report);
   FigureData figures(images, outputs.disclosure);

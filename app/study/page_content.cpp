@@ -47,6 +47,10 @@ PageData page_records(const fs::path& folder, const Disclosure& disclosure) {
   return records;
 }
 
+std::size_t packed_bytes(const std::string& text) {
+  return gzipped(text).size() / 3 * 4;  // In base64.
+}
+
 FigureData::FigureData(const Images& images, const Disclosure& disclosure)
     : disclosure_(disclosure) {
   for (const Figure* figure : images.figures)
@@ -64,7 +68,7 @@ std::vector<FigureData::Entry*> FigureData::kept(const std::set<std::string>& sh
     if (!shown.contains(entry.id) || !is_page_file(entry.name)) continue;
     if (!entry.text) {
       entry.text = disclosure_.text(entry.json());
-      entry.bytes = gzipped(*entry.text).size() / 3 * 4;  // In base64.
+      entry.bytes = packed_bytes(*entry.text);
     }
     if (held + entry.bytes > kMostFigureData) continue;
     held += entry.bytes;

@@ -36,6 +36,9 @@ struct PageContent {
 /// @throws IoError if they cannot be read.
 PageData page_records(const std::filesystem::path& folder, const Disclosure& disclosure);
 
+/// What a text takes of a page that carries it, packed by itself.
+std::size_t packed_bytes(const std::string& text);
+
 /// The data of figures as a page carries them: each is written and measured once, however often a
 /// page is composed of them. Figures that need more than kMostFigureData are left out, 3-D figures
 /// first.

@@ -71,15 +71,14 @@ constexpr int kMostPolishingSteps = 5;
 constexpr double kPolished = 1e-9;
 constexpr Index kPairsToCorrectAgain = 6;  // A point.
 constexpr int kMostCorrections = 3;
-constexpr double kTieBreak = 1e-14;  // Lifts a Schur complement that is singular by rounding,
-constexpr double kMostTieBreak =
-    1e-11;  // and so far, tenfold at a time, where that leaves no factor.
-constexpr double kUsualCentring = 0.3;  // Where the guess has no information.
-constexpr double kStuck = 1e-7;         // A step as short as this makes no progress,
-constexpr double kLeastFall = 0.995;    // nor one that leaves so much of a gap whose pairs fit.
-constexpr double kFirstLength = 0.5;    // As if a step of that length had come before.
-constexpr double kLift = 0.1;           // Of a typical squared distance, into the interior.
-constexpr double kStartWeight = 2.0;    // Of the least that is feasible.
+constexpr double kTieBreak = 1e-14;      // Lifts a Schur complement that is singular by rounding;
+constexpr double kMostTieBreak = 1e-11;  // up to here, tenfold at a time, if there is no factor.
+constexpr double kUsualCentring = 0.3;   // Where the guess has no information.
+constexpr double kStuck = 1e-7;          // A step as short as this makes no progress,
+constexpr double kLeastFall = 0.995;     // nor one that leaves so much of a gap whose pairs fit.
+constexpr double kFirstLength = 0.5;     // As if a step of that length had come before.
+constexpr double kLift = 0.1;            // Of a typical squared distance, into the interior.
+constexpr double kStartWeight = 2.0;     // Of the least that is feasible.
 // Many points need a start further inside: at 500, 23 iterations instead of 39. Up to 300 that
 // start takes one or two more.
 constexpr Index kManyPoints = 400;

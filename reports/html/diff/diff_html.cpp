@@ -251,8 +251,6 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
   page.set("identical", identical);
 }
 
-}  // namespace
-
 /// The names of two paths without the folders that they share: "a/b" and "a/c" are "b" and "c".
 std::pair<std::string, std::string> distinct_names(const std::string& a, const std::string& b) {
   std::size_t shared = 0;
@@ -261,6 +259,8 @@ std::pair<std::string, std::string> distinct_names(const std::string& a, const s
   if (shared == a.size() || shared == b.size()) return {a, b};  // One is within the other.
   return {a.substr(shared), b.substr(shared)};
 }
+
+}  // namespace
 
 std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& shown,
                       const Templates& templates, std::size_t page_bytes) {
