@@ -45,6 +45,11 @@ extern "C" void end_with_a_word(int signal) {
   std::raise(signal);
 }
 
+/// Text that is not UTF-8 is corrected.
+std::string dumped(const nlohmann::ordered_json& value) {
+  return value.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 }  // namespace
 
 Console::Console(Verbosity verbosity, bool json, std::string command)
@@ -75,14 +80,34 @@ void Console::warning(const std::string& message) const {
                one_line(message));
 }
 
-void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
+std::string Console::json_text(const nlohmann::ordered_json& object) const {
   nlohmann::ordered_json whole_object;
   whole_object["schema"] = {{"name", "mapproof.result." + command_}, {"version", kResultVersion}};
   if (!object.is_null()) whole_object.update(object);
-  const std::string out =
-      json_ ? whole_object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n"
-            : text;
-  print(out);
+  return dumped(whole_object) + "\n";
+}
+
+void Console::result(const std::string& text, const nlohmann::ordered_json& object) const {
+  print(json_ ? json_text(object) : text);
+}
+
+void Console::list(const std::string& key, std::size_t count,
+                   const std::function<nlohmann::ordered_json(std::size_t)>& item) const {
+  constexpr std::size_t kBlock = std::size_t{1} << 20;
+  const std::string whole = json_text({{key, nlohmann::ordered_json::array()}});
+  const std::size_t end = whole.rfind(']');
+  std::string text = whole.substr(0, end);
+  for (std::size_t i = 0; i < count; ++i) {
+    text += i == 0 ? "\n    " : ",\n    ";
+    for (const char c : dumped(item(i))) {
+      text += c;
+      if (c == '\n') text += "    ";
+    }
+    if (text.size() < kBlock) continue;
+    print(text);
+    text.clear();
+  }
+  print(text + (count == 0 ? "" : "\n  ") + whole.substr(end));
 }
 
 void Console::print(const std::string& text) const {

@@ -39,10 +39,15 @@ class Console {
   /// The result: `text`, or with --json `object` behind the schema of the command's results; it
   /// names none of its own. Text that is not UTF-8 is corrected.
   void result(const std::string& text, const nlohmann::ordered_json& object) const;
+  /// As result() with --json, of an object that has one array, which is written item by item.
+  void list(const std::string& key, std::size_t count,
+            const std::function<nlohmann::ordered_json(std::size_t)>& item) const;
   /// The result where it has a form of its own, as it stands. @throws IoError.
   void print(const std::string& text) const;
 
  private:
+  std::string json_text(const nlohmann::ordered_json& object) const;
+
   Verbosity verbosity_;
   bool json_;
   std::string command_;

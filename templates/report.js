@@ -17,9 +17,18 @@ function followReading() {
   }
   const sections = [...document.querySelectorAll("main > section")];
   let current;
+  // The last section that begins above a fifth of the window, by halving: there may be thousands.
+  const sectionRead = () => {
+    let first = 0, last = sections.length;
+    while (first < last) {
+      const middle = Math.floor((first + last) / 2);
+      if (sections[middle].getBoundingClientRect().top <= innerHeight / 5) first = middle + 1;
+      else last = middle;
+    }
+    return sections[first - 1];
+  };
   const update = () => {
-    const read = sections.findLast(
-      (section) => section.getBoundingClientRect().top <= innerHeight / 5);
+    const read = sectionRead();
     const link = links.get(read?.id);
     if (link === current) return;
     current?.removeAttribute("aria-current");

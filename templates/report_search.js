@@ -1,30 +1,30 @@
-// One field searches the page: headings, texts, tables, and the words of figures that a browser's
-// own search cannot see, since their texts are outlines.
+// One field searches the page: headings, texts, tables, the words of figures that a browser's own
+// search cannot see, since their texts are outlines, and the titles of what other pages hold.
 
 const kMostFound = 12;
 const kTexts = "main p, main li, main dd";
-const kNoTexts = "figure, .table, .thumbnails, .main-figure, .affected, dialog";
+const kNoTexts = "figure, .table, .page-links, .thumbnails, .main-figure, .affected, dialog";
 
 function searchable(element, link, name, words) {
   return { element, link, name, words: `${name} ${words}`.toLocaleLowerCase("en") };
 }
 
-function titleOfSection(section) {
-  const links = [...document.querySelectorAll(".contents a")];
-  return links.find((link) => link.hash === `#${section.id}`)?.textContent ?? section.id;
-}
-
 // All that can be found, in the order of the page.
 function searchables() {
-  const found = [];
-  const kinds = `main > section[id^=section-], .table, figure[data-id], ${kTexts}`;
+  const found = [], titles = new Map();
+  for (const link of document.querySelectorAll(".contents a")) {
+    titles.set(link.hash.slice(1), link.textContent);
+  }
+  const kinds = `main > section[id^=section-], .table, figure[data-id], .page-links a, ${kTexts}`;
   for (const each of document.querySelectorAll(kinds)) {
-    if (each.matches(kTexts)) {
+    if (each.matches(".page-links a")) {
+      found.push({ ...searchable(each, "", each.textContent, ""), href: each.getAttribute("href") });
+    } else if (each.matches(kTexts)) {
       if (each.closest(kNoTexts) || each.querySelector(kTexts)) continue;
       const text = each.textContent.trim().replace(/\s+/g, " ");
       found.push({ ...searchable(each, each.id, "", text), text });
     } else if (each.localName === "section") {
-      found.push(searchable(each, each.id, titleOfSection(each), ""));
+      found.push(searchable(each, each.id, titles.get(each.id) ?? each.id, ""));
     } else if (each.localName === "figure") {
       const drawn = sourceOf(each), caption = each.querySelector("figcaption bdi")?.textContent ?? "";
       const title = /<title[^>]*>([^<]*)/.exec(drawn)?.[1] ?? each.dataset.id;
@@ -78,7 +78,7 @@ function addSearch(parent) {
     const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
-      link.href = `#${entry.link || idOf(entry.element)}`;
+      link.href = entry.href ?? `#${entry.link || idOf(entry.element)}`;
       link.textContent = entry.text ? excerpt(entry.text, words) : entry.name;
       link.addEventListener("click", () => unfold(entry.element));
       item.append(link);

@@ -60,8 +60,8 @@ void add_rows(const ExternalMap& map, std::vector<Result>& rows) {
 
 /// Errors of maps over the checkpoints alone.
 bool is_score(const Result& row) {
-  return std::ranges::find(kScores, row.quantity) != kScores.end() && row.at.levels.size() == 1 &&
-         row.at.levels.front().factor == kStepsFactor;
+  return std::ranges::find(kScores, row.quantity.get()) != kScores.end() &&
+         row.at.levels.size() == 1 && row.at.levels->front().factor == kStepsFactor;
 }
 
 /// The mean MPE of each method of one sensor at its last checkpoint; infinite where it lost one.
@@ -70,11 +70,11 @@ std::map<std::string, double> last_errors(const std::vector<Result>& rows,
   double last = 0.0;
   for (const Result& row : rows)
     if (row.at.setup == setup && is_score(row))
-      last = std::max(last, std::get<double>(row.at.levels.front().value));
+      last = std::max(last, std::get<double>(row.at.levels->front().value));
   std::map<std::string, std::pair<double, int>> sums;
   for (const Result& row : rows) {
     if (row.at.setup != setup || !is_score(row) || row.quantity != kScores.front() ||
-        std::get<double>(row.at.levels.front().value) != last)
+        std::get<double>(row.at.levels->front().value) != last)
       continue;
     auto& [sum, count] = sums[row.method];
     sum += std::isfinite(row.value) ? row.value : kInfinity;

@@ -76,8 +76,11 @@ void check_result_folder(const fs::path& folder, const char* file, const char* k
     throw IoError(folder.string(),
                   fmt::format("holds a study; choose another --out for the {}", kind));
   if (!fs::exists(folder / file, error) && holds_files(folder))
-    throw IoError(folder.string(),
-                  fmt::format("holds files that are not a {}; choose another --out", kind));
+    throw IoError(
+        folder.string(),
+        fmt::format("holds files that are not a{} {}; choose another --out",
+                    std::string_view("aeiou").find(*kind) == std::string_view::npos ? "" : "n",
+                    kind));
 }
 
 void check_map_folder(const fs::path& folder) { check_result_folder(folder, kMapFile, "map"); }

@@ -23,6 +23,7 @@
 #include "render/figures/status_text.hpp"
 #include "render/output/write_figure.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/html/report_pages.hpp"
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/map_report.hpp"
@@ -154,8 +155,8 @@ std::string map_text(const MapResult& map, const fs::path& out) {
 constexpr std::size_t kMostLandmarksOfPage = 5000;
 
 /// What the page carries: the map, unless it is large, and its figures, all of which it shows.
-PageData page_data(const fs::path& folder, const MapRecord& map,
-                   const std::vector<Figure>& figures, const Disclosure& disclosure) {
+PageData page_data(const fs::path& folder, const MapRecord& map, const std::vector<Figure>& figures,
+                   const Disclosure& disclosure) {
   Images images;
   std::set<std::string> shown;
   for (const Figure& figure : figures) {
@@ -189,10 +190,15 @@ void write_map(const MapFolder& folder, const MapOutput& location, const MapResu
     const auto found = drawn.find(id);
     return found == drawn.end() ? std::string() : found->second;
   };
-  const std::string html = location.disclosure.text(report_html(report, location.page, drawing));
-  out.write("report.html",
-            with_page_data(html, page_data(out.path(), map.record, figures,
-                                           location.disclosure)));
+  const auto bytes_of = [&](const std::string& id) { return drawing(id).size(); };
+  const std::vector<Report> pages = pages_of(report, bytes_of);
+  const auto page = [&](std::size_t number) {
+    return location.disclosure.text(report_html(pages[number - 1], location.page, drawing,
+                                                page_options(number, pages.size(), {})));
+  };
+  write_further_pages(out, pages.size(), page);
+  out.write("report.html", with_page_data(page(1), page_data(out.path(), map.record, figures,
+                                                             location.disclosure)));
 }
 
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation) {

@@ -68,11 +68,8 @@ IndexFacts read_index_facts(HistoryStore& history, const HistoryOutputs& outputs
   const fs::path& store = outputs.store;
   IndexFacts facts{.nightly_runs = history.nightly_runs(),
                    .remarks = {remarks.begin(), remarks.end()}};
-  for (const NightlyFacts& nightly_run : facts.nightly_runs) {
-    facts.findings[nightly_run.number] = history.findings(nightly_run.number);
-    for (const NightlyStudy& study : history.studies(nightly_run.number))
-      facts.studies[nightly_run.number].push_back(study.name);
-  }
+  facts.findings = history.all_findings();
+  facts.studies = history.study_names();
   facts.lost = lost_nightly_runs(store, facts.nightly_runs);
   facts.notes = history.notes();
   facts.comparisons = comparisons_in(outputs.out);

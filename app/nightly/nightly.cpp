@@ -17,8 +17,8 @@
 
 #include "app/build_facts.hpp"
 #include "app/nightly/history_report.hpp"
-#include "app/nightly/nightly_outputs.hpp"
 #include "app/nightly/nightly_folders.hpp"
+#include "app/nightly/nightly_outputs.hpp"
 #include "app/nightly/nightly_study.hpp"
 #include "app/nightly/tested_commit.hpp"
 #include "app/study/embedded_experiments.hpp"
@@ -158,15 +158,14 @@ bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& f
     const bool is_compared =
         nightly_run.facts.reference && has_study(history, *nightly_run.facts.reference, study);
     NightlyLinks links(paths_from(folder / study.name, outputs.out, outputs.store));
-    add_nightly_run(
-        report.report,
-        {.nightly_run = nightly_run,
-         .name = study.name,
-         .is_compared = is_compared,
-         .lost = lost,
-         .groups = groups,
-         .figures = report.figures},
-        links);
+    add_nightly_run(report.report,
+                    {.nightly_run = nightly_run,
+                     .name = study.name,
+                     .is_compared = is_compared,
+                     .lost = lost,
+                     .groups = groups,
+                     .figures = report.figures},
+                    links);
     report.link_words = links.words();
     scenes_drawn &= draw(report, outputs, invocation.console);
     study.figures = objects.keep(folder / study.name / "figures");
@@ -206,8 +205,8 @@ std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& su
                                  verdict_sentence(facts, summary.new_findings()));
   for (const FindingGroup& group : summary.groups)
     if (group.known)
-      text += fmt::format("  {}: {}, known: {}\n", group.study, group.headline(),
-                          group.known->text);
+      text +=
+          fmt::format("  {}: {}, known: {}\n", group.study, group.headline(), group.known->text);
   for (const NightlyStudy& study : nightly_run.studies) {
     std::size_t count = 0;
     for (const NightlyFinding& finding : new_findings(nightly_run.findings, summary.all_notes))
@@ -256,10 +255,11 @@ struct NightlyEnd {
 /// Writes the pages of a history, and those that compare. @return How its last nightly run ended.
 NightlyEnd write_pages(HistoryStore& history, const std::vector<std::string>& remarks,
                        const HistoryOutputs& outputs, const Console& console) {
-  const IndexFacts facts = read_index_facts(history, outputs, remarks);
+  IndexFacts facts = read_index_facts(history, outputs, remarks);
   NightlyEnd end{.summary = last_summary(facts)};
   compare_where_it_began(facts, outputs, console);
-  end.index = write_history_pages(history, outputs, read_index_facts(history, outputs, remarks));
+  facts.comparisons = comparisons_in(outputs.out);
+  end.index = write_history_pages(history, outputs, facts);
   end.exit_code = exit_code(end.summary.verdict());
   return end;
 }
@@ -309,13 +309,13 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
                     ": another mapproof runs in it; waiting, since two at once would spoil "
                     "each other's seconds");
   });
-  for (const fs::path& folder : {store, outputs.out}) refuse_links_out(folder);
+  refuse_links_out(store);
+  if (outputs.out != store) refuse_links_out(outputs.out);
   HistoryStore history = HistoryStore::open(store);
   for (const std::string& remark : history.remarks()) console.warning(remark);
 
-  NightlyRun nightly_run{
-      .facts = facts_of(next_nightly_run(history, store), arguments, names, commit,
-                        invocation.disclosure)};
+  NightlyRun nightly_run{.facts = facts_of(next_nightly_run(history, store), arguments, names,
+                                           commit, invocation.disclosure)};
   if (asked) {  // Refused before hours of work.
     nightly_run.studies = planned_studies(requests.studies);
     reference_nightly_run(history, nightly_run, asked);
@@ -348,7 +348,9 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
       invocation.disclosure);
   if (arguments.bisect)
     return bisect(requests,
-                  {arguments.store, *arguments.bisect, arguments.jobs,
+                  {arguments.store,
+                   *arguments.bisect,
+                   arguments.jobs,
                    {invocation.command, invocation.disclosure.host()}},
                   invocation.console);
   const NightlyEnd end = make_nightly_run(arguments, requests, invocation);
@@ -359,9 +361,10 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
 }
 
 void add_commit_options(CLI::App& app, NightlyArguments& arguments) {
-  app.add_option("--commit", arguments.commit.commit,
-                 "Commit that is measured, or none; by default what --metrics says, else HEAD of the git "
-                 "repository here, else that of this program")
+  app.add_option(
+         "--commit", arguments.commit.commit,
+         "Commit that is measured, or none; by default what --metrics says, else HEAD of the git "
+         "repository here, else that of this program")
       ->type_name("ID");
   app.add_option("--repository-url", arguments.commit.repository,
                  "Address of the repository for links to commits, or none; by default that of the "
@@ -398,7 +401,8 @@ Action nightly_command(CLI::App& app) {
       "Examples:\n"
       "  mapproof nightly yairi2007 --store history\n"
       "  mapproof nightly mine.json boots2013 --profile quick --store history --reference 12\n"
-      "  mapproof nightly --metrics bench.json --better lower --store history --markdown nightly.md\n"
+      "  mapproof nightly --metrics bench.json --better lower --store history --markdown "
+      "nightly.md\n"
       "  mapproof nightly bench/results.csv --better lower --store history\n"
       "  mapproof nightly --metrics bench.json --store history --on-worse 'mail -s worse me'\n\n"
       "Exit codes:\n"
@@ -410,9 +414,10 @@ Action nightly_command(CLI::App& app) {
       "  125  with --bisect: the commit cannot be tested\n\n"
       "docs/nightly.md has the rules, and shows how to run it by a timer.\n");
   app.add_option(
-         "EXPERIMENT", arguments->experiments,
-         fmt::format("Experiments' JSON files, a results.csv of any program or folders with one, or {}",
-                     fmt::join(experiment_names(), ", ")));
+      "EXPERIMENT", arguments->experiments,
+      fmt::format(
+          "Experiments' JSON files, a results.csv of any program or folders with one, or {}",
+          fmt::join(experiment_names(), ", ")));
   app.add_option("--metrics", arguments->metrics,
                  "Numbers of another program: JSON of mapproof.metrics, github-action-benchmark, "
                  "Google Benchmark or pytest-benchmark; several times")
@@ -439,12 +444,12 @@ Action nightly_command(CLI::App& app) {
                  "Folder whose templates replace the embedded ones")
       ->check(names_folder());
   add_data_options(app, arguments->request);
-  group_options(app, {{"Input", {"EXPERIMENT", "--metrics", "--better"}},
-                      {"Experiment", {"--profile"}},
-                      {"Comparison", {"--reference", "--bisect"}},
-                      {"Commits", {"--commit", "--repository-url", "--build"}},
-                      {"Output",
-                       {"--store", "--templates", "--markdown", "--junit", "--on-worse"}}});
+  group_options(app,
+                {{"Input", {"EXPERIMENT", "--metrics", "--better"}},
+                 {"Experiment", {"--profile"}},
+                 {"Comparison", {"--reference", "--bisect"}},
+                 {"Commits", {"--commit", "--repository-url", "--build"}},
+                 {"Output", {"--store", "--templates", "--markdown", "--junit", "--on-worse"}}});
   return [arguments](const Invocation& invocation) { return nightly(*arguments, invocation); };
 }
 

@@ -63,9 +63,9 @@ std::string name_from(const std::string& stem, const std::string& other) {
 
 /// Declares the quantities of a table that the dictionary lacks: without a unit, under their ids.
 /// @throws IoError where it is not known which way they improve, or an id cannot be one.
-void declare_quantities(const std::string& text, const std::string& file,
-                        std::optional<Better> better, ResultsStudy& study) {
-  for (const std::string& id : quantities_in(text, file)) {
+void declare_quantities(const std::string& file, std::optional<Better> better,
+                        ResultsStudy& study) {
+  for (const std::string& id : quantities_in(file)) {
     if (find_quantity(id) != nullptr || id.empty()) continue;
     const Quantity quantity{.id = id, .label = id, .better = better.value_or(Better::kNeither)};
     if (const std::string problem = problem_of(quantity); !problem.empty())
@@ -82,12 +82,16 @@ void declare_quantities(const std::string& text, const std::string& file,
 /// The request to take a table of results as a study. It is named by its file, or by its folder if
 /// it is called results.csv, and is the same study whatever rows come and go. @throws IoError.
 StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
-  const std::string text = read_file(file), source = file.string();
-  const fs::path path = real_path(file);
+  const std::string source = file.string();
   ResultsStudy study;
-  declare_quantities(text, source, better, study);
-  study.results.rows = parse_results_csv(text, source, study.results.quantities);
-  if (study.results.rows.empty()) throw IoError(source, "has no row");
+  declare_quantities(source, better, study);
+  const fs::path path = real_path(file);
+  const auto rows = [file, quantities = study.results.quantities] {
+    return read_results_csv(file, quantities);
+  };
+  if (rows().empty()) throw IoError(source, "has no row");
+  Sha256 digest;
+  digest.add_file(file);
   const bool is_plain = file.filename() == kResultsFile;
   study.name = name_from(is_plain ? path.parent_path().filename().string() : path.stem().string(),
                          std::string(kNamelessResults));
@@ -95,9 +99,9 @@ StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
   study.question = "Numbers of another program.";
   study.results.are_repeats = true;
   return {.name = study.name,
-          .digest = sha256_hex(text),
-          .texts = {{kStudyFile, results_study_json(study)},
-                    {kResultsFile, results_csv(study.results.rows)}},
+          .digest = digest.hex(),
+          .texts = {{kStudyFile, results_study_json(study)}},
+          .table = rows,
           .compared_by = sha256_hex("table\n" + study.name)};
 }
 
@@ -189,7 +193,7 @@ ResultsStudy study_of(const Metrics& metrics, const std::string& name) {
     study.results.quantities.declare(quantity);
     if (std::ranges::find(study.quantities, quantity.id) == study.quantities.end())
       study.quantities.push_back(quantity.id);
-    study.results.rows.push_back({.at = {.setup = metric.suite},
+    study.results.rows.push_back({.at = Condition{.setup = metric.suite},
                                   .method = metric.name,
                                   .quantity = quantity.id,
                                   .value = metric.value});

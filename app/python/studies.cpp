@@ -41,16 +41,16 @@ py::list level_column(const std::vector<Result>& rows, const std::string& factor
 
 /// The columns of results.csv by their names, in its order.
 py::dict columns_of(const std::vector<Result>& rows) {
-  const auto texts = [&](std::string Result::*member) {
+  const auto texts = [&](Name Result::*member) {
     py::list column;
-    for (const Result& row : rows) column.append(row.*member);
+    for (const Result& row : rows) column.append((row.*member).get());
     return column;
   };
   py::list setups;
   std::map<std::string, bool> factors;
   py::array_t<double> values(static_cast<py::ssize_t>(rows.size()));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    setups.append(rows[i].at.setup);
+    setups.append(rows[i].at.setup.get());
     values.mutable_at(static_cast<py::ssize_t>(i)) = rows[i].value;
     for (const Level& level : rows[i].at.levels) factors[level.factor] = true;
   }
@@ -88,9 +88,9 @@ py::dict quantity_columns(const StudyContents& study) {
 py::dict outcome_columns(const StudyContents& study) {
   py::list setups, methods, runs, codes;
   for (const RunOutcome& outcome : study.results.outcomes) {
-    setups.append(outcome.at.setup);
-    methods.append(outcome.method);
-    runs.append(outcome.run);
+    setups.append(outcome.at.setup.get());
+    methods.append(outcome.method.get());
+    runs.append(outcome.run.get());
     codes.append(outcome.codes);
   }
   py::dict columns;
@@ -116,7 +116,8 @@ void define_studies(py::module_& module) {
       .def_readonly("kind", &StudyContents::kind)
       .def_property_readonly("results",
                              [](const StudyContents& s) { return columns_of(s.results.rows); })
-      .def_property_readonly("seconds", [](const StudyContents& s) { return columns_of(s.seconds); })
+      .def_property_readonly("seconds",
+                             [](const StudyContents& s) { return columns_of(s.seconds); })
       .def_property_readonly("quantities", &quantity_columns)
       .def_property_readonly("outcomes", &outcome_columns)
       .def_property_readonly("points", &points_of);

@@ -24,6 +24,7 @@
 #include "render/output/write_scene.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/report_html.hpp"
+#include "reports/html/report_pages.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/slam/slam_figures.hpp"
 #include "reports/sections/slam/slam_report.hpp"
@@ -183,30 +184,8 @@ Opening joined_opening(const std::vector<FolderReport>& parts) {
   return all;
 }
 
-}  // namespace
-
-FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
-                                const std::string& fallback) {
-  refuse_links_out(folder);
-  if (!is_study(folder)) {
-    const std::vector<fs::path> studies = study_folders(folder);
-    if (!studies.empty()) {
-      std::vector<FolderReport> parts;
-      for (const fs::path& study : studies)
-        parts.push_back(read_folder_report(study, command, fallback));
-      return joined(folder, std::move(parts));
-    }
-  }
-  std::string made_by = command.value_or("");
-  if (made_by.empty()) {
-    const std::vector<Session> sessions = read_sessions(folder);
-    made_by = sessions.empty() ? fallback : sessions.back().command;
-  }
-  FolderReport report = outputs_of_study(folder).report(folder, made_by);
-  report.report.figure_command = figure_command(folder);
-  return report;
-}
-
+/// Reports of several studies in one, with what is missing at its head.
+/// @throws InvalidInput if an id stands in two of them.
 FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   FolderReport all{.folder = folder};
   all.report.title = "Maps from what a robot observed";
@@ -235,6 +214,37 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   return all;
 }
 
+/// @return The report, with the sections that it has in a joint one.
+FolderReport read_report(const fs::path& folder, const std::optional<std::string>& command,
+                         const std::string& fallback) {
+  refuse_links_out(folder);
+  if (!is_study(folder)) {
+    const std::vector<fs::path> studies = study_folders(folder);
+    if (!studies.empty()) {
+      std::vector<FolderReport> parts;
+      for (const fs::path& study : studies) parts.push_back(read_report(study, command, fallback));
+      return joined(folder, std::move(parts));
+    }
+  }
+  std::string made_by = command.value_or("");
+  if (made_by.empty()) {
+    const std::vector<Session> sessions = read_sessions(folder);
+    made_by = sessions.empty() ? fallback : sessions.back().command;
+  }
+  FolderReport report = outputs_of_study(folder).report(folder, made_by);
+  report.report.figure_command = figure_command(folder);
+  return report;
+}
+
+}  // namespace
+
+FolderReport read_folder_report(const fs::path& folder, const std::optional<std::string>& command,
+                                const std::string& fallback) {
+  FolderReport report = read_report(folder, command, fallback);
+  report.in_company = {};  // It stands alone.
+  return report;
+}
+
 void add_images(const StudyFigures& figures, FolderReport& report) {
   for (const Figure* figure : all_figures(figures)) report.figures.push_back(*figure);
   for (const Scene* scene : all_scenes(figures)) report.scenes.push_back(*scene);
@@ -258,20 +268,20 @@ Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& cli
     ++done;
     if (job.progress) job.progress(done, total);
   };
-  for (const Figure* figure : images.figures) drawn.svg[figure->id];  // None in parallel.
-  for (const Scene* scene : images.scenes) drawn.svg[scene->id];
+  for (const Figure* figure : images.figures) drawn.figure_bytes[figure->id];  // None in parallel.
   const auto draw_figures = [&] {
     parallel_for(images.figures.size(), [&](std::size_t i) {
       const Figure& figure = *images.figures[i];
-      drawn.svg.at(figure.id) = write_figure(figure, job.theme, job.folder, job.formats);
+      drawn.figure_bytes.at(figure.id) =
+          write_figure(figure, job.theme, job.folder, job.formats).size();
       count_one();
     });
   };
   const auto draw_scenes = [&] {
     try {
       for (const Scene* scene : images.scenes) {
-        drawn.svg.at(scene->id) = write_scene(*scene, job.theme, job.folder, client, job.formats,
-                                              job.dark ? &*job.dark : nullptr);
+        drawn.scene_svg[scene->id] = write_scene(*scene, job.theme, job.folder, client, job.formats,
+                                                 job.dark ? &*job.dark : nullptr);
         count_one();
       }
     } catch (const SceneError& error) {
@@ -288,36 +298,31 @@ namespace {
 /// A page that is larger with its data holds fewer drawings, but not less than these.
 constexpr std::size_t kMostPage = 8'000'000, kLeastDrawings = 2'600'000;
 
-/// The ids of the figures whose drawings the page holds.
-std::set<std::string> shown_figures(const Report& report, const SvgLookup& drawing,
-                                    const HtmlOptions& options) {
-  const std::set<std::string> linked = linked_figures(report, drawing, options.drawing_bytes);
-  std::set<std::string> shown;
-  for (const FigureBlock* figure : figures(report))
-    if (!linked.contains(figure->id)) shown.insert(figure->id);
-  return shown;
-}
-
-std::size_t bytes_of_drawings(const std::set<std::string>& ids, const SvgLookup& drawing) {
+std::size_t bytes_of_drawings(const std::set<std::string>& ids, const DrawingSize& bytes_of) {
   std::size_t bytes = 0;
-  for (const std::string& id : ids) bytes += drawing(id).size();
+  for (const std::string& id : ids) bytes += bytes_of(id);
   return bytes;
 }
 
-/// Reduces what the page may hold of drawings until it is small enough with its data.
+/// Reduces what the first page may hold of drawings, and then of tables, until it is small enough
+/// with its data.
 /// @param rest_bytes  What it takes beside drawings and the data of figures.
-void fit_drawings(const Report& report, const SvgLookup& drawing, std::size_t rest_bytes,
-                  FigureData& figures, HtmlOptions& options) {
-  // A figure that is linked takes its data along, for which others may come.
+void fit_drawings(const Report& report, const DrawingSize& bytes_of, std::size_t rest_bytes,
+                  FigureData& figures, PageLimits& limits) {
+  // A figure that goes takes its data along, for which others may come.
   constexpr std::size_t kStep = 100'000;
-  while (options.drawing_bytes > kLeastDrawings) {
-    const std::set<std::string> shown = shown_figures(report, drawing, options);
-    const std::size_t bytes = rest_bytes + bytes_of_drawings(shown, drawing) + figures.bytes(shown);
+  while (limits.drawing_bytes > kLeastDrawings) {
+    const std::set<std::string> shown =
+        figures_of_first_page(report, bytes_of, limits.drawing_bytes);
+    const std::size_t bytes =
+        rest_bytes + bytes_of_drawings(shown, bytes_of) + figures.bytes(shown);
     if (bytes <= kMostPage) break;
-    options.drawing_bytes =
-        std::max(kLeastDrawings, options.drawing_bytes -
-                                     std::min(options.drawing_bytes, bytes - kMostPage + kStep));
+    limits.drawing_bytes =
+        std::max(kLeastDrawings,
+                 limits.drawing_bytes - std::min(limits.drawing_bytes, bytes - kMostPage + kStep));
   }
+  const std::size_t least = rest_bytes + limits.drawing_bytes;
+  if (least > kMostPage) limits.table_bytes -= std::min(limits.table_bytes, least - kMostPage);
 }
 
 }  // namespace
@@ -340,27 +345,44 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
     shown.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, folder / "tables");
+  const auto bytes_of = [&](const std::string& id) {
+    const auto scene = drawn.scene_svg.find(id);
+    if (scene != drawn.scene_svg.end()) return scene->second.size();
+    const auto figure = drawn.figure_bytes.find(id);
+    return figure == drawn.figure_bytes.end() ? std::size_t{0} : figure->second;
+  };
   const auto drawing = [&](const std::string& id) {
-    const auto found = drawn.svg.find(id);
-    return found == drawn.svg.end() ? std::string() : found->second;
+    const auto scene = drawn.scene_svg.find(id);
+    if (scene != drawn.scene_svg.end()) return scene->second;
+    return drawn.figure_bytes.contains(id) ? read_file(report.folder / "figures" / (id + ".svg"))
+                                           : std::string();
   };
-  HtmlOptions options;
-  options.link_words = report.link_words;
-  const auto page = [&] {
-    return outputs.disclosure.text(report_html(shown, outputs.page, drawing, options));
+  PageLimits limits;
+  std::vector<Report> pages = pages_of(shown, bytes_of, limits);
+  const HtmlOptions options{.link_words = report.link_words};
+  const auto page = [&](std::size_t number) {
+    return outputs.disclosure.text(report_html(pages[number - 1], outputs.page, drawing,
+                                               page_options(number, pages.size(), options)));
   };
-  std::string html = page();
+  std::string html = page(1);
   PageData records = page_records(report.folder, outputs.disclosure);
   std::size_t rest = html.size();
   for (const PageFile& file : records.files) rest += packed_bytes(file.text);
-  rest -= std::min(rest, bytes_of_drawings(shown_figures(shown, drawing, options), drawing));
+  const auto shown_figures = [&] {
+    return figures_of_first_page(shown, bytes_of, limits.drawing_bytes);
+  };
+  rest -= std::min(rest, bytes_of_drawings(shown_figures(), bytes_of));
   const Images images = images_of(report);
   FigureData figures(images, outputs.disclosure);
-  const std::size_t most = options.drawing_bytes;
-  fit_drawings(shown, drawing, rest, figures, options);
-  if (options.drawing_bytes < most) html = page();
-  const PageContent content =
-      std::move(figures).content(std::move(records), shown_figures(shown, drawing, options));
+  const PageLimits most = limits;
+  fit_drawings(shown, bytes_of, rest, figures, limits);
+  if (limits.drawing_bytes < most.drawing_bytes || limits.table_bytes < most.table_bytes) {
+    pages = pages_of(shown, bytes_of, limits);
+    html = page(1);
+  }
+  PageContent content = std::move(figures).content(std::move(records), shown_figures());
+  content.tables_left = large_tables(report.folder);
+  write_further_pages(folder, pages.size(), page);
   folder.write(kReportFile, with_page_data(std::move(html), content.data));
   if (const std::string left = left_out_text(content); outputs.note && !left.empty())
     outputs.note(left);

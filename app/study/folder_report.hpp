@@ -36,10 +36,6 @@ FolderReport read_folder_report(const std::filesystem::path& folder,
                                 const std::optional<std::string>& command,
                                 const std::string& fallback);
 
-/// Reports of several studies in one, with what is missing at its head.
-/// @throws InvalidInput if an id stands in two of them.
-FolderReport joined(const std::filesystem::path& folder, std::vector<FolderReport> parts);
-
 /// The report of a range-only study that is at hand, with its figures.
 /// @param command  The one that makes the study again.
 FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamStudy& study,
@@ -54,10 +50,11 @@ Images images_of(const FolderReport& report);
 
 /// What was drawn.
 struct Drawn {
-  /// The text of each SVG file by its image's id; for a dark page, with dark images.
-  std::map<std::string, std::string> svg;
-  std::string renderer;                    ///< What drew the scenes; empty if there are none.
-  std::string scene_error;                 ///< Why scenes are missing; empty if none is.
+  std::map<std::string, std::size_t> figure_bytes;  ///< Of each figure's SVG file, by its id.
+  /// The drawings of scenes by their ids; for a dark page, with dark images, which files lack.
+  std::map<std::string, std::string> scene_svg;
+  std::string renderer;     ///< What drew the scenes; empty if there are none.
+  std::string scene_error;  ///< Why scenes are missing; empty if none is.
 };
 
 /// How images are drawn, and where to.
@@ -85,7 +82,8 @@ struct ReportOutputs {
 };
 
 /// Writes figures/, tables/ and report.html, which names what drew the scenes and carries the
-/// records of the report's folder (see page_records()), into that folder.
+/// records of the report's folder (see page_records()), into that folder, and pages/ where one page
+/// cannot hold all (see pages_of()).
 /// @param of_folder  The lock of that folder.
 /// @return The path of the report.
 /// @throws IoError.

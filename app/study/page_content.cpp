@@ -21,9 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_large(const fs::path& table) {
+  std::error_code error;
+  const auto bytes = fs::file_size(table, error);
+  return !error && bytes > kMostResults;
+}
+
+/// Without its table a study cannot be read: then nothing of it is added.
 /// @param inner  Of a study below the folder: "plaza/"; else empty.
 void add_study(const fs::path& folder, const std::string& inner, const Disclosure& disclosure,
                PageData& data) {
+  if (is_large(folder / kResultsFile)) return;
   data.files.push_back({inner + kStudyFile, disclosure.text(read_file(folder / kStudyFile))});
   data.files.push_back({inner + kResultsFile, disclosure.text(results_table_of(folder))});
 }
@@ -45,6 +53,17 @@ PageData page_records(const fs::path& folder, const Disclosure& disclosure) {
   PageData records;
   add_records(folder, disclosure, records);
   return records;
+}
+
+std::vector<std::string> large_tables(const fs::path& folder) {
+  if (is_study(folder))
+    return is_large(folder / kResultsFile) ? std::vector<std::string>{kResultsFile}
+                                           : std::vector<std::string>();
+  std::vector<std::string> tables;
+  for (const fs::path& study : study_folders(folder))
+    if (is_large(study / kResultsFile))
+      tables.push_back((study.filename() / kResultsFile).generic_string());
+  return tables;
 }
 
 std::size_t packed_bytes(const std::string& text) {
@@ -95,11 +114,19 @@ PageContent FigureData::content(PageData records, const std::set<std::string>& s
 }
 
 std::string left_out_text(const PageContent& content) {
-  if (content.figures_left == 0) return "";
-  return fmt::format(
-      "report.html carries the results and the data of {}; those of {} more, such as single maps "
-      "that it does not show, are in figures/ alone",
-      counted(static_cast<long long>(content.figures_kept), "figure"), content.figures_left);
+  std::string text;
+  if (content.figures_left > 0)
+    text = fmt::format(
+        "report.html carries {}the data of {}; those of {} more, such as single maps that it does "
+        "not show, are in figures/ alone",
+        content.tables_left.empty() ? "the results and " : "",
+        counted(static_cast<long long>(content.figures_kept), "figure"), content.figures_left);
+  if (!content.tables_left.empty())
+    text += fmt::format(
+        "{}report.html does not carry {}, of more than {} MiB: `results` and `diff` take the "
+        "folder",
+        text.empty() ? "" : "; ", listed(content.tables_left, 4), kMostResults >> 20);
+  return text;
 }
 
 }  // namespace mapproof

@@ -24,17 +24,26 @@ struct Images {
 /// The most bytes that figures take of a page's data.
 inline constexpr std::size_t kMostFigureData = 1'800'000;
 
+/// The most bytes of a results.csv that a page carries: with 540 MB of one a page had 102 MB.
+inline constexpr std::size_t kMostResults = std::size_t{64} << 20;
+
 /// What a report's page carries, and what it does not.
 struct PageContent {
   PageData data;
   std::size_t figures_kept = 0;  ///< Figures and 3-D figures that it carries.
   std::size_t figures_left = 0;  ///< Those that are in the folder alone.
+  /// Tables of results of more than kMostResults, which are in the folder alone.
+  std::vector<std::string> tables_left = {};
 };
 
 /// The records of a folder, of a study, of studies below it, of a map or a range-only map: of a
-/// study study.json and results.csv, of a map map.json, of a range-only map slam.json.
+/// study study.json and results.csv, of a map map.json, of a range-only map slam.json. A
+/// results.csv of more than kMostResults is left out.
 /// @throws IoError if they cannot be read.
 PageData page_records(const std::filesystem::path& folder, const Disclosure& disclosure);
+
+/// The files that page_records() leaves out, below the folder.
+std::vector<std::string> large_tables(const std::filesystem::path& folder);
 
 /// What a text takes of a page that carries it, packed by itself.
 std::size_t packed_bytes(const std::string& text);
@@ -66,8 +75,8 @@ class FigureData {
   std::vector<Entry> entries_;
 };
 
-/// "report.html carries … 30 figures; those of 4 more … are in figures/ alone"; empty if it carries
-/// all.
+/// "report.html carries … 30 figures; those of 4 more … are in figures/ alone", and tables that it
+/// does not carry; empty if it carries all.
 std::string left_out_text(const PageContent& content);
 
 }  // namespace mapproof

@@ -74,7 +74,8 @@ void check_folder_of_all(const fs::path& folder) {
   if (is_study(folder))
     throw IoError(folder.string(), "holds a study; choose another folder for all of them");
   std::vector<std::string> ours = experiment_names();
-  ours.insert(ours.end(), {"figures", "figures-paper", "figures-styled", "tables", "report.html"});
+  ours.insert(ours.end(),
+              {"figures", "figures-paper", "figures-styled", "pages", "tables", "report.html"});
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();

@@ -52,21 +52,20 @@ nlohmann::ordered_json row_json(const Result& row) {
   nlohmann::ordered_json levels = nlohmann::ordered_json::object();
   for (const Level& level : row.at.levels)
     std::visit([&](const auto& value) { levels[level.factor] = value; }, level.value);
-  return {{"setup", row.at.setup},  {"levels", levels},
-          {"method", row.method},   {"quantity", row.quantity},
-          {"run", row.run},         {"group", row.group},
-          {"subject", row.subject}, {"value", number_or_null(row.value)}};
+  return {{"setup", row.at.setup.get()},  {"levels", levels},
+          {"method", row.method.get()},   {"quantity", row.quantity.get()},
+          {"run", row.run.get()},         {"group", row.group.get()},
+          {"subject", row.subject.get()}, {"value", number_or_null(row.value)}};
 }
 
 int print_results(const fs::path& folder, const Console& console) {
   const Results results = read_study_contents(folder, {}).results;
   if (!console.is_json()) {
-    console.print(results_csv(results.rows));
+    write_results_csv(results.rows, [&](const std::string& text) { console.print(text); });
     return kDone;
   }
-  nlohmann::ordered_json object{{"results", nlohmann::ordered_json::array()}};
-  for (const Result& row : results.rows) object["results"].push_back(row_json(row));
-  console.result("", object);
+  console.list("results", results.rows.size(),
+               [&](std::size_t i) { return row_json(results.rows[i]); });
   return kDone;
 }
 

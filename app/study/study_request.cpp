@@ -61,10 +61,12 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
 
 StudyRequest given_study_request(const std::filesystem::path& folder) {
   StudyRequest request{.name = read_results_study(folder).name, .given = folder};
-  std::string texts;
-  for (const std::filesystem::path& file : results_study_files(folder))
-    texts += file.string() + "\n" + read_file(folder / file);
-  request.digest = sha256_hex(texts);
+  Sha256 digest;
+  for (const std::filesystem::path& file : results_study_files(folder)) {
+    digest.add(file.string() + "\n");
+    digest.add_file(folder / file);
+  }
+  request.digest = digest.hex();
   return request;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "app/command_line.hpp"
 #include "app/study/embedded_experiments.hpp"
 #include "core/model/shard.hpp"
+#include "core/results/results.hpp"
 #include "core/studies/study_plan.hpp"
 
 namespace mapproof {
@@ -35,7 +37,10 @@ struct StudyRequest {
   StudyPlan plan = {};                     ///< Of an experiment.
   std::optional<ShardSession> shard = {};  ///< The plan is its share of a study.
   std::filesystem::path given = {};        ///< A study that another program made, which is copied.
-  std::map<std::string, std::string> texts = {};  ///< The files of a study that is at hand, by name.
+  std::map<std::string, std::string> texts =
+      {};  ///< The files of a study that is at hand, by name.
+  /// Reads the rows of its results.csv, if that is none of `texts`.
+  std::function<std::vector<Result>()> table = {};
   /// What nightly runs of it are compared by, where it is not what its study.json says; may be
   /// empty.
   std::string compared_by = {};

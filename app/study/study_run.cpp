@@ -17,6 +17,8 @@
 #include "core/base/version.hpp"
 #include "core/records/studies/folder_lock.hpp"
 #include "core/records/studies/results_study_json.hpp"
+#include "core/records/studies/results_table.hpp"
+#include "core/records/studies/study_folder.hpp"
 #include "core/studies/shard.hpp"
 #include "core/studies/study_kind.hpp"
 
@@ -77,6 +79,13 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
                 const SessionNames& names, const Console& console) {
   if (!request.texts.empty()) {
     const LockedFolder study(folder);
+    if (request.table) {
+      const std::vector<Result> rows = request.table();
+      study.files().write(kResultsFile, "");
+      write_results_csv(rows,
+                        [&](const std::string& text) { study.files().append(kResultsFile, text); });
+    }
+    // With its last file the folder is a study: a table that was cut off is none.
     for (const auto& [file, text] : request.texts) study.files().write(file, text);
     return;
   }

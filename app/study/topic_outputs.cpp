@@ -24,8 +24,9 @@ std::vector<std::string> parts_apart(const TopicStudy& study) {
 
 nlohmann::ordered_json mean_values(const TopicStudy& study, const ResultsView& view,
                                    const Condition& at, const ResultsLine& line) {
-  nlohmann::ordered_json result{
-      {"setup", at.setup}, {"method", line.method}, {"levels", nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json result{{"setup", at.setup.get()},
+                                {"method", line.method},
+                                {"levels", nlohmann::ordered_json::object()}};
   for (const Level& level : at.levels)
     result["levels"][level.factor] = number_or_null(std::get<double>(level.value));
   if (!line.run.empty()) result["part"] = line.run;
@@ -102,10 +103,10 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                            .figures = figures,
                            .provenance = topic_provenance(study, sessions, command, labelled.name),
                            .conclusions = conclusions_of(study),
-                           .headline = {.label = headline.label,
-                                        .value = headline.value,
-                                        .detail = judged_detail(headline),
-                                        .falls_short = headline.falls_short},
+                           .headline = Highlights::Item{.label = headline.label,
+                                                        .value = headline.value,
+                                                        .detail = judged_detail(headline),
+                                                        .falls_short = headline.falls_short},
                            .incomplete = topic_incomplete(study),
                            .warnings = warnings_and_shortfall(study, headline),
                            .footer = fmt::format("Made by mapproof {} ({}).",

@@ -256,7 +256,7 @@ JointMap joint_map(const std::vector<Eigen::MatrixXd>& distances, const Points& 
   const Eigen::Index M = start.rows();
   std::vector<std::vector<Pair>> pairs;
   for (const Eigen::MatrixXd& one : distances) pairs.push_back(sorted_pairs(one));
-  JointMap result{.embedding = {}, .shares = std::vector<double>(distances.size(), 0.0)};
+  JointMap result{.embedding = Embedding{}, .shares = std::vector<double>(distances.size(), 0.0)};
   if (!connected(distances)) {
     result.embedding.coordinates.setConstant(M, 2, kNaN);
     result.embedding.statuses.push_back(status_of<StatusReason::kNoSensorShares>());

@@ -72,7 +72,7 @@ void visit(const SeenLists& seen, const Take& take) {
 
 HistoryDistances distances_of(std::shared_ptr<const SeenLists> seen) {
   HistoryDistances result{.landmarks = seen->landmarks(),
-                          .distances = {.visit = {}, .others = std::numbers::sqrt2},
+                          .distances = VisitedDistances{.visit = {}, .others = std::numbers::sqrt2},
                           .apart = std::numbers::sqrt2,
                           .groups = seen->groups()};
   result.distances.visit = [seen = std::move(seen)](const Take& take) { visit(*seen, take); };
@@ -171,10 +171,9 @@ BlockedDistances::Rows BlockedDistances::rows(Index first) const {
   if (multiplies_observed()) block.observed.resize(block.count, columns);
   const Eigen::MatrixXd values = history_.values_of(first, size, 0, steps_);
   over_rows(block.count, [&](Index part, Index count) {
-    Features some = features({.sensor = history_.sensor(),
-                              .names = {},
-                              .values = values.middleRows(part, count)},
-                             steps_);
+    Features some = features(
+        {.sensor = history_.sensor(), .names = {}, .values = values.middleRows(part, count)},
+        steps_);
     block.values.middleRows(part, count) = some.values;
     block.squares.segment(part, count) = some.values.rowwise().squaredNorm();
     if (!multiplies_observed()) return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -17,8 +18,10 @@ namespace {
 std::string complete(std::vector<Label>& labels, const std::set<std::string>& in_rows) {
   for (const Label& label : labels)
     if (!in_rows.contains(label.id)) return label.id;
+  std::set<std::string> known;
+  for (const Label& label : labels) known.insert(label.id);
   for (const std::string& id : in_rows)
-    if (std::ranges::find(labels, id, &Label::id) == labels.end()) labels.push_back({id, id});
+    if (!known.contains(id)) labels.push_back({id, id});
   return "";
 }
 
@@ -30,29 +33,47 @@ void complete_quantities(ResultsStudy& study, const std::set<std::string>& in_ro
       study.quantities.push_back(quantity.id);
 }
 
+/// Rows of one condition that stand together.
+struct ConditionRows {
+  const Result* first = nullptr;
+  long rows = 0;
+};
+
+std::vector<ConditionRows> rows_by_condition(const std::vector<Result>& rows) {
+  std::vector<ConditionRows> all;
+  for (const Result& row : rows) {
+    if (all.empty() || all.back().first->at != row.at) all.push_back({.first = &row});
+    ++all.back().rows;
+  }
+  return all;
+}
+
+const std::string& setup_of(const ConditionRows& rows) { return rows.first->at.setup; }
+
 /// The remark where some rows of a setup have a factor and others have not; empty else.
-std::string lacking(const std::vector<Result>& rows, const std::string& setup,
-                    const std::string& factor) {
+/// @param conditions  Of the setup alone.
+std::string lacking(std::span<const ConditionRows> conditions, const std::string& factor) {
   long without = 0, all = 0;
   const Result* first = nullptr;
-  for (const Result& row : rows) {
-    if (row.at.setup != setup) continue;
-    ++all;
-    if (std::ranges::find(row.at.levels, factor, &Level::factor) != row.at.levels.end()) continue;
-    ++without;
-    if (first == nullptr) first = &row;
+  for (const ConditionRows& one : conditions) {
+    const Condition& at = one.first->at;
+    all += one.rows;
+    if (std::ranges::find(at.levels, factor, &Level::factor) != at.levels.end()) continue;
+    without += one.rows;
+    if (first == nullptr) first = one.first;
   }
   if (without == 0 || without == all) return "";
   return fmt::format(
       "at.{} is empty in {} of the {} rows of the setup \"{}\", first of {}, {}{}: there the "
       "factor "
       "is not given, and these rows stand in a section of their own",
-      printable(factor, 40), without, all, printable(setup, 40), printable(first->method, 40),
-      first->quantity, first->run.empty() ? "" : ", run " + printable(first->run, 40));
+      printable(factor, 40), without, all, printable(first->at.setup, 40),
+      printable(first->method, 40), first->quantity.get(),
+      first->run.empty() ? "" : ", run " + printable(first->run, 40));
 }
 
 /// Whether a quantity has values other than 0, and all of them lie in 0 to 1.
-bool are_shares(const std::vector<Result>& rows, const std::string& quantity) {
+bool are_shares(const std::vector<Result>& rows, const Name& quantity) {
   bool any = false;
   for (const Result& row : rows) {
     if (row.quantity != quantity || std::isnan(row.value)) continue;
@@ -66,11 +87,15 @@ bool are_shares(const std::vector<Result>& rows, const std::string& quantity) {
 
 std::string complete(ResultsStudy& study) {
   std::set<std::string> quantities, setups, methods, factors;
+  Result before;
   for (const Result& row : study.results.rows) {
-    quantities.insert(row.quantity);
-    setups.insert(row.at.setup);
-    methods.insert(row.method);
-    for (const Level& level : row.at.levels) factors.insert(level.factor);
+    const bool is_first = &row == &study.results.rows.front();
+    if (is_first || row.quantity != before.quantity) quantities.insert(row.quantity);
+    if (is_first || row.method != before.method) methods.insert(row.method);
+    if (is_first || row.at.setup != before.at.setup) setups.insert(row.at.setup);
+    if (row.at.levels != before.at.levels)
+      for (const Level& level : row.at.levels) factors.insert(level.factor);
+    before = row;
   }
   complete_quantities(study, quantities);
   if (const std::string id = complete(study.setups, setups); !id.empty()) return "setups: " + id;
@@ -81,10 +106,13 @@ std::string complete(ResultsStudy& study) {
 
 std::vector<std::string> remarks_of(const ResultsStudy& study) {
   std::vector<std::string> remarks;
-  for (const Label& setup : study.setups)
+  const std::vector<ConditionRows> conditions = rows_by_condition(study.results.rows);
+  for (const Label& setup : study.setups) {
+    const auto own = std::ranges::equal_range(conditions, setup.id, {}, setup_of);
     for (const Label& factor : study.factors)
-      if (std::string remark = lacking(study.results.rows, setup.id, factor.id); !remark.empty())
+      if (std::string remark = lacking(own, factor.id); !remark.empty())
         remarks.push_back(std::move(remark));
+  }
   for (const std::string& id : study.quantities) {
     const Quantity& quantity = study.results.quantities.at(id);
     if (quantity.unit == "%" && are_shares(study.results.rows, id))

@@ -41,6 +41,7 @@ std::string complete(ResultsStudy& study);
 /// What a reader of the table should check though it can be used, a sentence each: rows of a
 /// setup that lack a factor which others of it have; a quantity in % whose values all lie in 0
 /// to 1.
+/// @param study  complete(), its rows in order.
 std::vector<std::string> remarks_of(const ResultsStudy& study);
 
 /// What of its labels a reader could mistake, a sentence each that begins with the list: two ids of

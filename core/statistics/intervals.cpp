@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 #include <vector>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -15,11 +15,19 @@ namespace {
 /// Sum over clusters of the squared sum of the values' deviations from the mean.
 double squared_cluster_sums(std::span<const double> values, std::span<const int> clusters,
                             double mean, int& count) {
-  std::map<int, double> sums;
-  for (std::size_t i = 0; i < values.size(); ++i) sums[clusters[i]] += values[i] - mean;
-  count = static_cast<int>(sums.size());
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0U);
+  if (!std::ranges::is_sorted(clusters))
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return clusters[i]; });
+  count = 0;
   double total = 0.0;
-  for (const auto& [cluster, sum] : sums) total += sum * sum;
+  for (auto first = order.begin(); first != order.end(); ++count) {
+    const int cluster = clusters[*first];
+    double sum = 0.0;
+    for (; first != order.end() && clusters[*first] == cluster; ++first)
+      sum += values[*first] - mean;
+    total += sum * sum;
+  }
   return total;
 }
 

@@ -1,23 +1,21 @@
 #include "core/statistics/paired_change.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
 #include <vector>
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/statistics/intervals.hpp"
 #include "core/statistics/signed_rank.hpp"
 
 namespace mapproof {
 namespace {
-
-constexpr std::size_t kMostUnits = 2000;
 
 bool takes_ranks(int units, const PairedChangeOptions& options) {
   return least_signed_rank_p(units) <= options.finest_p;
@@ -31,15 +29,63 @@ std::size_t averages_left_out(double n, double confidence) {
   return static_cast<std::size_t>(std::max(0.0, std::floor(sum)));
 }
 
+/// The means of all pairs of values, each with itself too, in ascending order.
+class WalshAverages {
+ public:
+  explicit WalshAverages(std::span<const double> values) : sorted_(values.begin(), values.end()) {
+    std::ranges::sort(sorted_);
+  }
+
+  std::size_t size() const { return sorted_.size() * (sorted_.size() + 1) / 2; }
+
+  /// The one that so many are before: of all doubles the least that more averages are not above.
+  double operator[](std::size_t before) const {
+    std::uint64_t low = rank_of(sorted_.front()), high = rank_of(sorted_.back());
+    while (low < high) {
+      const std::uint64_t middle = low + (high - low) / 2;
+      if (count_up_to(of_rank(middle)) > before)
+        high = middle;
+      else
+        low = middle + 1;
+    }
+    return of_rank(low) + 0.0;  // Not -0.
+  }
+
+  double median() const {
+    const std::size_t half = size() / 2;
+    return size() % 2 == 1 ? (*this)[half] : 0.5 * (*this)[half - 1] + 0.5 * (*this)[half];
+  }
+
+ private:
+  static constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
+
+  /// Where a double stands among all of them.
+  static std::uint64_t rank_of(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    return (bits & kSign) != 0 ? ~bits : bits | kSign;
+  }
+  static double of_rank(std::uint64_t rank) {
+    return std::bit_cast<double>((rank & kSign) != 0 ? rank & ~kSign : ~rank);
+  }
+
+  /// Rounding keeps the order: of a row, and of a column, of averages.
+  std::size_t count_up_to(double value) const {
+    std::size_t count = 0;
+    std::size_t end = sorted_.size();
+    for (std::size_t i = 0; i < end; ++i) {
+      while (end > i && 0.5 * sorted_[i] + 0.5 * sorted_[end - 1] > value) --end;
+      count += end - i;
+    }
+    return count;
+  }
+
+  std::vector<double> sorted_;
+};
+
 void judge_by_ranks(std::span<const double> differences, double confidence, PairedChange& change) {
-  std::vector<double> averages;
-  averages.reserve(differences.size() * (differences.size() + 1) / 2);
-  for (std::size_t i = 0; i < differences.size(); ++i)
-    for (std::size_t j = i; j < differences.size(); ++j)
-      averages.push_back(0.5 * differences[i] + 0.5 * differences[j]);
-  std::ranges::sort(averages);
+  const WalshAverages averages(differences);
   change.by_ranks = true;
-  change.shift = median(averages);
+  change.shift = averages.median();
   const std::size_t out =
       std::min(averages_left_out(static_cast<double>(differences.size()), confidence),
                (averages.size() - 1) / 2);
@@ -78,8 +124,7 @@ double least_paired_p(int units, const PairedChangeOptions& options) {
 
 PairedChange paired_change(std::span<const double> differences,
                            const PairedChangeOptions& options) {
-  if (differences.empty() || differences.size() > kMostUnits)
-    throw InvalidInput("paired_change: from 1 to 2000 differences are needed");
+  if (differences.empty()) throw InvalidInput("paired_change: no difference");
   if (!(options.confidence > 0.0 && options.confidence < 1.0))
     throw InvalidInput("paired_change: confidence must lie between 0 and 1");
   if (!std::ranges::all_of(differences, [](double value) { return std::isfinite(value); }))

@@ -29,9 +29,9 @@ double least_paired_p(int units, const PairedChangeOptions& options);
 /// median of Walsh averages and the interval between two of them [hodges1963], where ranks are fine
 /// enough; else by Student's t of the mean. Equal differences other than zero have p = 0 by t.
 ///
-/// @param differences  Finite, independent of each other, at most 2000.
+/// @param differences  Finite, independent of each other.
 /// @throws InvalidInput if a bound is broken or there is none.
-/// @note O(n^2 log n).
+/// @note O(n log n) time, O(n) memory: Walsh averages are counted, not kept.
 PairedChange paired_change(std::span<const double> differences,
                            const PairedChangeOptions& options = {});
 

@@ -82,7 +82,7 @@ Run read_run(const fs::path& file, const RunId& id) {
 
 void add_world(StudyContents& contents, const Run& run) {
   const std::string id = slug(run.id);
-  contents.runs[id] = fmt::format("layout-{}", run.id.layout);
+  contents.runs.set(id, fmt::format("layout-{}", run.id.layout));
   contents.worlds[id].points = run.world.landmarks_m;
   for (const Eigen::Index anchor : run.anchors) contents.anchors[id] += fmt::format(" {}", anchor);
 }
@@ -93,7 +93,7 @@ void read_mapping(const fs::path& folder, const std::string& text, const Content
   Study study = parse_study(text, files.study().string());
   contents.provenance = study.provenance;
   for (const RunId& id : files.listed_runs()) {
-    contents.runs[slug(id)] = "";
+    contents.runs.set(slug(id), "");
     try_file(contents, folder, files.run(id), asked, [&] {
       if (!asked.keeps_on && !contains(study.experiment, id))
         throw IoError(files.run(id).string(), "is not a run of the experiment");

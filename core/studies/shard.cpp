@@ -137,7 +137,8 @@ struct Notes {
 Notes read_notes(const fs::path& folder) {
   require_study(folder);
   refuse_links_out(folder);
-  Notes notes{.shard = {.folder = folder, .session = {}, .processors = {}},
+  // The type is named: else GCC 12 destroys the folder twice where the file cannot be read.
+  Notes notes{.shard = ShardFolder{.folder = folder, .session = {}, .processors = {}},
               .study = read_file(folder / kStudyFile),
               .records = {}};
   std::map<int, TaskRecords> last;

@@ -65,11 +65,10 @@ namespace {
 
 /// The rows of a study's results.csv; of what its records hold besides, nothing is known.
 void add_table(const fs::path& folder, StudyContents& contents) {
-  const std::string table = (folder / kResultsFile).string();
   Results& results = contents.results;
-  results.rows = parse_results_csv(read_file(table), table, results.quantities);
+  results.rows = read_results_csv(folder / kResultsFile, results.quantities);
   for (const Result& row : results.rows)
-    if (!row.run.empty()) contents.runs[row.run] = row.group;
+    if (!row.run.empty()) contents.runs.set(row.run, row.group);
 }
 
 }  // namespace

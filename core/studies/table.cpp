@@ -15,7 +15,7 @@ void read_table(const fs::path& folder, const std::string&, const ContentsAsked&
   for (const Label& setup : study.setups)
     if (!setup.label.empty()) contents.labels.setups[setup.id] = setup.label;
   for (const Label& method : study.methods) contents.labels.add_method(method.id, method.label);
-  for (const Result& row : study.results.rows) contents.runs[row.run] = row.group;
+  contents.runs = GroupsByRun(study.results.rows);
   contents.results = std::move(study.results);
   contents.draws_groups = true;
   if (!asked.maps) return;

@@ -105,12 +105,12 @@ void read_topic_parts(const fs::path& folder, const std::string& text, const Con
   for (const StudiedMethod& method : study.design.methods)
     contents.labels.add_method(method.id, method.label);
   for (const fs::path& path : part_files(folder)) {
-    contents.runs[path.stem().string()] = "";
+    contents.runs.set(path.stem().string(), "");
     try_file(contents, folder, path, asked, [&] {
       TopicPart part = parse_topic_part(read_file(path), path.string(), &study.design).part;
       if (part.id != path.stem().string())
         throw IoError(path.string(), "/id", "states that it is " + part.id);
-      contents.runs[part.id] = part.run ? fmt::format("layout-{}", part.run->layout) : part.id;
+      contents.runs.set(part.id, part.run ? fmt::format("layout-{}", part.run->layout) : part.id);
       if (asked.maps && asked.maps(path))
         for (const TopicMap& map : part.maps)
           contents.points[part.id + "/" + map.id] = placed(map.map);

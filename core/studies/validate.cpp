@@ -447,14 +447,18 @@ void check_source(ByteSource& source, const ForeignReader& foreign, const Valida
     finding.kind = "results";
     const StudyKind* kind = kind_of_study(source.path().parent_path());
     StudyContents study = read_study_contents(source.path().parent_path(), {.keeps_on = true});
-    // Of our own studies the table is made from the records.
-    const bool is_made = kind != nullptr && !kind->experiment.empty() && study.problems.empty();
-    const std::string made = is_made ? results_csv(study.results.rows) : "";
-    study.results.rows = {};  // They take more than their text, and are read again from the table.
-    const std::string text = source.rest();
-    parse_results_csv(text, source.name(), study.results.quantities);
-    if (is_made && text != made)
-      throw IoError(finding.path, "differs from the records of its study; `mapproof run` makes it");
+    // Of our own studies the table is made from the records; of others it has just been read.
+    const bool is_made = kind != nullptr && !kind->experiment.empty();
+    if (is_made || source.path().filename() != kResultsFile) {
+      const bool is_whole = is_made && study.problems.empty();
+      const std::string made = is_whole ? results_csv(study.results.rows) : "";
+      study.results.rows = {};  // They take more than their text, and are read again from it.
+      const std::string text = source.rest();
+      parse_results_csv(text, source.name(), study.results.quantities);
+      if (is_whole && text != made)
+        throw IoError(finding.path,
+                      "differs from the records of its study; `mapproof run` makes it");
+    }
   } else if (CompanionSummary companion =
                  is_stated ? CompanionSummary{} : read_companion(source, columns);
              !companion.kind.empty()) {

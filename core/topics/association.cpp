@@ -39,7 +39,7 @@ TopicDesign association_design(const TopicExperiment& experiment) {
                     {kLeftOut, "Doubtful measurements left out"},
                     {kEstimated, "Data association estimated"}};
   design.quantities = {
-      study_quantity("correct_percent", "Confused IDs corrected", "%", Better::kHigher),
+      study_quantity("correct_percent", "Share of confused IDs corrected", "%", Better::kHigher),
       known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent")};
   return design;
 }

@@ -104,7 +104,7 @@ class Picks {
   /// @param shape_error  Empty: the criterion does not apply without anchors.
   TopicOutcome outcome(std::string_view method, double error,
                        std::optional<double> shape_error) const {
-    TopicOutcome outcome{.at = {},
+    TopicOutcome outcome{.at = Condition{},
                          .method = std::string(method),
                          .values = {{"regret_m", error - errors_.best}, {"mpe_m", error}},
                          .statuses = {}};

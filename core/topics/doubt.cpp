@@ -59,11 +59,14 @@ TopicDesign doubt_design(const TopicExperiment& experiment) {
                                .levels = list_option(experiment, "sizes_percent")}}});
   design.methods.push_back({kDoubtMethod, "test of the fit"});
   design.quantities = {
-      study_quantity("reported_percent", "Faults reported", "%", Better::kHigher),
-      study_quantity("named_percent", "Causes named right", "%", Better::kHigher),
-      study_quantity("alarm_percent", "Alarms on fault-free logs", "%", Better::kLower),
-      study_quantity("denied_percent", "Fault-free logs that do not fit", "%", Better::kLower),
-      study_quantity("inside_percent", "Landmarks in their 95 % ellipse", "%", Better::kNeither),
+      study_quantity("reported_percent", "Share of faults reported", "%", Better::kHigher),
+      study_quantity("named_percent", "Share of causes named right", "%", Better::kHigher),
+      study_quantity("alarm_percent", "Share of fault-free logs with an alarm", "%",
+                     Better::kLower),
+      study_quantity("denied_percent", "Share of fault-free logs that do not fit", "%",
+                     Better::kLower),
+      study_quantity("inside_percent", "Share of landmarks in their 95 % ellipse", "%",
+                     Better::kNeither),
       study_quantity("nees", "Squared error over its variance", "", Better::kNeither),
       study_quantity("landmarks_m", "Landmark error", "m", Better::kLower)};
   return design;

@@ -38,11 +38,10 @@ TopicDesign incremental_design(const TopicExperiment& experiment) {
   }
   design.quantities = {
       study_quantity("gap_ppm", "Distance from the map from scratch", "ppm", Better::kLower),
-      study_quantity("greatest_gap_ppm", "The same, at most over all updates so far", "ppm",
+      study_quantity("greatest_gap_ppm", "Peak distance from the map from scratch", "ppm",
                      Better::kLower),
-      study_quantity("beyond_percent", "Updates so far beyond the stated bound", "%",
-                     Better::kLower),
-      study_quantity("steps_gone_through", "Number of observations processed for an update", "",
+      study_quantity("beyond_percent", "Share of updates beyond the bound", "%", Better::kLower),
+      study_quantity("steps_gone_through", "Number of observations processed per update", "",
                      Better::kLower)};
   return design;
 }

@@ -77,8 +77,9 @@ TopicDesign missing_design(const TopicExperiment& experiment) {
   design.methods.push_back({kCovisible, "Covisible pairs, SMACOF of relative errors"});
   design.methods.push_back(
       {kAuto, "The strategy that the pattern of missing data suggests, kNN-SMACOF"});
-  design.quantities = {known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
-                       study_quantity("mapped_percent", "Landmarks mapped", "%", Better::kHigher)};
+  design.quantities = {
+      known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
+      study_quantity("mapped_percent", "Share of landmarks mapped", "%", Better::kHigher)};
   return design;
 }
 

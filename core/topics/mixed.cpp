@@ -43,7 +43,7 @@ TopicDesign mixed_design(const TopicExperiment& experiment) {
     design.methods.push_back({id, label});
   design.quantities = {
       known_quantity("mpe_m"), known_quantity("moe_percent"),
-      study_quantity("continuity", "Neighbourhoods of all sensors kept", "", Better::kHigher)};
+      study_quantity("continuity", "Continuity over all sensors", "", Better::kHigher)};
   return design;
 }
 

@@ -72,8 +72,8 @@ TopicDesign moved_design(const TopicExperiment& experiment) {
          list_option(experiment, "noises")}}}};
   design.methods = {{kTest, "Permutation test of the position over time"}};
   design.quantities = {
-      study_quantity("named_percent", "Moved landmark named", "%", Better::kHigher),
-      study_quantity("false_percent", "Logs in which another is named", "%", Better::kLower),
+      study_quantity("named_percent", "Share of moved landmarks named", "%", Better::kHigher),
+      study_quantity("false_percent", "Share of logs that name another", "%", Better::kLower),
       study_quantity("step_error", "Error of the step", "", Better::kLower),
       study_quantity("length_error_m", "Error of the length of the move", "m", Better::kLower)};
   return design;

@@ -240,7 +240,7 @@ TopicDesign mrclam_design(const TopicExperiment&) {
       study_quantity("rigid_m", "Error after a rigid fit to all", "m", Better::kLower),
       study_quantity("pair_m", "Error of pairs in the map (median)", "m", Better::kLower),
       study_quantity("mapped", "Landmarks mapped", "", Better::kHigher),
-      study_quantity("faults", "Wrong data associations found", "", Better::kHigher)};
+      study_quantity("faults", "Number of wrong data associations found", "", Better::kHigher)};
   return design;
 }
 

@@ -64,10 +64,9 @@ TopicDesign references_design(const TopicExperiment& experiment) {
         const MethodSetting setting = setting_of(experiment, method);
         design.methods.push_back({slug(setting), label(setting)});
       }
-  design.quantities = {
-      known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
-      study_quantity("gap_percent", "Distance from the map of the exact method", "%",
-                     Better::kLower)};
+  design.quantities = {known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
+                       study_quantity("gap_percent", "Distance from the map of the exact method",
+                                      "%", Better::kLower)};
   return design;
 }
 
@@ -99,7 +98,7 @@ ReferenceGraph graph_of(const TopicTask& context, Sensor sensor) {
   const ObservationHistory history = observe(*context.world, *context.path, options, noise);
   ReferenceGraph result{.seen = seen_landmarks(history, history.steps()),
                         .landmarks = history.landmarks(),
-                        .graph = {},
+                        .graph = ConnectedGraph{},
                         .nearest = {},
                         .distance = {},
                         .distances = {}};

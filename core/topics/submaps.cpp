@@ -63,7 +63,7 @@ TopicDesign submaps_design(const TopicExperiment& experiment) {
   }
   design.quantities = {
       known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),
-      study_quantity("mapped_percent", "Landmarks mapped", "%", Better::kHigher),
+      study_quantity("mapped_percent", "Share of landmarks mapped", "%", Better::kHigher),
       study_quantity("residual_percent", "Residual of the joins", "%", Better::kLower)};
   return design;
 }

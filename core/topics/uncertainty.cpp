@@ -70,13 +70,12 @@ TopicDesign uncertainty_design(const TopicExperiment& experiment) {
   for (const MethodSetting& setting : kSettings)
     design.methods.push_back({slug(setting), label(setting)});
   design.quantities = {
-      study_quantity("mean_covered_percent", "Mean in the ellipse", "%", Better::kHigher),
-      study_quantity("ground_truth_covered_percent", "Ground truth in the ellipse", "%",
+      study_quantity("mean_covered_percent", "Coverage of the mean map", "%", Better::kHigher),
+      study_quantity("ground_truth_covered_percent", "Coverage of the ground truth", "%",
                      Better::kHigher),
-      study_quantity("bias_m", "Mean map from the ground truth", "m", Better::kLower),
-      study_quantity("spread_m", "Maps from the mean map (RMS)", "m", Better::kLower),
-      study_quantity("predicted_m", "Maps from the mean map by the ellipses (RMS)", "m",
-                     Better::kLower)};
+      study_quantity("bias_m", "Bias of the mean map", "m", Better::kLower),
+      study_quantity("spread_m", "RMS spread of the maps", "m", Better::kLower),
+      study_quantity("predicted_m", "RMS spread by the ellipses", "m", Better::kLower)};
   return design;
 }
 
@@ -113,7 +112,7 @@ class WalkedWorld {
     }
     add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
     const Coverage found = coverage(maps, uncertainties, frame_);
-    return {.at = {},
+    return {.at = Condition{},
             .method = slug(setting),
             .values = {{"mean_covered_percent", found.mean_percent},
                        {"ground_truth_covered_percent", found.ground_truth_percent},
@@ -128,7 +127,7 @@ class WalkedWorld {
     const ObservationHistory& history = histories_.front();
     HistoryEmbedder embedder(history, history.steps());
     TopicMap shown;
-    shown.id = fmt::format("{}-{}", at.setup, slug(setting));
+    shown.id = fmt::format("{}-{}", at.setup.get(), slug(setting));
     shown.at = at;
     shown.method = slug(setting);
     const Embedding embedding = embedder.embed(setting);

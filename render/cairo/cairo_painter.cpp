@@ -126,6 +126,8 @@ class Painter {
     if (!shape.stroke) return;
     set_colour(shape.stroke->colour, 1.0);
     cairo_set_line_width(context_, shape.stroke->width);
+    cairo_set_line_cap(context_,
+                       shape.stroke->is_round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     const auto& dashes = shape.stroke->dashes;
     cairo_set_dash(context_, dashes.data(), static_cast<int>(dashes.size()), 0.0);
     cairo_stroke(context_);

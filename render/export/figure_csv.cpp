@@ -69,10 +69,13 @@ class LayerRows {
       : table_(table), panel_(panel), layer_(layer) {}
 
   void operator()(const Polyline& line) {
-    columns("line", line.label, line.mark, {{"x", &line.x}, {"y", &line.y}});
+    std::vector<Column> shown = {{"x", &line.x}, {"y", &line.y}};
+    if (!line.values.empty()) shown.push_back({"value", &line.values});
+    columns("line", line.label, line.mark, shown);
   }
   void operator()(const Band& band) {
-    columns("band", band.label, band.mark, {{"x", &band.x}, {"low", &band.low}, {"high", &band.high}});
+    columns("band", band.label, band.mark,
+            {{"x", &band.x}, {"low", &band.low}, {"high", &band.high}});
   }
   void operator()(const Scatter& points) {
     columns("point", points.label, points.marks, {{"x", &points.x}, {"y", &points.y}});
@@ -81,9 +84,7 @@ class LayerRows {
     columns(lines.arrow ? "arrow" : "segment", lines.label, lines.marks,
             {{"x", &lines.x0}, {"y", &lines.y0}, {"x_end", &lines.x1}, {"y_end", &lines.y1}});
   }
-  void operator()(const PointLabels& labels) {
-    texts("label", labels.x, labels.y, labels.text);
-  }
+  void operator()(const PointLabels& labels) { texts("label", labels.x, labels.y, labels.text); }
   void operator()(const Texts& shown) { texts("text", shown.x, shown.y, shown.text); }
   void operator()(const Area& area) {
     columns("outline", area.label, area.mark, {{"x", &area.x}, {"y", &area.y}});
@@ -118,8 +119,10 @@ class LayerRows {
   using Column = std::pair<const char*, const std::vector<double>*>;
 
   std::vector<Cell> begin(const char* kind, const std::string& label, std::size_t i) const {
-    return {{"panel", std::to_string(panel_)}, {"layer", std::to_string(layer_)},
-            {"shape", kind},                   {"label", label},
+    return {{"panel", std::to_string(panel_)},
+            {"layer", std::to_string(layer_)},
+            {"shape", kind},
+            {"label", label},
             {"index", std::to_string(i + 1)}};
   }
 

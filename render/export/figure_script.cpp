@@ -337,6 +337,7 @@ class LayerCalls {
   void operator()(const Polyline& line) {
     data("x", line.x);
     data("y", line.y);
+    if (!line.values.empty()) return add_coloured(line);
     call("ax.plot(x, y, color={}, linestyle={}, linewidth={}, marker={}, markersize={}{})",
          colour(line.colour), line_style(line.dash), width(line.width), marker_sign(line.marker),
          python_number(theme_.marker_pt), common(line.label));
@@ -421,25 +422,49 @@ class LayerCalls {
   }
   void operator()(const Cells& cells) {
     data("values", cells.values);
-    const std::string map =
-        cells.ramp == Ramp::kViridis
-            ? "\"viridis\""
-            : fmt::format("LinearSegmentedColormap.from_list(\"colour\", [\"{}\", {}])",
-                          hex(theme_.background), colour(cells.colour));
     call(
-        "image = ax.imshow(np.reshape(values, (-1, {})), extent=({}, {}, {}, {}), cmap={}, "
-        "norm={}({}, {}, clip=True), aspect=\"auto\", interpolation=\"nearest\", zorder={})",
+        "image = ax.imshow(np.reshape(values, (-1, {})), extent=({}, {}, {}, {}), {}, "
+        "aspect=\"auto\", interpolation=\"nearest\", zorder={})",
         cells.columns, python_number(cells.x.low), python_number(cells.x.high),
-        python_number(cells.y.low), python_number(cells.y.high), map,
-        cells.scale == Scale::kLog ? "LogNorm" : "Normalize", python_number(cells.limits.low),
-        python_number(cells.limits.high), order_);
-    if (!cells.bar_label.empty())
-      call("fig.colorbar(image, ax=ax, label={})", python_text(cells.bar_label));
+        python_number(cells.y.low), python_number(cells.y.high),
+        colours(cells.colour_scale, cells.colour), order_);
+    add_bar(cells.colour_scale);
     if (!cells.text.empty()) add_cell_texts(cells);
   }
   void operator()(const ImageLayer&) {}  // Of scenes alone.
 
  private:
+  /// Each piece in the colour of the greater value of its ends, greater values above.
+  void add_coloured(const Polyline& line) {
+    data("values", line.values);
+    call(
+        "pieces = sorted((max(values[i:i + 2]), i) for i in range(len(x) - 1)\n"
+        "                if not np.isnan([x[i:i + 2], y[i:i + 2], values[i:i + 2]]).any())\n"
+        "image = ax.add_collection(LineCollection(\n"
+        "    [list(zip(x[i:i + 2], y[i:i + 2])) for _, i in pieces], "
+        "array=np.array([value for value, _ in pieces]),\n"
+        "    {}, linewidths={}, capstyle=\"round\"{}))\nax.autoscale_view()",
+        colours(line.colour_scale, line.colour), width(line.width), common(line.label));
+    add_bar(line.colour_scale);
+  }
+
+  /// The words that give a collection its colours.
+  std::string colours(const ColourScale& scale, ThemeColour of) const {
+    const std::string map =
+        scale.ramp == Ramp::kViridis
+            ? "\"viridis\""
+            : fmt::format("LinearSegmentedColormap.from_list(\"colour\", [\"{}\", {}])",
+                          hex(theme_.background), colour(of));
+    return fmt::format("cmap={}, norm={}({}, {}, clip=True)", map,
+                       scale.scale == Scale::kLog ? "LogNorm" : "Normalize",
+                       python_number(scale.limits.low), python_number(scale.limits.high));
+  }
+
+  void add_bar(const ColourScale& scale) {
+    if (!scale.bar_label.empty())
+      call("fig.colorbar(image, ax=ax, label={})", python_text(scale.bar_label));
+  }
+
   void add_cell_texts(const Cells& cells) {
     out_ += "texts = " + python_list(cells.text) + "\n";
     call(

@@ -30,6 +30,12 @@ std::string error_text(double error_m, int digits) {
   return error_m > kGreatestError_m ? kGreatErrorText : significant(error_m, digits) + " m";
 }
 
+std::string seconds_text(double seconds) {
+  if (seconds < 1e-3) return significant(1e6 * seconds, 2) + " µs";
+  if (seconds < 1.0) return significant(1e3 * seconds, 2) + " ms";
+  return significant(seconds, 2) + " s";
+}
+
 std::string data_number(double value) { return fmt::format("{:.6g}", value); }
 
 }  // namespace mapproof

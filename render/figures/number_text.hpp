@@ -16,6 +16,9 @@ std::string rounded_text(double value, int decimals, int digits = 3);
 /// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m).
 std::string error_text(double error_m, int digits = 3);
 
+/// A time with its unit, two significant digits: "310 µs", "0.3 ms", "12 s".
+std::string seconds_text(double seconds);
+
 /// A number for a data attribute: six significant digits, "." for the point.
 std::string data_number(double value);
 

@@ -26,13 +26,13 @@ struct Bar {
   double tick_pt = 0.0;  ///< Length of a tick, and the gap to its label.
 };
 
-Bar bar_of(const Cells& cells, double height, const Theme& theme) {
+Bar bar_of(const ColourScale& colours, double height, const Theme& theme) {
   const double em = theme.tick_font_pt;
   const int most = std::clamp(static_cast<int>(height / (2.6 * em)), 2, 8);
-  const auto [low, high] = cells.limits;
+  const auto [low, high] = colours.limits;
   Bar bar;
-  bar.ticks = cells.scale == Scale::kLog ? log_ticks(low, high, std::max(most, 3))
-                                         : linear_ticks(low, high, tick_step(low, high, most));
+  bar.ticks = colours.scale == Scale::kLog ? log_ticks(low, high, std::max(most, 3))
+                                           : linear_ticks(low, high, tick_step(low, high, most));
   for (const std::string& text : bar.ticks.labels) {
     bar.texts.push_back(shape_text(text, theme.font.get()));
     bar.widest_pt = std::max(bar.widest_pt, bar.texts.back().advance * em);
@@ -42,8 +42,8 @@ Bar bar_of(const Cells& cells, double height, const Theme& theme) {
   return bar;
 }
 
-std::string whole_label(const Cells& cells, const Ticks& ticks) {
-  return ticks.factor.empty() ? cells.bar_label : cells.bar_label + " " + ticks.factor;
+std::string whole_label(const ColourScale& colours, const Ticks& ticks) {
+  return ticks.factor.empty() ? colours.bar_label : colours.bar_label + " " + ticks.factor;
 }
 
 constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are shorter.
@@ -95,36 +95,50 @@ Ticks named_ticks(const std::vector<std::string>& names, const Range& range, int
   return ticks;
 }
 
-}  // namespace
+/// The first layer that asks for a colour bar.
+struct BarLayer {
+  const ColourScale* colours = nullptr;  ///< Null if none does.
+  ThemeColour colour = ThemeColour::kText;
+};
 
-const Cells* cells_with_bar(const Panel& panel) {
+BarLayer layer_with_bar(const Panel& panel) {
+  BarLayer found;
   for (const Layer& layer : panel.layers)
-    if (const auto* cells = std::get_if<Cells>(&layer);
-        cells != nullptr && !cells->bar_label.empty())
-      return cells;
-  return nullptr;
+    std::visit(
+        [&](const auto& one) {
+          if constexpr (requires { one.colour_scale; })
+            if (found.colours == nullptr && !one.values.empty() &&
+                !one.colour_scale.bar_label.empty())
+              found = {&one.colour_scale, one.colour};
+        },
+        layer);
+  return found;
 }
 
+}  // namespace
+
+bool has_colour_bar(const Panel& panel) { return layer_with_bar(panel).colours != nullptr; }
+
 double colour_bar_room(const Panel& panel, double height, const Theme& theme) {
-  const Cells* cells = cells_with_bar(panel);
-  if (cells == nullptr) return 0.0;
-  const Bar bar = bar_of(*cells, height, theme);
+  const ColourScale* colours = layer_with_bar(panel).colours;
+  if (colours == nullptr) return 0.0;
+  const Bar bar = bar_of(*colours, height, theme);
   return bar.gap_pt + kBarWidth * theme.font_pt + 2.0 * bar.tick_pt + bar.widest_pt +
          kLabelRoom * theme.font_pt + colour_bar_label_room(panel, height, theme);
 }
 
 double colour_bar_label_room(const Panel& panel, double height, const Theme& theme) {
-  const Cells* cells = cells_with_bar(panel);
-  if (cells == nullptr) return 0.0;
-  const std::string label = whole_label(*cells, bar_of(*cells, height, theme).ticks);
+  const ColourScale* colours = layer_with_bar(panel).colours;
+  if (colours == nullptr) return 0.0;
+  const std::string label = whole_label(*colours, bar_of(*colours, height, theme).ticks);
   return further_lines(upward_lines(label, height, theme), theme.font_pt);
 }
 
 void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& frame,
                      const Theme& theme, Drawing& drawing) {
-  const Cells* cells = cells_with_bar(panel);
-  if (cells == nullptr) return;
-  const Bar bar = bar_of(*cells, frame.height(), theme);
+  const auto [colours, colour] = layer_with_bar(panel);
+  if (colours == nullptr) return;
+  const Bar bar = bar_of(*colours, frame.height(), theme);
   const Box box{frame.x1 + bar.gap_pt, frame.y0, frame.x1 + bar.gap_pt + kBarWidth * theme.font_pt,
                 frame.y1};
   const auto add = [&](Shape shape) {
@@ -135,12 +149,13 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
     Shape piece;
     piece.path.add_box(
         {box.x0, box.y0, box.x1, std::lerp(box.y1, box.y0, static_cast<double>(i) / kBarSteps)});
-    piece.fill = ramp_colour(*cells, static_cast<double>(i) / (kBarSteps - 1), theme);
+    piece.fill =
+        ramp_colour(colours->ramp, colour, static_cast<double>(i) / (kBarSteps - 1), theme);
     add(std::move(piece));
   }
   Shape rim;
   rim.path.add_box(box);
-  const AxisMap y(cells->scale, cells->limits, box.y1, box.y0);
+  const AxisMap y(colours->scale, colours->limits, box.y1, box.y0);
   for (const double value : bar.ticks.at) {
     rim.path.move_to({box.x1, y(value)});
     rim.path.line_to({box.x1 + bar.tick_pt, y(value)});
@@ -156,7 +171,7 @@ void draw_colour_bar(const Panel& panel, std::size_t panel_index, const Box& fra
                       .size = theme.tick_font_pt,
                       .colour = theme.text});
   const double em = theme.font_pt;
-  const std::string whole = whole_label(*cells, bar.ticks);
+  const std::string whole = whole_label(*colours, bar.ticks);
   double x = box.x1 + 2.0 * bar.tick_pt + bar.widest_pt + 1.3 * em;
   for (const ShapedText& line : upward_lines(whole, frame.height(), theme)) {
     drawing.add_text(ItemClass::kLegendText, panel_index,

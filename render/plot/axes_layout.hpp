@@ -13,10 +13,11 @@
 
 namespace mapproof {
 
-/// The cells of a panel that ask for a colour bar; null if none do.
-const Cells* cells_with_bar(const Panel& panel);
+/// Whether a layer of the panel asks for a colour bar.
+bool has_colour_bar(const Panel& panel);
 
-/// What the colour bar of a panel needs right of its frame, in points; 0 without one.
+/// What the colour bar of a panel's first layer that asks for one needs right of its frame, in
+/// points; 0 without one.
 /// @param height  Of the frame, which is the bar's.
 double colour_bar_room(const Panel& panel, double height, const Theme& theme);
 

@@ -46,6 +46,7 @@ struct Stroke {
   Colour colour;
   double width = 1.0;
   std::vector<double> dashes;  ///< On, off, …; empty: solid.
+  bool is_round = false;       ///< Its ends and corners.
 };
 
 /// An outline, filled, stroked or both.
@@ -114,10 +115,10 @@ struct Drawing {
   double height = 0.0;
   double dpi = 72.0;
   Colour background;
-  FontHandle font = {};        ///< Of all texts; none: the embedded one.
-  std::vector<Box> frames;     ///< One a panel.
+  FontHandle font = {};               ///< Of all texts; none: the embedded one.
+  std::vector<Box> frames;            ///< One a panel.
   std::vector<FrameNumbers> numbers;  ///< One a frame.
-  std::vector<Shape> symbols;  ///< About the origin.
+  std::vector<Shape> symbols;         ///< About the origin.
   std::vector<Mark> marks;
   std::vector<Item> items;
 

@@ -83,6 +83,10 @@ class Inspector {
     if (std::string what = values(line.x, panel.x, "x"); !what.empty()) return what;
     if (std::string what = values(line.y, panel.y, "y"); !what.empty()) return what;
     if (std::string what = size(line.width, "width"); !what.empty()) return what;
+    if (!line.values.empty()) {
+      if (!same_size(line.x.size(), {line.values.size()})) return "values: not as many as x";
+      if (std::string what = coloured(line.values, line.colour_scale); !what.empty()) return what;
+    }
     return mark(line.mark);
   }
 
@@ -155,13 +159,9 @@ class Inspector {
     if (cells.columns == 0 ? !cells.values.empty() : cells.values.size() % cells.columns != 0)
       return "values: no whole number of rows";
     if (cells.values.size() > kMostCells) return "values: more than a million";
-    for (const auto& [name, range] :
-         {std::pair{"x", cells.x}, std::pair{"y", cells.y}, std::pair{"limits", cells.limits}})
+    for (const auto& [name, range] : {std::pair{"x", cells.x}, std::pair{"y", cells.y}})
       if (!is_range(range)) return fmt::format("{}: not finite and ascending", name);
-    const Axis ramp{.label = {}, .scale = cells.scale};
-    if (std::string what = values(cells.values, ramp, "values"); !what.empty()) return what;
-    if (cells.scale == Scale::kLog && cells.limits.low <= 0.0)
-      return "limits: not positive on a log scale";
+    if (std::string what = coloured(cells.values, cells.colour_scale); !what.empty()) return what;
     if (!cells.text.empty() && cells.text.size() != cells.values.size())
       return "text: not as many as values";
     return mark(cells.mark);
@@ -185,6 +185,15 @@ class Inspector {
       if (std::string what = values(*part, panel.x, name); !what.empty()) return what;
     return std::ranges::any_of(image.clear_by, [](double by) { return by < 0.0; })
                ? "clear_by: negative"
+               : "";
+  }
+
+  static std::string coloured(std::span<const double> values, const ColourScale& colours) {
+    if (!is_range(colours.limits)) return "limits: not finite and ascending";
+    const Axis ramp{.label = {}, .scale = colours.scale};
+    if (std::string what = Inspector::values(values, ramp, "values"); !what.empty()) return what;
+    return colours.scale == Scale::kLog && colours.limits.low <= 0.0
+               ? "limits: not positive on a log scale"
                : "";
   }
 
@@ -260,10 +269,10 @@ bool is_empty(const Layer& layer) {
           return false;
         else if constexpr (requires { one.x0; })
           return one.x0.empty();
-        else if constexpr (requires { one.values; })
-          return one.values.empty();
-        else
+        else if constexpr (requires { one.x.empty(); })
           return one.x.empty();
+        else
+          return one.values.empty();
       },
       layer);
 }

@@ -42,6 +42,18 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+enum class Scale { kLinear, kLog };
+
+/// How a layer's values become colours, and the bar that explains them.
+struct ColourScale {
+  Range limits = {};  ///< The values at the ends of the ramp; beyond: the ends.
+  Ramp ramp = Ramp::kColour;
+  Scale scale = Scale::kLinear;  ///< Of the values along the ramp.
+  std::string bar_label = {};    ///< With its unit: of a colour bar beside the frame, if any.
+
+  bool operator==(const ColourScale&) const = default;
+};
+
 /// Who a mark is: its id within the figure and what a reader of the SVG can ask of it.
 struct Mark {
   std::string id;  ///< [a-z0-9-]+, unique in the figure; empty: the mark has none.
@@ -50,7 +62,8 @@ struct Mark {
   bool operator==(const Mark&) const = default;
 };
 
-/// A line through points; a NaN breaks it.
+/// A line through points; a NaN breaks it. With values it is solid and without markers, and each
+/// piece has the colour of the greater value of its ends; pieces of greater values cover others.
 struct Polyline {
   std::string label = {};  ///< In the legend; empty: not there.
   std::vector<double> x = {};
@@ -60,6 +73,8 @@ struct Polyline {
   double width = 1.0;  ///< In units of the theme's line width.
   Marker marker = Marker::kNone;
   Mark mark = {};
+  std::vector<double> values = {};  ///< As many as points, or none; NaN: as a missing point.
+  ColourScale colour_scale = {};    ///< Of the values.
 
   bool operator==(const Polyline&) const = default;
 };
@@ -148,8 +163,6 @@ struct Ellipses {
   bool operator==(const Ellipses&) const = default;
 };
 
-enum class Scale { kLinear, kLog };
-
 /// A matrix of coloured cells on linear axes; NaN cells stay empty.
 struct Cells {
   std::string label = {};
@@ -157,12 +170,9 @@ struct Cells {
   Range y = {};  ///< From the lower edge of the last row to the upper edge of the first.
   std::size_t columns = 0;
   std::vector<double> values = {};  ///< Row by row, the uppermost row first.
-  Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
-  Ramp ramp = Ramp::kColour;
+  ColourScale colour_scale = {};
   ThemeColour colour = ThemeColour::kText;  ///< For Ramp::kColour.
   Mark mark = {};
-  Scale scale = Scale::kLinear;        ///< Of the values along the ramp.
-  std::string bar_label = {};          ///< With its unit: of a colour bar beside the frame, if any.
   std::vector<std::string> text = {};  ///< As many as values, or none: drawn if all of them fit.
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }

@@ -85,6 +85,26 @@ void fields(Visitor& v, Mark& mark) {
   v.field("data", mark.data, figure_rules::kText);
 }
 
+/// The fields of a colour scale are among those of its layer, in two places.
+/// @param is_coloured  Whether the layer has values; otherwise these are not written.
+template <typename Visitor>
+void ramp_fields(Visitor& v, ColourScale& colours, Key key, bool is_coloured) {
+  v.field("limits", colours.limits, {.key = key, .written = is_coloured});
+  v.field("ramp", colours.ramp, {.key = key, .written = is_coloured});
+}
+
+template <typename Visitor>
+void bar_fields(Visitor& v, ColourScale& colours) {
+  v.field("scale", colours.scale,
+          {.description = "Of the values along the ramp. Missing: linear.",
+           .key = Key::kOptional,
+           .written = colours.scale != Scale::kLinear});
+  v.field("bar_label", colours.bar_label,
+          {.description = "Of a colour bar beside the frame. Missing: there is none.",
+           .max_bytes = figure_rules::kLongestText,
+           .key = Key::kIfAny});
+}
+
 template <typename Visitor>
 void fields(Visitor& v, Polyline& line) {
   using namespace figure_rules;
@@ -97,6 +117,13 @@ void fields(Visitor& v, Polyline& line) {
   v.field("width", line.width, kSize);
   v.field("marker", line.marker);
   v.field("mark", line.mark);
+  v.field("values", line.values,
+          {.description = "As many as points, or none: each piece has the colour of the greater "
+                          "value of its ends. Missing: none.",
+           .nullable = true,
+           .key = Key::kIfAny});
+  ramp_fields(v, line.colour_scale, Key::kOptional, !line.values.empty());
+  bar_fields(v, line.colour_scale);
 }
 
 template <typename Visitor>
@@ -195,18 +222,10 @@ void fields(Visitor& v, Cells& cells) {
   v.field("y", cells.y);
   v.field("columns", cells.columns, kCount);
   v.field("values", cells.values, kNumbers);
-  v.field("limits", cells.limits);
-  v.field("ramp", cells.ramp);
+  ramp_fields(v, cells.colour_scale, Key::kRequired, true);
   v.field("colour", cells.colour);
   v.field("mark", cells.mark);
-  v.field("scale", cells.scale,
-          {.description = "Of the values along the ramp. Missing: linear.",
-           .key = Key::kOptional,
-           .written = cells.scale != Scale::kLinear});
-  v.field("bar_label", cells.bar_label,
-          {.description = "Of a colour bar beside the frame. Missing: there is none.",
-           .max_bytes = kLongestText,
-           .key = Key::kIfAny});
+  bar_fields(v, cells.colour_scale);
   v.field("text", cells.text,
           {.description = "As many as values, or none.",
            .max_bytes = kLongestText,

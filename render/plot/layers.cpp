@@ -31,6 +31,7 @@ class Painter {
       : panel_(panel), bar_bands_(bar_bands), map_(map), theme_(theme), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
+    if (!line.values.empty()) return draw_coloured(line);
     Shape shape;
     shape.stroke = stroke_of(line.colour, line.dash, line.width, theme_);
     bool pen_down = false;
@@ -129,6 +130,12 @@ class Painter {
   }
 
  private:
+  void draw_coloured(const Polyline& line) {
+    const auto mark = add_mark(line.mark);
+    for (Shape& shape : coloured_line_shapes(line, map_, theme_))
+      add(ItemClass::kLine, std::move(shape), mark);
+  }
+
   /// Markers far enough apart to be distinguished, the first point always with one.
   void draw_markers(const Polyline& line, std::optional<std::size_t> mark) {
     if (line.marker == Marker::kNone) return;

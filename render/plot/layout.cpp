@@ -241,6 +241,23 @@ void lay_out_shared(const Figure& figure, const Box& room, const Theme& theme, D
   SharedGrid(figure, room, theme, drawing).lay_out();
 }
 
+/// The lowest drawn point of the panels from `first` on.
+double lowest_drawn(const Drawing& drawing, std::size_t first) {
+  double bottom = 0.0;
+  for (const Item& item : drawing.items) {
+    if (item.panel < first || item.item_class == ItemClass::kTitle ||
+        item.item_class == ItemClass::kNote)
+      continue;
+    if (const auto* line = std::get_if<TextLine>(&item.what))
+      bottom = std::max(bottom, text_box(*line).y1);
+    if (const auto* shape = std::get_if<Shape>(&item.what); shape != nullptr && !item.clipped)
+      bottom = std::max(bottom, bounds(shape->path).y1);
+  }
+  for (std::size_t p = first; p < drawing.frames.size(); ++p)
+    bottom = std::max(bottom, drawing.frames[p].y1);
+  return bottom;
+}
+
 constexpr double kLeastWidth = 14.0;       // Of a cell, in em.
 constexpr double kLowInColumn = 0.7;       // Height of panels below each other, of the theme's.
 constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
@@ -272,7 +289,7 @@ class CellGrid {
       lay_out_panel(figure_.panels[p], p, {left, top, left + width, top + height}, theme_,
                     drawing_);
       if ((p + 1) % columns_ == 0 || p + 1 == count)
-        top = bottom_of_row(p - p % columns_) + gap_down();
+        top = lowest_drawn(drawing_, p - p % columns_) + gap_down();
     }
     for (const PanelArrow& arrow : figure_.arrows) draw(arrow);
     drawing_.height = top - gap_down() + theme_.space_pt;
@@ -319,23 +336,6 @@ class CellGrid {
       }
     }
     return height;
-  }
-
-  /// The lowest drawn point of the panels from `first` on.
-  double bottom_of_row(std::size_t first) const {
-    double bottom = room_.y0;
-    for (const Item& item : drawing_.items) {
-      if (item.panel < first || item.item_class == ItemClass::kTitle ||
-          item.item_class == ItemClass::kNote)
-        continue;
-      if (const auto* line = std::get_if<TextLine>(&item.what))
-        bottom = std::max(bottom, text_box(*line).y1);
-      if (const auto* shape = std::get_if<Shape>(&item.what); shape != nullptr && !item.clipped)
-        bottom = std::max(bottom, bounds(shape->path).y1);
-    }
-    for (std::size_t p = first; p < drawing_.frames.size(); ++p)
-      bottom = std::max(bottom, drawing_.frames[p].y1);
-    return bottom;
   }
 
   void draw(const PanelArrow& arrow) {
@@ -493,6 +493,7 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
 }
 
 constexpr double kLeastHigher = 0.5;  // In points.
+constexpr double kMostFree = 0.1;     // Of a page, below everything that is drawn.
 
 /// The height of the page at which the only frame has its share of it.
 double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
@@ -523,6 +524,10 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
     if (height <= drawing.height + kLeastHigher) break;
     drawing = lay_out_on(figure, theme, height);
   }
+  // Below a frame of equal scales that is as wide as the page and lower, the page ends.
+  const double end = lowest_drawn(drawing, 0) + theme.space_pt;
+  if (figure.panels[0].equal_aspect && end < (1.0 - kMostFree) * drawing.height)
+    drawing.height = end;
   return drawing;
 }
 

@@ -36,6 +36,11 @@ class SamplePainter {
       : theme_(theme), place_(position), as_bars_(as_bars), panel_(panel), drawing_(drawing) {}
 
   void operator()(const Polyline& line) {
+    if (!line.values.empty()) {
+      const double half = line.width * theme_.line_pt / 2.0, y = place_.centre().y;
+      draw_ramp({place_.x0, y - half, place_.x1, y + half}, line.colour_scale.ramp, line.colour);
+      return;
+    }
     draw_line(line.colour, line.dash, line.width);
     if (line.marker != Marker::kNone) draw_marker(line.marker, true, 1.0, line.colour);
   }
@@ -69,19 +74,10 @@ class SamplePainter {
     shape.path.add_circle(place_.centre(), 0.4 * place_.height());
     add(std::move(shape));
   }
-  /// The ramp from its least to its greatest value.
   void operator()(const Cells& cells) {
-    constexpr int kSteps = 12;
-    const Box box = inset();
-    for (int i = 0; i < kSteps; ++i) {
-      const double from = std::lerp(box.x0, box.x1, static_cast<double>(i) / kSteps);
-      Shape shape;
-      shape.path.add_box({from, box.y0, box.x1, box.y1});
-      shape.fill = ramp_colour(cells, static_cast<double>(i) / (kSteps - 1), theme_);
-      add(std::move(shape));
-    }
+    draw_ramp(inset(), cells.colour_scale.ramp, cells.colour);
     Shape rim;
-    rim.path.add_box(box);
+    rim.path.add_box(inset());
     rim.stroke = Stroke{theme_.muted, theme_.hairline_pt, {}};
     add(std::move(rim));
   }
@@ -90,6 +86,18 @@ class SamplePainter {
   Box inset() const {
     const double by = 0.15 * place_.height();
     return {place_.x0, place_.y0 + by, place_.x1, place_.y1 - by};
+  }
+
+  /// From its least to its greatest value.
+  void draw_ramp(const Box& box, Ramp ramp, ThemeColour colour) {
+    constexpr int kSteps = 12;
+    for (int i = 0; i < kSteps; ++i) {
+      const double from = std::lerp(box.x0, box.x1, static_cast<double>(i) / kSteps);
+      Shape shape;
+      shape.path.add_box({from, box.y0, box.x1, box.y1});
+      shape.fill = ramp_colour(ramp, colour, static_cast<double>(i) / (kSteps - 1), theme_);
+      add(std::move(shape));
+    }
   }
 
   void draw_line(ThemeColour colour, Dash dash, double width) {

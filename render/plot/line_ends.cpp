@@ -97,7 +97,7 @@ std::vector<LineEnd> ends_of_lines(const Panel& panel, const PanelLimits& limits
 
 LineEndLabels::LineEndLabels(const AxesLayout& layout) : layout_(layout) {
   const Theme& theme = layout.theme();
-  if (cells_with_bar(layout.panel()) != nullptr) return;
+  if (has_colour_bar(layout.panel())) return;
   ends_ = ends_of_lines(layout.panel(), panel_limits(layout.panel()));
   double widest = shape(label_in);
   if (widest > kWidestEnd)

@@ -13,6 +13,7 @@ namespace {
 constexpr int kCurvePieces = 8;
 constexpr int kSlices = 8;
 constexpr int kShades = 32;
+constexpr int kLineShades = 64;
 constexpr double kTextShareOfPage = 0.37;  // The width of a text at a point.
 
 Point cubic_at(Point a, Point b, Point c, Point d, double t) {
@@ -22,17 +23,10 @@ Point cubic_at(Point a, Point b, Point c, Point d, double t) {
 }
 
 /// Where a value stands on the ramp, 0 to 1 within the limits.
-double ramp_share(double value, const Cells& cells) {
-  const auto [low, high] = cells.limits;
-  if (cells.scale == Scale::kLog) return std::log(value / low) / std::log(high / low);
+double ramp_share(double value, const ColourScale& colours) {
+  const auto [low, high] = colours.limits;
+  if (colours.scale == Scale::kLog) return std::log(value / low) / std::log(high / low);
   return (value - low) / (high - low);
-}
-
-/// The shade of a cell, 0 to kShades - 1; -1 for NaN.
-int shade_of(double value, const Cells& cells) {
-  if (std::isnan(value)) return -1;
-  const double share = ramp_share(value, cells);
-  return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (kShades - 1)));
 }
 
 /// Adds a box for each stretch of a row in which `wanted` holds.
@@ -124,9 +118,56 @@ std::vector<Box> covering_slices(const std::vector<Point>& ring) {
   return slices;
 }
 
-Colour ramp_colour(const Cells& cells, double share, const Theme& theme) {
-  if (cells.ramp == Ramp::kViridis) return viridis(share);
-  return mix(theme.of(cells.colour), theme.background, share);
+Colour ramp_colour(Ramp ramp, ThemeColour colour, double share, const Theme& theme) {
+  if (ramp == Ramp::kViridis) return viridis(share);
+  return mix(theme.of(colour), theme.background, share);
+}
+
+int shade_of(double value, const ColourScale& colours, int shades) {
+  if (std::isnan(value)) return -1;
+  const double share = ramp_share(value, colours);
+  return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * (shades - 1)));
+}
+
+std::vector<Shape> coloured_line_shapes(const Polyline& line, const PanelMap& map,
+                                        const Theme& theme) {
+  std::vector<Shape> shapes(kLineShades);
+  Shape rim;
+  const auto at = [&](std::size_t i) { return map(line.x[i], line.y[i]); };
+  const auto is_known = [&](std::size_t i) {
+    return i < line.x.size() && !std::isnan(at(i).x + at(i).y) && !std::isnan(line.values[i]);
+  };
+  int last = -1;  // The shade of the piece that ends at i.
+  for (std::size_t i = 0; i < line.x.size(); ++i) {
+    const bool leads_on = is_known(i) && is_known(i + 1);
+    if (!leads_on && (last >= 0 || !is_known(i))) {
+      last = -1;
+      continue;
+    }
+    const std::size_t end = leads_on ? i + 1 : i;
+    const int shade =
+        shade_of(std::max(line.values[i], line.values[end]), line.colour_scale, kLineShades);
+    Outline& path = shapes[static_cast<std::size_t>(shade)].path;
+    if (shade != last) path.move_to(at(i));
+    path.line_to(at(end));
+    if (last < 0) rim.path.move_to(at(i));
+    rim.path.line_to(at(end));
+    last = leads_on ? shade : -1;
+  }
+  for (int shade = 0; shade < kLineShades; ++shade)
+    shapes[static_cast<std::size_t>(shade)].stroke =
+        Stroke{.colour = ramp_colour(line.colour_scale.ramp, line.colour,
+                                     static_cast<double>(shade) / (kLineShades - 1), theme),
+               .width = line.width * theme.line_pt,
+               .dashes = {},
+               .is_round = true};
+  rim.stroke = Stroke{.colour = theme.muted,
+                      .width = line.width * theme.line_pt + 2.0 * theme.hairline_pt,
+                      .dashes = {},
+                      .is_round = true};
+  shapes.insert(shapes.begin(), std::move(rim));
+  std::erase_if(shapes, [](const Shape& shape) { return shape.path.points.empty(); });
+  return shapes;
 }
 
 std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Theme& theme) {
@@ -134,14 +175,15 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
   shades.reserve(cells.values.size());
   std::array<bool, kShades> used{};
   for (const double value : cells.values) {
-    shades.push_back(shade_of(value, cells));
+    shades.push_back(shade_of(value, cells.colour_scale, kShades));
     if (shades.back() >= 0) used[shades.back()] = true;
   }
   std::vector<Shape> shapes;
   for (int shade = 0; shade < kShades; ++shade) {
     if (!used[shade]) continue;
     Shape& shape = shapes.emplace_back();
-    shape.fill = ramp_colour(cells, static_cast<double>(shade) / (kShades - 1), theme);
+    shape.fill = ramp_colour(cells.colour_scale.ramp, cells.colour,
+                             static_cast<double>(shade) / (kShades - 1), theme);
     for (std::size_t row = 0; row < cells.rows(); ++row)
       add_stretches(shape.path, cells, row, map,
                     [&](std::size_t cell) { return shades[cell] >= shade; });
@@ -159,9 +201,10 @@ std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const 
   std::vector<TextLine> lines;
   if (FontFacts::kCapHeight * em > kHighest * height) return lines;
   for (std::size_t i = 0; i < cells.text.size(); ++i) {
-    const int shade = shade_of(cells.values[i], cells);
+    const int shade = shade_of(cells.values[i], cells.colour_scale, kShades);
     if (shade < 0 || cells.text[i].empty()) continue;
-    const Colour below = ramp_colour(cells, static_cast<double>(shade) / (kShades - 1), theme);
+    const Colour below = ramp_colour(cells.colour_scale.ramp, cells.colour,
+                                     static_cast<double>(shade) / (kShades - 1), theme);
     constexpr Colour kDark = colour(0x000000), kLight = colour(0xFFFFFF);
     TextLine line{.shaped = shape_text(cells.text[i], theme.font.get()),
                   .size = em,

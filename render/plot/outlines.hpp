@@ -22,8 +22,17 @@ std::vector<std::vector<Point>> flattened(const Outline& path);
 /// Boxes that together cover a polygon, and little more if it is convex.
 std::vector<Box> covering_slices(const std::vector<Point>& ring);
 
-/// The colour at `share` (0 to 1) of a field's ramp.
-Colour ramp_colour(const Cells& cells, double share, const Theme& theme);
+/// The colour at `share` (0 to 1) of a ramp.
+/// @param colour  For Ramp::kColour.
+Colour ramp_colour(Ramp ramp, ThemeColour colour, double share, const Theme& theme);
+
+/// One of `shades` equal steps along a ramp, 0 to shades - 1; -1 for NaN.
+int shade_of(double value, const ColourScale& colours, int shades);
+
+/// A line with values as strokes to be drawn in this order: its rim, which is seen on any page
+/// where the colours are not, and one per shade of 64. A point without neighbours is a dot.
+std::vector<Shape> coloured_line_shapes(const Polyline& line, const PanelMap& map,
+                                        const Theme& theme);
 
 /// A field as shapes to be drawn in this order, one a shade. Each covers all cells of its shade and
 /// above, so that no background shows between neighbours.

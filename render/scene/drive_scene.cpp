@@ -9,7 +9,9 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/thinning.hpp"
+#include "render/figures/error_ramp.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/number_text.hpp"
@@ -30,13 +32,7 @@ constexpr double kGridWidth = 0.0015;
 constexpr double kFlatLayer =
     1e-4;  // From one flat thing to the next above it, all below the shadows.
 constexpr double kTolerance = 5e-4;  // Of a path that is thinned.
-constexpr double kPathErrorPercentile = 0.95;
-constexpr int kMostLines = 6;  // Of the grid, along a side.
-
-const SlamRecord* record_by(const SlamRun& run, SlamMethod method) {
-  const auto found = std::ranges::find(run.records, method, &SlamRecord::method);
-  return found == run.records.end() ? nullptr : &*found;
-}
+constexpr int kMostLines = 6;        // Of the grid, along a side.
 
 /// Values are kept to that share of a length: a drive has thousands of positions, each twice in a
 /// file.
@@ -123,7 +119,7 @@ class DriveScene {
   explicit DriveScene(const DriveSceneSpec& spec)
       : spec_(spec),
         run_(spec.run),
-        record_(*record_by(spec.run, spec.method)),
+        record_(*record_of(spec.run, spec.method)),
         view_(
             path_view({spec.id, spec.title, spec.run, {SlamMethod::kDeadReckoning, spec.method}})) {
     const auto& [x, y] = view_.limits;
@@ -140,7 +136,7 @@ class DriveScene {
     if (run_.log.ground_truth)
       add(plain(*run_.log.ground_truth, kTrueWidth, 2, "true path",
                 {.colour = kTrueColour, .share = 0.45}));
-    if (const SlamRecord* unaided = record_by(run_, SlamMethod::kDeadReckoning);
+    if (const SlamRecord* unaided = record_of(run_, SlamMethod::kDeadReckoning);
         unaided != nullptr && spec_.method != SlamMethod::kDeadReckoning)
       add(plain(unaided->estimate.path, kPlainWidth, 3, std::string(info(unaided->method).label),
                 {.colour = path_style(unaided->method).colour}));
@@ -212,17 +208,13 @@ class DriveScene {
 
   void add_path() {
     const Trajectory& path = record_.estimate.path;
-    std::vector<double> values = record_.error_m, finite;
-    std::ranges::copy_if(values, std::back_inserter(finite),
-                         [](double v) { return std::isfinite(v); });
+    std::vector<double> values = record_.error_m;
     std::string label;
     Range limits{0.0, 1.0};
-    if (!finite.empty()) {
-      std::ranges::sort(finite);
-      limits.high = std::max(finite[static_cast<std::size_t>(std::lround(
-                                 kPathErrorPercentile * static_cast<double>(finite.size() - 1)))],
-                             1e-6);
-      label = fmt::format("path, its error from 0 to {} m or more", significant(limits.high, 2));
+    has_errors_ = std::ranges::any_of(values, [](double v) { return std::isfinite(v); });
+    if (has_errors_) {
+      limits.high = end_of_error_ramp(values);
+      label = "path, its error from " + error_ramp_text(limits.high);
     } else {
       values.assign(static_cast<std::size_t>(path.size()), 0.0);
       for (Index i = 0; i < path.size(); ++i) values[static_cast<std::size_t>(i)] = path.time_s(i);
@@ -230,7 +222,6 @@ class DriveScene {
       label = "path, start (dark) to end";
     }
     limits_ = limits;
-    has_errors_ = !finite.empty();
     add(toned(path, values, limits, label));
   }
 
@@ -313,7 +304,7 @@ class DriveScene {
 }  // namespace
 
 bool has_drive_scene(const SlamRun& run, SlamMethod method) {
-  const SlamRecord* record = record_by(run, method);
+  const SlamRecord* record = record_of(run, method);
   if (record == nullptr) return false;
   const Points& path = record->estimate.path.positions_m;
   Index shown = 0;

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/words.hpp"
+#include "render/figures/error_ramp.hpp"
 #include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"
@@ -14,7 +15,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kPercentile = 0.95;
 constexpr std::size_t kColumns = 3;
 constexpr double kFormingAspect = 1.4;
 
@@ -50,11 +50,7 @@ class Forming {
       errors.insert(errors.end(), found.errors_m.begin(), found.errors_m.end());
       ends_.insert(ends_.end(), found.arrows.to.begin(), found.arrows.to.end());
     }
-    std::ranges::sort(errors);
-    if (!errors.empty())
-      most_m_ = errors[static_cast<std::size_t>(
-          std::lround(kPercentile * static_cast<double>(errors.size() - 1)))];
-    most_m_ = std::max(most_m_, 1e-6);
+    most_m_ = end_of_error_ramp(std::move(errors));
   }
 
   /// Views of those maps; with the path, that up to the last of them.
@@ -130,8 +126,7 @@ class Forming {
         rods.tones.values.push_back(
             (spec_.maps[map].estimate.row(row) - landmarks_m.row(row)).norm());
     if (in_legend && !rods.from.empty())
-      rods.label =
-          fmt::format("landmark, its error from 0 to {} m or more", significant(most_m_, 2));
+      rods.label = "landmark, its error from " + error_ramp_text(most_m_);
     return rods;
   }
 

@@ -115,7 +115,8 @@ class MeasurementScene {
     scene_.parts.emplace_back(landmarks(View::kHidden));
     scene_.parts.emplace_back(landmarks(View::kOutOfReach));
     const std::size_t visible = count(View::kVisible), hidden = count(View::kHidden);
-    scene_.title = "Visibility-only measurement in space";
+    scene_.title = fmt::format("Visibility-only measurement: {} seen, {} hidden",
+                               counted(static_cast<long long>(visible), "landmark"), hidden);
     scene_.caption = fmt::format(
         "Visibility at step {} of layout {}, pose {}: within {} mm the robot sees {}, {} hidden in "
         "the shadows of others.",
@@ -141,7 +142,8 @@ class MeasurementScene {
           fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
     }
     const auto known = m_.bearings_rad.array().isFinite().count();
-    scene_.title = "Bearing-only measurement in space";
+    scene_.title =
+        fmt::format("Bearing-only measurement: the angles to {}", counted(known, "landmark"));
     scene_.caption = fmt::format(
         "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
         "{}.",

@@ -176,7 +176,7 @@ class LegendLayer {
  public:
   Layer operator()(const Surface& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
-    return Area{.label = part.label, .colour = part.style.colour, .fill = fill_of(part.style)};
+    return swatch(part.label, part.style.colour, fill_of(part.style));
   }
   Layer operator()(const Tube& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
@@ -186,12 +186,8 @@ class LegendLayer {
     if (!part.tones.values.empty()) return ramp(part.label);
     if (part.arrow)
       return Segments{.label = part.label, .colour = part.style.colour, .arrow = true};
-    const bool thin = part.style.share < 0.6;
-    return Area{.label = part.label,
-                .colour = part.style.colour,
-                .fill = thin ? Fill::kTint : Fill::kSolid,
-                .outlined = thin,
-                .width = 0.6};
+    return swatch(part.label, part.style.colour,
+                  part.style.share < 0.6 ? Fill::kTint : Fill::kSolid);
   }
   Layer operator()(const Spheres& part) const {
     if (!part.tones.values.empty()) return ramp(part.label);
@@ -200,10 +196,20 @@ class LegendLayer {
   Layer operator()(const Field& part) const { return ramp(part.label); }
 
  private:
+  /// Of a pale colour with its outline, without which it cannot be seen on a dark page.
+  static Layer swatch(const std::string& label, ThemeColour colour, Fill fill) {
+    return Area{.label = label,
+                .colour = colour,
+                .fill = fill,
+                .outlined = fill == Fill::kTint,
+                .width = 0.6};
+  }
+
   /// Outside the image, so that it is in nobody's way.
   static Layer ramp(const std::string& label) {
     constexpr Range kOutside = {90.0, 91.0};
-    return Cells{.label = label, .x = kOutside, .y = kOutside, .ramp = Ramp::kViridis};
+    return Cells{
+        .label = label, .x = kOutside, .y = kOutside, .colour_scale = {.ramp = Ramp::kViridis}};
   }
 };
 

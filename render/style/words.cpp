@@ -77,7 +77,7 @@ void for_each_text(Layer& layer, const Use& use) {
   std::visit(
       [&](auto& one) {
         if constexpr (requires { one.label; }) use(one.label);
-        if constexpr (requires { one.bar_label; }) use(one.bar_label);
+        if constexpr (requires { one.colour_scale; }) use(one.colour_scale.bar_label);
       },
       layer);
   if (auto* texts = std::get_if<Texts>(&layer))

@@ -9,8 +9,8 @@
 #include "core/base/text/base64.hpp"
 #include "core/base/text/markup.hpp"
 #include "core/base/text/utf8.hpp"
-#include "render/image/png.hpp"
 #include "render/image/palette.hpp"
+#include "render/image/png.hpp"
 
 namespace mapproof {
 namespace {
@@ -196,6 +196,7 @@ class SvgWriter {
     if (!shape.stroke) return text;
     text += " stroke=\"" + hex(shape.stroke->colour) + '"';
     number("stroke-width", shape.stroke->width);
+    if (shape.stroke->is_round) text += " stroke-linecap=\"round\" stroke-linejoin=\"round\"";
     if (shape.stroke->dashes.empty()) return text;
     text += " stroke-dasharray=\"";
     for (const double length : shape.stroke->dashes) {

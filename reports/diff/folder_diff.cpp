@@ -20,103 +20,12 @@
 #include "reports/diff/items.hpp"
 #include "reports/diff/records/record_set.hpp"
 #include "reports/diff/shared_causes.hpp"
+#include "reports/diff/swapped_items.hpp"
 
 namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct BaselineFile {
-  const DiffItem* item;
-  fs::path path;
-};
-
-/// Files by their size: only files of one size can be equal.
-using BySize = std::multimap<std::uintmax_t, BaselineFile>;
-
-bool is_suspect(const DiffItem& item) { return item.judgement.verdict > Verdict::kWithinTolerance; }
-
-void add(BySize& files, const DiffItem& item, const fs::path& path) {
-  std::error_code error;
-  if (path.empty()) return;
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (!error && size > 0) files.emplace(size, BaselineFile{&item, path});
-}
-
-/// The other item whose baseline file has these bytes. Null if there is none, or if the item's own
-/// baseline file has them too: a file that did not change was not swapped.
-const DiffItem* owner_of(const fs::path& own, const fs::path& current, const DiffItem& self,
-                         const BySize& files) {
-  std::error_code error;
-  if (current.empty() || (!own.empty() && same_bytes(own, current))) return nullptr;
-  const auto [first, last] = files.equal_range(fs::file_size(current, error));
-  if (error) return nullptr;
-  for (auto file = first; file != last; ++file)
-    if (file->second.item != &self && file->second.path.extension() == current.extension() &&
-        same_bytes(file->second.path, current))
-      return file->second.item;
-  return nullptr;
-}
-
-/// Another item to which files of an item belong.
-struct Owner {
-  const DiffItem* item = nullptr;
-  std::vector<std::string> formats;  ///< "value" for its figure.json.
-};
-
-/// The first other item to which a file of the item belongs, and all files that do.
-Owner owner_of(const DiffItem& item, const BySize& files) {
-  Owner owner;
-  const auto note = [&](const fs::path& own, const fs::path& current, const std::string& format) {
-    const DiffItem* found = owner_of(own, current, item, files);
-    if (found == nullptr || (owner.item != nullptr && owner.item != found)) return;
-    owner.item = found;
-    owner.formats.push_back(format);
-  };
-  note(item.baseline_figure, item.current_figure, "value");
-  for (const ImageFile& image : item.images) note(image.baseline, image.current, image.format);
-  return owner;
-}
-
-/// Replaces the causes of items whose current file is, byte by byte, the baseline file of another
-/// item: swapped or renamed. All else that differs follows from it. A swapped item is at least
-/// changed, whatever renderer drew it.
-void name_swapped(std::vector<DiffItem>& items, const DiffSettings& settings) {
-  if (std::ranges::none_of(items, is_suspect)) return;
-  BySize files;
-  for (const DiffItem& item : items) {
-    add(files, item, item.baseline_figure);
-    for (const ImageFile& image : item.images) add(files, item, image.baseline);
-  }
-  std::vector<std::pair<DiffItem*, std::string>> words;
-  std::map<std::string, std::string> renamed;
-  for (DiffItem& item : items) {
-    if (!is_suspect(item)) continue;
-    const Owner owner = owner_of(item, files);
-    if (owner.item == nullptr) continue;
-    const bool is_rename = item.judgement.verdict == Verdict::kNew &&
-                           owner.item->judgement.verdict == Verdict::kMissing;
-    words.emplace_back(
-        &item, is_rename ? fmt::format("the baseline has it as {}: renamed", owner.item->id)
-                         : fmt::format("its {} {} {} in the baseline: swapped",
-                                       listed(owner.formats, owner.formats.size() + 1),
-                                       owner.formats.size() == 1 ? "is that of" : "are those of",
-                                       owner.item->id));
-    if (is_rename) renamed[owner.item->id] = item.id;
-  }
-  for (auto& [item, text] : words) {
-    Judgement& reported = item->judgement;
-    reported.cause = reported.verdict == Verdict::kNew ? reported.cause + "; " + text : text;
-    if (reported.verdict != Verdict::kNew)
-      reported.verdict = heavier(reported.verdict, Verdict::kChanged);
-    reported.visible = true;
-    item->passes = passes(reported, settings.allowed_of(item->id));
-  }
-  for (DiffItem& item : items)
-    if (const auto to = renamed.find(item.id);
-        to != renamed.end() && item.judgement.verdict == Verdict::kMissing)
-      item.judgement.cause += fmt::format("; the current has it as {}: renamed", to->second);
-}
 
 /// Folders of records, by the id of their item: the path itself, or those directly below it.
 std::map<std::string, fs::path> record_locations(const fs::path& path) {

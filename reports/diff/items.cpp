@@ -57,9 +57,16 @@ void add(ItemList& items, const ItemName& name, const fs::path& file) {
   }
 }
 
+/// Whether the file is a further page of a report: pages/2.html.
+bool is_further_page(const fs::path& file) {
+  const std::string number = file.stem().string();
+  return file.extension() == ".html" && file.parent_path().filename() == "pages" &&
+         std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// The kind of a document; empty for other files.
 std::string document_kind(const fs::path& file) {
-  if (file.filename() == "report.html") return "html";
+  if (file.filename() == "report.html" || is_further_page(file)) return "html";
   const std::string extension = file.extension().string();
   const bool is_table = extension == ".csv" || extension == ".md" || extension == ".tex";
   return is_table && file.parent_path().filename() == "tables" ? extension.substr(1) : "";

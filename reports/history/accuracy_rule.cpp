@@ -31,7 +31,7 @@ using Family = std::tuple<std::string, std::string, std::string>;
 
 /// Differences of one run, step by step.
 struct RunPairs {
-  std::string unit = {};
+  Name unit = {};
   std::vector<double> differences = {};
 };
 
@@ -71,14 +71,14 @@ double difference(const Quantity& quantity, double before, double after) {
              : std::log(std::max(after, kLeastError) / std::max(before, kLeastError));
 }
 
-const RunValue* find_run(const std::vector<RunValue>& values, const std::string& run) {
+const RunValue* find_run(const std::vector<RunValue>& values, const Name& run) {
   const auto found = std::ranges::lower_bound(values, run, {}, &RunValue::run);
   return found != values.end() && found->run == run ? &*found : nullptr;
 }
 
 /// Adds the differences of one step to those of each run, and counts what was lost. A run that is
 /// not there any more is lost as well.
-void add_step(std::map<std::string, RunPairs>& runs, Losses& losses, const Quantity& quantity,
+void add_step(std::map<Name, RunPairs>& runs, Losses& losses, const Quantity& quantity,
               const std::vector<RunValue>& before, const std::vector<RunValue>& after) {
   for (const RunValue& old : before) {
     const RunValue* now = find_run(after, old.run);
@@ -98,10 +98,10 @@ void add_step(std::map<std::string, RunPairs>& runs, Losses& losses, const Quant
 
 /// Means of each run, or of each group: where groups are drawn, or where there are enough.
 /// @return With what they are of.
-std::pair<std::vector<double>, const char*> unit_means(const std::map<std::string, RunPairs>& runs,
+std::pair<std::vector<double>, const char*> unit_means(const std::map<Name, RunPairs>& runs,
                                                        int least_layouts, bool draws_groups) {
-  std::map<std::string, std::pair<double, int>> units;
-  std::set<std::string> groups;
+  std::map<Name, std::pair<double, int>> units;
+  std::set<Name> groups;
   for (const auto& [run, pairs] : runs) groups.insert(pairs.unit);
   const bool by_group = groups.size() < runs.size() &&
                         (draws_groups || std::cmp_greater_equal(groups.size(), least_layouts));
@@ -131,8 +131,8 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
   const std::string method = method_of(*steps.back());
   const std::string shown = shown_method_of(labels, *steps.back());
   Losses losses{method, shown, &quantity};
-  std::map<std::string, RunPairs> all;
-  std::map<std::string, RunPairs> last;
+  std::map<Name, RunPairs> all;
+  std::map<Name, RunPairs> last;
   for (const SeriesId* series : steps) {
     const auto& before = evidence.reference->scores.at(*series);
     const auto& after = evidence.this_run.at(*series);
@@ -140,7 +140,7 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     Losses of_last;
     if (series == steps.back()) add_step(last, of_last, quantity, before, after);
   }
-  const auto add = [&](const std::map<std::string, RunPairs>& runs, const std::string& subject,
+  const auto add = [&](const std::map<Name, RunPairs>& runs, const std::string& subject,
                        const std::string& shown_as) {
     if (runs.empty()) return;
     Comparison comparison{.subject = subject,
@@ -344,9 +344,8 @@ std::string change_words(double change, bool ratio, const std::string& word) {
 }
 
 double change_of(const Quantity& quantity, double worsening) {
-  const double change = quantity.nightly == NightlyRule::kRatio
-                            ? worse_percent(quantity, worsening)
-                            : worsening;
+  const double change =
+      quantity.nightly == NightlyRule::kRatio ? worse_percent(quantity, worsening) : worsening;
   return quantity.better == Better::kHigher ? -change : change;
 }
 

@@ -121,9 +121,8 @@ NightlyFinding finding_of(const NightlySeries& series, const Limit& limit, const
       .sentence = fmt::format(
           "{}: {} {} than usual in {} passing nightly runs, where the limit is {}{}", series.shown,
           label, words(worsening), limit.nightly_runs, words(limit.most - limit.usual),
-          since == trend.nightly_runs.back().number
-              ? ""
-              : fmt::format("; since nightly run {}", since)),
+          since == trend.nightly_runs.back().number ? ""
+                                                    : fmt::format("; since nightly run {}", since)),
       .change = is_error ? change_of(trend.quantities.at(series.quantity), worsening)
                          : 100.0 * std::expm1(worsening)};
 }
@@ -168,7 +167,7 @@ void judge_sustained(const NightlySeries& series, const StudyTrend& trend,
 
 /// How many units a series has that pairs can be tested by.
 int units_of(const std::vector<RunValue>& values, bool draws_groups) {
-  std::set<std::string> units;
+  std::set<Name> units;
   for (const RunValue& value : values) units.insert(draws_groups ? value.unit : value.run);
   return static_cast<int>(units.size());
 }

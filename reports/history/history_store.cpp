@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <unordered_map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,6 +24,8 @@ constexpr const char* kNightlyColumns =
     "number, started_utc, ended_utc, command, provenance, host, processor, cores, jobs, reference, "
     "pinned, verdict, utc_offset_s, commit_id, repository, build";
 constexpr int kColumnsOfFacts = 16;
+constexpr const char* kFindingColumns =
+    "nightly_run, study, kind, subject, quantity, since, sentence, change";
 
 NightlyFacts read_facts(const Statement& row, const fs::path& path) {
   NightlyFacts facts{.number = static_cast<int>(row.integer(0)),
@@ -46,6 +49,22 @@ NightlyFacts read_facts(const Statement& row, const fs::path& path) {
   facts.repository = row.text(14);
   facts.build = row.text(15);
   return facts;
+}
+
+/// A row of kFindingColumns.
+NightlyFinding read_finding(const Statement& row, const fs::path& path) {
+  const auto rule = rule_named(row.text(2));
+  if (!rule)
+    throw DamagedFile(path.string(), fmt::format("nightly run {} has the unknown finding \"{}\"",
+                                                 row.integer(0), printable(row.text(2))));
+  NightlyFinding finding{.study = row.text(1),
+                         .rule = *rule,
+                         .subject = row.text(3),
+                         .quantity = row.text(4),
+                         .since = static_cast<int>(row.integer(5)),
+                         .sentence = row.text(6)};
+  if (!row.is_null(7)) finding.change = row.real(7);
+  return finding;
 }
 
 /// What a study declared of its quantities.
@@ -179,26 +198,29 @@ std::vector<NightlyFacts> HistoryStore::nightly_runs() {
 }
 
 std::vector<NightlyFinding> HistoryStore::findings(int nightly_run) {
-  Statement rows(*database_,
-                 "SELECT study, kind, subject, quantity, since, sentence, change FROM findings "
-                 "WHERE nightly_run = ? ORDER BY id");
+  Statement rows(
+      *database_,
+      fmt::format("SELECT {} FROM findings WHERE nightly_run = ? ORDER BY id", kFindingColumns));
   rows.bind(nightly_run);
   std::vector<NightlyFinding> findings;
-  while (rows.step()) {
-    const auto rule = rule_named(rows.text(1));
-    if (!rule)
-      throw DamagedFile(database_->path().string(),
-                        fmt::format("nightly run {} has the unknown finding \"{}\"", nightly_run,
-                                    printable(rows.text(1))));
-    findings.push_back({.study = rows.text(0),
-                        .rule = *rule,
-                        .subject = rows.text(2),
-                        .quantity = rows.text(3),
-                        .since = static_cast<int>(rows.integer(4)),
-                        .sentence = rows.text(5)});
-    if (!rows.is_null(6)) findings.back().change = rows.real(6);
-  }
+  while (rows.step()) findings.push_back(read_finding(rows, database_->path()));
   return findings;
+}
+
+std::map<int, std::vector<NightlyFinding>> HistoryStore::all_findings() {
+  Statement rows(*database_,
+                 fmt::format("SELECT {} FROM findings ORDER BY nightly_run, id", kFindingColumns));
+  std::map<int, std::vector<NightlyFinding>> findings;
+  while (rows.step())
+    findings[static_cast<int>(rows.integer(0))].push_back(read_finding(rows, database_->path()));
+  return findings;
+}
+
+std::map<int, std::vector<std::string>> HistoryStore::study_names() {
+  Statement rows(*database_, "SELECT nightly_run, name FROM studies ORDER BY nightly_run, id");
+  std::map<int, std::vector<std::string>> names;
+  while (rows.step()) names[static_cast<int>(rows.integer(0))].push_back(rows.text(1));
+  return names;
 }
 
 std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
@@ -363,7 +385,7 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
   Statement score(*database_, "INSERT INTO scores (study, series, run, value) VALUES (?, ?, ?, ?)");
   Statement median(
       *database_, "INSERT INTO trends (study, series, runs, median, level) VALUES (?, ?, ?, ?, ?)");
-  std::map<std::string, std::int64_t> run_ids;
+  std::unordered_map<Name, std::int64_t> run_ids;
   for (const auto& [key, values] : study.scores) {
     const std::int64_t series =
         id_of(*database_, find_series, add_series, [&key = key](Statement& statement) {
@@ -373,7 +395,7 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
       auto [run, is_new] = run_ids.try_emplace(value.run, 0);
       if (is_new)
         run->second = id_of(*database_, find_run, add_run, [&value](Statement& statement) {
-          statement.bind(value.run).bind(value.unit);
+          statement.bind(value.run.get()).bind(value.unit.get());
         });
       score.bind(id).bind(series).bind(run->second).bind(value.value).run();
     }
@@ -388,15 +410,17 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
 }
 
 std::vector<NightlyNote> HistoryStore::notes() {
-  Statement rows(*database_,
-                 "SELECT nightly_run, finding, kind, study, subject, quantity, since, change, text, "
-                 "written_utc FROM notes ORDER BY id");
+  Statement rows(
+      *database_,
+      "SELECT nightly_run, finding, kind, study, subject, quantity, since, change, text, "
+      "written_utc FROM notes ORDER BY id");
   std::vector<NightlyNote> notes;
   while (rows.step()) {
     const auto kind = note_kind_named(rows.text(2));
     if (!kind)
-      throw DamagedFile(database_->path().string(),
-                        fmt::format("there is no note of the kind \"{}\"", printable(rows.text(2))));
+      throw DamagedFile(
+          database_->path().string(),
+          fmt::format("there is no note of the kind \"{}\"", printable(rows.text(2))));
     notes.push_back({.nightly_run = static_cast<int>(rows.integer(0)),
                      .finding = static_cast<int>(rows.integer(1)),
                      .kind = *kind,

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "reports/history/store/database.hpp"
 #include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
+#include "reports/history/store/database.hpp"
 
 namespace mapproof {
 
@@ -37,6 +38,10 @@ class HistoryStore {
   std::vector<NightlyFacts> nightly_runs();
   /// Of one nightly run, in the order they were found. @throws IoError.
   std::vector<NightlyFinding> findings(int nightly_run);
+  /// Of all nightly runs that have some, by their numbers, in one query. @throws IoError.
+  std::map<int, std::vector<NightlyFinding>> all_findings();
+  /// The names of all nightly runs' studies, by their numbers, in one query. @throws IoError.
+  std::map<int, std::vector<std::string>> study_names();
   /// Of one nightly run, without its values. @throws IoError.
   std::vector<NightlyStudy> studies(int nightly_run);
   /// The values of a study of that nightly run; empty if it has none of that name. @throws IoError.

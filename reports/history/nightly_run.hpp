@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/interned.hpp"
 #include "core/results/quantity.hpp"
 #include "core/results/study_labels.hpp"
 
@@ -33,9 +34,9 @@ std::size_t levels_begin(const std::string& method);
 
 /// One value of one run.
 struct RunValue {
-  std::string run = {};   ///< "layout-1-pose-2", "plaza-1".
-  std::string unit = {};  ///< Shared by runs that depend on each other: "layout-1".
-  double value = 0.0;     ///< NaN: there is no map, or nothing to judge.
+  Name run = {};       ///< "layout-1-pose-2", "plaza-1".
+  Name unit = {};      ///< Shared by runs that depend on each other: "layout-1".
+  double value = 0.0;  ///< NaN: there is no map, or nothing to judge.
 };
 
 /// The values of a study by series; runs in ascending order.

@@ -32,8 +32,12 @@ SeriesId series_of(const Result& row) {
       series.step = step_of(level);
     else
       series.method += " " + level.factor + "=" + level_text(level);
-  if (!row.subject.empty()) series.method += " of " + row.subject;
+  if (!row.subject.empty()) series.method += " of " + row.subject.get();
   return series;
+}
+
+bool is_same_series(const Result& a, const Result& b) {
+  return a.at == b.at && a.method == b.method && a.quantity == b.quantity && a.subject == b.subject;
 }
 
 void add_sessions(NightlyStudy& nightly_run, const std::vector<Session>& sessions) {
@@ -49,10 +53,18 @@ void add_sessions(NightlyStudy& nightly_run, const std::vector<Session>& session
 
 Scores scores_of(const Results& results, const std::vector<Result>& seconds) {
   Scores scores;
-  for (const std::vector<Result>* rows : {&results.rows, &seconds})
-    for (const Result& row : *rows)
-      if (results.quantities.at(row.quantity).nightly != NightlyRule::kNone)
-        scores[series_of(row)].push_back({row.run, row.group, row.value});
+  for (const std::vector<Result>* rows : {&results.rows, &seconds}) {
+    const Result* before = nullptr;
+    std::vector<RunValue>* of_series = nullptr;  // Null: the quantity is not kept.
+    for (const Result& row : *rows) {
+      if (before == nullptr || !is_same_series(*before, row))
+        of_series = results.quantities.at(row.quantity).nightly == NightlyRule::kNone
+                        ? nullptr
+                        : &scores[series_of(row)];
+      before = &row;
+      if (of_series != nullptr) of_series->push_back({row.run, row.group, row.value});
+    }
+  }
   for (auto& [series, values] : scores) std::ranges::sort(values, {}, &RunValue::run);
   return scores;
 }

@@ -318,9 +318,8 @@ std::optional<Figure> memory_figure(const Reported& reported) {
 /// Quantity and sensor of a figure, in the order of the dictionary.
 using Subject = std::tuple<bool, std::size_t, std::string, std::string>;
 
-/// @param worst_first  Whether those that this nightly run's findings are about go before the
-/// others.
-std::set<Subject> subjects_of(const Reported& reported, bool worst_first) {
+/// Those that this nightly run's findings are about go before the others.
+std::set<Subject> subjects_of(const Reported& reported) {
   const std::size_t this_run = reported.trend.nightly_runs.size() - 1;
   std::set<std::tuple<std::string, std::string>> found;
   for (const auto& [id, values] : reported.trend.medians)
@@ -330,7 +329,7 @@ std::set<Subject> subjects_of(const Reported& reported, bool worst_first) {
   for (const auto& [id, values] : reported.trend.medians) {
     const NightlyRule rule = rule_of(id, reported.trend.quantities, reported.trend.medians);
     if (rule == NightlyRule::kNone || rule == NightlyRule::kKept) continue;
-    const bool later = worst_first && !found.contains({id.quantity, id.sensor});
+    const bool later = !found.contains({id.quantity, id.sensor});
     const std::size_t rank = dictionary_rank(reported.trend.quantities.at(id.quantity));
     subjects.insert({later, rank, id.quantity, id.sensor});
   }
@@ -344,7 +343,7 @@ std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings
   const Reported reported = reported_of(trend, findings, location);
   std::vector<Figure> figures;
   const auto is_full = [&] { return location.most > 0 && figures.size() >= location.most; };
-  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported, location.most > 0)) {
+  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported)) {
     if (is_full()) break;
     if (auto figure = lines_figure(reported, sensor, quantity))
       figures.push_back(std::move(*figure));

@@ -29,31 +29,6 @@ void check_drawing(const std::string& id, const std::string& drawing) {
     throw InvalidInput("report: the drawing of \"" + id + "\" holds </noscript");
 }
 
-/// The figures of galleries that the page folds.
-std::set<const FigureBlock*> folded_figures(const Report& report) {
-  std::set<const FigureBlock*> folded;
-  for (const Section& section : report.sections)
-    for (const Block& block : section.blocks)
-      if (const auto* gallery = std::get_if<Gallery>(&block))
-        for (std::size_t i = gallery->open; i < gallery->figures.size(); ++i)
-          folded.insert(&gallery->figures[i]);
-  return folded;
-}
-
-/// Figures in the order in which they are embedded.
-std::vector<const FigureBlock*> by_weight(const Report& report) {
-  std::vector<const FigureBlock*> all = figures(report);
-  const std::vector<std::string>& first = report.opening.figure_ids;
-  const std::set<const FigureBlock*> folded = folded_figures(report);
-  const auto weight = [&](const FigureBlock* figure) {
-    if (figure->id == report.opening.main_figure) return 0;
-    if (std::ranges::find(first, figure->id) != first.end()) return 0;
-    return (figure->value == "scene" ? 2 : 1) + (folded.contains(figure) ? 2 : 0);
-  };
-  std::ranges::stable_sort(all, {}, weight);
-  return all;
-}
-
 constexpr double kWidth = 160.0, kHeight = 28.0, kMargin = 3.0;
 /// The least change that fills half of the height: less would show rounding as mountains.
 constexpr double kLeastPercent = 1.0;
@@ -90,13 +65,18 @@ std::string curve_svg(const std::vector<double>& percent) {
   return svg + "</svg>";
 }
 
+/// A folder from the page; false if nothing links to it.
+data folder_data(const std::string& folder, const HtmlOptions& options) {
+  return text_or_false(folder.empty() ? "" : options.root + folder);
+}
+
 /// The target of a link; empty if the text is none.
-std::string link_of(Emphasis emphasis, const std::string& text) {
-  if (emphasis == Emphasis::kFile) return file_link(text);
+std::string link_of(Emphasis emphasis, const std::string& text, const HtmlOptions& options) {
+  if (emphasis == Emphasis::kFile) return file_link(options.root + text);
   return emphasis == Emphasis::kUrl ? web_link(text) : "";
 }
 
-constexpr std::size_t kLongCell = 80;      ///< Longer texts scroll in a box of their own.
+constexpr std::size_t kLongCell = 80;  ///< Longer texts scroll in a box of their own.
 
 bool any_group(const Table& table) {
   for (const Column& column : table.columns)
@@ -175,7 +155,7 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const auto* text = std::get_if<TextCell>(&cell);
   const auto emphasis = text != nullptr ? text->emphasis : Emphasis::kPlain;
   data out;
-  const std::string link = text == nullptr ? "" : link_of(emphasis, text->text);
+  const std::string link = text == nullptr ? "" : link_of(emphasis, text->text, options);
   const bool is_file = !link.empty();
   out.set("value",
           is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]));
@@ -293,7 +273,7 @@ constexpr std::size_t kLong = 200;
 
 data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
-  const std::string link = link_of(phrase.emphasis, phrase.text);
+  const std::string link = link_of(phrase.emphasis, phrase.text, options);
   const bool is_file = !link.empty();
   out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
   out.set("plain",
@@ -309,21 +289,6 @@ data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
 
 }  // namespace
 
-std::set<std::string> linked_figures(const Report& report, const SvgLookup& svg,
-                                     std::size_t drawing_bytes) {
-  std::set<std::string> linked;
-  if (!svg) return linked;
-  std::size_t held = 0;
-  for (const FigureBlock* figure : by_weight(report)) {
-    const std::size_t bytes = svg(figure->id).size();
-    if (held + bytes > drawing_bytes)
-      linked.insert(figure->id);
-    else
-      held += bytes;
-  }
-  return linked;
-}
-
 data figure_data(const FigureBlock& figure, const FigureContext& drawn,
                  const HtmlOptions& options) {
   data out;
@@ -334,13 +299,11 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   out.set("value", figure.value);
   out.set("wide", data(figure.wide));
   out.set("long", figure.caption.size() > kLongCaption);
-  const bool linked = drawn.linked.contains(figure.id);
-  const std::string drawing = drawn.svg && !linked ? drawn.svg(figure.id) : "";
+  const std::string drawing = drawn.svg ? drawn.svg(figure.id) : "";
   check_drawing(figure.id, drawing);
   out.set("svg", text_or_false(drawing));
   out.set("regressed", text_or_false(figure.regressed));
-  out.set("linked", data(linked));
-  out.set("folder", text_or_false(options.figure_folder));
+  out.set("folder", folder_data(options.figure_folder, options));
   std::string records;
   for (const std::string& id : figure.record_ids) records += (records.empty() ? "" : "; ") + id;
   out.set("records", text_or_false(records));
@@ -362,7 +325,7 @@ data table_data(const Table& table, const FigureContext& drawn, const HtmlOption
   data out;
   out.set("id", table.id);
   out.set("caption", table.caption);
-  out.set("folder", text_or_false(options.table_folder));
+  out.set("folder", folder_data(options.table_folder, options));
   add_headings(table, out);
   const list rows = rows_data(table, options);
   add_frames(table, options.copies_tables, out);
@@ -403,7 +366,7 @@ class BlockVisitor {
   BlockVisitor(const FigureContext& drawn, const HtmlOptions& options, std::string matrix)
       : drawn_(drawn), options_(options), matrix_(std::move(matrix)) {
     for (const char* kind : {"paragraph", "bullet_list", "highlights", "callout", "table", "figure",
-                             "gallery", "key_values", "finding", "status_list"})
+                             "gallery", "page_links", "key_values", "finding", "status_list"})
       block_.set(kind, false);
   }
 
@@ -456,6 +419,22 @@ class BlockVisitor {
     out.set("more_words", fmt::format("{}{}: {}", counted(std::ssize(titles), "figure"),
                                       shown.empty() ? "" : " more", listed(titles, 3)));
     block_.set("gallery", out);
+  }
+
+  void operator()(const PageLinks& links) {
+    list items;
+    for (const PageLinks::Item& item : links.items) {
+      data out;
+      out.set("element", item.element);
+      out.set("link", file_link(options_.root + item.page) + "#" + item.element);
+      out.set("title", item.title);
+      items.push_back(std::move(out));
+    }
+    data out;
+    out.set("words", links.words);
+    out.set("many", data(links.items.size() > kMostLinksOpen));
+    out.set("links", items);
+    block_.set("page_links", out);
   }
 
   void operator()(const KeyValues& pairs) {

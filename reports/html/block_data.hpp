@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 #include <string_view>
 
@@ -12,18 +11,15 @@
 namespace mapproof {
 
 inline constexpr std::size_t kMostRowsOpen = 30;  ///< Longer tables are folded at first.
+/// Longer lists of links to other pages are folded at first.
+inline constexpr std::size_t kMostLinksOpen = 12;
 
 /// Facts on the figures of a page besides their blocks.
 struct FigureContext {
   SvgLookup svg = {};
-  std::set<std::string> linked = {};  ///< Figures with a drawing to which the page only links.
   /// The table that first has a note: the notes of later tables refer to it.
   std::map<std::string, const Table*> notes = {};
 };
-
-/// The figures of the report whose drawings do not fit into HtmlOptions::drawing_bytes.
-std::set<std::string> linked_figures(const Report& report, const SvgLookup& svg,
-                                     std::size_t drawing_bytes);
 
 /// Each note of the report's tables, with the first table that has it.
 std::map<std::string, const Table*> first_notes(const Report& report);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <map>
 #include <string>
@@ -13,13 +12,12 @@ using SvgLookup = std::function<std::string(const std::string& figure_id)>;
 struct HtmlOptions {
   std::string figure_folder = "figures";  ///< Links to files beside the page; empty: no links.
   std::string table_folder = "tables";
+  std::string root =
+      {};             ///< From the page to the report's folder, "../"; files are linked below it.
+  bool folds = true;  ///< Folds what few readers need, until the page has some fifteen screens.
   bool copies_tables = true;  ///< Tables can be copied as CSV and as LaTeX.
   /// The texts of links to files, by path; other links show the path.
   std::map<std::string, std::string> link_words = {};
-  /// The most bytes of drawings that the page holds; it links the others and states their number.
-  /// Drawings of the opening come first, then figures, then 3-D figures, in their order, and last
-  /// those that are folded.
-  std::size_t drawing_bytes = 5'200'000;
 };
 
 /// The text of a link to a file.

@@ -1,8 +1,6 @@
 #include "reports/html/report_html.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 #include <variant>
@@ -13,6 +11,7 @@
 
 #include "core/base/text/words.hpp"
 #include "reports/html/block_data.hpp"
+#include "reports/html/page_folds.hpp"
 #include "reports/html/page_frame.hpp"
 #include "reports/model/format.hpp"
 
@@ -26,137 +25,6 @@ constexpr std::size_t kCharactersOfFirstScreen = 560;
 
 using kainjow::mustache::data;
 using kainjow::mustache::list;
-
-/// Heights in pixels on a page 1280 wide, measured on the pages of every kind of study.
-namespace height {
-constexpr double kMost = 12.75 * 800;  ///< Of what is open: about fifteen screens with the opening.
-constexpr double kSection = 105, kFold = 42, kText = 30, kLine = 24;
-constexpr double kTable = 165, kRow = 36, kFigure = 530, kWideFigure = 860;
-constexpr std::size_t kCharacters = 105;  ///< Of a line of text.
-}  // namespace height
-
-std::size_t characters_of(const Paragraph& paragraph) {
-  std::size_t size = 0;
-  for (const Phrase& phrase : paragraph.phrases) size += phrase.text.size();
-  return size;
-}
-
-double height_of(const Paragraph& paragraph) {
-  return height::kText +
-         height::kLine * static_cast<double>(characters_of(paragraph) / height::kCharacters);
-}
-
-double height_of(const Table& table) {
-  if (table.secondary || table.rows.size() > kMostRowsOpen) return height::kFold;
-  return height::kTable + height::kRow * static_cast<double>(table.rows.size()) +
-         height::kLine * static_cast<double>(table.notes.size());
-}
-
-double height_of(const Gallery& gallery) {
-  double narrow = 0.0, all = 0.0;
-  const std::size_t shown = std::min(gallery.open, gallery.figures.size());
-  for (std::size_t i = 0; i < shown; ++i)
-    (gallery.figures[i].wide ? all : narrow) +=
-        gallery.figures[i].wide ? height::kWideFigure : height::kFigure;
-  all += std::ceil(narrow / height::kFigure / 2.0) * height::kFigure;  // Two stand side by side.
-  return all + (shown < gallery.figures.size() ? height::kFold : 0.0);
-}
-
-double height_of(const Block& block) {
-  if (const auto* paragraph = std::get_if<Paragraph>(&block)) return height_of(*paragraph);
-  if (const auto* table = std::get_if<Table>(&block)) return height_of(*table);
-  if (const auto* gallery = std::get_if<Gallery>(&block)) return height_of(*gallery);
-  if (std::holds_alternative<FigureBlock>(block)) return height::kFigure;
-  double all = 0.0;
-  if (const auto* bullets = std::get_if<BulletList>(&block))
-    for (const Paragraph& item : bullets->items) all += height_of(item);
-  else if (const auto* facts = std::get_if<KeyValues>(&block))
-    all = 1.25 * height::kRow * static_cast<double>(facts->items.size());
-  else if (const auto* statuses = std::get_if<StatusList>(&block))
-    all = height::kTable + height::kRow * static_cast<double>(statuses->items.size());
-  else
-    all = 3.0 * height::kText;
-  return all;
-}
-
-using Folded = std::set<const Section*>;
-
-double height_of(const Report& report, const Folded& folded) {
-  double all = 0.0;
-  for (const Section& section : report.sections) {
-    all += folded.contains(&section) ? height::kFold : height::kSection;
-    if (!folded.contains(&section))
-      for (const Block& block : section.blocks) all += height_of(block);
-  }
-  return all;
-}
-
-bool is_regressed(const Table& table) {
-  return std::ranges::any_of(table.rows, [](const Row& row) { return !row.regressed.empty(); });
-}
-
-/// How many figures of a gallery stay open at least: up to the last that shows what got worse.
-std::size_t least_open(const Gallery& gallery) {
-  for (std::size_t i = gallery.figures.size(); i > 0; --i)
-    if (!gallery.figures[i - 1].regressed.empty()) return i;
-  return 0;
-}
-
-bool shows_regression(const Section& section) {
-  return std::ranges::any_of(section.blocks, [](const Block& block) {
-    const auto* table = std::get_if<Table>(&block);
-    const auto* gallery = std::get_if<Gallery>(&block);
-    return (table != nullptr && is_regressed(*table)) ||
-           (gallery != nullptr && least_open(*gallery) > 0);
-  });
-}
-
-/// Folds the tables of each section from its `tables`-th on, and what is over `figures` of each
-/// gallery.
-void fold_beyond(Report& report, std::size_t tables, std::size_t figures) {
-  for (Section& section : report.sections) {
-    std::size_t seen = 0;
-    for (Block& block : section.blocks) {
-      if (auto* table = std::get_if<Table>(&block);
-          table != nullptr && seen++ >= tables && !is_regressed(*table))
-        table->secondary = true;
-      if (auto* gallery = std::get_if<Gallery>(&block))
-        gallery->open = std::min(gallery->open, std::max(figures, least_open(*gallery)));
-    }
-  }
-}
-
-/// The sections that can be folded, in the order in which that happens: the last of each study
-/// first. The first section of a study, and what has no group but one section, stay.
-std::vector<const Section*> foldable(const Report& report) {
-  std::map<std::string, std::vector<const Section*>> groups;
-  for (const Section& section : report.sections) groups[section.group].push_back(&section);
-  std::size_t most = 0;
-  for (const auto& [group, sections] : groups) most = std::max(most, sections.size());
-  std::vector<const Section*> all;
-  for (std::size_t size = most; size > 1; --size)
-    for (const auto& [group, sections] : groups)
-      if (sections.size() >= size && !shows_regression(*sections[size - 1]))
-        all.push_back(sections[size - 1]);
-  return all;
-}
-
-/// Folds what few readers open, until a page has some fifteen screens: secondary tables, then
-/// figures behind the first ones of each gallery, then whole sections. What got worse stays open.
-/// @return The sections that are folded as a whole.
-Folded fold_to_screens(Report& report) {
-  constexpr std::pair<std::size_t, std::size_t> kSteps[] = {{2, 6}, {1, 4}, {1, 2}, {0, 2}, {0, 1}};
-  for (const auto& [tables, figures] : kSteps) {
-    if (height_of(report, {}) <= height::kMost) return {};
-    fold_beyond(report, tables, figures);
-  }
-  Folded folded;
-  for (const Section* section : foldable(report)) {
-    if (height_of(report, folded) <= height::kMost) break;
-    folded.insert(section);
-  }
-  return folded;
-}
 
 /// The command is part of the provenance, since it names a folder: equal reports stay equal
 /// otherwise. The script builds each figure's command from it.
@@ -233,17 +101,6 @@ list thumbnails(const Report& report) {
   return shown;
 }
 
-/// "12 of 340 figures are not in this page …"; empty if all are.
-std::string linked_words(const Report& report, std::size_t linked, const HtmlOptions& options) {
-  if (linked == 0) return "";
-  const std::string where = options.figure_folder.empty()
-                                ? "They are left out."
-                                : "They are linked, in " + options.figure_folder + "/ next to it.";
-  return fmt::format("{} of {} are not in this page, which holds {} MB of drawings at most. {}",
-                     linked, counted(std::ssize(figures(report)), "figure"),
-                     format_number(static_cast<double>(options.drawing_bytes) / 1e6, 1), where);
-}
-
 /// The section that says how to make the report again; empty if there is none.
 std::string provenance_of(const Report& report) {
   const auto found = std::ranges::find_if(
@@ -264,8 +121,7 @@ std::pair<std::string, std::string> first_sentences(const std::string& text) {
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
-void set_opening(data& page, const Report& report, const std::string& linked,
-                 const HtmlOptions& options) {
+void set_opening(data& page, const Report& report, const HtmlOptions& options) {
   const Opening& opening = report.opening;
   list findings, folded;
   std::vector<Paragraph> all = opening.findings;
@@ -285,9 +141,9 @@ void set_opening(data& page, const Report& report, const std::string& linked,
                                 (findings.empty() || characters <= kCharactersOfFirstScreen));
     (is_open ? findings : folded).push_back(data("phrases", phrases_data(finding, options)));
   }
-  page.set("any_opening", data(!all.empty() || !opening.figure_ids.empty() ||
-                               !opening.numbers.items.empty() || !opening.main_figure.empty() ||
-                               opening.standing || !linked.empty()));
+  page.set("any_opening",
+           data(!all.empty() || !opening.figure_ids.empty() || !opening.numbers.items.empty() ||
+                !opening.main_figure.empty() || opening.standing || !opening.other_pages.empty()));
   page.set("highlights", opening.numbers.items.empty()
                              ? data(false)
                              : data("items", highlight_items(opening.numbers)));
@@ -301,7 +157,7 @@ void set_opening(data& page, const Report& report, const std::string& linked,
   page.set("any_thumbnails", data(!opening.figure_ids.empty()));
   page.set("any_images", data(main_figure != nullptr || !opening.figure_ids.empty()));
   page.set("thumbnails", thumbnails(report));
-  page.set("linked_words", text_or_false(linked));
+  page.set("other_pages", text_or_false(opening.other_pages));
 }
 
 }  // namespace
@@ -310,7 +166,8 @@ std::string report_html(const Report& whole, const Templates& templates, const S
                         const HtmlOptions& options) {
   check(whole);
   Report report = whole;
-  const Folded folded = fold_to_screens(report);
+  const std::set<const Section*> folded =
+      options.folds ? fold_to_screens(report) : std::set<const Section*>{};
   data page;
   page.set("title", report.title);
   page.set("subtitle", report.subtitle);
@@ -318,10 +175,8 @@ std::string report_html(const Report& whole, const Templates& templates, const S
   page.set("date", text_or_false(report.date));
   page.set("provenance", text_or_false(provenance_of(report)));
   set_page_frame(page, "report", templates);
-  const FigureContext drawn{.svg = svg,
-                            .linked = linked_figures(report, svg, options.drawing_bytes),
-                            .notes = first_notes(report)};
-  set_opening(page, report, linked_words(report, drawn.linked.size(), options), options);
+  const FigureContext drawn{.svg = svg, .notes = first_notes(report)};
+  set_opening(page, report, options);
   list sections;
   for (const Section& section : report.sections)
     sections.push_back(section_data(section, report, drawn, options, folded.contains(&section)));

@@ -135,6 +135,17 @@ struct Gallery {
   std::size_t open = std::numeric_limits<std::size_t>::max();
 };
 
+/// Figures and tables that another page of the report holds.
+struct PageLinks {
+  struct Item {
+    std::string element;  ///< Id of the element on that page: "figure-map", "table-errors".
+    std::string page;     ///< The page's path from the report's folder: "pages/2.html".
+    std::string title;
+  };
+  std::vector<Item> items;
+  std::string words;  ///< How many, and on which pages.
+};
+
 struct KeyValues {
   struct Item {
     std::string key;
@@ -172,7 +183,7 @@ struct StatusList {
 };
 
 using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, FigureBlock, Gallery,
-                           KeyValues, FindingBlock, StatusList>;
+                           PageLinks, KeyValues, FindingBlock, StatusList>;
 
 struct Section {
   std::string id;  ///< [a-z0-9-]+, unique among sections.
@@ -197,6 +208,7 @@ struct Opening {
   Highlights numbers = {};       ///< How good it is, the most important number first.
   std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
   std::string question = {};     ///< What was asked, before the findings; empty: they say it.
+  std::string other_pages = {};  ///< What other pages of the report hold, in words.
 };
 
 /// What a report says; how it looks is another matter.

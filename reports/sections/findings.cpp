@@ -188,6 +188,9 @@ std::string optimism_words(const HalfChoices& choices) {
   }
   if (shares.empty()) return "";
   const double largest = optimism_percent(*most);
+  if (shares.size() == 1 && std::abs(largest) < 0.05)
+    return fmt::format("on runs that had no part in the choice MPE of {} is the same.",
+                       method_label(most->method));
   if (shares.size() == 1)
     return fmt::format("on runs that had no part in the choice MPE of {} is {} {}.",
                        method_label(most->method), percent(std::abs(largest), 1),

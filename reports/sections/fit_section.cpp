@@ -65,7 +65,8 @@ Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures, con
     for (const FitMissing missing : fit.why)
       items.items.push_back(plain("Missing: " + why_text(missing)));
   if (!items.items.empty()) section.blocks.emplace_back(std::move(items));
-  for (const FigureBlock& figure : figures) section.blocks.emplace_back(figure);
+  // Words and numbers between high figures fill a page of paper.
+  if (!figures.empty()) section.blocks.emplace_back(figures.front());
   if (!fit.numbers.empty()) section.blocks.emplace_back(number_items(fit));
   BulletList limits;
   for (const FitTest& test : fit.tests)
@@ -75,6 +76,7 @@ Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures, con
     section.blocks.emplace_back(plain("What these data could not have shown:"));
     section.blocks.emplace_back(std::move(limits));
   }
+  for (std::size_t i = 1; i < figures.size(); ++i) section.blocks.emplace_back(figures[i]);
   return section;
 }
 

@@ -130,7 +130,7 @@ Paragraph what_was_done(const Study& study) {
   return plain(text + " MPE is the mean position error of the landmarks that are not anchors.");
 }
 
-/// "arbitrary_neighbours (12 maps) and not_converged (6 maps)": the most frequent first.
+/// "arbitrary neighbours (12 maps) and not converged (6 maps)": the most frequent first.
 std::string frequent_warnings(const Study& study) {
   std::map<std::string, int> maps;
   for (const Run& run : study.runs)
@@ -142,8 +142,10 @@ std::string frequent_warnings(const Study& study) {
   std::vector<std::pair<std::string, int>> order(maps.begin(), maps.end());
   std::ranges::stable_sort(order, std::greater(), &std::pair<std::string, int>::second);
   std::vector<std::string> names;
-  for (const auto& [code, count] : order)
+  for (auto& [code, count] : order) {
+    std::ranges::replace(code, '_', ' ');
     names.push_back(fmt::format("{} ({})", code, counted(count, "map")));
+  }
   return listed(names, 3);
 }
 

@@ -103,7 +103,7 @@ class ExternalMethods : public ::testing::Test {
     for (const Result& row : parse_results_csv(read_file(file), file, {}))
       if (row.quantity == quantity && row.at.levels.size() == 1)
         errors[row.method][fmt::format("{}/{}/{}", row.at.setup, row.run,
-                                       level_text(row.at.levels[0]))] = row.value;
+                                       level_text(row.at.levels->at(0)))] = row.value;
     return errors;
   }
 

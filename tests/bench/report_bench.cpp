@@ -61,8 +61,7 @@ void report(const fs::path& folder, int count) {
   const auto written = std::chrono::steady_clock::now();
   const Report page{"Maps", "", {{"maps", "Maps", {std::move(gallery)}}}, ""};
   const std::string html =
-      report_html(page, load_templates(), [&](const std::string& id) { return drawings.at(id); },
-                  {.drawing_bytes = std::size_t{1} << 30});
+      report_html(page, load_templates(), [&](const std::string& id) { return drawings.at(id); });
   write_file(folder / "report.html", html);
   fmt::print("{} {:.3f} {:.3f} {}\n", count, draw_s, seconds_since(written), html.size());
   for (const auto& [id, svg] : drawings) write_file(folder / "figures" / (id + ".svg"), svg);

@@ -331,8 +331,8 @@ TEST(HeatMapFigure, PutsTheFirstLevelsAtTheLowerLeftAndSaysTheNumbers) {
   EXPECT_EQ(cells.columns, 3u);
   EXPECT_EQ(cells.values[3], 0.1);  // The uppermost row stands first.
   EXPECT_EQ(cells.text[2], "0.600");
-  EXPECT_EQ(cells.limits, (Range{0.1, 0.6}));
-  EXPECT_EQ(cells.bar_label, "MPE [m]");
+  EXPECT_EQ(cells.colour_scale.limits, (Range{0.1, 0.6}));
+  EXPECT_EQ(cells.colour_scale.bar_label, "MPE [m]");
   EXPECT_EQ(panel.x.names, spec.x_names);
   EXPECT_EQ(panel.y.names, spec.y_names);
   EXPECT_TRUE(contains(figure.alt, "Least: 0.100 m at landmarks 20, side of the room [m] 1.5"))
@@ -358,7 +358,9 @@ TEST(HeatMapFigure, HatchesMissingCellsAndSaysSo) {
 TEST(HeatMapFigure, HasLogarithmicColoursWhereErrorsSpanMuch) {
   HeatMapSpec spec = sample_heat(2, 1);
   spec.values = {0.01, 1.0};
-  const auto scale = [&] { return layers_of<Cells>(heat_map_figure(spec).panels[0]).at(0).scale; };
+  const auto scale = [&] {
+    return layers_of<Cells>(heat_map_figure(spec).panels[0]).at(0).colour_scale.scale;
+  };
   EXPECT_EQ(scale(), Scale::kLog);
   spec.unit = "%";
   EXPECT_EQ(scale(), Scale::kLinear);

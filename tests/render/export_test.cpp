@@ -44,11 +44,24 @@ TEST(FigureCsv, GivesCellsTheirMiddleFromTheUppermostRowOn) {
   Figure figure;
   figure.id = "f";
   figure.panels.resize(1);
-  figure.panels[0].layers.emplace_back(
-      Cells{.x = {0, 2}, .y = {0, 4}, .columns = 2, .values = {1, 2, 3, 4}, .limits = {0, 4}});
+  figure.panels[0].layers.emplace_back(Cells{.x = {0, 2},
+                                             .y = {0, 4},
+                                             .columns = 2,
+                                             .values = {1, 2, 3, 4},
+                                             .colour_scale = {.limits = {0, 4}}});
   EXPECT_EQ(figure_csv(figure),
             "panel,layer,shape,index,x,y,value\n1,1,cell,1,0.5,3,1\n1,1,cell,2,1.5,3,2\n"
             "1,1,cell,3,0.5,1,3\n1,1,cell,4,1.5,1,4\n");
+}
+
+TEST(FigureCsv, GivesTheValueOfEachPointOfAColouredLine) {
+  Figure figure;
+  figure.id = "f";
+  figure.panels.resize(1);
+  figure.panels[0].layers.emplace_back(Polyline{
+      .x = {0, 1}, .y = {2, 3}, .values = {0.5, 0.25}, .colour_scale = {.limits = {0, 1}}});
+  EXPECT_EQ(figure_csv(figure),
+            "panel,layer,shape,index,x,y,value\n1,1,line,1,0,2,0.5\n1,1,line,2,1,3,0.25\n");
 }
 
 TEST(FigureCsv, HasRowsForEverySample) {

@@ -58,8 +58,11 @@ TEST(Figure, NamesThePlaceOfWhatIsWrong) {
 }
 
 TEST(Figure, RefusesCellsThatTheirScaleAndTextsDoNotFit) {
-  const Cells sound{
-      .x = {0.0, 1.0}, .y = {0.0, 1.0}, .columns = 2, .values = {1.0, 2.0}, .limits = {1.0, 2.0}};
+  const Cells sound{.x = {0.0, 1.0},
+                    .y = {0.0, 1.0},
+                    .columns = 2,
+                    .values = {1.0, 2.0},
+                    .colour_scale = {.limits = {1.0, 2.0}}};
   const auto problem_with = [](const Cells& cells) {
     Figure figure = small();
     figure.panels[0].layers = {cells};
@@ -70,14 +73,35 @@ TEST(Figure, RefusesCellsThatTheirScaleAndTextsDoNotFit) {
   cells.text = {"1"};
   EXPECT_EQ(problem_with(cells), "panels/0/layers/0/text: not as many as values");
   cells = sound;
-  cells.scale = Scale::kLog;
+  cells.colour_scale.scale = Scale::kLog;
   EXPECT_EQ(problem_with(cells), "");
-  cells.limits.low = 0.0;
+  cells.colour_scale.limits.low = 0.0;
   EXPECT_EQ(problem_with(cells), "panels/0/layers/0/limits: not positive on a log scale");
   Figure figure = small();
   figure.panels[0].x.scale = Scale::kLog;
   figure.panels[0].x.names = {"a"};
   EXPECT_EQ(problem(figure), "panels/0/x/names: on a log axis");
+}
+
+TEST(Figure, RefusesAColouredLineWithoutAValuePerPointOrARange) {
+  const Polyline sound{.x = {0.0, 1.0, 2.0},
+                       .y = {0.0, 1.0, NAN},
+                       .values = {1.0, NAN, 2.0},
+                       .colour_scale = {.limits = {1.0, 2.0}}};
+  const auto problem_with = [](const Polyline& line) {
+    Figure figure = small();
+    figure.panels[0].layers = {line};
+    return problem(figure);
+  };
+  EXPECT_EQ(problem_with(sound), "");
+  Polyline line = sound;
+  line.values.pop_back();
+  EXPECT_EQ(problem_with(line), "panels/0/layers/0/values: not as many as x");
+  line = sound;
+  line.colour_scale.limits = {2.0, 2.0};
+  EXPECT_EQ(problem_with(line), "panels/0/layers/0/limits: not finite and ascending");
+  line.values.clear();
+  EXPECT_EQ(problem_with(line), "");
 }
 
 TEST(Figure, RefusesIdsThatAreNoFileNames) {

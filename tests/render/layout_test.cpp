@@ -183,8 +183,7 @@ TEST(Layout, ALongLabelOfAColourBarIsWrapped) {
                                           .y = {0, 1},
                                           .columns = 2,
                                           .values = {1, 2, 3, 4},
-                                          .limits = {1, 4},
-                                          .bar_label = label});
+                                          .colour_scale = {.limits = {1, 4}, .bar_label = label}});
   const Drawing drawing = lay_out(figure, report_theme());
   std::vector<TextLine> lines = texts_of(drawing, ItemClass::kLegendText);
   std::erase_if(lines, [](const TextLine& line) { return !line.upward; });
@@ -198,12 +197,12 @@ TEST(Layout, TheColourBarOfAMapStaysOnThePageAndBesideTheLegend) {
       Figure figure = with_panels(1);
       Panel& map = figure.panels[0];
       map.equal_aspect = true;
-      map.layers.push_back(Cells{.x = {0, 40},
-                                 .y = {0, height},
-                                 .columns = 2,
-                                 .values = {0.01, 0.02, 0.03, 0.04},
-                                 .limits = {0.01, 0.04},
-                                 .bar_label = "error [m]"});
+      map.layers.push_back(
+          Cells{.x = {0, 40},
+                .y = {0, height},
+                .columns = 2,
+                .values = {0.01, 0.02, 0.03, 0.04},
+                .colour_scale = {.limits = {0.01, 0.04}, .bar_label = "error [m]"}});
       map.layers.push_back(Polyline{.label = label, .x = {0, 40}, .y = {0, height}});
       const Drawing drawing = lay_out(figure, report_theme());
       EXPECT_TRUE(flaws(drawing).empty()) << height << label << ": " << flaws(drawing).front();

@@ -108,31 +108,10 @@ TEST(ReportHtml, StandsAloneWithoutOtherFolders) {
 Report with_figures(int count) {
   Section section{"s", "S", {}};
   for (int i = 0; i < count; ++i)
-    section.blocks.emplace_back(
-        FigureBlock{"f-" + std::to_string(i), "", "", "", {}, i % 2 == 0 ? "scene" : "figure"});
+    section.blocks.emplace_back(FigureBlock{"f-" + std::to_string(i), "", "", "", {}});
   Report report{"t", "", {section}, ""};
   report.opening.figure_ids = {"f-4"};
   return report;
-}
-
-std::string ten_bytes(const std::string&) { return "<svg></svg"; }
-
-TEST(ReportHtml, HoldsDrawingsUpToItsBudgetTheOpeningsFirstThenFiguresThenScenes) {
-  HtmlOptions options;
-  options.drawing_bytes = 35;
-  const std::string page = report_html(with_figures(6), load_templates(), ten_bytes, options);
-  std::vector<std::string> held;
-  for (const std::string& id :
-       all_matches(page, "data-id=\"([^\"]*)\">\\s*<div class=\"drawing\">"))
-    held.push_back(id);
-  EXPECT_EQ(held, (std::vector<std::string>{"f-1", "f-3", "f-4"}));
-  EXPECT_NE(page.find("3 of 6 figures are not in this page"), std::string::npos);
-}
-
-TEST(ReportHtml, DoesNotMentionABudgetThatSuffices) {
-  const std::string page = report_html(with_figures(6), load_templates(), ten_bytes);
-  EXPECT_EQ(page.find("not in this page"), std::string::npos);
-  EXPECT_EQ(all_matches(page, "(class=\"drawing\")").size(), 6u);
 }
 
 TEST(ReportHtml, RefusesADrawingThatCouldEndTheElementThatHoldsIt) {

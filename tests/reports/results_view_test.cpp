@@ -1,6 +1,7 @@
 #include "reports/sections/results/results_view.hpp"
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -50,6 +51,10 @@ class Rows {
 };
 
 const Quantity& mpe() { return known_quantity("mpe_m"); }
+
+std::map<std::string, double> by_name(const ValuesByRun& values) {
+  return {values.begin(), values.end()};
+}
 
 TEST(ResultsView, MeansRestOnRunsAndIntervalsOnGroups) {
   // Two groups of two equal runs: the t interval of two means, 1 and 3.
@@ -126,7 +131,7 @@ TEST(ResultsView, SubjectsOfARunAreOneValueAndLostRunsAreCounted) {
   const ResultsView view(study);
   const ResultsBlock& block = view.blocks()[0];
   const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
-  EXPECT_EQ(numbers.values, (std::map<std::string, double>{{"a1", 2.0}}));
+  EXPECT_EQ(by_name(numbers.values), (std::map<std::string, double>{{"a1", 2.0}}));
   EXPECT_EQ(numbers.lost, 1);
 }
 
@@ -140,7 +145,7 @@ TEST(ResultsView, ARunThatLostOneSubjectIsLost) {
   const ResultsView view(study);
   const ResultsBlock& block = view.blocks()[0];
   const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
-  EXPECT_EQ(numbers.values, (std::map<std::string, double>{{"b1", 3.0}}));
+  EXPECT_EQ(by_name(numbers.values), (std::map<std::string, double>{{"b1", 3.0}}));
   EXPECT_EQ(numbers.lost, 1);
 }
 
@@ -521,6 +526,26 @@ TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
   EXPECT_EQ(curves.groups[0].figures[1].id, "test-s-ranks-mpe-m");
   const StudyFigures distributions = results_figures(without, compare_methods(without));
   EXPECT_EQ(distributions.groups[0].figures[0].panels[0].y.label, "runs at or below [%]");
+}
+
+TEST(ResultsFigures, ADistributionOfManyRunsKeepsTheSharesOfFiveHundredOfThem) {
+  Rows rows;
+  for (int run = 1; run <= 1237; ++run) rows.add("m", std::to_string(run), run);
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, compare_methods(view));
+  ASSERT_EQ(figures.groups.size(), 1U);
+  std::set<double> steps;
+  for (const Layer& layer : figures.groups[0].figures[0].panels[0].layers) {
+    const auto* line = std::get_if<Polyline>(&layer);
+    if (line == nullptr) continue;
+    for (std::size_t i = 1; i < line->x.size(); i += 2) {
+      steps.insert(line->x[i]);
+      EXPECT_NEAR(line->y[i], 100.0 * line->x[i] / 1237.0, 1e-9);
+    }
+  }
+  EXPECT_EQ(steps.size(), 500U);
+  EXPECT_EQ(*steps.rbegin(), 1237.0);
 }
 
 /// Two methods over two factors of numbers; `o` has no value at the last level of both.

@@ -80,8 +80,8 @@ inline constexpr Eigen::Index kStepsAtATime = 4096;
 
 /// The same of many landmarks: fewer, so that a block takes 128 MB. A multiple of 64.
 inline Eigen::Index steps_at_a_time(Eigen::Index landmarks) {
-  constexpr Eigen::Index kMostEntries = Eigen::Index{1} << 24, kWord = 64;
-  const Eigen::Index steps = kMostEntries / std::max<Eigen::Index>(landmarks, 1) / kWord * kWord;
+  constexpr Eigen::Index kBlockEntries = Eigen::Index{1} << 24, kWord = 64;
+  const Eigen::Index steps = kBlockEntries / std::max<Eigen::Index>(landmarks, 1) / kWord * kWord;
   return std::clamp(steps, kWord, kStepsAtATime);
 }
 

@@ -229,6 +229,16 @@ std::vector<OdometryGap> gaps_by_stamps(const RangeLog& log) {
   return gaps;
 }
 
+std::vector<double> breaks_of(const std::vector<OdometryGap>& gaps) {
+  std::vector<double> breaks_s;
+  for (const OdometryGap& gap : gaps) {
+    breaks_s.push_back(gap.from_s);
+    breaks_s.push_back(gap.to_s);
+  }
+  std::ranges::sort(breaks_s);
+  return breaks_s;
+}
+
 std::vector<OdometryGap> frozen_stretches(const RangeLog& log, std::size_t most) {
   const Steps steps = steps_of(log);
   std::vector<OdometryGap> runs;

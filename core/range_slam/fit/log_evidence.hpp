@@ -14,15 +14,19 @@ namespace mapproof {
 /// Times without odometry, longer than ten times its median step.
 std::vector<OdometryGap> gaps_by_stamps(const RangeLog& log);
 
+/// The times at which gaps begin and end, in ascending order.
+std::vector<double> breaks_of(const std::vector<OdometryGap>& gaps);
+
 /// The longest runs of motions that are exactly zero, of ten or more; as gaps. At most `most`.
 std::vector<OdometryGap> frozen_stretches(const RangeLog& log, std::size_t most);
 
-/// Of fault-free logs, with a third to three times the usual noise, at most 6 %; of logs whose ranges are
-/// 15 s late, 15 % and more. Ranges alone may fit a path: odometry is what the clock stands out by.
+/// Of fault-free logs, with a third to three times the usual noise, at most 6 %; of logs whose
+/// ranges are 15 s late, 15 % and more. Ranges alone may fit a path: odometry is what the clock
+/// stands out by.
 inline constexpr double kOdometryErrorBound_percent = 10.0;
 
-/// How far the robot moved otherwise than the odometry reports: the median, over the motions between
-/// key poses, of the error over the way, in percent.
+/// How far the robot moved otherwise than the odometry reports: the median, over the motions
+/// between key poses, of the error over the way, in percent.
 double odometry_error_percent(const LogProblem& problem, const LogState& state);
 
 /// How much the variance of a mean of residuals grows through their dependence in time, >= 1:

@@ -141,15 +141,16 @@ ObservationSource read_long(std::string_view text, const std::string& source, Se
                                   return measured.value == 1.0;
                                 });
   const double others = lists_detections ? 0.0 : kNaN;
-  ObservationSource result{.history = {.sensor = sensor,
-                                       .names = rows.names().names(),
-                                       .values = arrange(measurements, rows, others, source)},
-                           .ground_truth_m = std::nullopt,
-                           .remarks = rows.scans().remarks(),
-                           .locations = rows.names().locations(),
-                           .path = source,
-                           .unassociated = unassociated_in(measurements),
-                           .reading = rows.scans().reading()};
+  ObservationSource result{
+      .history = ObservationHistory{.sensor = sensor,
+                                    .names = rows.names().names(),
+                                    .values = arrange(measurements, rows, others, source)},
+      .ground_truth_m = std::nullopt,
+      .remarks = rows.scans().remarks(),
+      .locations = rows.names().locations(),
+      .path = source,
+      .unassociated = unassociated_in(measurements),
+      .reading = rows.scans().reading()};
   result.reading.form = "long table";
   result.reading.separator = reader.separator();
   result.reading.has_decimal_commas = reader.has_decimal_commas();

@@ -43,9 +43,10 @@ std::optional<pid_t> writer(const fs::path& file) {
 
 /// Whether the program writes to a folder of that name, and those below it, in a folder of records.
 bool is_written(const fs::path& folder) {
-  constexpr std::array<std::string_view, 14> kNames = {
-      "runs",    "maps",   "details",       "paths",          "convergence",  "parts",  "errors",
-      "figures", "tables", "figures-paper", "figures-styled", "nightly_runs", "trends", "objects"};
+  constexpr std::array<std::string_view, 15> kNames = {
+      "runs",          "maps",           "details",      "paths",   "convergence",
+      "parts",         "errors",         "pages",        "figures", "tables",
+      "figures-paper", "figures-styled", "nightly_runs", "trends",  "objects"};
   return std::ranges::find(kNames, folder.filename().string()) != kNames.end() || is_study(folder);
 }
 

@@ -25,12 +25,13 @@ void add_family(Results& results, const MethodSetting& setting) {
 /// Adds what came of one method under one condition in one run.
 class RecordRows {
  public:
-  RecordRows(Results& results, Condition at, std::string method, std::string run, std::string group)
+  RecordRows(Results& results, const Condition& at, const Name& method, const Name& run,
+             const Name& group)
       : results_(results) {
-    row_.at = std::move(at);
-    row_.method = std::move(method);
-    row_.run = std::move(run);
-    row_.group = std::move(group);
+    row_.at = at;
+    row_.method = method;
+    row_.run = run;
+    row_.group = group;
   }
 
   void add(std::string_view quantity, double value) {

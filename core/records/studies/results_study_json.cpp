@@ -79,7 +79,7 @@ ResultsStudy read_results_study(const fs::path& folder) {
   const std::string head = (folder / "study.json").string();
   const std::string table = (folder / "results.csv").string();
   ResultsStudy study = parse_results_study(read_file(head), head);
-  study.results.rows = parse_results_csv(read_file(table), table, study.results.quantities);
+  study.results.rows = read_results_csv(table, study.results.quantities);
   if (study.results.rows.empty()) throw IoError(table, "has no row");
   if (const std::string unused = complete(study); !unused.empty())
     throw IoError(head, fmt::format("{}: results.csv has no row of it", unused));

@@ -38,7 +38,7 @@ void try_file(StudyContents& contents, const fs::path& folder, const fs::path& f
 }
 
 void add_log(StudyContents& contents, const SlamRun& run) {
-  contents.runs[run.id] = run.id;
+  contents.runs.set(run.id, run.id);
   for (const SlamRecord& record : run.records) {
     const std::string id =
         record_name(condition(run.id), std::string(info(record.method).name), run.id);
@@ -57,7 +57,7 @@ StudyContents contents_of(const MapRecord& map) {
   StudyContents contents;
   contents.kind = "mapproof.map";
   contents.results = results_of(map);
-  contents.runs[""] = "";
+  contents.runs.set("", "");
   contents.points[map.id] = placed(map);
   return contents;
 }

@@ -12,6 +12,7 @@
 #include "core/model/study.hpp"
 #include "core/results/results.hpp"
 #include "core/results/study_labels.hpp"
+#include "core/results/values_by_run.hpp"
 
 namespace mapproof {
 
@@ -42,9 +43,8 @@ struct StudyContents {
   Results results;
   /// Its author chose its groups: they are the units of every test, however few.
   bool draws_groups = false;
-  std::vector<Result> seconds;              ///< Of its parts: they vary from run to run.
-  std::map<std::string, std::string> runs;  ///< Id of each, and its group; of one that cannot be
-                                            ///< read nothing is known.
+  std::vector<Result> seconds;  ///< Of its parts: they vary from run to run.
+  GroupsByRun runs;             ///< Of one that cannot be read the group is not known: empty.
   std::map<std::string, AlignedPoints> worlds;  ///< By run: the true positions.
   std::map<std::string, std::string> anchors;   ///< By run: their rows, as text.
   std::map<std::string, AlignedPoints> points;  ///< Maps and paths, by record_name().

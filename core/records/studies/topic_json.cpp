@@ -15,7 +15,7 @@ namespace {
 
 std::optional<RecordFault> fault_of(const Condition& at, const std::string& method,
                                     const TopicDesign& design) {
-  const auto setup = std::ranges::find(design.setups, at.setup, &TopicSetup::id);
+  const auto setup = std::ranges::find(design.setups, at.setup.get(), &TopicSetup::id);
   if (setup == design.setups.end()) return {{"setup", "the study has no such setup"}};
   for (const SetupFactor& factor : setup->factors) {
     const auto found = std::ranges::find(at.levels, factor.id, &Level::factor);

@@ -225,13 +225,17 @@ void fields(Visitor& v, TopicStudy& study) {
 /// What was tried under which condition.
 template <typename Visitor>
 void tried_fields(Visitor& v, Condition& at, std::string& method) {
-  v.field("setup", at.setup);
+  std::string setup = at.setup;
+  v.field("setup", setup);
   v.field("method", method);
   std::map<std::string, double> levels;
   for (const Level& level : at.levels) levels[level.factor] = std::get<double>(level.value);
   v.field("levels", levels, {.description = "By factor.", .whole_as_integers = true});
-  if constexpr (Visitor::kReads)
-    for (const auto& [factor, level] : levels) at.levels.push_back({factor, level});
+  if constexpr (Visitor::kReads) {
+    std::vector<Level> all;
+    for (const auto& [factor, level] : levels) all.push_back({factor, level});
+    at = condition(setup, std::move(all));
+  }
 }
 
 template <typename Visitor>

@@ -20,7 +20,8 @@ class RowEnds {
   std::size_t in(std::string_view bytes);
 
  private:
-  std::size_t searched_ = 0, line_ = 0, whole_ = 0;  ///< Up to which; where a line and the rest begin.
+  std::size_t searched_ = 0, line_ = 0,
+              whole_ = 0;  ///< Up to which; where a line and the rest begin.
   bool has_quotes_ = false, is_quoted_ = false;
 };
 
@@ -44,6 +45,10 @@ class TableStream {
   /// @param longest_row  Bytes of a row beyond which quotes are taken not to end.
   explicit TableStream(ByteSource& source, std::size_t longest_row = kLongestRow)
       : source_(source), longest_row_(longest_row) {}
+
+  /// @param separator  Of the cells, see TableReader.
+  TableStream(ByteSource& source, char separator)
+      : source_(source), longest_row_(kLongestRow), separator_(separator) {}
 
   /// @return Whether there was a row. @throws IoError with the line for what is not a text, for
   /// broken
@@ -78,7 +83,7 @@ class TableStream {
   std::size_t lines_ = 0;  ///< Before them.
   bool is_over_ = false;
   bool is_cut_ = false;
-  char separator_ = '\0';            ///< Not known before the first row.
+  char separator_ = '\0';            ///< NUL: not known before the first row.
   bool had_decimal_commas_ = false;  ///< Of readers before this one.
   std::optional<TableReader> reader_;
 };

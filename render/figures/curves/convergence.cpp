@@ -99,6 +99,28 @@ std::string noise_title(std::span<const ConvergenceCurve> curves) {
                      significant(error_of(*most) / error_of(*least), 2), least->title);
 }
 
+/// How far the sine of the subspace's angle and its bound came from the fewest ranges to the most.
+std::string angle_title(const ErrorLine& sine, const ErrorLine& bound) {
+  if (sine.mean.size() < 2 || !(sine.mean.front() > 0.0) || !(sine.mean.back() > 0.0))
+    return "Angle of the learned subspace and its bound";
+  const double fell = sine.mean.front() / sine.mean.back();
+  const double bound_fell = bound.mean.front() / bound.mean.back();
+  return fmt::format(
+      "The angle of the learned subspace {} by a factor of {}, its bound falls by {}",
+      fell >= 1.0 ? "falls" : "grows", significant(std::max(fell, 1.0 / fell), 2),
+      significant(bound_fell, 2));
+}
+
+/// What the largest factorisation took.
+std::string factorization_title(std::span<const FactorizationCost> costs) {
+  if (costs.empty()) return "Seconds of the factorisation";
+  const FactorizationCost& most = *std::ranges::max_element(costs, {}, [](const auto& cost) {
+    return static_cast<double>(cost.landmarks) * cost.landmarks * static_cast<double>(cost.steps);
+  });
+  return fmt::format("The factorisation of {} and {} takes {}", counted(most.landmarks, "landmark"),
+                     counted(most.steps, "step"), seconds_text(most.seconds));
+}
+
 /// Costs with the same N or the same T as a line; alone they make none.
 std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool over_steps) {
   const auto fixed = [&](const FactorizationCost& cost) {
@@ -190,11 +212,12 @@ Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) 
 }
 
 Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curve) {
-  LogLogSpec spec = spec_of(id, "Angle of the learned subspace and its bound", curve);
+  LogLogSpec spec = spec_of(id, "", curve);
   const ErrorLine sine = line_of(curve, &ConvergencePoint::sine, "measured", "sine");
   ErrorLine bound{.label = "bound, eq. 5", .key = "bound"};
   for (const ConvergencePoint& point : curve.points) bound.mean.push_back(point.bound);
   bound.x = sine.x;
+  spec.title = angle_title(sine, bound);
   spec.caption = fmt::format(
       "{} Dashed: N c \u221A(2 log T / T) / \u03B3, its constant fitted at the first point. Slope "
       "of "
@@ -248,7 +271,7 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
 Figure factorization_cost_figure(const std::string& id, std::span<const FactorizationCost> costs) {
   LogLogSpec spec;
   spec.id = id;
-  spec.title = "Seconds of the factorisation";
+  spec.title = factorization_title(costs);
   spec.varies = true;
   spec.caption =
       "Seconds of singular values and upgrade over the number of steps T and of landmarks N, "

@@ -63,12 +63,13 @@ Cells cells_of(const HeatMapSpec& spec) {
   cells.x = {-0.5, static_cast<double>(columns) - 0.5};
   cells.y = {-0.5, static_cast<double>(rows) - 0.5};
   cells.columns = columns;
-  cells.ramp = Ramp::kViridis;
-  cells.limits = span_of(spec);
-  if (spec.unit != "%" && cells.limits.low > 0.0 &&
-      cells.limits.high > kWideRange * cells.limits.low)
-    cells.scale = Scale::kLog;
-  cells.bar_label = spec.unit.empty() ? spec.quantity : spec.quantity + " [" + spec.unit + "]";
+  cells.colour_scale.ramp = Ramp::kViridis;
+  cells.colour_scale.limits = span_of(spec);
+  if (spec.unit != "%" && cells.colour_scale.limits.low > 0.0 &&
+      cells.colour_scale.limits.high > kWideRange * cells.colour_scale.limits.low)
+    cells.colour_scale.scale = Scale::kLog;
+  cells.colour_scale.bar_label =
+      spec.unit.empty() ? spec.quantity : spec.quantity + " [" + spec.unit + "]";
   for (std::size_t row = rows; row-- > 0;)  // The uppermost first.
     for (std::size_t column = 0; column < columns; ++column) {
       const double value = spec.values[row * columns + column];
@@ -118,9 +119,9 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
     hatch(x, y, hatching);
     ++count;
   }
-  figure.caption =
-      fmt::format("Colours: {} over {} and {}, mean over runs{}.", spec.quantity, spec.x_label,
-                  spec.y_label, cells.scale == Scale::kLog ? ", on a logarithmic scale" : "");
+  figure.caption = fmt::format(
+      "Colours: {} over {} and {}, mean over runs{}.", spec.quantity, spec.x_label, spec.y_label,
+      cells.colour_scale.scale == Scale::kLog ? ", on a logarithmic scale" : "");
   if (count > 0) {
     figure.notes.push_back({"Hatched: " + spec.missing + ".", ThemeColour::kText});
     figure.caption += fmt::format(" Hatched, {}: {}.", counted(count, "cell"), spec.missing);

@@ -78,8 +78,9 @@ Panel history_of(const IdeaSpec& spec) {
   Cells cells{.x = {0.0, 1.0}, .y = {0.0, 1.0}, .columns = static_cast<std::size_t>(columns)};
   for (Eigen::Index i = 0; i < rows; ++i)
     for (Eigen::Index t = 0; t < columns; ++t) cells.values.push_back(spec.history.values(i, t));
-  cells.limits = limits_of(spec.history);
-  cells.ramp = spec.history.sensor == Sensor::kVisibility ? Ramp::kColour : Ramp::kViridis;
+  cells.colour_scale.limits = limits_of(spec.history);
+  cells.colour_scale.ramp =
+      spec.history.sensor == Sensor::kVisibility ? Ramp::kColour : Ramp::kViridis;
   cells.mark = {"history", {{"sensor", std::string(name(spec.history.sensor))}}};
   Area border{.colour = ThemeColour::kText, .fill = Fill::kNone, .outlined = true, .width = 0.8};
   add_box(border, {0.0, 1.0}, {0.0, 1.0});

@@ -247,13 +247,6 @@ bool usable(const CostedSetting& setting) {
   return setting.seconds > 0.0 && !std::isnan(setting.mpe_m);
 }
 
-/// "0.3 ms", "12 s".
-std::string duration(double seconds) {
-  if (seconds < 1e-3) return significant(1e6 * seconds, 2) + " µs";
-  if (seconds < 1.0) return significant(1e3 * seconds, 2) + " ms";
-  return significant(seconds, 2) + " s";
-}
-
 /// The points of a Pareto figure and the words on them.
 struct ParetoLayers {
   Polyline steps{.label = "Pareto front",
@@ -283,7 +276,7 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
     add_setting(layers.best, one, i);
     add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
     layers.words.push_back(
-        fmt::format("{} ({} in {})", one.label, error_text(one.mpe_m), duration(one.seconds)));
+        fmt::format("{} ({} in {})", one.label, error_text(one.mpe_m), seconds_text(one.seconds)));
   }
   const bool crowded = std::ranges::count_if(settings, usable) > kMostNamedSettings;
   for (std::size_t i = 0; i < settings.size(); ++i) {

@@ -66,7 +66,7 @@ Cells density(const ShepardPanel& panel, const PanelLimits& limits) {
   }
   cells.values = std::move(counts);
   // Even a single pair is visible on the background.
-  cells.limits = {0.4 * std::log1p(1.0), std::log1p(most)};
+  cells.colour_scale.limits = {0.4 * std::log1p(1.0), std::log1p(most)};
   cells.colour = ThemeColour::kSeries1;
   return cells;
 }

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "render/figures/error_ramp.hpp"
 #include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kErrorCells = 30;    // Along a side.
-constexpr double kErrorPercentile = 0.95;  // At the end of the ramp.
+constexpr std::size_t kErrorCells = 30;  // Along a side.
 
 /// Landmarks with a true position and an estimate.
 struct Errors {
@@ -52,12 +52,11 @@ double error_at(const Errors& errors, double x, double y, double least) {
 }
 
 Cells cells_of(const Errors& errors, double side_m, double most_m) {
-  Cells cells{.label = fmt::format("position error, 0 to {} m or more", significant(most_m, 2)),
+  Cells cells{.label = "position error, " + error_ramp_text(most_m),
               .x = {0.0, side_m},
               .y = {0.0, side_m},
               .columns = kErrorCells,
-              .limits = {0.0, most_m},
-              .ramp = Ramp::kViridis};
+              .colour_scale = {.limits = {0.0, most_m}, .ramp = Ramp::kViridis}};
   const double cell = side_m / kErrorCells;
   for (std::size_t row = kErrorCells; row-- > 0;)
     for (std::size_t column = 0; column < kErrorCells; ++column)
@@ -71,10 +70,7 @@ double most_of(const std::vector<Errors>& maps) {
   std::vector<double> all;
   for (const Errors& errors : maps)
     all.insert(all.end(), errors.error_m.begin(), errors.error_m.end());
-  std::ranges::sort(all);
-  const auto rank =
-      static_cast<std::size_t>(std::lround(kErrorPercentile * static_cast<double>(all.size() - 1)));
-  return std::max(all[rank], 1e-6);
+  return end_of_error_ramp(std::move(all));
 }
 
 }  // namespace

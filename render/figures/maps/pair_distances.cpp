@@ -50,9 +50,8 @@ struct Distances {
 
 Distances distances_in(const Points& positions_shown_m, const PairDistancesSpec& spec,
                        const char* where, ThemeColour colour, Marker marker) {
-  Distances result{where,
-                   {.label = where, .colour = colour, .marker = marker, .size = 0.5},
-                   {.label = where, .colour = colour, .marker = marker, .size = 0.5}};
+  Distances result{where, Scatter{.label = where, .colour = colour, .marker = marker, .size = 0.5},
+                   Scatter{.label = where, .colour = colour, .marker = marker, .size = 0.5}};
   for (const MeasuredPair& pair : spec.pairs) {
     const double known_m =
         (positions_shown_m.row(pair.first) - positions_shown_m.row(pair.second)).norm();

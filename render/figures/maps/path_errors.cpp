@@ -11,7 +11,6 @@
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "render/base/span.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/number_text.hpp"
@@ -20,8 +19,9 @@ namespace mapproof {
 namespace {
 
 constexpr int kCurveBins = 200;
-/// Cells along the longer side of a map: some four pixels each.
-constexpr double kCells = 100.0;
+/// Of a path on a map: at 500 points of width a piece is shorter than its line is wide.
+constexpr Eigen::Index kMostPieces = 2000;
+constexpr double kPathWidth = 1.6;  // Lines of the theme.
 constexpr std::array kAxisNames = {"x", "y", "z"};
 
 void check(const PathErrorsSpec& spec) {
@@ -73,60 +73,6 @@ std::pair<Eigen::Index, Eigen::Index> plane_of(const PathErrorsSpec& spec) {
   return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }
 
-/// A grid of square cells over the ground truths.
-struct Grid {
-  Range x, y;
-  std::size_t columns = 1, rows = 1;
-
-  std::size_t cell_of(double at_x, double at_y) const {
-    const auto index = [](double at, const Range& range, std::size_t count) {
-      const double share = (at - range.low) / (range.high - range.low);
-      return std::min(count - 1, static_cast<std::size_t>(share * static_cast<double>(count)));
-    };
-    // The uppermost row first.
-    return (rows - 1 - index(at_y, y, rows)) * columns + index(at_x, x, columns);
-  }
-};
-
-Grid grid_of(const PathErrorsSpec& spec, std::pair<Eigen::Index, Eigen::Index> plane) {
-  Span x, y;
-  for (const PathErrorLine& line : spec.lines) {
-    const SpacePoints& path = line.poses->ground_truth_m;
-    for (Eigen::Index i = 0; i < path.rows(); ++i) {
-      x.see(path(i, plane.first));
-      y.see(path(i, plane.second));
-    }
-  }
-  const double side_m = std::max(x.high - x.low, y.high - y.low);
-  const double cell_m = side_m > 0.0 ? side_m / kCells : 1.0;
-  const auto cells = [&](const Span& span) {
-    return static_cast<std::size_t>(std::floor((span.high - span.low) / cell_m)) + 1;
-  };
-  Grid grid;
-  grid.columns = cells(x);
-  grid.rows = cells(y);
-  const auto around = [&](const Span& span, std::size_t count) {
-    const double middle = 0.5 * (span.low + span.high);
-    const double half = 0.5 * static_cast<double>(count) * cell_m;
-    return Range{middle - half, middle + half};
-  };
-  grid.x = around(x, grid.columns);
-  grid.y = around(y, grid.rows);
-  return grid;
-}
-
-/// Fills the cells that the way between two poses crosses with the greater of their errors.
-void add_way(const Grid& grid, const Eigen::RowVector2d& from, const Eigen::RowVector2d& to,
-             double error_m, std::vector<double>& values) {
-  const double cell_m = (grid.x.high - grid.x.low) / static_cast<double>(grid.columns);
-  const int steps = 1 + static_cast<int>(std::min(2.0 * (to - from).norm() / cell_m, 1e4));
-  for (int i = 0; i <= steps; ++i) {
-    const Eigen::RowVector2d at = from + (to - from) * (static_cast<double>(i) / steps);
-    double& value = values[grid.cell_of(at.x(), at.y())];
-    if (!(value >= error_m)) value = error_m;
-  }
-}
-
 /// Longer ways between two poses are a gap in what was associated.
 double longest_way(const PoseErrors& poses) {
   std::vector<double> ways_m;
@@ -136,38 +82,48 @@ double longest_way(const PoseErrors& poses) {
   return ways_m.empty() ? 0.0 : kManyTimes * std::max(upper_median(std::move(ways_m)), 1e-12);
 }
 
-Panel map_panel(const PathErrorLine& line, const Grid& grid,
-                std::pair<Eigen::Index, Eigen::Index> plane, double greatest_m) {
-  const PoseErrors& poses = *line.poses;
-  const auto at = [&](const SpacePoints& path, Eigen::Index i) {
-    return Eigen::RowVector2d(path(i, plane.first), path(i, plane.second));
-  };
-  Cells cells{.x = grid.x, .y = grid.y, .columns = grid.columns};
-  cells.values.assign(grid.columns * grid.rows, kNaN);
-  cells.limits = {0.0, greatest_m > 0.0 ? greatest_m : 1.0};
-  cells.ramp = Ramp::kViridis;
-  cells.bar_label = "error [m]";
-  cells.mark = {.id = "errors", .data = {{"method", line.label}}};
+/// Some of the poses: of those in one of kMostPieces equal pieces of the way the one with the
+/// greatest error, or all if there are no more than that. None (-1) stands in a gap.
+std::vector<Eigen::Index> shown_poses(const PoseErrors& poses) {
   const double longest_m = longest_way(poses);
-  // Without a legend, for which a colour bar leaves no room; the caption says what the line is.
-  Polyline estimate{.colour = ThemeColour::kText, .width = 0.5};
-  for (Eigen::Index i = 0; i < poses.size(); ++i) {
-    const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0);
-    const bool follows = poses.distance_m(i) - poses.distance_m(before) <= longest_m;
-    add_way(grid, at(poses.ground_truth_m, follows ? before : i), at(poses.ground_truth_m, i),
-            std::max(poses.error_m(i), follows ? poses.error_m(before) : 0.0), cells.values);
-    if (!follows) {
-      estimate.x.push_back(kNaN);
-      estimate.y.push_back(kNaN);
-    }
-    estimate.x.push_back(at(poses.estimate_m, i).x());
-    estimate.y.push_back(at(poses.estimate_m, i).y());
+  const double piece_m = poses.distance_m(poses.size() - 1) / kMostPieces;
+  std::vector<Eigen::Index> shown = {0};
+  for (Eigen::Index i = 1; i < poses.size(); ++i) {
+    if (poses.distance_m(i) - poses.distance_m(i - 1) > longest_m)
+      shown.insert(shown.end(), {-1, i});
+    else if (poses.size() <= kMostPieces ||
+             std::floor(poses.distance_m(i) / piece_m) >
+                 std::floor(poses.distance_m(shown.back()) / piece_m))
+      shown.push_back(i);
+    else if (poses.error_m(i) > poses.error_m(shown.back()))
+      shown.back() = i;
+  }
+  return shown;
+}
+
+Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index> plane,
+                double greatest_m) {
+  const PoseErrors& poses = *line.poses;
+  Polyline ground_truth{.label = "ground truth", .colour = ThemeColour::kMuted, .width = 0.6};
+  Polyline estimate{.label = "estimate", .width = kPathWidth};
+  estimate.mark = {.id = "errors", .data = {{"method", line.label}}};
+  estimate.colour_scale = {.limits = {0.0, greatest_m > 0.0 ? greatest_m : 1.0},
+                           .ramp = Ramp::kViridis,
+                           .bar_label = "error [m]"};
+  for (const Eigen::Index i : shown_poses(poses)) {
+    const auto add = [&](const SpacePoints& path, Polyline& to) {
+      to.x.push_back(i < 0 ? kNaN : path(i, plane.first));
+      to.y.push_back(i < 0 ? kNaN : path(i, plane.second));
+    };
+    add(poses.ground_truth_m, ground_truth);
+    add(poses.estimate_m, estimate);
+    estimate.values.push_back(i < 0 ? kNaN : poses.error_m(i));
   }
   Panel panel;
   panel.x.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.first)]);
   panel.y.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.second)]);
   panel.equal_aspect = true;
-  panel.layers.emplace_back(std::move(cells));
+  panel.layers.emplace_back(std::move(ground_truth));
   panel.layers.emplace_back(std::move(estimate));
   return panel;
 }
@@ -210,19 +166,16 @@ Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown) {
   if (shown >= spec.lines.size())
     throw InvalidInput("figure " + printable(spec.id) + ": there is no such path");
   const auto plane = plane_of(spec);
-  const Grid grid = grid_of(spec, plane);
-  const double cell_m = (grid.x.high - grid.x.low) / static_cast<double>(grid.columns);
   PathErrorsSpec one = spec;
   one.lines = {spec.lines[shown]};
   Figure figure =
-      figure_of(one, fmt::format("Colours: the greatest position error in cells of {} m along the "
-                                 "ground truth; line: the aligned estimate. RMSE: {} m.",
-                                 significant(cell_m, 2),
+      figure_of(one, fmt::format("The aligned estimate, coloured by the position error; grey: the "
+                                 "ground truth. RMSE: {} m.",
                                  significant(root_mean_square(spec.lines[shown].poses->error_m))));
   double greatest_m = 0.0;
   for (const PathErrorLine& line : spec.lines)
     greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
-  figure.panels.push_back(map_panel(spec.lines[shown], grid, plane, greatest_m));
+  figure.panels.push_back(map_panel(spec.lines[shown], plane, greatest_m));
   require_valid(figure);
   return figure;
 }

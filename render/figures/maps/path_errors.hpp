@@ -24,9 +24,10 @@ struct PathErrorsSpec {
   std::vector<std::string> record_ids;
 };
 
-/// The ground truth of the poses of one of the methods, coloured by the greatest error of the poses
-/// in a cell, and the estimate as a line. It is seen along the axis along which the ground truth
-/// extends least. The figures of all methods have the same cells and colours.
+/// The aligned estimate of one of the methods as a line in the colours of its errors, and the
+/// ground truth as a thin grey one. They are seen along the axis along which the ground truth
+/// extends least. The figures of all methods have the same colours. Of more than 2000 poses those
+/// with the greatest errors in 2000 equal pieces of the way are drawn.
 /// @param shown  A row of `spec.lines`.
 /// @throws InvalidInput if there is no such line, or one without poses.
 Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown);

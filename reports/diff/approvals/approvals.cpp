@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -150,8 +151,8 @@ void require_gone(const fs::path& file) {
 
 /// One side of an approval.
 struct ApprovalSide {
-  std::filesystem::path root;
-  ApprovalFiles files = {};  ///< Of approval_files(root).
+  const std::filesystem::path& root;
+  const ApprovalFiles& files;  ///< Of approval_files(root).
 };
 
 /// Records that are not a study.
@@ -356,7 +357,7 @@ class Planner {
     steps_.clear();
     try {
       if (!before_.contains(id) && !after_.contains(id)) throw InvalidInput("has no files to take");
-      require_comparable({baseline_, before_}, {current_, after_});
+      if (const std::string& why = not_comparable(); !why.empty()) return why;
       add_id(id, "", whole);
       return "";
     } catch (const InvalidInput& error) {
@@ -367,6 +368,19 @@ class Planner {
   bool has_records() const { return after_.contains(kRecordsItem); }
 
  private:
+  /// Why the sides are not comparable; empty if they are. Examined once, not for each item.
+  const std::string& not_comparable() {
+    if (!not_comparable_) {
+      not_comparable_ = "";
+      try {
+        require_comparable({baseline_, before_}, {current_, after_});
+      } catch (const InvalidInput& error) {
+        not_comparable_ = error.what();
+      }
+    }
+    return *not_comparable_;
+  }
+
   /// @param whole  Whether all records are approved too.
   void add_id(const std::string& id, const std::string& key, bool whole) {
     if (!key.empty()) return add_keyed(id, key);
@@ -404,9 +418,11 @@ class Planner {
 
   /// Removes the further baselines ID@KEY of an image that is replaced: they show the old one.
   void remove_keyed(const std::string& id, const fs::path& extension) {
-    for (const auto& [other, paths] : before_)
-      if (other.starts_with(id + "@") && !after_.contains(other))
-        for (const fs::path& path : paths)
+    const std::string start = id + "@";
+    for (auto other = before_.lower_bound(start);
+         other != before_.end() && other->first.starts_with(start); ++other)
+      if (!after_.contains(other->first))
+        for (const fs::path& path : other->second)
           if (path.extension() == extension) remove(path);
   }
 
@@ -464,6 +480,7 @@ class Planner {
   fs::path baseline_, current_;
   std::set<fs::path> decoded_;
   ApprovalFiles before_, after_;
+  std::optional<std::string> not_comparable_;
   std::set<fs::path> planned_;
   std::vector<ApprovalStep> steps_;
 };

@@ -104,8 +104,7 @@ std::optional<Layer> change_of_cells(const Layer& a, const Layer& b) {
     if (std::isfinite(size)) most = std::max(most, size);
   }
   if (most == 0.0) return std::nullopt;
-  change.limits = {0.0, most};
-  change.bar_label = "size of the change";
+  change.colour_scale = {.limits = {0.0, most}, .bar_label = "size of the change"};
   return change;
 }
 
@@ -195,8 +194,8 @@ std::optional<Panel> panel_of_points(const std::vector<PointsDiff>& all) {
   names.x = after.x, names.y = after.y;
   const bool in_metres = farthest->quantity != "landmark_shape";
   return Panel{.title = printable(farthest->record, 200),
-               .x = {.label = in_metres ? "x [m]" : "x"},
-               .y = {.label = in_metres ? "y [m]" : "y"},
+               .x = Axis{.label = in_metres ? "x [m]" : "x"},
+               .y = Axis{.label = in_metres ? "y [m]" : "y"},
                .equal_aspect = true,
                .layers = {lines, before, after, names}};
 }
@@ -222,8 +221,8 @@ std::optional<Panel> panel_of(const Comparison& comparison) {
                                : fmt::format("{} [{}]", quantity.label, quantity.unit);
   runs.label = counted(std::ssize(runs.x), "run");
   return Panel{.title = printable(comparison.subject, 200),
-               .x = {.label = "baseline: " + name},
-               .y = {.label = "current: " + name},
+               .x = Axis{.label = "baseline: " + name},
+               .y = Axis{.label = "current: " + name},
                .layers = {equal, runs}};
 }
 

@@ -51,6 +51,10 @@ struct LayerViewer : FieldVisitor {
   }
 
   void field(std::string_view key, const std::vector<double>& values, const FieldRule& = {}) {
+    if (key == "values" && view.kind == "polyline") {
+      if (values.empty()) return;
+      view.kind = "polyline with values";  // Compared with another one alone.
+    }
     const std::string_view name = word_of(key);
     const std::size_t index = view.coordinates.size();
     if (name.starts_with('x'))

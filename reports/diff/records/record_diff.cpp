@@ -176,8 +176,10 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
     diff.moved_ground_truth = moved_ground_truth(a, b, options.tolerances);
   compare_settings(a, b, diff);
   compare_provenance(a.provenance, b.provenance, diff);
-  match(a.runs, b.runs, diff.missing_runs, diff.new_runs,
-        [](const std::string&, const std::string&, const std::string&) {});
+  for (const Name& run : a.runs.runs())
+    if (!b.runs.contains(run)) diff.missing_runs.push_back(run);
+  for (const Name& run : b.runs.runs())
+    if (!a.runs.contains(run)) diff.new_runs.push_back(run);
   compare_subjects(a, b, diff);
   for (const RecordSet* side : {&a, &b})
     std::ranges::copy(side->quantities.declared(), std::back_inserter(diff.declared));

@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kMostPairs = 20;
 constexpr int kLeastTested = 6;  // Below it, no p can be less than 0.05.
 
-using Values = std::map<std::string, double>;
-
 std::set<std::string> subjects_of(const RecordSet& set) {
   std::set<std::string> subjects;
   for (const auto& [key, values] : set.values) subjects.insert(key.subject);
@@ -34,39 +32,52 @@ std::map<std::string, std::vector<std::string>> lone_subjects(const RecordSet& s
   return lone;
 }
 
-double mean(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return values.empty() ? kNaN : sum / static_cast<double>(values.size());
-}
+/// A mean of values that come one by one.
+class Mean {
+ public:
+  void add(double value) {
+    sum_ += value;
+    ++count_;
+  }
+  bool empty() const { return count_ == 0; }
+  /// NaN without a value.
+  double value() const { return empty() ? kNaN : sum_ / static_cast<double>(count_); }
 
-double mean_of(const Values& values) {
-  std::vector<double> known;
+ private:
+  double sum_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+double mean_of(const ValuesByRun& values) {
+  Mean mean;
   for (const auto& [run, value] : values)
-    if (std::isfinite(value)) known.push_back(value);
-  return mean(known);
+    if (std::isfinite(value)) mean.add(value);
+  return mean.value();
 }
 
-/// Differences of pairs, by group and by run.
-struct Differences {
-  std::map<std::string, std::vector<double>> by_group;
-  std::vector<double> by_run;
-};
+/// Leaves the largest of all pairs; of equal ones those that came first.
+void keep_largest(std::vector<PairedValue>& pairs) {
+  const auto size = [](const PairedValue& pair) {
+    const double difference = std::abs(pair.current - pair.baseline);
+    return std::isnan(difference) ? kInfinity : difference;
+  };
+  std::ranges::stable_sort(pairs, std::ranges::greater(), size);
+  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
+}
 
-/// A comparison with the differences that decide its outcome.
-struct Open {
-  Comparison comparison;
-  Differences differences;
-};
+void add_to_largest(const PairedValue& pair, std::vector<PairedValue>& pairs) {
+  constexpr std::size_t kHeld = 1000;  // Of which the largest are found at once.
+  if (pairs.size() == kHeld) keep_largest(pairs);
+  pairs.push_back(pair);
+}
 
-void compare_pair(const PairedValue& pair, const std::string& group, const Tolerance& tolerance,
-                  Open& open) {
+void compare_pair(const PairedValue& pair, const Name& run, const Tolerance& tolerance,
+                  Comparison& out, ValuesByRun& differences) {
   const double a = pair.baseline, b = pair.current;
-  Comparison& out = open.comparison;
   if (std::isnan(a) && std::isnan(b)) return;
   if (std::isnan(a) || std::isnan(b)) {
     ++(std::isnan(a) ? out.gained : out.lost);
-    out.largest.push_back(pair);
+    add_to_largest(pair, out.largest);
     return;
   }
   ++out.pairs;
@@ -77,8 +88,7 @@ void compare_pair(const PairedValue& pair, const std::string& group, const Toler
       return;
     }
   } else {
-    open.differences.by_run.push_back(b - a);
-    open.differences.by_group[group].push_back(b - a);
+    differences[run] = b - a;
     if (a == b) {
       ++out.equal;
       return;
@@ -90,37 +100,29 @@ void compare_pair(const PairedValue& pair, const std::string& group, const Toler
   }
   ++out.beyond;
   ++(b > a ? out.worse : out.better);
-  out.largest.push_back(pair);
+  add_to_largest(pair, out.largest);
 }
 
 /// @param draws_groups  As in RecordSet: with fewer groups than a test needs there is no test.
-std::optional<PairedTest> paired_test(const Differences& differences, bool draws_groups) {
+std::optional<PairedTest> paired_test(const ValuesByRun& differences, const GroupsByRun& groups,
+                                      bool draws_groups) {
   PairedTest test;
-  std::vector<double> means;
-  for (const auto& [group, values] : differences.by_group) means.push_back(mean(values));
-  const bool are_runs = means.size() == differences.by_run.size();
+  std::vector<double> means, by_run;
+  for (const auto& [group, value] : means_by_group(differences, groups)) means.push_back(value);
+  for (const auto& [run, value] : differences) by_run.push_back(value);
+  const bool are_runs = means.size() == by_run.size();
   const bool by_group = draws_groups || static_cast<int>(means.size()) >= kLeastTested;
   test.unit = !by_group || (draws_groups && are_runs) ? "run" : draws_groups ? "group" : "layout";
-  const std::vector<double>& units = by_group ? means : differences.by_run;
+  const std::vector<double>& units = by_group ? means : by_run;
   if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
   test.test = signed_rank_test(units);
   test.p = test.test.p;
   return test;
 }
 
-void keep_largest(std::vector<PairedValue>& pairs) {
-  const auto size = [](const PairedValue& pair) {
-    const double difference = std::abs(pair.current - pair.baseline);
-    return std::isnan(difference) ? kInfinity : difference;
-  };
-  std::ranges::stable_sort(pairs, std::ranges::greater(), size);
-  if (pairs.size() > kMostPairs) pairs.resize(kMostPairs);
-}
-
 /// The value of a run; NaN if the side has the run but not the value, empty if it has neither.
-std::optional<double> value_of(const RecordSet& set, const Values& values, const std::string& run) {
-  const auto found = values.find(run);
-  if (found != values.end()) return found->second;
+std::optional<double> value_of(const RecordSet& set, const double* value, const Name& run) {
+  if (value != nullptr) return *value;
   return run.empty() || set.runs.contains(run) ? std::optional(kNaN) : std::nullopt;
 }
 
@@ -131,39 +133,49 @@ struct RecordPair {
   bool same_seeds = false;  ///< See have_same_seeds().
 };
 
-/// Compares one quantity of one subject over all runs.
-Open compare(const RecordPair& sides, const Values& before, const Values& after,
-             const Tolerance& tolerance) {
-  const auto& [a, b, same_seeds] = sides;
-  Open open;
-  Comparison& out = open.comparison;
-  std::set<std::string> runs;
-  for (const Values* side : {&before, &after})
-    for (const auto& [run, value] : *side) runs.insert(run);
-  std::vector<double> firsts, seconds;
-  for (const std::string& run : runs) {
-    const std::optional<double> first = value_of(a, before, run), second = value_of(b, after, run);
-    if (!first || !second) continue;
-    const auto group = a.runs.find(run);
-    compare_pair({run, *first, *second}, group == a.runs.end() ? run : group->second, tolerance,
-                 open);
-    if (!std::isfinite(*first) || !std::isfinite(*second)) continue;
-    firsts.push_back(*first);
-    seconds.push_back(*second);
+/// Calls `pair(run, value, other value)` for each run of either side, in ascending order; null: the
+/// side has no value.
+template <typename Pair>
+void for_each_run(const ValuesByRun& a, const ValuesByRun& b, const Pair& pair) {
+  auto one = a.begin(), other = b.begin();
+  while (one != a.end() || other != b.end()) {
+    const bool has_one = one != a.end() && (other == b.end() || !(other->first < one->first));
+    const bool has_other = other != b.end() && (one == a.end() || !(one->first < other->first));
+    pair(has_one ? one->first : other->first, has_one ? &one->second : nullptr,
+         has_other ? &other->second : nullptr);
+    if (has_one) ++one;
+    if (has_other) ++other;
   }
-  out.baseline_mean = same_seeds && !firsts.empty() ? mean(firsts) : mean_of(before);
-  out.current_mean = same_seeds && !seconds.empty() ? mean(seconds) : mean_of(after);
+}
+
+/// Compares one quantity of one subject over all runs.
+Comparison compare(const RecordPair& sides, const ValuesByRun& before, const ValuesByRun& after,
+                   const Tolerance& tolerance) {
+  const auto& [a, b, same_seeds] = sides;
+  Comparison out;
+  ValuesByRun differences;
+  Mean firsts, seconds;
+  differences.reserve(std::max(before.size(), after.size()));
+  for_each_run(before, after, [&](const Name& run, const double* one, const double* other) {
+    const std::optional<double> first = value_of(a, one, run), second = value_of(b, other, run);
+    if (!first || !second) return;
+    compare_pair({run, *first, *second}, run, tolerance, out, differences);
+    if (!std::isfinite(*first) || !std::isfinite(*second)) return;
+    firsts.add(*first);
+    seconds.add(*second);
+  });
+  out.baseline_mean = same_seeds && !firsts.empty() ? firsts.value() : mean_of(before);
+  out.current_mean = same_seeds && !seconds.empty() ? seconds.value() : mean_of(after);
   keep_largest(out.largest);
   if (same_seeds && a.repeats && out.beyond > 0)
-    out.test = paired_test(open.differences, a.draws_groups || b.draws_groups);
-  return open;
+    out.test = paired_test(differences, a.runs, a.draws_groups || b.draws_groups);
+  return out;
 }
 
 /// Whether all errors that differ, of any quantity and subject, became worse, or all became better.
-bool point_one_way(const std::vector<Open>& all) {
+bool point_one_way(const std::vector<Comparison>& all) {
   bool worse = false, better = false;
-  for (const Open& open : all) {
-    const Comparison& c = open.comparison;
+  for (const Comparison& c : all) {
     if (c.quantity.of_solver) continue;
     worse = worse || c.worse + c.lost > 0;
     better = better || c.better + c.gained > 0;
@@ -209,22 +221,22 @@ Outcome outcome_of(const Comparison& c, bool same_seeds, bool one_way,
   return worse > 0 ? Outcome::kWorse : Outcome::kBetter;
 }
 
-void correct(std::vector<Open>& all, double significance) {
+void correct(std::vector<Comparison>& all, double significance) {
   std::vector<double> p;
   double least_p = 1.0;
-  for (const Open& open : all)
-    if (open.comparison.test) {
-      p.push_back(open.comparison.test->p);
-      least_p = std::min(least_p, least_signed_rank_p(open.comparison.test->test.pairs));
+  for (const Comparison& one : all)
+    if (one.test) {
+      p.push_back(one.test->p);
+      least_p = std::min(least_p, least_signed_rank_p(one.test->test.pairs));
     }
   // Holm multiplies the smallest p by the number of tests; all others become no smaller.
   const bool is_powerless = least_p * static_cast<double>(p.size()) >= significance;
   const std::vector<double> corrected = holm(p);
   std::size_t next = 0;
-  for (Open& open : all)
-    if (open.comparison.test) {
-      open.comparison.test->p = corrected[next++];
-      open.comparison.test->powerless_of = is_powerless ? static_cast<int>(p.size()) : 0;
+  for (Comparison& one : all)
+    if (one.test) {
+      one.test->p = corrected[next++];
+      one.test->powerless_of = is_powerless ? static_cast<int>(p.size()) : 0;
     }
 }
 
@@ -266,9 +278,9 @@ std::map<std::string, std::string> matched_subjects(const RecordSet& a, const Re
 std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, bool same_seeds,
                                        const RecordOptions& options, long& values) {
   const std::set<std::string> there = subjects_of(b);
-  static const Values kNone;
+  static const ValuesByRun kNone;
   const std::vector<Quantity> quantities = compared_quantities(a, b);
-  std::vector<Open> all;
+  std::vector<Comparison> all;
   values = 0;
   for (const auto& [subject, other] : matched_subjects(a, b)) {
     if (!there.contains(other)) continue;
@@ -276,27 +288,22 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       const auto before = a.values.find({subject, quantity.id});
       const auto after = b.values.find({other, quantity.id});
       if (before == a.values.end() && after == b.values.end()) continue;
-      Open open = compare({a, b, same_seeds}, before == a.values.end() ? kNone : before->second,
-                          after == b.values.end() ? kNone : after->second,
-                          tolerance_of(quantity, options.tolerances));
-      Comparison& c = open.comparison;
+      Comparison c = compare({a, b, same_seeds}, before == a.values.end() ? kNone : before->second,
+                             after == b.values.end() ? kNone : after->second,
+                             tolerance_of(quantity, options.tolerances));
       values += c.pairs + c.lost + c.gained;
       c.subject = subject;
       c.current_subject = other;
       c.quantity = quantity;
       if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
       if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;
-      if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(open));
+      if (c.within + c.beyond + c.lost + c.gained > 0) all.push_back(std::move(c));
     }
   }
   correct(all, options.significance);
   const bool one_way = point_one_way(all);
-  std::vector<Comparison> compared;
-  for (Open& open : all) {
-    open.comparison.outcome = outcome_of(open.comparison, same_seeds, one_way, options);
-    compared.push_back(std::move(open.comparison));
-  }
-  return compared;
+  for (Comparison& one : all) one.outcome = outcome_of(one, same_seeds, one_way, options);
+  return all;
 }
 
 }  // namespace mapproof

@@ -88,11 +88,19 @@ void add_family(RecordSet& set, const Results& results, const Result& row) {
 
 RecordSet set_of(StudyContents contents) {
   RecordSet set;
-  for (const Result& row : contents.results.rows) {
-    set.values[{series_name(row.at, row.method, row.subject), row.quantity}]
-              [run_in_name(row.at, row.run)] = row.value;
-    add_family(set, contents.results, row);
+  const std::vector<Result>& rows = contents.results.rows;
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto end = std::find_if(first, rows.end(), [&](const Result& row) {
+      return row.at != first->at || row.method != first->method ||
+             row.quantity != first->quantity || row.subject != first->subject;
+    });
+    ValuesByRun& values =
+        set.values[{series_name(first->at, first->method, first->subject), first->quantity}];
+    if (values.empty()) values.reserve(static_cast<std::size_t>(end - first));
+    add_family(set, contents.results, *first);
+    for (; first != end; ++first) values[run_in_name(first->at, first->run)] = first->value;
   }
+  contents.results.rows = {};
   for (const RunOutcome& outcome : contents.results.outcomes)
     set.statuses[record_name(outcome.at, outcome.method, outcome.run)] =
         fmt::format("{}", fmt::join(outcome.codes, ", "));
@@ -128,8 +136,8 @@ RecordSet read_single(const fs::path& file) {
   const MapRecord map = parse_map(text, source);
   StudyContents contents = contents_of(map);
   // There is one map, whatever its input was: the number of steps is a setting.
-  for (Result& row : contents.results.rows) row.at.levels.clear();
-  for (RunOutcome& outcome : contents.results.outcomes) outcome.at.levels.clear();
+  for (Result& row : contents.results.rows) row.at.levels = {};
+  for (RunOutcome& outcome : contents.results.outcomes) outcome.at.levels = {};
   RecordSet set = set_of(std::move(contents));
   set.settings["/steps"] = std::to_string(map.step);
   set.called[map.id] = set.values.begin()->first.subject;

@@ -49,14 +49,14 @@ struct RecordSet {
   /// Groups are the independent units, however few, as declared in the table. Otherwise, with few
   /// groups, paired tests take runs, which are independent for a fixed set of groups.
   bool draws_groups = false;
-  std::map<std::string, std::string> runs;        ///< The id and the group of each run.
+  GroupsByRun runs;
   std::map<std::string, AlignedPoints> worlds;    ///< By run: the true positions.
   std::map<std::string, std::string> anchors;     ///< By run: their rows, as text.
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
   /// Names in figures of subjects with a different name: the id of a single map.
   std::map<std::string, std::string> called;
   /// Numbers by run_in_name(); NaN: there is no map, or no ground truth to score it.
-  std::map<SeriesKey, std::map<std::string, double>> values;
+  std::map<SeriesKey, ValuesByRun> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.
   std::map<std::string, AlignedPoints> points;  ///< By record_name(): maps and paths.
   /// All files below the folder that differ from the other side, except study.json, results.csv and

@@ -81,6 +81,20 @@ std::optional<RunId> shown_run(FigureSource& source, const SensorStudy& sensor) 
   return best == nullptr ? std::nullopt : median_run(source.study(), *best);
 }
 
+/// By which method map distances follow the observed ones most and least; empty unless two have a
+/// correlation.
+std::string correlation_words(const std::vector<ShepardPanel>& methods) {
+  std::vector<std::pair<double, std::string>> correlations;
+  for (const ShepardPanel& method : methods)
+    if (const double r = shepard_fit(method).correlation; std::isfinite(r))
+      correlations.emplace_back(r, method.title);
+  if (correlations.size() < 2) return "";
+  const auto [least, most] = std::ranges::minmax(correlations);
+  return fmt::format(
+      "map distances follow the observed ones most with {} (r = {}), least with {} (r = {})",
+      most.second, significant(most.first, 2), least.second, significant(least.first, 2));
+}
+
 void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId& run,
                    std::vector<Figure>& figures) {
   const SensorDetails* details = source.details(run, sensor.sensor.sensor);
@@ -97,7 +111,11 @@ void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId&
                             map_distances(map->estimate)});
     spec.record_ids.push_back(map->id);
   }
-  if (!spec.methods.empty()) figures.push_back(shepard_figure(spec));
+  if (spec.methods.empty()) return;
+  if (const std::string most = correlation_words(spec.methods); !most.empty())
+    spec.title = fmt::format("{}, layout {}, pose {}: {}", title_of(details->sensor), run.layout,
+                             run.pose, most);
+  figures.push_back(shepard_figure(spec));
 }
 
 /// Where two eigenvalues stand out most and least; empty unless two methods have some.

@@ -1,6 +1,8 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -8,6 +10,8 @@
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/scatter_map.hpp"
+#include "render/figures/number_text.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -66,6 +70,39 @@ bool has_errors(const std::vector<TitledMap>& maps) {
   });
 }
 
+/// "0.058 m to 0.45 m"; empty unless all have a score.
+std::string span_of_errors(const std::vector<TitledMap>& maps) {
+  const auto mpe_of = [](const TitledMap& one) {
+    return one.map.score ? one.map.score->mpe_m : kNaN;
+  };
+  if (!std::ranges::all_of(maps, [&](const TitledMap& one) { return std::isfinite(mpe_of(one)); }))
+    return "";
+  const auto [least, most] = std::ranges::minmax(maps, {}, mpe_of);
+  return fmt::format("{} to {}", error_text(mpe_of(least), 2), error_text(mpe_of(most), 2));
+}
+
+/// The mean errors of all maps in the half of the floor that is nearer to the walls, and in the
+/// other one.
+std::string where_wrong(const std::vector<TitledMap>& maps, double side_m) {
+  const double outer_m = 0.5 * (1.0 - 1.0 / std::numbers::sqrt2) * side_m;
+  double sums[2] = {0.0, 0.0}, counts[2] = {0.0, 0.0};
+  for (const TitledMap& one : maps) {
+    const Points& ground_truth_m = *one.map.ground_truth_m;
+    const Eigen::VectorXd errors_m = (ground_truth_m - one.map.estimate).rowwise().norm();
+    for (Eigen::Index i = 0; i < errors_m.size(); ++i) {
+      if (!std::isfinite(errors_m(i))) continue;
+      const double wall_m =
+          std::min(ground_truth_m.row(i).minCoeff(), side_m - ground_truth_m.row(i).maxCoeff());
+      const std::size_t part = wall_m < outer_m ? 0 : 1;
+      sums[part] += errors_m(i);
+      counts[part] += 1.0;
+    }
+  }
+  if (counts[0] == 0.0 || counts[1] == 0.0) return "where the maps are wrong";
+  return fmt::format("the mean error is {} in the outer half of the floor, {} in the inner one",
+                     error_text(sums[0] / counts[0], 2), error_text(sums[1] / counts[1], 2));
+}
+
 /// All methods on one run, the best first: the median run of the best method.
 void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
   std::vector<SettingSummary> methods = source.best(sensor);
@@ -82,6 +119,9 @@ void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figur
         map != nullptr && map->frame == Frame::kGroundTruth)
       spec.maps.push_back({short_label(method.setting), *map});
   if (spec.maps.size() < 2) return;
+  if (const std::string errors = span_of_errors(spec.maps); !errors.empty())
+    spec.title = fmt::format("{}, {}: MPE {}; the best method on average first",
+                             title_of(sensor.sensor.sensor), words_of(*run), errors);
   Figure figure = map_wall_figure(spec);
   figure.columns = kWallColumns;
   figures.push_back(std::move(figure));
@@ -89,8 +129,8 @@ void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figur
   if (!has_errors(spec.maps) || !(side_m > 0.0)) return;
   Figure errors =
       error_map_figure({.id = fmt::format("errors-{}", name(sensor.sensor.sensor)),
-                        .title = fmt::format("{}: where the maps of {} are wrong",
-                                             title_of(sensor.sensor.sensor), words_of(*run)),
+                        .title = fmt::format("{}, {}: {}", title_of(sensor.sensor.sensor),
+                                             words_of(*run), where_wrong(spec.maps, side_m)),
                         .side_m = side_m,
                         .maps = spec.maps});
   errors.columns = kWallColumns;
@@ -116,7 +156,12 @@ void add_film(FigureSource& source, const SensorStudy& sensor, const SettingSumm
     if (const MapRecord* map = source.map(*run, best.sensor, best.setting, step);
         map != nullptr && map->frame == Frame::kGroundTruth)
       spec.maps.push_back({fmt::format("{} steps", step), *map});
-  if (!spec.maps.empty()) figures.push_back(film_strip_figure(spec));
+  if (spec.maps.empty()) return;
+  if (const std::string errors = errors_over_steps(spec.maps.front().map, spec.maps.back().map);
+      spec.maps.size() > 1 && !errors.empty())
+    spec.title = fmt::format("{}, {}, {}: {}", title_of(best.sensor), short_label(best.setting),
+                             words_of(*run), errors);
+  figures.push_back(film_strip_figure(spec));
 }
 
 void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<Figure>& figures) {
@@ -146,6 +191,12 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
 }
 
 }  // namespace
+
+std::string errors_over_steps(const MapRecord& first, const MapRecord& last) {
+  if (!first.score || !last.score) return "";
+  return fmt::format("{} off after {} steps, {} after {}", error_text(first.score->mpe_m, 2),
+                     first.step, error_text(last.score->mpe_m, 2), last.step);
+}
 
 std::vector<Figure> map_figures(FigureSource& source) {
   std::vector<Figure> figures;

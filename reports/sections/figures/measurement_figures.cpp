@@ -30,13 +30,14 @@ void add_idea(FigureSource& source, const PaperFigure& wanted, std::vector<Figur
   const SensorDetails* details = source.details(*id, wanted.sensor);
   const MapRecord* map = source.map(*id, wanted.sensor, best->setting, best->step);
   if (run == nullptr || details == nullptr || map == nullptr) return;
-  figures.push_back(idea_figure(
-      {.id = wanted.id,
-       .world = run->world,
-       .path_m = source.details(*id)->path.positions_m,
-       .history = {.sensor = wanted.sensor, .names = map->names, .values = details->first_steps},
-       .map = *map,
-       .steps = static_cast<int>(details->first_steps.cols())}));
+  figures.push_back(idea_figure({.id = wanted.id,
+                                 .world = run->world,
+                                 .path_m = source.details(*id)->path.positions_m,
+                                 .history = ObservationHistory{.sensor = wanted.sensor,
+                                                               .names = map->names,
+                                                               .values = details->first_steps},
+                                 .map = *map,
+                                 .steps = static_cast<int>(details->first_steps.cols())}));
 }
 
 }  // namespace

@@ -36,13 +36,15 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
   if (run == nullptr || map == nullptr || map->frame != Frame::kGroundTruth || details == nullptr ||
       !has_room(run->world))
     return;
-  WorldSceneSpec spec{.id = fmt::format("scene-world-{}", name(best.sensor)),
-                      .title = fmt::format("{}, {} after {} steps", title_of(best.sensor),
-                                           label(best.setting), best.step),
-                      .run = *id,
-                      .world = run->world,
-                      .path_m = source.details(*id)->path.positions_m,
-                      .map = *map};
+  WorldSceneSpec spec{
+      .id = fmt::format("scene-world-{}", name(best.sensor)),
+      .title = fmt::format(
+          "{}, {}: {}after {} steps", title_of(best.sensor), short_label(best.setting),
+          map->score ? error_text(map->score->mpe_m, 2) + " off " : "the map ", best.step),
+      .run = *id,
+      .world = run->world,
+      .path_m = source.details(*id)->path.positions_m,
+      .map = *map};
   scenes.push_back(world_scene(spec, WorldView::kPerspective));
   if (!details->manifold || !has_manifold_scene(*details->manifold)) return;
   scenes.push_back(manifold_scene(
@@ -78,10 +80,9 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
   }
   if (spec.maps.size() < 2) return std::nullopt;
   const MapRecord &first = spec.maps.front(), &last = spec.maps.back();
-  if (first.score && last.score)
-    spec.title = fmt::format("{}, {}: {} off after {} steps, {} after {}", title_of(best->sensor),
-                             short_label(best->setting), error_text(first.score->mpe_m, 2),
-                             first.step, error_text(last.score->mpe_m, 2), last.step);
+  if (const std::string errors = errors_over_steps(first, last); !errors.empty())
+    spec.title =
+        fmt::format("{}, {}: {}", title_of(best->sensor), short_label(best->setting), errors);
   if (const RunDetails* details = source.details(*id);
       details != nullptr && details->path.positions_m.rows() >= last.step)
     spec.path_m = details->path.positions_m;

@@ -25,55 +25,53 @@ namespace {
 /// More methods than these have no legend that a reader could follow.
 constexpr std::size_t kMostRanked = 30;
 
-using RunValues = std::map<std::string, double>;
-
 /// One method's value in each run.
 struct MethodRuns {
   std::size_t method;
-  RunValues values;
+  ValuesByRun values;
 };
 
 std::vector<MethodRuns> methods_at(const ResultsView& view, const ResultsBlock& block,
                                    const Quantity& quantity, const Condition& at) {
   std::vector<MethodRuns> all;
   for (const ResultsLine& line : view.lines(block, quantity))
-    if (RunValues values = view.numbers(at, line, quantity).values; !values.empty())
+    if (ValuesByRun values = view.numbers(at, line, quantity).values; !values.empty())
       all.push_back({line.index, std::move(values)});
   return all;
 }
 
-/// The runs that all of them have.
-std::set<std::string> common_runs(const std::vector<MethodRuns>& methods) {
-  std::set<std::string> runs;
+/// The runs that all of them have, ascending.
+std::vector<Name> common_runs(const std::vector<MethodRuns>& methods) {
+  std::vector<Name> runs;
   for (const auto& [run, value] : methods.front().values)
-    if (std::ranges::all_of(methods,
-                            [&](const MethodRuns& method) { return method.values.contains(run); }))
-      runs.insert(run);
+    if (std::ranges::all_of(methods, [&run = run](const MethodRuns& method) {
+          return method.values.contains(run);
+        }))
+      runs.push_back(run);
   return runs;
 }
 
 /// Takes away the methods that would take groups, or half of the runs, from all others; none where
 /// fewer than two would stay. @return Those taken away.
 std::vector<std::size_t> leave_out(const ResultsView& view, std::vector<MethodRuns>& methods) {
-  RunValues all;
-  for (const MethodRuns& method : methods) all.insert(method.values.begin(), method.values.end());
+  ValuesByRun all;
+  for (const MethodRuns& method : methods) all.merge(method.values);
   const std::size_t groups = view.group_means(all).size();
-  std::vector<MethodRuns> kept;
+  const auto stays = [&](const MethodRuns& method) {
+    return view.group_means(method.values).size() == groups &&
+           2 * method.values.size() >= all.size();
+  };
   std::vector<std::size_t> left_out;
-  for (const MethodRuns& method : methods) {
-    const bool stays =
-        view.group_means(method.values).size() == groups && 2 * method.values.size() >= all.size();
-    if (stays)
-      kept.push_back(method);
-    else
-      left_out.push_back(method.method);
-  }
-  if (kept.size() < 2) return {};
-  methods = std::move(kept);
+  for (const MethodRuns& method : methods)
+    if (!stays(method)) left_out.push_back(method.method);
+  if (methods.size() < left_out.size() + 2) return {};
+  std::erase_if(methods, [&](const MethodRuns& method) {
+    return std::ranges::find(left_out, method.method) != left_out.end();
+  });
   return left_out;
 }
 
-double mean_of(const RunValues& values) {
+double mean_of(const ValuesByRun& values) {
   double sum = 0.0;
   for (const auto& [run, value] : values) sum += value;
   return sum / static_cast<double>(values.size());
@@ -81,8 +79,9 @@ double mean_of(const RunValues& values) {
 
 std::vector<double> group_differences(const ResultsView& view, const MethodRuns& a,
                                       const MethodRuns& b) {
-  RunValues differences;
-  for (const auto& [run, value] : a.values) differences[run] = value - b.values.at(run);
+  ValuesByRun differences;
+  differences.reserve(a.values.size());
+  for (const auto& [run, value] : a.values) differences[run] = value - *b.values.find(run);
   std::vector<double> all;
   for (const auto& [group, value] : view.group_means(differences)) all.push_back(value);
   return all;
@@ -110,11 +109,11 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
   comparison.at = at;
   for (const std::size_t method : leave_out(view, methods))
     comparison.left_out.push_back(view.study().methods[method].label);
-  const std::set<std::string> runs = common_runs(methods);
+  const std::vector<Name> runs = common_runs(methods);
   if (runs.empty()) return std::nullopt;
   for (MethodRuns& method : methods) {
     comparison.has_all_runs &= method.values.size() == runs.size();
-    std::erase_if(method.values, [&](const auto& value) { return !runs.contains(value.first); });
+    method.values.keep(runs);
   }
   comparison.runs = static_cast<int>(runs.size());
   comparison.groups = static_cast<int>(view.group_means(methods.front().values).size());
@@ -233,14 +232,16 @@ std::string tally_of(const ResultsView& view, const Quantity& quantity,
 }  // namespace
 
 std::string losses_of(const ResultsView& view) {
+  std::map<Name, long> of_methods;
+  for (const Result& row : view.study().results.rows)
+    if (is_lost(row.value)) ++of_methods[row.method];
   std::vector<std::pair<long, std::string>> lost;
   long all = 0;
   for (const Label& method : view.study().methods) {
-    const long count = std::ranges::count_if(view.study().results.rows, [&](const Result& row) {
-      return row.method == method.id && is_lost(row.value);
-    });
-    if (count > 0) lost.emplace_back(count, method.label);
-    all += count;
+    const auto count = of_methods.find(method.id);
+    if (count == of_methods.end()) continue;
+    lost.emplace_back(count->second, method.label);
+    all += count->second;
   }
   if (all == 0) return "";
   std::ranges::stable_sort(lost, std::greater(), &decltype(lost)::value_type::first);

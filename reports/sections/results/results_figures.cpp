@@ -111,6 +111,8 @@ constexpr const char* kSingleRunsRemark =
     " Small circles: single runs, which are too few for an interval.";
 /// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
 constexpr double kWideSpan = 20.0;
+/// A distribution over more runs has steps of several: 0.2 % is less than the width of a line.
+constexpr std::size_t kMostSteps = 500;
 /// Fewer different values have no distribution.
 constexpr std::size_t kFewestValues = 3;
 /// More panels than these are too narrow to be read.
@@ -349,40 +351,45 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   return error_lines_figure(spec);
 }
 
-/// The share of runs at or below a value, in steps.
-ErrorLine distribution_of(const std::map<std::string, double>& runs) {
+/// The share of runs at or below a value, in steps; of many runs each step is of several.
+ErrorLine distribution_of(const ValuesByRun& runs) {
   std::vector<double> values;
   for (const auto& [run, value] : runs) values.push_back(value);
   std::ranges::sort(values);
   ErrorLine curve;
   double share = 0.0;
-  for (const double value : values) {
+  const std::size_t steps = std::min(values.size(), kMostSteps);
+  for (std::size_t step = 1, before = 0; step <= steps; ++step) {
+    const std::size_t end = step * values.size() / steps;
+    const double value = values[end - 1];
     curve.x.insert(curve.x.end(), {value, value});
     curve.mean.push_back(share);
-    share += 100.0 / static_cast<double>(values.size());
+    for (; before < end; ++before) share += 100.0 / static_cast<double>(values.size());
     curve.mean.push_back(share);
   }
   return curve;
 }
 
-/// The most runs that any method has values of at one level.
-std::size_t most_runs(const ResultsView& view, const ResultsBlock& block,
+/// Whether any method has values of several runs at one level.
+bool has_several_runs(const ResultsView& view, const ResultsBlock& block,
                       const Quantity& quantity) {
-  std::size_t most = 0;
   for (const ResultsLine& line : view.lines(block, quantity))
     for (const Condition& at : block.conditions)
-      most = std::max(most, view.numbers(at, line, quantity).values.size());
-  return most;
+      if (view.numbers(at, line, quantity).values.size() > 1) return true;
+  return false;
 }
 
-/// How many different values the methods have at the levels of a block.
-std::size_t different_values(const ResultsView& view, const ResultsBlock& block,
-                             const Quantity& quantity) {
+/// Whether the methods have enough different values at the levels of a block.
+bool has_different_values(const ResultsView& view, const ResultsBlock& block,
+                          const Quantity& quantity) {
   std::set<double> values;
   for (const ResultsLine& line : view.lines(block, quantity))
     for (const Condition& at : block.conditions)
-      for (const auto& [run, value] : view.numbers(at, line, quantity).values) values.insert(value);
-  return values.size();
+      for (const auto& [run, value] : view.numbers(at, line, quantity).values) {
+        values.insert(value);
+        if (values.size() >= kFewestValues) return true;
+      }
+  return false;
 }
 
 /// Where no factor has numbers: the distribution over runs, a panel per level. Steps between two
@@ -390,8 +397,7 @@ std::size_t different_values(const ResultsView& view, const ResultsBlock& block,
 std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
                                           const Quantity& quantity) {
   if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels ||
-      most_runs(view, block, quantity) < 2 ||
-      different_values(view, block, quantity) < kFewestValues)
+      !has_several_runs(view, block, quantity) || !has_different_values(view, block, quantity))
     return std::nullopt;
   ErrorLinesSpec spec;
   spec.id = figure_id(block.id, quantity.id);
@@ -585,12 +591,12 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
     return fmt::format(
         "{}: there is no figure of the distribution over runs, which shows {} levels at most.",
         quantity.label, kMostPanels);
-  if (most_runs(view, block, quantity) < 2)
+  if (!has_several_runs(view, block, quantity))
     return fmt::format(
         "{}: there is no figure of the distribution over runs, since no method has two values at "
         "one level.",
         quantity.label);
-  if (different_values(view, block, quantity) < kFewestValues)
+  if (!has_different_values(view, block, quantity))
     return fmt::format(
         "{}: there is no figure of the distribution over runs, which have fewer than {} different "
         "values.",

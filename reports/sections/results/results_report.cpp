@@ -57,7 +57,7 @@ void add_extent(const TopicStudy& study, KeyValues& facts) {
 }
 
 std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
-  const auto setup = std::ranges::find(study.design.setups, map.at.setup, &TopicSetup::id);
+  const auto setup = std::ranges::find(study.design.setups, map.at.setup.get(), &TopicSetup::id);
   std::string title = is_of_data(study) || setup == study.design.setups.end()
                           ? title_of(study, part.id)
                           : setup->title;
@@ -344,9 +344,9 @@ struct BestOverRuns {
 };
 
 /// The values of each method, by run, in the study's first block.
-std::map<std::size_t, std::map<std::string, double>> values_over_runs(const ResultsView& view,
-                                                                      const Quantity& quantity) {
-  std::map<std::size_t, std::map<std::string, double>> values;
+std::map<std::size_t, ValuesByRun> values_over_runs(const ResultsView& view,
+                                                    const Quantity& quantity) {
+  std::map<std::size_t, ValuesByRun> values;
   const ResultsBlock& block = view.blocks().front();
   for (const ResultsLine& line : view.lines(block, quantity))
     for (const Condition& at : block.conditions)
@@ -457,20 +457,23 @@ Paragraph warnings_paragraph(const ResultsReportInput& input) {
 }
 
 /// Where a map or a path is, it is what a reader wants to open: it comes before curves, one of each
-/// group first, and before all the best method's map where it is best.
+/// group first, and before all the best method's map where it is best, then paths in the colours of
+/// their errors.
 std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
-  std::vector<std::string> first, rest;
+  std::vector<std::string> paths, first, rest;
   if (const auto best = best_over_runs(view))
-    first.push_back(fmt::format("{}-map-{}-{}", view.study().name,
+    paths.push_back(fmt::format("{}-map-{}-{}", view.study().name,
                                 slug_of(view.study().methods[best->method].id),
                                 slug_of(best->run)));
   for (const FigureGroup& group : figures.groups) {
+    auto& opening = group.id.starts_with(path_error_prefix(view.study())) ? paths : first;
     for (const Figure& figure : group.figures)
-      (&figure == &group.figures.front() ? first : rest).push_back(figure.id);
+      (&figure == &group.figures.front() ? opening : rest).push_back(figure.id);
     for (const Scene& scene : group.scenes) first.push_back(scene.id);
   }
-  first.insert(first.end(), rest.begin(), rest.end());
-  return first;
+  paths.insert(paths.end(), first.begin(), first.end());
+  paths.insert(paths.end(), rest.begin(), rest.end());
+  return paths;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -147,21 +148,29 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   return table;
 }
 
-/// Methods may have the same label, lines of a table not the same method and run.
-bool has_line(const std::vector<ResultsLine>& lines, const ResultsLine& line) {
-  return std::ranges::any_of(lines, [&](const ResultsLine& other) {
-    return other.method == line.method && other.run == line.run;
-  });
-}
+/// Lines, each once, in the order of methods. Methods may have the same label, lines of a table not
+/// the same method and run.
+class DistinctLines {
+ public:
+  void add(const std::vector<ResultsLine>& lines) {
+    for (const ResultsLine& line : lines)
+      if (known_.emplace(line.method, line.run).second) lines_.push_back(line);
+  }
+  std::vector<ResultsLine> take() {
+    std::ranges::stable_sort(lines_, {}, &ResultsLine::index);
+    return std::move(lines_);
+  }
+
+ private:
+  std::set<std::pair<std::string, std::string>> known_;
+  std::vector<ResultsLine> lines_;
+};
 
 /// The lines that any of a block's quantities has, in the order of methods.
 std::vector<ResultsLine> all_lines(const ResultsView& view, const ResultsBlock& block) {
-  std::vector<ResultsLine> lines;
-  for (const Quantity* quantity : view.quantities(block))
-    for (const ResultsLine& line : view.lines(block, *quantity))
-      if (!has_line(lines, line)) lines.push_back(line);
-  std::ranges::stable_sort(lines, {}, &ResultsLine::index);
-  return lines;
+  DistinctLines lines;
+  for (const Quantity* quantity : view.quantities(block)) lines.add(view.lines(block, *quantity));
+  return lines.take();
 }
 
 /// All quantities of a block with one level.
@@ -244,12 +253,10 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
   std::vector<Table> tables;
   for (const std::string& id : view.study().quantities) {
     const Quantity& quantity = view.quantity(id);
-    std::vector<ResultsLine> lines;
-    for (const ResultsBlock* block : overview.blocks)
-      for (const ResultsLine& line : view.lines(*block, quantity))
-        if (!has_line(lines, line)) lines.push_back(line);
+    DistinctLines distinct;
+    for (const ResultsBlock* block : overview.blocks) distinct.add(view.lines(*block, quantity));
+    const std::vector<ResultsLine> lines = distinct.take();
     if (lines.empty()) continue;
-    std::ranges::stable_sort(lines, {}, &ResultsLine::index);
     Table table;
     table.id = table_id(overview.id, id);
     table.caption = fmt::format("{}: {}{}", overview.title, label_with_unit(quantity),

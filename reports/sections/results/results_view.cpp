@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/slug.hpp"
@@ -61,46 +62,67 @@ std::pair<double, std::string> scale_of_seconds(std::vector<double> seconds) {
 }  // namespace
 
 ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
-  std::map<std::string, std::pair<double, std::string>> scales;  // By quantity.
-  for (const std::string& id : study.quantities) {
-    if (study.results.quantities.at(id).unit != "s") continue;
-    std::vector<double> seconds;
-    for (const Result& row : study.results.rows)
-      if (row.quantity == id) seconds.push_back(row.value);
-    scales[id] = scale_of_seconds(std::move(seconds));
-  }
-  std::vector<std::string> ids;
-  for (const Label& method : study.methods) ids.push_back(method.id);
-  series_ = series_of_methods(ids);
-  for (const Result& row : study.results.rows) {
-    const Key key{row.at, {row.method, row.quantity}};
-    groups_[row.run] = row.group;
-    clusters_.try_emplace(row.group, static_cast<int>(clusters_.size()));
-    if (is_lost(row.value)) {
-      lost_[key].insert(row.run);
-      continue;
-    }
-    const auto scale = scales.find(row.quantity);
-    const double value = scale == scales.end() ? row.value : scale->second.first * row.value;
-    auto& [sum, count] = sums_[key][row.run];
-    sum += value;
-    ++count;
-    auto& [least, greatest] = ranges_.try_emplace(row.quantity, value, value).first->second;
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
-  }
   for (const std::string& id : study.quantities) {
     Quantity quantity = study.results.quantities.at(id);
     const auto label = std::ranges::find(study.quantity_labels, id, &Label::id);
     if (label != study.quantity_labels.end()) quantity.label = label->label;
-    if (const auto scale = scales.find(id); scale != scales.end())
-      quantity.unit = scale->second.second;
+    if (quantity.unit == "s") {
+      std::vector<double> seconds;
+      for (const Result& row : study.results.rows)
+        if (row.quantity == id) seconds.push_back(row.value);
+      std::tie(scales_[id], quantity.unit) = scale_of_seconds(std::move(seconds));
+    }
     quantities_.emplace(id, std::move(quantity));
   }
+  std::vector<std::string> ids;
+  for (const Label& method : study.methods) ids.push_back(method.id);
+  series_ = series_of_methods(ids);
+  take_rows();
+  name_setups();
   for (const RunOutcome& outcome : study.results.outcomes)
     outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
   make_blocks();
   make_overviews();
+}
+
+void ResultsView::take_rows() {
+  const Rows rows = study_.results.rows;
+  const auto key_of = [](const Result& row) { return Key{row.at, row.method, row.quantity}; };
+  for (auto first = rows.begin(); first != rows.end();) {
+    const Key key = key_of(*first);
+    const auto end =
+        std::find_if(first, rows.end(), [&](const Result& row) { return key_of(row) != key; });
+    if (!rows_.emplace(key, Rows(first, end)).second)
+      throw InvalidInput("the rows of a study are not in order");
+    const auto scale = scales_.find(key.quantity);
+    for (; first != end; ++first) {
+      groups_.set(first->run, first->group);
+      const std::uint32_t group = first->group.id();
+      if (group >= clusters_.size()) clusters_.resize(group + std::size_t{1}, -1);
+      if (clusters_[group] < 0) clusters_[group] = static_cast<int>(groups_in_all_++);
+      if (first->value <= kGreatestError_m) usual_errors_.insert(key.quantity);
+      if (is_lost(first->value)) continue;
+      const double value = scale == scales_.end() ? first->value : scale->second * first->value;
+      auto& [least, greatest] = ranges_.try_emplace(key.quantity, value, value).first->second;
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
+    }
+  }
+}
+
+ResultsView::Rows ResultsView::rows_of(const Condition& at, const Name& method,
+                                       const Name& quantity) const {
+  const auto found = rows_.find({at, method, quantity});
+  return found == rows_.end() ? Rows() : found->second;
+}
+
+void ResultsView::name_setups() {
+  std::map<std::string, int> same;
+  for (const Label& setup : study_.setups) {
+    const std::string slug = slug_of(setup.id.empty() ? "all" : setup.id);
+    const int number = ++same[slug];
+    slugs_.emplace(setup.id, number == 1 ? slug : fmt::format("{}-{}", slug, number));
+  }
 }
 
 void ResultsView::make_blocks() {
@@ -114,21 +136,24 @@ void ResultsView::make_blocks() {
 
 void ResultsView::add_setup(const Label& setup) {
   std::set<Condition> conditions;
-  for (const Result& row : study_.results.rows)
-    if (row.at.setup == setup.id) conditions.insert(row.at);
+  const Key first{.at = {.setup = setup.id}, .method = {}, .quantity = {}};
+  for (auto key = rows_.lower_bound(first);
+       key != rows_.end() && key->first.at.setup == first.at.setup; ++key)
+    conditions.insert(conditions.end(), key->first.at);
   const std::string axis = axis_of(conditions);
   std::set<std::string> factors;
   for (const Condition& at : conditions)
     for (const Level& level : at.levels) factors.insert(level.factor);
-  std::map<std::pair<Condition, bool>, ResultsBlock> blocks;  // By the other levels; with the axis?
+  // By the other levels; with the axis?
+  std::map<std::pair<std::vector<Level>, bool>, ResultsBlock> blocks;
   for (const Condition& at : conditions) {
-    Condition others = at;
-    const auto on_axis = std::ranges::find(others.levels, axis, &Level::factor);
-    const bool has_axis = on_axis != others.levels.end();
+    std::vector<Level> others = at.levels;
+    const auto on_axis = std::ranges::find(others, axis, &Level::factor);
+    const bool has_axis = on_axis != others.end();
     std::optional<Level> level;
     if (has_axis) {
       level = *on_axis;
-      others.levels.erase(on_axis);
+      others.erase(on_axis);
     }
     ResultsBlock& block = blocks[{others, has_axis}];
     if (level) block.levels.push_back(*level);
@@ -137,8 +162,8 @@ void ResultsView::add_setup(const Label& setup) {
     block.factor = has_axis ? axis : "";
     block.title = setup.label.empty() ? study_.title : setup.label;
     block.id = study_.name + "-" + slug_of(setup.id.empty() ? "all" : setup.id);
-    block.others = others.levels;
-    for (const Level& other : others.levels) {
+    block.others = others;
+    for (const Level& other : others) {
       block.title += ", " + level_words(other);
       block.id += "-" + slug_of(other.factor) + "-" + level_slug(other);
     }
@@ -156,20 +181,29 @@ void ResultsView::add_setup(const Label& setup) {
 void ResultsView::make_overviews() {
   // Blocks of one setup, of one factor, that give levels of the same other factors.
   using Likeness = std::tuple<std::string, std::string, std::vector<std::string>>;
-  std::vector<std::pair<Likeness, std::vector<const ResultsBlock*>>> alike;
+  std::vector<std::vector<const ResultsBlock*>> alike;
+  std::map<Likeness, std::size_t> indices;
   for (const ResultsBlock& block : blocks_) {
     std::vector<std::string> others;
     for (const Level& level : block.others) others.push_back(level.factor);
     const Likeness likeness{block.conditions.front().setup, block.factor, others};
-    auto found = std::ranges::find(alike, likeness, &decltype(alike)::value_type::first);
-    if (found != alike.end())
-      found->second.push_back(&block);
-    else
-      alike.push_back({likeness, {&block}});
+    const auto [index, is_new] = indices.emplace(likeness, alike.size());
+    if (is_new) alike.emplace_back();
+    alike[index->second].push_back(&block);
   }
-  for (const auto& [likeness, blocks] : alike)
+  for (const std::vector<const ResultsBlock*>& blocks : alike)
     if (blocks.size() > 1)
       if (auto overview = overview_of(blocks)) overviews_.push_back(*std::move(overview));
+  std::map<std::string, std::string> labels;
+  for (const Label& setup : study_.setups) labels.emplace(setup.id, setup.label);
+  std::set<std::string> ids;
+  for (ResultsOverview& overview : overviews_) {
+    const std::string& setup = overview.blocks.front()->conditions.front().setup;
+    const std::string& label = labels.at(setup);
+    overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
+    overview.id = study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup);
+    while (!ids.insert(overview.id).second) overview.id += "-more";
+  }
 }
 
 std::optional<ResultsOverview> ResultsView::overview_of(
@@ -191,13 +225,6 @@ std::optional<ResultsOverview> ResultsView::overview_of(
     for (const std::size_t i : varying)
       name += (name.empty() ? "" : ", ") + short_words(block->others[i]);
   }
-  const std::string setup = blocks.front()->conditions.front().setup;
-  const std::string label = label_of(study_.setups, setup);
-  overview.title = (label.empty() ? study_.title : label) + ": overview by " + overview.factors;
-  overview.id = study_.name + "-overview-" + slug_of(setup.empty() ? "all" : setup);
-  while (std::ranges::any_of(overviews_,
-                             [&](const ResultsOverview& other) { return other.id == overview.id; }))
-    overview.id += "-more";
   if (blocks.front()->factor.empty()) {
     for (const ResultsBlock* block : blocks)
       overview.conditions.push_back(block->conditions.front());
@@ -230,27 +257,24 @@ std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) 
 
 bool ResultsView::has_great_errors(const Quantity& quantity) const {
   return quantity.unit == "m" && quantity.better == Better::kLower &&
-         std::ranges::any_of(study_.results.rows, [&](const Result& row) {
-           return row.quantity == quantity.id && row.value <= kGreatestError_m;
-         });
+         usual_errors_.contains(quantity.id);
 }
 
 std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
                                             const Quantity& quantity) const {
   std::vector<ResultsLine> lines;
+  const Name of = quantity.id;
   for (std::size_t i = 0; i < study_.methods.size(); ++i) {
     const Label& method = study_.methods[i];
-    std::set<std::string> runs;
+    const Name id = method.id;
+    std::set<Name> runs;
     for (const Condition& at : block.conditions) {
-      const Key key{at, {method.id, quantity.id}};
-      if (const auto found = sums_.find(key); found != sums_.end())
-        for (const auto& [run, sum] : found->second) runs.insert(run);
-      if (const auto found = lost_.find(key); found != lost_.end())
-        runs.insert(found->second.begin(), found->second.end());
+      const Rows rows = rows_of(at, id, of);
+      if (study_.results.are_repeats && !rows.empty()) runs = {Name()};
+      if (!study_.results.are_repeats)
+        for (const Result& row : rows) runs.insert(row.run);
     }
-    if (runs.empty()) continue;
-    if (study_.results.are_repeats) runs = {""};
-    for (const std::string& run : runs)
+    for (const Name& run : runs)
       lines.push_back({.method = method.id,
                        .run = run,
                        .label = run.empty() || groups_.size() < 2
@@ -264,21 +288,29 @@ std::vector<ResultsLine> ResultsView::lines(const ResultsBlock& block,
 
 RunNumbers ResultsView::numbers(const Condition& at, const ResultsLine& line,
                                 const Quantity& quantity) const {
-  const Key key{at, {line.method, quantity.id}};
-  const auto is_of_line = [&](const std::string& run) {
-    return line.run.empty() || run == line.run;
-  };
+  const auto scale = scales_.find(quantity.id);
+  const double factor = scale == scales_.end() ? 1.0 : scale->second;
+  const Rows rows = rows_of(at, line.method, quantity.id);
+  const Name of_line = line.run;
   RunNumbers numbers;
-  if (const auto found = sums_.find(key); found != sums_.end())
-    for (const auto& [run, sum] : found->second)
-      if (is_of_line(run)) numbers.values[run] = sum.first / sum.second;
-  // The mean over what is left of a run's subjects would say that losing one makes a method better.
-  if (const auto found = lost_.find(key); found != lost_.end())
-    for (const std::string& run : found->second) {
-      if (!is_of_line(run)) continue;
-      numbers.values.erase(run);
-      ++numbers.lost;
+  if (of_line.empty()) numbers.values.reserve(rows.size());
+  for (auto first = rows.begin(); first != rows.end();) {
+    const Name run = first->run;
+    double sum = 0.0;
+    int count = 0;
+    bool is_any_lost = false;
+    for (; first != rows.end() && first->run == run; ++first, ++count) {
+      sum += factor * first->value;
+      is_any_lost = is_any_lost || is_lost(first->value);
     }
+    if (!of_line.empty() && run != of_line) continue;
+    // The mean over what is left of a run's subjects would say that losing one makes a method
+    // better.
+    if (is_any_lost)
+      ++numbers.lost;
+    else
+      numbers.values[run] = sum / count;
+  }
   return numbers;
 }
 
@@ -288,7 +320,7 @@ std::optional<MeanEstimate> ResultsView::mean(const Condition& at, const Results
   std::vector<int> clusters;
   for (const auto& [run, value] : numbers(at, line, quantity).values) {
     values.push_back(value);
-    clusters.push_back(clusters_.at(groups_.at(run)));
+    clusters.push_back(clusters_[groups_.find(run)->id()]);
   }
   if (values.empty()) return std::nullopt;
   return clustered_mean(values, clusters);
@@ -319,17 +351,8 @@ StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line)
   return counts;
 }
 
-std::map<std::string, double> ResultsView::group_means(
-    const std::map<std::string, double>& runs) const {
-  std::map<std::string, std::pair<double, int>> sums;
-  for (const auto& [run, value] : runs) {
-    auto& [sum, count] = sums[groups_.at(run)];
-    sum += value;
-    ++count;
-  }
-  std::map<std::string, double> means;
-  for (const auto& [group, sum] : sums) means[group] = sum.first / sum.second;
-  return means;
+ValuesByRun ResultsView::group_means(const ValuesByRun& runs) const {
+  return means_by_group(runs, groups_);
 }
 
 std::string ResultsView::level_words(const Level& level) const {
@@ -358,16 +381,6 @@ std::string ResultsView::words_of(const ResultsBlock& block, std::size_t conditi
 bool is_lost(double value) {
   constexpr double kMost = 1e100;
   return !(std::abs(value) < kMost);
-}
-
-std::string ResultsView::setup_slug(const std::string& setup) const {
-  const auto slug = [](const std::string& id) { return slug_of(id.empty() ? "all" : id); };
-  int same = 1;
-  for (const Label& other : study_.setups) {
-    if (other.id == setup) break;
-    if (slug(other.id) == slug(setup)) ++same;
-  }
-  return same == 1 ? slug(setup) : fmt::format("{}-{}", slug(setup), same);
 }
 
 std::string level_slug(const Level& level) {

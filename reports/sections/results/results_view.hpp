@@ -4,11 +4,13 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/results/results_study.hpp"
+#include "core/results/values_by_run.hpp"
 #include "core/statistics/intervals.hpp"
 #include "reports/sections/method_summary.hpp"
 
@@ -50,7 +52,7 @@ struct ResultsLine {
 
 /// The value of each run, and how many runs lost theirs.
 struct RunNumbers {
-  std::map<std::string, double> values;  ///< By run: finite; the mean over the subjects of a run.
+  ValuesByRun values;  ///< Finite; the mean over the subjects of a run.
   int lost = 0;
 };
 
@@ -63,7 +65,8 @@ struct StatusCounts {
 /// A study's results as figures and tables show them.
 class ResultsView {
  public:
-  /// @param study  complete(); must outlive the view.
+  /// @param study  complete(), its rows in order; must outlive the view, which keeps some hundred
+  ///               bytes per condition, method and quantity, and 10 per run.
   explicit ResultsView(const ResultsStudy& study);
 
   const ResultsStudy& study() const { return study_; }
@@ -71,7 +74,7 @@ class ResultsView {
   /// One per setup that has several blocks of one factor; none where it has levels that differ.
   const std::vector<ResultsOverview>& overviews() const { return overviews_; }
   std::size_t runs() const { return groups_.size(); }
-  std::size_t groups() const { return clusters_.size(); }
+  std::size_t groups() const { return groups_in_all_; }
 
   /// One of the study's quantities, under the study's label.
   const Quantity& quantity(const std::string& id) const { return quantities_.at(id); }
@@ -95,36 +98,51 @@ class ResultsView {
   /// What is known of how a line's runs ended.
   StatusCounts statuses(const Condition& at, const ResultsLine& line) const;
   /// The mean of each group's runs.
-  std::map<std::string, double> group_means(const std::map<std::string, double>& runs) const;
+  ValuesByRun group_means(const ValuesByRun& runs) const;
 
   /// "noise 0.1 m": a level in words.
   std::string level_words(const Level& level) const;
   /// "noise [m]".
   std::string factor_label(const std::string& factor) const;
   /// A part of ids; unique among the setups.
-  std::string setup_slug(const std::string& setup) const;
+  const std::string& setup_slug(const std::string& setup) const { return slugs_.at(setup); }
   /// "Indoors, noise 0.1 m": a block at one of its conditions.
   std::string words_of(const ResultsBlock& block, std::size_t condition) const;
 
  private:
-  using Key = std::pair<Condition, std::pair<std::string, std::string>>;  ///< Method, quantity.
+  /// The rows of one condition, method and quantity, which stand together.
+  struct Key {
+    Condition at;
+    Name method, quantity;
 
+    auto operator<=>(const Key&) const = default;
+  };
+  using Rows = std::span<const Result>;
+
+  void take_rows();
+  void name_setups();
+  /// Empty where nothing was tried.
+  Rows rows_of(const Condition& at, const Name& method, const Name& quantity) const;
   void make_blocks();
   void add_setup(const Label& setup);
   void make_overviews();
+  /// Without its id and title.
   std::optional<ResultsOverview> overview_of(const std::vector<const ResultsBlock*>& blocks) const;
   /// "noise 0.1 m", "grass": a text needs no name of its factor.
   std::string short_words(const Level& level) const;
 
   const ResultsStudy& study_;
-  std::vector<std::size_t> series_;                                    ///< Of its methods.
-  std::map<std::string, Quantity> quantities_;                         ///< By id.
-  std::map<Key, std::map<std::string, std::pair<double, int>>> sums_;  ///< By run: sum and count.
-  std::map<Key, std::set<std::string>> lost_;                          ///< By run.
+  std::vector<std::size_t> series_;             ///< Of its methods.
+  std::map<std::string, Quantity> quantities_;  ///< By id.
+  std::map<std::string, double> scales_;        ///< By which values are multiplied, by quantity.
+  std::map<Key, Rows> rows_;
   std::map<std::pair<Condition, std::string>, std::vector<const RunOutcome*>> outcomes_;
-  std::map<std::string, std::string> groups_;                ///< By run.
-  std::map<std::string, int> clusters_;                      ///< By group.
+  GroupsByRun groups_;
+  std::vector<int> clusters_;  ///< By Name::id() of the group, in the order of rows.
+  std::size_t groups_in_all_ = 0;
   std::map<std::string, std::pair<double, double>> ranges_;  ///< By quantity.
+  std::set<std::string> usual_errors_;  ///< Quantities that have a value of a usual error in m.
+  std::map<std::string, std::string> slugs_;  ///< By setup.
   std::vector<ResultsBlock> blocks_;
   std::vector<ResultsOverview> overviews_;
 };

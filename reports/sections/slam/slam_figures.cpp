@@ -9,6 +9,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/convergence.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
@@ -107,15 +108,15 @@ std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
   add(7, {SlamMethod::kSpectral7, SlamMethod::kSpectralKnown7});
   if (spec.panels.empty()) return std::nullopt;
   // What the method rests on: after its rank singular values are small.
-  const SingularValues& first = spec.panels.front();
-  if (first.values.size() > first.rank && first.values[first.rank] > 0.0)
-    spec.title =
-        fmt::format("{}: singular value {} is {} times the next one", title_of(run), first.rank,
-                    significant(first.values[first.rank - 1] / first.values[first.rank], 2));
-  else if (first.values.size() == first.rank && first.noise_level && *first.noise_level > 0.0)
-    spec.title =
-        fmt::format("{}: singular value {} is {} times the noise floor", title_of(run), first.rank,
-                    significant(first.values[first.rank - 1] / *first.noise_level, 2));
+  for (const SingularValues& panel : spec.panels) {
+    const bool has_next = panel.values.size() > panel.rank && panel.values[panel.rank] > 0.0;
+    if (!has_next && !(panel.noise_level && *panel.noise_level > 0.0)) continue;
+    const double next = has_next ? panel.values[panel.rank] : *panel.noise_level;
+    spec.title = fmt::format("{}: singular value {} is {} times the {}", title_of(run), panel.rank,
+                             significant(panel.values[panel.rank - 1] / next, 2),
+                             has_next ? "next one" : "noise floor");
+    break;
+  }
   return singular_values_figure(spec);
 }
 
@@ -145,6 +146,20 @@ StartEnds ends_of(const std::vector<RefinementStart>& starts) {
 /// Of two ends, the sentence on the page says all.
 constexpr std::size_t kFewestEnds = 3;
 
+/// What the chosen windows predict. They need not have the least error: others may cover less.
+std::string windows_title(const SlamRun& run) {
+  const WindowCurve& windows = *run.windows;
+  const auto chosen = std::ranges::find(windows.lengths_s, windows.chosen_s);
+  const double error_m =
+      chosen == windows.lengths_s.end()
+          ? kNaN
+          : windows.held_out_m[static_cast<std::size_t>(chosen - windows.lengths_s.begin())];
+  const std::string length = format_duration(windows.chosen_s);
+  return std::isfinite(error_m) ? fmt::format("{}: windows of {} predict other ranges {} off",
+                                              title_of(run), length, error_text(error_m, 2))
+                                : fmt::format("{}: windows of {}", title_of(run), length);
+}
+
 /// What is known of one run.
 std::vector<Figure> run_figures(const SlamRun& run) {
   std::vector<Figure> figures;
@@ -152,10 +167,7 @@ std::vector<Figure> run_figures(const SlamRun& run) {
   if (auto spectrum = spectrum_figure_of(run)) figures.push_back(*std::move(spectrum));
   if (run.windows && !run.windows->lengths_s.empty())
     figures.push_back(
-        window_curve_figure({"windows-" + run.id,
-                             fmt::format("{}: windows of {} predict ranges best", title_of(run),
-                                         format_duration(run.windows->chosen_s)),
-                             *run.windows, run.id}));
+        window_curve_figure({"windows-" + run.id, windows_title(run), *run.windows, run.id}));
   if (const StartEnds ends = ends_of(run.starts); ends.different >= kFewestEnds)
     figures.push_back(refinement_starts_figure(
         {"starts-" + run.id,

@@ -9,6 +9,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
+#include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/maps/path_styles.hpp"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/log_log.hpp"
 
 namespace mapproof {
@@ -22,11 +23,6 @@ std::string redrawn_words(const ConvergenceOptions& convergence) {
 
 std::string record_id(const SlamRun& run, const SlamRecord& record) {
   return fmt::format("{}/{}", run.id, info(record.method).name);
-}
-
-const SlamRecord* record_of(const SlamRun& run, SlamMethod method) {
-  const auto found = std::ranges::find(run.records, method, &SlamRecord::method);
-  return found == run.records.end() ? nullptr : &*found;
 }
 
 const TrajectoryError* error_of(const SlamRun& run, SlamMethod method) {

@@ -13,9 +13,6 @@ namespace mapproof {
 /// "plaza-1/refined": which record of a study a number comes from.
 std::string record_id(const SlamRun& run, const SlamRecord& record);
 
-/// The method's record in that run; null if it has none.
-const SlamRecord* record_of(const SlamRun& run, SlamMethod method);
-
 /// The method's error under its own alignment; null if it has none.
 const TrajectoryError* error_of(const SlamRun& run, SlamMethod method);
 

@@ -27,12 +27,13 @@ std::string fault_sentence(const TopicStudy& study, const TopicSetup& setup) {
   for (const Condition& at : conditions_of(setup)) {
     const std::vector<double> reported = topic_values(study, at, kFitTest, "reported_percent");
     if (reported.empty()) continue;
-    parts.push_back(fmt::format("{} {:.0f} / {:.0f} %", level_words(setup, at),
+    parts.push_back(fmt::format("{:.0f} % reported and {:.0f} % with the right cause at {}",
                                 topic_mean(study, at, kFitTest, "reported_percent"),
-                                topic_mean(study, at, kFitTest, "named_percent")));
+                                topic_mean(study, at, kFitTest, "named_percent"),
+                                level_words(setup, at)));
   }
   if (parts.empty()) return "";
-  return fmt::format("{}: reported / cause named right at {}.", setup.title, all_listed(parts));
+  return fmt::format("{}: {}.", setup.title, all_listed(parts));
 }
 
 std::vector<std::string> doubt_conclusions(const TopicStudy& study) {
@@ -88,10 +89,9 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kDoubtWords = {
-    .topic = "doubt",
-    .question = doubt_question,
-    .conclusions = doubt_conclusions,
-    .headline = doubt_headline};
+const TopicWords kDoubtWords = {.topic = "doubt",
+                                .question = doubt_question,
+                                .conclusions = doubt_conclusions,
+                                .headline = doubt_headline};
 
 }  // namespace mapproof

@@ -220,7 +220,8 @@ void fail_at(const FaultCase& tried, const std::string& cores, const std::string
       const bool are_left = tried.name == "approve" && erase_leftovers(found);
       EXPECT_EQ(difference(found, whole), "") << "ended as ever, with other files";
       if (!are_left) return;
-    } else if (outcome.error.find(": not approved: ") != std::string::npos) {
+    } else if (outcome.error.find(": not approved: ") != std::string::npos ||
+               outcome.error.find(": not written: ") != std::string::npos) {
       EXPECT_EQ(outcome.exit_code, 1) << outcome.error;
     } else {
       expect_reported(kind, outcome);

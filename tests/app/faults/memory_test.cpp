@@ -111,6 +111,32 @@ TEST(LittleMemory, OfTenTimesAFileIsEnoughToReadIt) {
   }
 }
 
+TEST(LittleMemory, OfTenTimesATableOfResultsIsEnoughForWhatReadsIt) {
+  skip_if_sanitized();
+  const TemporaryFolder folder, other;
+  const double itself = most_memory({"--version"});
+  // Short rows, and each run has two of them.
+  for (const TemporaryFolder* one : {&folder, &other}) {
+    write_file(one->path() / "study.json",
+               R"({"schema": {"name": "mapproof.results_study", "version": 1}, "title": "Large"})");
+    file_of(
+        *one, "results.csv", "setup,method,quantity,run,value\n", 400'000,
+        [&](int i) {
+          return fmt::format("s,{},mpe_m,{:07},0.{:06}\n", i % 2 == 0 ? "ekf" : "mcl", i / 2,
+                             (i * 7919LL + (one == &other)) % 1'000'000);
+        },
+        "");
+  }
+  const std::string study = folder.path().string(), table = folder / "results.csv";
+  const auto bytes = static_cast<double>(fs::file_size(table));
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"results", study},
+                                                  {"results", study, "--json"},
+                                                  {"validate", study},
+                                                  {"validate", table},
+                                                  {"diff", study, other.path().string()}})
+    EXPECT_LT((most_memory(command) - itself) / bytes, 10.0) << fmt::format("{}", command.front());
+}
+
 TEST(LittleMemory, StartsNoOtherBlasOfTheMachine) {
   const Environment other{{"LD_LIBRARY_PATH", MAPPROOF_OTHER_BLAS}};
   EXPECT_EQ(

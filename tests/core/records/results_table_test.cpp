@@ -258,6 +258,24 @@ TEST(ResultsTable, MayLeaveOutRunGroupAndSubjectAndHaveAnyOrder) {
   EXPECT_EQ(grouped[0].group, "7");
 }
 
+TEST(ResultsTable, OfAFileIsThatOfItsText) {
+  const test::TemporaryFolder folder;
+  std::string text = "setup,method,quantity,run,group,value,at.noise\n";
+  // Some megabytes, so that a row lies across what is read at once; a cell with a line end.
+  for (int run = 60'000; run > 0; --run)
+    text += fmt::format("\"a,\n{}\",m,mpe_m,run-{},g{},{},{}\n", run % 3, run, run % 7, run / 8.0,
+                        run % 2 == 0 ? "" : "0.5");
+  const std::filesystem::path file = folder.path() / "results.csv";
+  write_file(file, text);
+  const std::vector<Result> expected = parse_results_csv(text, "results.csv", {});
+  ASSERT_EQ(expected.size(), 60'000U);
+  expect_same(read_results_csv(file, {}), expected);
+  EXPECT_TRUE(std::ranges::is_sorted(expected, comes_before));
+  write_file(file, text + "a,m,mpe_m,run-1,g1\n");
+  EXPECT_EQ(test::error_of([&] { read_results_csv(file, {}); }),
+            file.string() + ": line 120002: 5 cells where the header has 7");
+}
+
 /// What python3 prints of a table; "no python" where it or a module is missing.
 std::string python_says(const std::string& code, const std::filesystem::path& folder) {
   write_file(folder / "read.py", code);

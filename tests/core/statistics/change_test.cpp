@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -37,6 +38,40 @@ TEST(PairedChange, OfManyPairsIsTheMedianOfWalshAveragesAndOneOutlierDoesNotMove
   EXPECT_GT(clean.low, 1.0);
   differences[3] = 1e14;
   EXPECT_NEAR(paired_change(differences).shift, 1.12, 0.02);
+}
+
+TEST(PairedChange, HasTheEndsAndTheMiddleOfAllWalshAverages) {
+  for (const int n : {21, 22, 60}) {
+    std::vector<double> differences = noise(n, static_cast<std::uint64_t>(n));
+    differences[1] = differences[0];
+    differences[2] = -differences[0];
+    differences[3] = 1e-300;
+    std::vector<double> averages;
+    for (std::size_t i = 0; i < differences.size(); ++i)
+      for (std::size_t j = i; j < differences.size(); ++j)
+        averages.push_back(0.5 * differences[i] + 0.5 * differences[j]);
+    std::ranges::sort(averages);
+    const PairedChange change = paired_change(differences);
+    ASSERT_TRUE(change.by_ranks);
+    const std::size_t half = averages.size() / 2;
+    EXPECT_EQ(change.shift, averages.size() % 2 == 1
+                                ? averages[half]
+                                : 0.5 * averages[half - 1] + 0.5 * averages[half]);
+    // An interval's ends are averages that as many others lie beyond, on either side.
+    const auto low = std::ranges::lower_bound(averages, change.low);
+    const auto high = std::ranges::upper_bound(averages, change.high);
+    EXPECT_EQ(*low, change.low);
+    EXPECT_EQ(low - averages.begin(), averages.end() - high);
+  }
+}
+
+TEST(PairedChange, OfAHundredThousandPairsHasANarrowInterval) {
+  std::vector<double> differences = noise(100'000, 5);
+  for (double& difference : differences) difference += 0.02;
+  const PairedChange change = paired_change(differences);
+  EXPECT_NEAR(change.shift, 0.02, 0.01);
+  // Of a normal the estimate has the standard error sqrt(pi / 3 / n).
+  EXPECT_NEAR(change.high - change.low, 2.0 * 1.96 * std::sqrt(1.0472 / 1e5), 1e-4);
 }
 
 TEST(PairedChange, NothingChangedHasNoP) {

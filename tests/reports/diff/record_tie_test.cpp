@@ -14,7 +14,7 @@ RecordSet two_subjects() {
   set.seed = "7";
   for (int layout = 1; layout <= 3; ++layout) {
     const std::string run = "layout-" + std::to_string(layout) + "-pose-1";
-    set.runs[run] = "layout-" + std::to_string(layout);
+    set.runs.set(run, "layout-" + std::to_string(layout));
     for (const char* subject : {"bearing/lpca/100", "bearing/isomap-K6/100"})
       set.values[{subject, "mpe_m"}][run] = 1.0 + 0.1 * layout;
   }

@@ -99,8 +99,11 @@ TEST(ChangeFigure, ShowsCellsByTheSizeOfTheirChange) {
     Figure figure;
     figure.id = "cells";
     figure.title = "Cells";
-    figure.panels.emplace_back().layers = {
-        Cells{.x = {0, 2}, .y = {0, 1}, .columns = 2, .values = {1.0, value}, .limits = {0, 9}}};
+    figure.panels.emplace_back().layers = {Cells{.x = {0, 2},
+                                                 .y = {0, 1},
+                                                 .columns = 2,
+                                                 .values = {1.0, value},
+                                                 .colour_scale = {.limits = {0, 9}}}};
     return figure;
   };
   const auto figure = change_figure({with(4.0), with(1.5)}, figure_diff(with(4.0), with(1.5)));

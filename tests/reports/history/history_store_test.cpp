@@ -6,8 +6,8 @@
 #include "core/base/sha256.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/store/schema.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/history/store/schema.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -33,6 +33,33 @@ TEST(HistoryStore, GivesBackWhatItWasGiven) {
     }
   EXPECT_EQ(store.digests(), std::vector<std::string>{sha256_hex("x")});
   EXPECT_THROW(store.append(nightly_run), InvalidInput);  // Never the same number twice.
+}
+
+TEST(HistoryStore, GivesTheFindingsAndStudiesOfAllRunsAsItGivesThoseOfEach) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  for (int number = 1; number <= 4; ++number) {
+    NightlyRun nightly_run = sample_nightly_run(number, 4);
+    for (int i = 0; i < number - 1; ++i)  // The first one has none.
+      nightly_run.findings.push_back({.study = "sample",
+                                      .rule = HistoryRule::kAccuracy,
+                                      .subject = "lpca",
+                                      .quantity = "mpe_m",
+                                      .since = 2,
+                                      .sentence = "sentence " + std::to_string(10 * number + i)});
+    store.append(nightly_run);
+  }
+  const auto findings = store.all_findings();
+  const auto names = store.study_names();
+  EXPECT_EQ(findings.size(), 3U);
+  ASSERT_EQ(names.size(), 4U);
+  for (int number = 1; number <= 4; ++number) {
+    const std::vector<NightlyFinding> own = store.findings(number);
+    ASSERT_EQ(std::ssize(own), number - 1);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      EXPECT_EQ(findings.at(number)[i].sentence, own[i].sentence);
+    EXPECT_EQ(names.at(number), std::vector<std::string>{store.studies(number)[0].name});
+  }
 }
 
 TEST(HistoryStore, OfAnOlderVersionIsMigratedAndKeptAsItWas) {

@@ -43,7 +43,7 @@ const TopicOutcome& outcome(const TopicStudy& study, std::string_view setup,
   const auto found =
       std::ranges::find_if(study.parts.front().outcomes, [&](const TopicOutcome& one) {
         return one.at.setup == setup && one.method == method &&
-               std::get<double>(one.at.levels.at(0).value) == level;
+               std::get<double>(one.at.levels->at(0).value) == level;
       });
   EXPECT_NE(found, study.parts.front().outcomes.end());
   return *found;

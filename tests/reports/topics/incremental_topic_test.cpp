@@ -38,7 +38,7 @@ TEST(IncrementalTopic, MapsEverySensorIncrementallyToEveryLevel) {
     EXPECT_LE(outcome.values.at("greatest_gap_ppm"), 1.0)
         << outcome.at.setup << ' ' << outcome.method;
     EXPECT_EQ(outcome.values.at("beyond_percent"), 0.0);
-    const double steps = std::get<double>(outcome.at.levels.at(0).value);
+    const double steps = std::get<double>(outcome.at.levels->at(0).value);
     EXPECT_EQ(outcome.values.at("steps_gone_through"),
               outcome.method.ends_with("-whole") ? steps : 50.0);
   }

@@ -51,7 +51,7 @@ std::vector<Figure> baseline_figures() {
           "idea-visibility",     "anchors-usual",   "levels-usual",     "occlusion-usual",
           "pareto-usual",        "path-usual",      "path-walk",        "convergence-usual",
           "cost-usual",          "singular-usual",  "windows-usual",    "starts-usual",
-          "wall-eleven",         "heat-usual"})
+          "wall-eleven",         "heat-usual",      "path-errors"})
       if (figure.id == id) return false;
     return true;
   });

@@ -1,10 +1,12 @@
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "render/figures/curves/convergence.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/maps/map_grid.hpp"
+#include "render/figures/maps/path_errors.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "tests/support/samples/sample_comparisons.hpp"
 #include "tests/support/samples/sample_figures.hpp"
@@ -132,11 +134,37 @@ void add_choices(std::vector<Figure>& figures) {
   figures.push_back(map_wall_figure(maps));
 }
 
+/// Three rounds of an oval with a loop at one end, whose errors grow from round to round; a gap.
+void add_path_errors(std::vector<Figure>& figures) {
+  constexpr int kPoses = 3000;
+  PoseErrors poses;
+  poses.time_s = Eigen::VectorXd::LinSpaced(kPoses, 0.0, 300.0);
+  poses.distance_m = Eigen::VectorXd::Zero(kPoses);
+  poses.error_m = Eigen::VectorXd::Zero(kPoses);
+  poses.ground_truth_m = poses.estimate_m = SpacePoints::Zero(kPoses, 3);
+  for (int i = 0; i < kPoses; ++i) {
+    const double turn = 6.0 * std::numbers::pi * i / kPoses;
+    const double error_m = 0.4 * (1.1 - std::cos(0.5 * turn)) * (1.0 + turn / 12.0);
+    poses.ground_truth_m.row(i) << 30.0 * std::cos(turn) + 4.0 * std::sin(4.0 * turn),
+        12.0 * std::sin(turn), 0.0;
+    poses.estimate_m.row(i) = poses.ground_truth_m.row(i);
+    poses.estimate_m(i, 1) += error_m;
+    poses.error_m(i) = error_m;
+    if (i > 0)
+      poses.distance_m(i) = poses.distance_m(i - 1) +
+                            (poses.ground_truth_m.row(i) - poses.ground_truth_m.row(i - 1)).norm();
+    if (i == 1700) poses.distance_m(i) += 10.0;
+  }
+  figures.push_back(
+      path_error_map_figure({"path-errors", "oval: 0.7 m off", {{"oval", &poses}}, {"oval"}}, 0));
+}
+
 }  // namespace
 
 std::vector<Figure> sample_slam_figures() {
   std::vector<Figure> figures;
   add_paths(figures);
+  add_path_errors(figures);
   add_convergence(figures);
   add_singular_values(figures);
   add_choices(figures);
