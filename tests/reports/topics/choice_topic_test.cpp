@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
-#include "core/simulate/robot_walk.hpp"
-#include "core/simulate/world.hpp"
 #include "core/topics/topics.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "tests/reports/topics/simulated_part.hpp"
 
 namespace mapproof {
 namespace {
@@ -18,21 +16,7 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
   experiment.world.landmarks = 16;
   experiment.world.side_m = 1.4;
   experiment.options = {{"observations", {100, 300}}, {"replicates", {2}}};
-  Random random(9);
-  const World world = scatter_landmarks(experiment.world, random);
-  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TopicStudy study;
-  study.experiment = experiment;
-  study.design = kChoiceTopic.design(experiment);
-  study.parts = {kChoiceTopic.make({.experiment = experiment,
-                                    .part = "layout-1-pose-1",
-                                    .run = {},
-                                    .world = &world,
-                                    .path = &path,
-                                    .anchors = {0, 5, 10, 15},
-                                    .seed = 5,
-                                    .data = {},
-                                    .with_maps = true})};
+  const TopicStudy study = test::simulated_study(kChoiceTopic, experiment, {0, 5, 10, 15});
   EXPECT_EQ(study.parts[0].outcomes.size(), 2U * 2U * study.design.methods.size());
   for (const TopicOutcome& outcome : study.parts[0].outcomes) {
     EXPECT_GE(outcome.values.at("regret_m"), 0.0) << outcome.method;

@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
-#include "core/simulate/robot_walk.hpp"
-#include "core/simulate/world.hpp"
 #include "core/topics/topics.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "tests/reports/topics/simulated_part.hpp"
 
 namespace mapproof {
 namespace {
@@ -16,21 +14,7 @@ TEST(IncrementalTopic, MapsEverySensorIncrementallyToEveryLevel) {
   experiment.world.landmarks = 16;
   experiment.world.side_m = 1.4;
   experiment.options = {{"observations", {100, 300}}, {"every", {50}}};
-  Random random(9);
-  const World world = scatter_landmarks(experiment.world, random);
-  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TopicStudy study;
-  study.experiment = experiment;
-  study.design = kIncrementalTopic.design(experiment);
-  study.parts = {kIncrementalTopic.make({.experiment = experiment,
-                                         .part = "layout-1-pose-1",
-                                         .run = {},
-                                         .world = &world,
-                                         .path = &path,
-                                         .anchors = {0, 5, 10, 15},
-                                         .seed = 5,
-                                         .data = {},
-                                         .with_maps = true})};
+  const TopicStudy study = test::simulated_study(kIncrementalTopic, experiment, {0, 5, 10, 15});
   // Three sensors, three methods, two levels, incremental and from scratch.
   ASSERT_EQ(study.parts[0].outcomes.size(), 36U);
   for (const TopicOutcome& outcome : study.parts[0].outcomes) {

@@ -35,7 +35,7 @@ const TopicOutcome& outcome_of(const TopicStudy& study, const std::string& map) 
 }
 
 /// A number under the id of one of a score's is that one and no other.
-void expect_scores_of(const MapRecord& map, const TopicOutcome& outcome, const TopicStudy& study) {
+void expect_scores_of(const MapRecord& map, const TopicOutcome& outcome) {
   ASSERT_TRUE(map.score);
   const std::map<std::string, double> score = {
       {"mpe_m", map.score->mpe_m},
@@ -72,7 +72,7 @@ TEST(MissingTopic, TriesEverySeriesAndConcludesWithNumbers) {
     EXPECT_TRUE(std::isfinite(outcome.values.at("mapped_percent"))) << outcome.method;
   }
   ASSERT_EQ(part.maps.size(), 6U);
-  for (const TopicMap& map : part.maps) expect_scores_of(map.map, outcome_of(study, map.id), study);
+  for (const TopicMap& map : part.maps) expect_scores_of(map.map, outcome_of(study, map.id));
   EXPECT_EQ(
       part.outcomes.front().values,
       kMissingTopic.make(context).outcomes.front().values);  // nothing but its arguments counts

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
-#include "core/simulate/robot_walk.hpp"
-#include "core/simulate/world.hpp"
 #include "core/topics/topics.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "tests/reports/topics/simulated_part.hpp"
 
 namespace mapproof {
 namespace {
@@ -21,21 +19,7 @@ TEST(MixedTopic, MapsEverySensorAndEveryMixAtEveryLevel) {
                         {"visibility_errors_percent", {0, 5}},
                         {"usual_bearing_noise_deg", {20}},
                         {"range_noise_m", {0.1}}};
-  Random random(9);
-  const World world = scatter_landmarks(experiment.world, random);
-  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TopicStudy study;
-  study.experiment = experiment;
-  study.design = kMixedTopic.design(experiment);
-  study.parts = {kMixedTopic.make({.experiment = experiment,
-                                   .part = "layout-1-pose-1",
-                                   .run = {},
-                                   .world = &world,
-                                   .path = &path,
-                                   .anchors = {0, 8, 16, 24},
-                                   .seed = 5,
-                                   .data = {},
-                                   .with_maps = true})};
+  const TopicStudy study = test::simulated_study(kMixedTopic, experiment, {0, 8, 16, 24});
   // 2 sensors with two methods and 3 mixes at 4 levels, 3 sensors with two methods and 3 mixes at
   // 2.
   ASSERT_EQ(study.parts[0].outcomes.size(), 46U);

@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "core/base/random.hpp"
-#include "core/simulate/robot_walk.hpp"
-#include "core/simulate/world.hpp"
 #include "core/topics/topics.hpp"
 #include "core/topics/uncertainty.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "tests/reports/topics/simulated_part.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,18 +26,7 @@ TopicExperiment small_study() {
 }
 
 TopicPart made(const TopicExperiment& experiment) {
-  Random random(9);
-  const World world = scatter_landmarks(experiment.world, random);
-  const Path path = random_walk(world, experiment.walk, experiment.steps, random);
-  TopicPart part = kUncertaintyTopic.make({.experiment = experiment,
-                                           .part = "layout-1-pose-1",
-                                           .run = {},
-                                           .world = &world,
-                                           .path = &path,
-                                           .anchors = {0, 4, 9, 14},
-                                           .seed = 5,
-                                           .data = {},
-                                           .with_maps = true});
+  TopicPart part = test::simulated_part(kUncertaintyTopic, experiment, {0, 4, 9, 14});
   part.run = RunId{};
   return part;
 }
