@@ -49,6 +49,7 @@ document.querySelector(".search").hidden = false;
 addThemeSwitch(document.querySelector(".masthead"));
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 foldDetails();
+fitTablesToPaper();
 makeChips();
 by("search").addEventListener("input", applyFilter);
 by("close-keys").addEventListener("click", () => by("keys").close());

@@ -61,7 +61,9 @@ narrowPage.addEventListener("change", addOpeningImages);
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 foldDetails();
+fitTablesToPaper();
 putInWhenNear(held);
+setTitlesOnPaper();  // Of all drawings, which are put in first.
 addDecisions();
 followReading();
 (globalThis.requestIdleCallback ?? setTimeout)(

@@ -7,18 +7,22 @@ let lit = "";  // The key of the highlighted landmark.
 let tipIn = null;  // The <svg> that shows its tip.
 let isPinned = false;  // Whether it stays when the pointer leaves.
 
+const kMarkKinds = ["true", "anchor", "estimate"];
+
 // Marks of one landmark in one panel have ids "FIGURE[-PANEL]-KIND-ROW".
 function readLandmarks(svg) {
   const found = new Map();
   for (const mark of svg.querySelectorAll("use[data-landmark]")) {
     const { landmark: name, kind, x, y, error } = mark.dataset;
     const key = mark.id.replace(`-${kind}-`, "#");
-    const entry = found.get(key) ?? { name, marks: [] };
+    const entry = found.get(key) ?? { name, marks: [], byMethods: [] };
     found.set(key, entry);
     entry.marks.push({ element: mark });
     if (kind === "true" || kind === "anchor") entry.groundTruth = [x, y];
     if (kind === "anchor") entry.isAnchor = true;
     if (kind === "estimate") entry.estimate = [x, y];
+    // A drawing of several methods has one mark each, whose kind is the method: "dead-reckoning".
+    if (!kMarkKinds.includes(kind)) entry.byMethods.push({ method: kind, position: [x, y] });
     if (error !== undefined) entry.error = error;
   }
   return [...found.values()];
@@ -30,13 +34,14 @@ function keyOf(svg, entry) {
   return `${entry.name}\n${entry.groundTruth?.join() ?? svg.id}`;
 }
 
+const kLeastError_m = 5e-7;  // What six decimals show as zero.
 const kGreatestError_m = 1000;  // The error of a map that diverged is said in words.
 
 // Three significant digits.
 function errorWords(text) {
   const value = Number(text);
   if (value > kGreatestError_m) return "over 1\u00a0km";
-  if (value === 0) return "0 m";
+  if (value < kLeastError_m) return "0 m";
   return `${value.toFixed(clamp(2 - Math.floor(Math.log10(Math.abs(value))), 0, 6))} m`;
 }
 
@@ -47,8 +52,14 @@ function linesOf(entry) {
   if (entry.groundTruth) lines.push(`ground truth ${point(entry.groundTruth)} m`);
   if (entry.estimate) lines.push(`estimate ${point(entry.estimate)}${unit}`);
   if (entry.error !== undefined) lines.push(`error ${errorWords(entry.error)}`);
+  for (const { method, position } of entry.byMethods) {
+    const off = entry.groundTruth && Math.hypot(position[0] - entry.groundTruth[0],
+      position[1] - entry.groundTruth[1]);
+    lines.push(`${method.replaceAll("-", " ")} ${point(position)}${unit}` +
+      (off === undefined ? "" : `, ${errorWords(off)} off`));
+  }
   if (entry.isAnchor) lines.push("an anchor: its position is given");
-  else if (entry.groundTruth && !entry.estimate) lines.push("not in the map");
+  else if (entry.groundTruth && !entry.estimate && entry.byMethods.length === 0) lines.push("not in the map");
   return lines;
 }
 

@@ -50,15 +50,28 @@ function chooseMethod(label) {
   }
 }
 
+// What the columns "Method" of all tables name.
+function namedMethods() {
+  const names = [];
+  for (const table of document.querySelectorAll("main .table table")) {
+    const head = [...table.tHead.querySelectorAll("th[data-column]")].find(
+      (each) => /^Methods?$/.test(each.textContent.trim()));
+    if (!head) continue;
+    for (const row of table.tBodies[0].rows) {
+      names.push(row.cells[Number(head.dataset.column)].textContent.trim());
+    }
+  }
+  return names;
+}
+
 // Puts the list behind an element.
 function addMethodList(before) {
   const figures = [...document.querySelectorAll("figure[data-id]")];
   figures.slice(0, kMostRead).forEach(readMethods);
-  // Other curves, such as published ones or thresholds, are no rows of tables.
-  const rows = new Set(Array.from(document.querySelectorAll("main tbody th[scope=row]"),
-    (head) => head.textContent.trim()));
+  // Other curves, such as published ones or kinds of noise, are not in columns of methods.
+  const rows = new Set(namedMethods());
   for (const [key, name] of methods) {
-    if (![...rows].some((row) => row.includes(name))) methods.delete(key);
+    if (![...rows].some((row) => row === name || row.startsWith(`${name}, `))) methods.delete(key);
   }
   const names = [...new Set(methods.values())];
   if (names.length < 2) return;
@@ -135,6 +148,12 @@ function addValues(part, name) {
 function addCurveBoxes(figure, svg) {
   highlightIn(svg);
   const curves = curvesOf(svg), boxes = new Map();
+  for (const [name, parts] of curves) {
+    for (const part of parts) {
+      addTitle(part, name);
+      addValues(part, name);
+    }
+  }
   if (curves.size < 2) return;
   const details = document.createElement("details"), summary = document.createElement("summary");
   details.className = "curves";
@@ -150,8 +169,6 @@ function addCurveBoxes(figure, svg) {
     label.append(box, name);
     details.append(label);
     for (const part of parts) {
-      addTitle(part, name);
-      addValues(part, name);
       part.addEventListener("dblclick", () => chooseMethod(methodOf(name)));
     }
   }

@@ -2,7 +2,30 @@
 
 // What surrounds the data of a figure: a small image has no room for it.
 const surroundings = ["title", "note", "tick", "tick-label", "axis-label", "legend-sample",
-  "legend-text", "frame"].map((name) => `g.${name}`).join();
+  "legend-text", "legend-box", "frame"].map((name) => `g.${name}`).join();
+
+// Whether both axes of a panel count in one scale.
+function isMap({ x = "", y = "" }, [, , width, height]) {
+  const [kind, low, high] = x.split(" "), [other, bottom, top] = y.split(" ");
+  const across = (high - low) / width, up = (top - bottom) / height;
+  return kind === "linear" && other === "linear" && Math.abs(across - up) < .001 * up;
+}
+
+// Lines and marks that can be seen in a small image. Curves fill it; maps keep their proportions.
+function strengthen(svg, keepsProportions) {
+  const kTimes = 2;
+  for (const grid of svg.querySelectorAll("g.grid, g.mark-label")) grid.remove();
+  for (const line of svg.querySelectorAll("[stroke-width]")) {
+    line.setAttribute("stroke-width", kTimes * Number(line.getAttribute("stroke-width")));
+  }
+  if (keepsProportions || !svg.querySelector("[data-curve] path")) return;
+  svg.setAttribute("preserveAspectRatio", "none");
+  for (const path of svg.querySelectorAll("path")) {
+    path.setAttribute("vector-effect", "non-scaling-stroke");
+  }
+  for (const marker of svg.querySelectorAll("use")) marker.remove();
+  svg.setAttribute("height", Number(svg.getAttribute("width")) / 2);  // As the box, see report.css.
+}
 
 // The first panel of a figure or its image, without titles, axes and legend.
 function cropped(text) {
@@ -15,6 +38,7 @@ function cropped(text) {
   svg.setAttribute("viewBox", box.join(" "));
   svg.setAttribute("width", box[2]);
   svg.setAttribute("height", box[3]);
+  if (panel.localName !== "image") strengthen(svg, isMap(panel.dataset, box));
   return new XMLSerializer().serializeToString(svg);
 }
 
@@ -54,10 +78,17 @@ function firstPanel(svg, parts) {
   const box = stepBox(rooms, parts.frames[0]);
   movePanel(parts.panels[0], { x: -box.x, y: -box.y });
   shifts.set(labels, { x: -box.x, y: -box.y });
-  const foot = placeLegend(svg, parts, box.width, box.height + 4);
+  // Legends that stand in other panels are of these.
+  const { own, shared } = legendsOf(svg, parts, true);
+  for (const part of own.slice(1).flat(2)) {
+    part.remove();
+    parts.rest = parts.rest.filter((each) => each !== part);
+  }
+  const layers = [];
+  const foot = placeEntries(svg, [...own[0], ...shared], box.width, box.height + 4, layers);
   for (const part of [...parts.panels.slice(1).flat(), ...parts.axes.map((name) => name.parentElement),
     ...parts.rest.filter((each) => !/^legend-(sample|text)$/.test(kindOf(each)))]) part.remove();
-  svg.append(labels);
+  svg.append(labels, ...layers);
   placePart(labels);
   return { x: 0, y: 0, width: box.width, height: foot };
 }
@@ -84,7 +115,8 @@ function readable(text, width_px, height_px) {
   box.remove();
   const shown = isBetter ? first : parts.whole;
   return { text: isBetter ? new XMLSerializer().serializeToString(svg) : text, untitled: isBetter,
-    least_px: kLeastOpening_px / least * shown.height };
+    least_px: kLeastOpening_px / least * shown.height,
+    paper_px: kPaperWords_px / least * shown.height };
 }
 
 function addImage(link, alt, drawing) {
@@ -97,9 +129,36 @@ function addImage(link, alt, drawing) {
   link.prepend(image);
 }
 
+const kLeastDrawn = .02;  // Of the pixels of a small image.
+
+// The share of an image's pixels that differ from its commonest colour.
+async function drawnShare(image) {
+  await image.decode();
+  const canvas = new OffscreenCanvas(120, 60), kStep = 32;
+  const context = canvas.getContext("2d");
+  context.drawImage(image, 0, 0, canvas.width, canvas.height);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  const counts = new Map();
+  for (let i = 0; i < data.length; i += 4) {
+    const colour = data.slice(i, i + 4).map((value) => value / kStep).join();
+    counts.set(colour, (counts.get(colour) ?? 0) + 1);
+  }
+  return 1 - 4 * Math.max(...counts.values()) / data.length;
+}
+
+// Small images that show next to nothing are left out.
+async function dropEmpty(link) {
+  const image = link.querySelector("img");
+  if (!image || await drawnShare(image) >= kLeastDrawn) return;
+  const list = link.closest(".thumbnails");
+  link.closest("li").remove();
+  if (list.childElementCount === 0) list.remove();
+}
+
 function addOpeningImages() {
   for (const link of document.querySelectorAll(".thumbnails a")) {
     addImage(link, "", cropped);  // The link has the title.
+    dropEmpty(link);
   }
   const link = document.querySelector(".main-figure a");
   if (!link) return;
@@ -124,6 +183,7 @@ function addOpeningImages() {
     const most_px = Math.max(isUntitled ? title_px : height - kBorders_px, shown.least_px);
     link.parentElement.style.setProperty("--most",
       `${Math.min(most_px, kMostHeight_px) + kBorders_px}px`);
+    link.parentElement.style.setProperty("--paper", `${shown.paper_px + kBorders_px}px`);
     return shown.text;
   });
   link.querySelector("img")?.classList.toggle("untitled", isUntitled);

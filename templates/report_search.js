@@ -44,13 +44,16 @@ function decoded(text) {
   return text.replace(/&(lt|gt|quot|apos|amp);/g, (all, name) => characters[name]);
 }
 
-// Some words of a text around the first one that was searched for.
+// Some words of a text around the first one that was searched for, which is marked.
 function excerpt(text, words) {
-  const kBefore = 24, kMost = 80;
+  const kBefore = 12, kMost = 80;
   const at = text.toLocaleLowerCase("en").indexOf(words[0]);
   const from = at <= kBefore ? 0 : text.indexOf(" ", at - kBefore) + 1;
-  const part = text.slice(from, from + kMost);
-  return `${from > 0 ? "\u2026\u00a0" : ""}${part}${from + kMost < text.length ? "\u2026" : ""}`;
+  const start = `${from > 0 ? "\u2026\u00a0" : ""}`;
+  if (at < 0) return [start, text.slice(0, kMost)];
+  const hit = document.createElement("mark");
+  hit.textContent = text.slice(at, at + words[0].length);
+  return [start, text.slice(from, at), hit, text.slice(at + words[0].length, from + kMost)];
 }
 
 // The id of an element; one that has none gets one, so that a link can lead to it.
@@ -79,7 +82,8 @@ function addSearch(parent) {
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
       link.href = entry.href ?? `#${entry.link || idOf(entry.element)}`;
-      link.textContent = entry.text ? excerpt(entry.text, words) : entry.name;
+      link.append(...excerpt(entry.text ?? entry.name, words));
+      link.title = entry.text ?? entry.name;
       link.addEventListener("click", () => unfold(entry.element));
       item.append(link);
       return item;

@@ -1,6 +1,6 @@
 // On a narrow page the panels of a drawing stand one below the other, or as many side by side as
 // have words of a readable size; those that are too wide get narrower (see report_narrow.js). The
-// heading is text of the page, the legend is below.
+// heading is text of the page, and legends are below (see report_stack_legend.js).
 
 const kLeastWords_px = 10;
 const narrowPage = matchMedia("(max-width: 36rem)");
@@ -11,43 +11,6 @@ function leastWords(svg) {
   const sizes = [...svg.querySelectorAll('g[transform*="scale("]')].map(
     (words) => kUnitsOfFont * Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform"))[1]));
   return Math.min(...sizes.filter((size) => size > 0));
-}
-
-// A sample of the legend with its words, or several samples before one text.
-function legendEntries(parts) {
-  const entries = [];
-  let isOpen = false;
-  for (const part of parts.rest.filter((each) => /^legend-(sample|text)$/.test(kindOf(each)))) {
-    const isText = part.classList.contains("legend-text");
-    if (!isOpen) entries.push([]);
-    entries.at(-1).push(part);
-    isOpen = !isText;
-  }
-  return entries;
-}
-
-function boxOfAll(svg, parts) {
-  const boxes = parts.map((part) => boxIn(svg, part));
-  const x = Math.min(...boxes.map((box) => box.x)), y = Math.min(...boxes.map((box) => box.y));
-  return { x, y, width: Math.max(...boxes.map((box) => box.x + box.width)) - x,
-    height: Math.max(...boxes.map((box) => box.y + box.height)) - y };
-}
-
-// Puts the entries of the legend in lines from `top` on. Returns their foot.
-function placeLegend(svg, parts, width, top) {
-  const kGap = 14;
-  let x = 6, foot = top, lineTop = top;
-  for (const entry of legendEntries(parts)) {
-    const box = boxOfAll(svg, entry);
-    if (x > 6 && x + box.width > width - 6) {
-      x = 6;
-      lineTop = foot + 4;
-    }
-    movePanel(entry, { x: x - box.x, y: lineTop - box.y });
-    x += box.width + kGap;
-    foot = Math.max(foot, lineTop + box.height);
-  }
-  return foot + 8;
 }
 
 // The heading and the notes of a drawing as text of the page, above it.
@@ -92,27 +55,30 @@ function fillWidth(svg, box) {
 function unstack(svg, parts) {
   for (const layer of svg.querySelectorAll(":scope > .step-axes")) layer.remove();
   svg.parentElement.parentElement.querySelector(".drawn-title")?.remove();
+  slopeSamples(svg);
   svg.parentElement.classList.remove("stacked", "stepped");
   for (const panel of [...parts.panels, parts.rest]) movePanel(panel, kNoShift);
 }
 
 // Returns the box of the drawing that holds all.
-function stack(svg, parts, { rooms, columns, width, height }) {
-  const layers = [];
+function stack(svg, parts, { rooms, columns, width }) {
+  const layers = [], { own, shared } = legendsOf(svg, parts, columns === 1);
+  // Before legends are placed, which takes away what they copy.
+  for (const part of parts.rest) {
+    part.classList.toggle("off", !/^legend-(sample|text)$/.test(kindOf(part)));
+  }
+  let top = 0;
   parts.frames.forEach((frame, i) => {
-    const left = (i % columns) * width + rooms.left, top = Math.floor(i / columns) * height +
-      rooms.above;
-    const shift = { x: left - frame.x, y: top - frame.y };
+    const row = parts.frames.slice(i - i % columns, i - i % columns + columns);
+    const height = rooms.above + Math.max(...row.map((one) => one.height)) + rooms.below;
+    const shift = { x: (i % columns) * width + rooms.left - frame.x, y: top + rooms.above - frame.y };
     layers.push(sharedAxes(svg, parts, i, shift));
     movePanel(parts.panels[i], shift);
+    if (own[i].length > 0) top = placeEntries(svg, own[i], width, top + height + 4, layers);
+    else if (i % columns === columns - 1 || i + 1 === parts.frames.length) top += height;
   });
   for (const label of parts.axes) label.parentElement.classList.add("off");
-  const rows = Math.ceil(parts.frames.length / columns);
-  const foot = placeLegend(svg, parts, columns * width, rows * height + 4);
-  for (const part of parts.rest) {
-    const isLegend = /^legend-(sample|text)$/.test(kindOf(part));
-    part.classList.toggle("off", !isLegend);
-  }
+  const foot = placeEntries(svg, shared, columns * width, top + 4, layers);
   svg.append(...layers);
   return { x: 0, y: 0, width: columns * width, height: foot };
 }

@@ -145,8 +145,7 @@ class Comparison {
       warn(estimate.file.string(), std::string(problem.what()) + ": lost");
       return;
     }
-    constexpr double kHalf_percent = 50.0;
-    if (run.path->associated_percent < kHalf_percent)
+    if (run.path->associated_percent < kFewAssociated_percent)
       warn(estimate.file.string(),
            fmt::format("only {:.3g} % of the poses are associated; --largest-gap and --offset "
                        "decide",

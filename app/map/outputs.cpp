@@ -45,7 +45,7 @@ std::string map_title(const std::string& observations) {
 /// The map first, as drawn with what is known of it, then the others.
 std::vector<Figure> figures_of(const MapResult& map) {
   std::vector<Figure> figures = {map_figure(map.record, "map")};
-  figures.front().title = title_with_error(figures.front().title, map.record.score);
+  figures.front().title = title_with_error(figures.front().title, map.record);
   if (map.uncertainty) add_ellipses(map.record, *map.uncertainty, figures.front());
   if (!map.fit.tests.empty()) figures.push_back(fit_figure(map.fit, kFitSection, {map.record.id}));
   figures.insert(figures.end(), map.figures.begin(), map.figures.end());
@@ -69,7 +69,8 @@ Report report_of(const MapOutput& location, const MapResult& map,
                      .command = location.command,
                      .more = map.sections,
                      .fit = fit_section(map.fit, of_fit),
-                     .verdict = verdict_text(map.fit)});
+                     .verdict = with_anchors(verdict_text(map.fit), map.record),
+                     .fit_number = fit_number(map.fit)});
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.
@@ -147,7 +148,7 @@ std::string map_text(const MapResult& map, const fs::path& out) {
       const std::string scored = scored_landmarks_text(record);
       text += ": " + score + (scored.empty() ? "" : " (" + scored + ")");
     }
-  text += "\n" + verdict_text(map.fit);
+  text += "\n" + with_anchors(verdict_text(map.fit), record);
   return text + "\n" + (out / "report.html").string() + "\n";
 }
 

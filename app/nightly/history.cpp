@@ -57,7 +57,10 @@ int list(HistoryStore& history, const Console& console) {
     }
     for (const NightlyNote& note : notes_on(nightly_run.number, notes))
       if (note.kind != NoteKind::kKnown)
-        text += fmt::format("         {}: {}\n", name(note.kind), note.text);
+        text += fmt::format(
+            "         {}{}: {}\n", name(note.kind),
+            note.finding == 0 ? "" : fmt::format(" on {}.{}", note.nightly_run, note.finding),
+            note.text);
   }
   if (text.empty()) text = "no nightly run yet\n";
   // The result of a command; the exported file names its own schema.
@@ -244,8 +247,8 @@ Action history_command(CLI::App& app) {
       "  mapproof history history --known 7.2 \"broken sensor, issue 12\"\n"
       "  mapproof history history --accept 7 \"new solver\"\n"
       "  mapproof history history --compare 5 6\n\n"
-      "Later nightly runs are compared with a pinned one: accept or pin a nightly run to accept its "
-      "changes.\n"
+      "Later nightly runs are compared with a pinned one: accept or pin a nightly run to "
+      "accept its changes.\n"
       "A finding that is known fails no nightly run until it gets worse. An empty text removes "
       "what was said.\n"
       "--verify ends with 1 if the history or a figure in it is not whole.\n");
@@ -262,8 +265,7 @@ Action history_command(CLI::App& app) {
       ->transform(one_of({"csv", "json"}));
   what->add_option("--pin", arguments->pin, "Compare with this nightly run from now on")
       ->check(above_zero());
-  const auto add_note = [&](const char* option, std::vector<std::string>& words,
-                            const char* text) {
+  const auto add_note = [&](const char* option, std::vector<std::string>& words, const char* text) {
     what->add_option(option, words, text)->expected(2)->type_name("N TEXT");
   };
   add_note("--note", arguments->note,

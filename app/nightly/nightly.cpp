@@ -8,6 +8,7 @@
 #include <ctime>
 #include <memory>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <thread>
 
@@ -142,36 +143,104 @@ fs::path out_of(const NightlyArguments& arguments) {
   return arguments.out.empty() ? arguments.store : arguments.out;
 }
 
-/// Draws the report of each study of a nightly run that has been judged, and keeps its figures.
-/// @return Whether all scenes could be drawn.
-bool write_all(NightlyRun& nightly_run, HistoryStore& history, const fs::path& folder,
-               const HistoryOutputs& outputs, const Invocation& invocation) {
-  const ObjectFolder objects(outputs.store / "objects");
-  const bool begins = history.nightly_runs().empty();
-  const LostNightlyRuns lost = begins ? lost_nightly_runs(outputs.store, {}) : LostNightlyRuns{};
-  const std::vector<FindingGroup> groups =
-      grouped(nightly_run.findings, trends_with(history, nightly_run), history.notes());
-  bool scenes_drawn = true;
-  for (NightlyStudy& study : nightly_run.studies) {
+/// Whether the store has the folder of a study of a nightly run.
+bool has_folder(const fs::path& store, int nightly_run, const std::string& study) {
+  std::error_code error;
+  return fs::exists(nightly_folder(store, nightly_run) / study / "study.json", error);
+}
+
+/// A page that compares the nightly runs between which something new began in a study.
+struct PlannedComparison {
+  std::string study = {};
+  CommitRange commits = {};
+
+  std::string file() const {
+    return comparison_file(commits.before.number, commits.since.number, study);
+  }
+};
+
+/// The pages that are not there yet.
+std::vector<PlannedComparison> planned_comparisons(std::span<const FindingGroup> groups,
+                                                   const HistoryOutputs& outputs) {
+  std::set<std::string> there = comparisons_in(outputs.out);
+  std::vector<PlannedComparison> plan;
+  for (const FindingGroup& group : groups) {
+    const PlannedComparison comparison{group.study, group.commits};
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    if (!group.known && before != 0 && has_folder(outputs.store, before, group.study) &&
+        has_folder(outputs.store, since, group.study) && there.insert(comparison.file()).second)
+      plan.push_back(comparison);
+  }
+  return plan;
+}
+
+/// Draws the reports of a nightly run that has been judged, and keeps their figures.
+class ReportWriter {
+ public:
+  ReportWriter(NightlyRun& nightly_run, HistoryStore& history, fs::path folder,
+               const HistoryOutputs& outputs, const Invocation& invocation)
+      : nightly_run_(nightly_run),
+        history_(history),
+        folder_(std::move(folder)),
+        outputs_(outputs),
+        invocation_(invocation),
+        lost_(history.nightly_runs().empty() ? lost_nightly_runs(outputs.store, {})
+                                             : LostNightlyRuns{}),
+        groups_(grouped(nightly_run.findings, trends_with(history, nightly_run), history.notes())),
+        plan_(planned_comparisons(groups_, outputs)) {}
+
+  const std::vector<PlannedComparison>& plan() const { return plan_; }
+
+  /// Of each study, with links to all comparisons that are planned.
+  /// @return Whether all scenes could be drawn.
+  bool write_all() {
+    std::set<std::string> comparisons = comparisons_in(outputs_.out);
+    for (const PlannedComparison& comparison : plan_) comparisons.insert(comparison.file());
+    bool scenes_drawn = true;
+    for (NightlyStudy& study : nightly_run_.studies) scenes_drawn &= write(study, comparisons);
+    return scenes_drawn;
+  }
+
+  /// Of each study again whose report links to a comparison that could not be made.
+  void write_without_failed() {
+    const std::set<std::string> there = comparisons_in(outputs_.out);
+    for (NightlyStudy& study : nightly_run_.studies)
+      if (std::ranges::any_of(plan_, [&](const PlannedComparison& comparison) {
+            return comparison.study == study.name && !there.contains(comparison.file());
+          }))
+        write(study, there);
+  }
+
+ private:
+  bool write(NightlyStudy& study, const std::set<std::string>& comparisons) {
+    const std::optional<int> reference = nightly_run_.facts.reference;
     FolderReport report =
-        read_folder_report(folder / study.name, invocation.command, invocation.command);
-    const bool is_compared =
-        nightly_run.facts.reference && has_study(history, *nightly_run.facts.reference, study);
-    NightlyLinks links(paths_from(folder / study.name, outputs.out, outputs.store));
+        read_folder_report(folder_ / study.name, invocation_.command, invocation_.command);
+    NightlyLinks links(paths_from(folder_ / study.name, outputs_.out, outputs_.store));
     add_nightly_run(report.report,
-                    {.nightly_run = nightly_run,
+                    {.nightly_run = nightly_run_,
                      .name = study.name,
-                     .is_compared = is_compared,
-                     .lost = lost,
-                     .groups = groups,
-                     .figures = report.figures},
+                     .is_compared = reference && has_study(history_, *reference, study),
+                     .lost = lost_,
+                     .groups = groups_,
+                     .figures = report.figures,
+                     .comparisons = comparisons},
                     links);
     report.link_words = links.words();
-    scenes_drawn &= draw(report, outputs, invocation.console);
-    study.figures = objects.keep(folder / study.name / "figures");
+    const bool scenes_drawn = draw(report, outputs_, invocation_.console);
+    study.figures = ObjectFolder(outputs_.store / "objects").keep(folder_ / study.name / "figures");
+    return scenes_drawn;
   }
-  return scenes_drawn;
-}
+
+  NightlyRun& nightly_run_;
+  HistoryStore& history_;
+  fs::path folder_;
+  const HistoryOutputs& outputs_;
+  const Invocation& invocation_;
+  LostNightlyRuns lost_;
+  std::vector<FindingGroup> groups_;
+  std::vector<PlannedComparison> plan_;
+};
 
 int exit_code(NightlyVerdict verdict) {
   switch (verdict) {
@@ -199,10 +268,8 @@ std::string commits_text(const NightlySummary& summary) {
 /// The first findings of each study, and where all of them stand.
 std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& summary,
                          const fs::path& pages) {
-  NightlyFacts facts = nightly_run.facts;
-  facts.verdict = summary.verdict();
-  std::string text = fmt::format("nightly run {}: {}\n", facts.number,
-                                 verdict_sentence(facts, summary.new_findings()));
+  std::string text = fmt::format("nightly run {}: {}\n", nightly_run.facts.number,
+                                 verdict_sentence(nightly_run.facts, summary.groups));
   for (const FindingGroup& group : summary.groups)
     if (group.known)
       text +=
@@ -222,23 +289,15 @@ std::string nightly_text(const NightlyRun& nightly_run, const NightlySummary& su
   return text;
 }
 
-/// Pages that compare the nightly runs between which something new began. A failure is a warning:
-/// the nightly run is recorded already.
-void compare_where_it_began(const IndexFacts& facts, const HistoryOutputs& outputs,
-                            const Console& console) {
-  const NightlySummary summary = last_summary(facts);
-  std::set<std::string> there = comparisons_in(outputs.out);
-  for (const FindingGroup& group : summary.groups) {
-    const int before = group.commits.before.number, since = group.commits.since.number;
-    if (group.known || before == 0 ||
-        !there.insert(comparison_file(before, since, group.study)).second)
-      continue;
+/// Writes the pages that are planned. A failure is a warning: the nightly run is recorded already.
+void compare_where_it_began(std::span<const PlannedComparison> plan, const IndexFacts& facts,
+                            const HistoryOutputs& outputs, const Console& console) {
+  for (const PlannedComparison& comparison : plan) {
+    const auto& [before, since] = comparison.commits;
     try {
-      write_comparisons({group.commits.before,
-                         group.commits.since,
-                         {group.study},
-                         groups_between(facts, before, since)},
-                        outputs);
+      write_comparisons(
+          {before, since, {comparison.study}, groups_between(facts, before.number, since.number)},
+          outputs);
     } catch (const std::runtime_error& error) {
       console.warning(error.what());
     }
@@ -254,10 +313,11 @@ struct NightlyEnd {
 
 /// Writes the pages of a history, and those that compare. @return How its last nightly run ended.
 NightlyEnd write_pages(HistoryStore& history, const std::vector<std::string>& remarks,
-                       const HistoryOutputs& outputs, const Console& console) {
+                       std::span<const PlannedComparison> plan, const HistoryOutputs& outputs,
+                       const Console& console) {
   IndexFacts facts = read_index_facts(history, outputs, remarks);
   NightlyEnd end{.summary = last_summary(facts)};
-  compare_where_it_began(facts, outputs, console);
+  compare_where_it_began(plan, facts, outputs, console);
   facts.comparisons = comparisons_in(outputs.out);
   end.index = write_history_pages(history, outputs, facts);
   end.exit_code = exit_code(end.summary.verdict());
@@ -293,7 +353,7 @@ TestedCommit measured_commit(CommitOptions options, const TestedCommit& of_metri
   return tested_commit(options, {std::string(source_commit()), ""});
 }
 
-NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequests& requests,
+NightlyEnd make_nightly_run(const NightlyArguments& arguments, NightlyRequests requests,
                             const Invocation& invocation) {
   const Console& console = invocation.console;
   const Templates page = load_templates(arguments.templates);
@@ -325,14 +385,18 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
   begin_nightly_run(folder, requests.studies, console);
   const int made = make_all(requests.studies, folder, nightly_run.facts, console);
   if (made != kDone) return {.exit_code = made};
+  for (StudyRequest& request : requests.studies) request.table.reset();  // It is in the folder now.
   nightly_run.studies = read_nightly_studies(requests.studies, folder);
   std::vector<std::string> remarks = judge_nightly_run(history, nightly_run, asked);
   remarks.insert(remarks.end(), requests.remarks.begin(), requests.remarks.end());
-  const bool scenes_drawn = write_all(nightly_run, history, folder, outputs, invocation);
+  ReportWriter reports(nightly_run, history, folder, outputs, invocation);
+  const bool scenes_drawn = reports.write_all();
   nightly_run.facts.ended_utc = now_utc();
   history.append(nightly_run);
   end_nightly_run(folder, nightly_run);
-  NightlyEnd end = write_pages(history, remarks, outputs, console);
+  for (NightlyStudy& study : nightly_run.studies) study.scores.clear();  // They are in the history.
+  NightlyEnd end = write_pages(history, remarks, reports.plan(), outputs, console);
+  reports.write_without_failed();
   write_summaries(end.summary, arguments.wishes, outputs.disclosure);
   say(nightly_run, end, outputs.out, console);
   if (!scenes_drawn) end.exit_code = kInternal;
@@ -340,7 +404,7 @@ NightlyEnd make_nightly_run(const NightlyArguments& arguments, const NightlyRequ
 }
 
 int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
-  const NightlyRequests requests = read_nightly_requests(
+  NightlyRequests requests = read_nightly_requests(
       {.experiments = arguments.experiments,
        .metrics = arguments.metrics,
        .better = arguments.better ? better_named(*arguments.better) : std::nullopt,
@@ -353,7 +417,7 @@ int nightly(const NightlyArguments& arguments, const Invocation& invocation) {
                    arguments.jobs,
                    {invocation.command, invocation.disclosure.host()}},
                   invocation.console);
-  const NightlyEnd end = make_nightly_run(arguments, requests, invocation);
+  const NightlyEnd end = make_nightly_run(arguments, std::move(requests), invocation);
   // The history is free again: the command may ask it.
   if (!end.index.empty())
     run_on_worse(end.summary, arguments.wishes, end.index, invocation.console);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -79,19 +80,18 @@ void declare_quantities(const std::string& file, std::optional<Better> better,
   }
 }
 
-/// The request to take a table of results as a study. It is named by its file, or by its folder if
-/// it is called results.csv, and is the same study whatever rows come and go. @throws IoError.
+/// The request to take a table of results as a study, whose rows it holds. It is named by its file,
+/// or by its folder if it is called results.csv, and is the same study whatever rows come and go.
+/// @throws IoError.
 StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
   const std::string source = file.string();
   ResultsStudy study;
   declare_quantities(source, better, study);
   const fs::path path = real_path(file);
-  const auto rows = [file, quantities = study.results.quantities] {
-    return read_results_csv(file, quantities);
-  };
-  if (rows().empty()) throw IoError(source, "has no row");
-  Sha256 digest;
-  digest.add_file(file);
+  auto rows = std::make_shared<std::vector<Result>>();
+  const std::string digest =
+      read_unchanged(file, [&] { *rows = read_results_csv(file, study.results.quantities); });
+  if (rows->empty()) throw IoError(source, "has no row");
   const bool is_plain = file.filename() == kResultsFile;
   study.name = name_from(is_plain ? path.parent_path().filename().string() : path.stem().string(),
                          std::string(kNamelessResults));
@@ -99,9 +99,9 @@ StudyRequest table_request(const fs::path& file, std::optional<Better> better) {
   study.question = "Numbers of another program.";
   study.results.are_repeats = true;
   return {.name = study.name,
-          .digest = digest.hex(),
+          .digest = digest,
           .texts = {{kStudyFile, results_study_json(study)}},
-          .table = rows,
+          .table = std::move(rows),
           .compared_by = sha256_hex("table\n" + study.name)};
 }
 
@@ -240,11 +240,6 @@ std::vector<NightlyFinding> begun_in(HistoryStore& history, int since) {
   return all;
 }
 
-bool is_about(const NightlyFinding& finding, const SeriesId& id) {
-  return id.quantity == finding.quantity &&
-         (finding.subject == method_of(id) || finding.subject.starts_with(method_of(id) + ", "));
-}
-
 /// The values of one series before, in which it got worse, and now.
 struct Triple {
   double before, worse, now;
@@ -269,7 +264,7 @@ std::vector<Triple> triples_of(HistoryStore& history, const NightlyStudy& study,
   std::vector<Triple> triples;
   for (const auto& [id, values] : study.scores) {
     const bool is_found = std::ranges::any_of(findings, [&](const NightlyFinding& finding) {
-      return finding.study == study.name && is_about(finding, id);
+      return finding.study == study.name && finding.subject != kAllMethods && is_about(finding, id);
     });
     if (!is_found) continue;
     const Triple triple{median_in(good, id), median_in(bad, id), known_median(values)};

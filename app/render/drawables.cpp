@@ -66,7 +66,7 @@ Figure figure_of_map(const fs::path& file) {
   const std::string text = read_file(file);
   const MapRecord record = parse_map(text, file.string());
   Figure figure = map_figure(record, "map");
-  figure.title = title_with_error(figure.title, record.score);
+  figure.title = title_with_error(figure.title, record);
   if (const auto uncertainty = parse_map_uncertainty(text, file.string()))
     add_ellipses(record, *uncertainty, figure);
   return figure;
@@ -126,10 +126,10 @@ Drawables read_drawables(const fs::path& input) {
   else if (name.ends_with(".json"))
     add_file(input, drawables);
   else
-    throw IoError(
-        input.string(),
-        "is not a figure: a figure is a folder of mapproof, the page of a report, ID.figure.json or "
-        "ID.scene.json");
+    throw IoError(input.string(),
+                  "is not a figure: a figure is a folder of mapproof, the page of a report, "
+                  "ID.figure.json or "
+                  "ID.scene.json");
   return drawables;
 }
 

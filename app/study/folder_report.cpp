@@ -4,6 +4,7 @@
 #include <ctime>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -37,9 +38,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_paper_study(const FolderReport& part) { return part.origin == StudyOrigin::kPaper; }
+
 /// What the reader of several papers' results sees first.
 Section contents_section(const std::vector<FolderReport>& parts) {
-  const bool papers_alone = std::ranges::all_of(parts, &FolderReport::of_paper);
+  const bool papers_alone = std::ranges::all_of(parts, is_paper_study);
   Section section{"papers", papers_alone ? "Papers" : "Studies", {}};
   BulletList papers;
   for (const FolderReport& part : parts) {
@@ -97,7 +100,7 @@ std::string main_figure_of(const std::vector<FolderReport>& parts) {
   };
   const auto first = std::ranges::find_if(parts, has_one);
   if (first == parts.end()) return "";
-  if (first->of_paper) return first->report.opening.main_figure;
+  if (is_paper_study(*first)) return first->report.opening.main_figure;
   return std::ranges::max_element(parts, {}, layers_of_main_figure)->report.opening.main_figure;
 }
 
@@ -109,10 +112,9 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
     runs += part.runs;
     if (!part.incomplete.empty() || !part.missing.empty()) incomplete.push_back(part.report.title);
   }
-  const std::string size = fmt::format(
-      "{} studies of {}. Each number above is of one of them, "
-      "compared with what the study sets against it.",
-      parts.size(), counted(static_cast<long long>(runs), "run"));
+  const std::string size =
+      fmt::format("{} studies of {}. Each is compared with what it sets against its methods.",
+                  parts.size(), counted(static_cast<long long>(runs), "run"));
   std::string wrong = incomplete.empty()
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
@@ -129,24 +131,49 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
 }
 
+/// How many of the studies that aim at something came out so, and which did not; none if no study
+/// has an aim.
+std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& parts) {
+  std::ptrdiff_t judged = 0;
+  std::vector<std::string> short_of;
+  for (const FolderReport& part : parts) {
+    if (!part.reached_aim) continue;
+    ++judged;
+    if (!*part.reached_aim) short_of.push_back(part.report.title);
+  }
+  if (judged == 0) return std::nullopt;
+  const std::ptrdiff_t open = std::ssize(parts) - judged;
+  std::string detail = short_of.empty() ? "" : "not: " + listed(short_of, 4);
+  if (open > 0) detail += fmt::format("{}{} more without an aim", detail.empty() ? "" : "; ", open);
+  return Highlights::Item{.label = "studies came out as aimed at",
+                          .value = fmt::format("{} of {}", judged - std::ssize(short_of), judged),
+                          .detail = std::move(detail),
+                          .falls_short = !short_of.empty()};
+}
+
 /// The first number of each part, and what it is compared with: as a finding where there are too
-/// many of them for a tile to have it.
+/// many of them for a tile each. Tiles then have the verdict over all, what falls short, and some
+/// of the others.
 void add_first_numbers(const std::vector<FolderReport>& parts, Opening& all) {
   all.findings = extent_of(parts);  // The sections of each have the others.
   const bool are_many = parts.size() > kMostNumbers;
+  std::vector<Highlights::Item> numbers;
   for (const FolderReport& part : parts) {
-    const auto& numbers = part.report.opening.numbers.items;
-    if (numbers.empty()) continue;
-    Highlights::Item number = numbers.front();
-    if (are_many) {
+    if (part.report.opening.numbers.items.empty()) continue;
+    const Highlights::Item& number = part.report.opening.numbers.items.front();
+    if (are_many)
       all.findings.push_back(
           {{strong(part.report.title),
             phrase(fmt::format(": {} {}{}.", number.value, number.label,
                                number.detail.empty() ? "" : "; " + number.detail))}});
-      number.detail.clear();
-    }
-    all.numbers.items.push_back(std::move(number));
+    numbers.push_back(number);
   }
+  if (are_many) {
+    std::ranges::stable_partition(numbers, &Highlights::Item::falls_short);
+    if (auto verdict = verdict_of(parts)) numbers.insert(numbers.begin(), *std::move(verdict));
+    numbers.resize(std::min(numbers.size(), kMostNumbers));
+  }
+  all.numbers.items = std::move(numbers);
 }
 
 /// As many of each part's numbers and findings, under its title, as leave room for the others'.
@@ -168,14 +195,12 @@ void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
 /// What the reader of several papers or studies sees first.
 Opening joined_opening(const std::vector<FolderReport>& parts) {
   Opening all;
-  if (parts.size() > 1 && std::ranges::none_of(parts, &FolderReport::of_paper))
+  if (parts.size() > 1 && std::ranges::none_of(parts, is_paper_study))
     add_first_numbers(parts, all);
   else
     add_shares(parts, all);
   all.main_figure = main_figure_of(parts);
-  // Many tiles leave room for one row of small figures.
-  const std::size_t small = parts.size() > kMostNumbers ? kMostThumbnails / 2 : kMostThumbnails;
-  all.figure_ids = in_turns<std::string>(parts, small, [&](const Opening& own) {
+  all.figure_ids = in_turns<std::string>(parts, kMostCandidates, [&](const Opening& own) {
     std::vector<std::string> ids = own.figure_ids;
     if (!own.main_figure.empty() && own.main_figure != all.main_figure)
       ids.insert(ids.begin(), own.main_figure);
@@ -184,12 +209,19 @@ Opening joined_opening(const std::vector<FolderReport>& parts) {
   return all;
 }
 
-/// Reports of several studies in one, with what is missing at its head.
-/// @throws InvalidInput if an id stands in two of them.
-FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
+std::string title_of(const std::vector<FolderReport>& parts) {
+  if (std::ranges::any_of(parts, is_paper_study)) return "Maps from what a robot observed";
+  const bool are_topics = std::ranges::all_of(
+      parts, [](const FolderReport& part) { return part.origin == StudyOrigin::kTopic; });
+  return are_topics ? "Beyond the papers: studies side by side" : "Studies side by side";
+}
+
+}  // namespace
+
+FolderReport joined_report(const fs::path& folder, std::vector<FolderReport> parts) {
   FolderReport all{.folder = folder};
-  all.report.title = "Maps from what a robot observed";
-  all.report.subtitle = std::ranges::all_of(parts, &FolderReport::of_paper)
+  all.report.title = title_of(parts);
+  all.report.subtitle = std::ranges::all_of(parts, is_paper_study)
                             ? "Two papers reproduced"
                             : fmt::format("{} studies", parts.size());
   if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
@@ -214,6 +246,8 @@ FolderReport joined(const fs::path& folder, std::vector<FolderReport> parts) {
   return all;
 }
 
+namespace {
+
 /// @return The report, with the sections that it has in a joint one.
 FolderReport read_report(const fs::path& folder, const std::optional<std::string>& command,
                          const std::string& fallback) {
@@ -223,7 +257,7 @@ FolderReport read_report(const fs::path& folder, const std::optional<std::string
     if (!studies.empty()) {
       std::vector<FolderReport> parts;
       for (const fs::path& study : studies) parts.push_back(read_report(study, command, fallback));
-      return joined(folder, std::move(parts));
+      return joined_report(folder, std::move(parts));
     }
   }
   std::string made_by = command.value_or("");

@@ -36,6 +36,10 @@ FolderReport read_folder_report(const std::filesystem::path& folder,
                                 const std::optional<std::string>& command,
                                 const std::string& fallback);
 
+/// Reports of several studies in one, with what is missing at its head.
+/// @throws InvalidInput if an id stands in two of them.
+FolderReport joined_report(const std::filesystem::path& folder, std::vector<FolderReport> parts);
+
 /// The report of a range-only study that is at hand, with its figures.
 /// @param command  The one that makes the study again.
 FolderReport slam_folder_report(const std::filesystem::path& folder, const SlamStudy& study,

@@ -55,7 +55,7 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
                                  .remarks = file_remarks(study, folder),
                                  .date = date_of(read_sessions(folder))};
   FolderReport result{.folder = folder,
-                      .of_paper = false,
+                      .origin = StudyOrigin::kTable,
                       .report = results_report(input),
                       .in_company = results_sections(input),
                       .group = study.title,

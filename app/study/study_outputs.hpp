@@ -17,10 +17,13 @@
 
 namespace mapproof {
 
+/// Whose question a study asks: that of a paper, one of our topics, or one of a user's own table.
+enum class StudyOrigin { kPaper, kTopic, kTable };
+
 /// The report of a folder of records and the figures in it, as values.
 struct FolderReport {
   std::filesystem::path folder;
-  bool of_paper = true;  ///< A paper's study, not one beyond them.
+  StudyOrigin origin = StudyOrigin::kPaper;
   Report report = {};
   std::vector<Section> in_company =
       {};                            ///< Its sections as they stand beside those of other studies.
@@ -29,8 +32,9 @@ struct FolderReport {
   std::vector<Scene> scenes = {};    ///< Likewise.
   std::vector<Film> films = {};      ///< Of some of the scenes.
   std::size_t runs = 0;
-  std::string incomplete = {};  ///< What is still to be run, a sentence; empty: nothing.
-  std::vector<std::string> missing = {};               ///< Data asked for that are not there.
+  std::optional<bool> reached_aim = {};   ///< None: nothing is aimed at.
+  std::string incomplete = {};            ///< What is still to be run, a sentence; empty: nothing.
+  std::vector<std::string> missing = {};  ///< Data asked for that are not there.
   std::map<std::string, std::string> link_words = {};  ///< See HtmlOptions.
 };
 

@@ -60,14 +60,30 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
 }
 
 StudyRequest given_study_request(const std::filesystem::path& folder) {
-  StudyRequest request{.name = read_results_study(folder).name, .given = folder};
+  return {.name = read_results_study(folder).name,
+          .digest = results_study_digest(folder),
+          .given = folder};
+}
+
+std::string read_unchanged(const std::filesystem::path& file, const std::function<void()>& read) {
+  const auto digest = [&] {
+    Sha256 sum;
+    sum.add_file(file);
+    return sum.hex();
+  };
+  const std::string before = digest();
+  read();
+  if (digest() != before) throw IoError(file.string(), kChangedWhileRead);
+  return before;
+}
+
+std::string results_study_digest(const std::filesystem::path& folder) {
   Sha256 digest;
   for (const std::filesystem::path& file : results_study_files(folder)) {
     digest.add(file.string() + "\n");
     digest.add_file(folder / file);
   }
-  request.digest = digest.hex();
-  return request;
+  return digest.hex();
 }
 
 bool needs_data(const ExperimentText& file) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,12 @@ struct StudyOptions {
 /// Adds --plaza, --data and --methods to a command.
 void add_data_options(CLI::App& app, StudyOptions& options);
 
+/// What is wrong with files that another program wrote to between two times that they were read.
+inline constexpr const char* kChangedWhileRead = "was changed while it was read: run this again";
+
+/// Reads a file by `read`. @return Its SHA-256. @throws IoError if it was changed meanwhile.
+std::string read_unchanged(const std::filesystem::path& file, const std::function<void()>& read);
+
 /// A study of any type, ready to be made.
 struct StudyRequest {
   std::string name = {};
@@ -39,8 +46,8 @@ struct StudyRequest {
   std::filesystem::path given = {};        ///< A study that another program made, which is copied.
   std::map<std::string, std::string> texts =
       {};  ///< The files of a study that is at hand, by name.
-  /// Reads the rows of its results.csv, if that is none of `texts`.
-  std::function<std::vector<Result>()> table = {};
+  /// The rows of its results.csv, if that is none of `texts`.
+  std::shared_ptr<const std::vector<Result>> table = {};
   /// What nightly runs of it are compared by, where it is not what its study.json says; may be
   /// empty.
   std::string compared_by = {};
@@ -55,6 +62,9 @@ StudyRequest read_study_request(const ExperimentText& file, const StudyOptions& 
 
 /// The request to take the table of results in a folder as a study. @throws IoError.
 StudyRequest given_study_request(const std::filesystem::path& folder);
+
+/// SHA-256 of the files of the study of results in a folder. @throws IoError.
+std::string results_study_digest(const std::filesystem::path& folder);
 
 /// Whether an experiment cannot be made without StudyOptions::data. @throws IoError if it is none.
 bool needs_data(const ExperimentText& file);

@@ -80,9 +80,8 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
   if (!request.texts.empty()) {
     const LockedFolder study(folder);
     if (request.table) {
-      const std::vector<Result> rows = request.table();
       study.files().write(kResultsFile, "");
-      write_results_csv(rows,
+      write_results_csv(*request.table,
                         [&](const std::string& text) { study.files().append(kResultsFile, text); });
     }
     // With its last file the folder is a study: a table that was cut off is none.
@@ -91,6 +90,8 @@ void make_study(const StudyRequest& request, const fs::path& folder, int jobs,
   }
   if (!request.given.empty()) {
     copy_study(request.given, folder);
+    if (results_study_digest(folder) != request.digest)
+      throw IoError(request.given.string(), kChangedWhileRead);
     return;
   }
   say_when_stopped(kContinuesWord);

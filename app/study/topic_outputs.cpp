@@ -114,13 +114,15 @@ FolderReport topic_report(const std::filesystem::path& folder, const std::string
                            .date = date_of(sessions)};
   if (auto seconds = topic_seconds_table(study, labelled.name))
     input.cost.push_back(*std::move(seconds));
-  FolderReport result{.folder = folder,
-                      .of_paper = false,
-                      .report = results_report(input),
-                      .in_company = results_sections(input),
-                      .group = labelled.title,
-                      .runs = study.parts.size(),
-                      .incomplete = input.incomplete};
+  FolderReport result{
+      .folder = folder,
+      .origin = StudyOrigin::kTopic,
+      .report = results_report(input),
+      .in_company = results_sections(input),
+      .group = labelled.title,
+      .runs = study.parts.size(),
+      .reached_aim = headline.verdict.empty() ? std::nullopt : std::optional(!headline.falls_short),
+      .incomplete = input.incomplete};
   add_images(figures, result);
   return result;
 }

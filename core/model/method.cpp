@@ -1,14 +1,17 @@
 #include "core/model/method.hpp"
 
 #include <array>
+#include <cstdlib>
 #include <deque>
 #include <limits>
 #include <map>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/text/raised.hpp"
 #include "core/base/text/spelling.hpp"
 
 namespace mapproof {
@@ -225,10 +228,22 @@ std::string slug(const MethodSetting& setting) {
   return fmt::format("{}-{}{}{}", method.name, symbol, between, *setting.parameter);
 }
 
+namespace {
+
+/// "4000", "1.4×10⁷": without an "e".
+std::string number_words(double value) {
+  const std::string text = fmt::format("{:g}", value);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return text;
+  return text.substr(0, e) + "×10" + raised(std::stoi(text.substr(e + 1)));
+}
+
+}  // namespace
+
 std::string parameter_text(const MethodSetting& setting) {
   const MethodInfo& method = info(setting.method);
   if (!setting.parameter || !method.parameter) return "";
-  return fmt::format("{} = {:g}", method.parameter->shown, *setting.parameter);
+  return fmt::format("{} = {}", method.parameter->shown, number_words(*setting.parameter));
 }
 
 std::string label(const MethodSetting& setting) {

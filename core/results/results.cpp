@@ -54,15 +54,15 @@ class Ranks {
 
 /// Sorts the indices stably by one member of their rows: by counting, whatever their number.
 template <typename Key>
-void sort_by(const std::vector<Result>& rows, const Key& key, std::vector<std::uint32_t>& order,
-             std::vector<std::uint32_t>& sorted) {
+void sort_by(const std::vector<Result>& rows, const Key& key, std::vector<std::uint32_t>& order) {
   const Ranks<Key> ranks(rows, key);
   if (ranks.count() == 1) return;
   std::vector<std::uint32_t> starts(ranks.count() + std::size_t{1}, 0);
   for (const Result& row : rows) ++starts[ranks[key(row).id()] + std::size_t{1}];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint32_t> sorted(rows.size());  // Not before the ranks, which take as much.
   for (const std::uint32_t i : order) sorted[starts[ranks[key(rows[i]).id()]]++] = i;
-  std::swap(order, sorted);
+  order = std::move(sorted);
 }
 
 }  // namespace
@@ -110,19 +110,18 @@ std::vector<std::uint32_t> order_of(const std::vector<Result>& rows) {
   std::iota(order.begin(), order.end(), 0U);
   if (std::ranges::is_sorted(rows, comes_before)) return order;
   // The least important member first.
-  std::vector<std::uint32_t> sorted(rows.size());
   sort_by(
-      rows, [](const Result& row) { return row.subject; }, order, sorted);
+      rows, [](const Result& row) { return row.subject; }, order);
   sort_by(
-      rows, [](const Result& row) { return row.run; }, order, sorted);
+      rows, [](const Result& row) { return row.run; }, order);
   sort_by(
-      rows, [](const Result& row) { return row.quantity; }, order, sorted);
+      rows, [](const Result& row) { return row.quantity; }, order);
   sort_by(
-      rows, [](const Result& row) { return row.method; }, order, sorted);
+      rows, [](const Result& row) { return row.method; }, order);
   sort_by(
-      rows, [](const Result& row) { return row.at.levels; }, order, sorted);
+      rows, [](const Result& row) { return row.at.levels; }, order);
   sort_by(
-      rows, [](const Result& row) { return row.at.setup; }, order, sorted);
+      rows, [](const Result& row) { return row.at.setup; }, order);
   return order;
 }
 

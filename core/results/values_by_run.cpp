@@ -1,6 +1,7 @@
 #include "core/results/values_by_run.hpp"
 
 #include <iterator>
+#include <numeric>
 
 namespace mapproof {
 
@@ -23,10 +24,13 @@ void ValuesByRun::keep(const std::vector<Name>& runs) {
 void GroupsByRun::set(const Name& run, const Name& group) {
   if (run.id() >= known_.size()) {
     known_.resize(run.id() + std::size_t{1});
-    groups_.resize(known_.size());
+    is_alone_.resize(known_.size());
   }
   if (!known_[run.id()]) runs_.push_back(run);
   known_[run.id()] = true;
+  is_alone_[run.id()] = group == run;
+  if (group == run) return;
+  if (run.id() >= groups_.size()) groups_.resize(known_.size());
   groups_[run.id()] = group;
 }
 
@@ -36,25 +40,27 @@ std::vector<Name> GroupsByRun::runs() const {
   return sorted;
 }
 
-ValuesByRun means_by_group(const ValuesByRun& values, const GroupsByRun& groups) {
-  std::vector<ValuesByRun::value_type> of_groups;
-  of_groups.reserve(values.size());
-  for (const auto& [run, value] : values) {
-    const Name* group = groups.find(run);
-    of_groups.emplace_back(group == nullptr ? run : *group, value);
+RunsByGroup::RunsByGroup(const ValuesByRun& values, const GroupsByRun& groups)
+    : begins_(values.size()) {
+  const auto runs = values.begin();
+  const auto group_of = [&](std::size_t index) {
+    const Name& run = runs[static_cast<std::ptrdiff_t>(index)].first;
+    return groups.find(run).value_or(run);
+  };
+  bool ascends = true;
+  for (std::size_t i = 1; ascends && i < values.size(); ++i)
+    ascends = !(group_of(i) < group_of(i - 1));
+  if (!ascends) {
+    order_.resize(values.size());
+    std::iota(order_.begin(), order_.end(), 0U);
+    std::ranges::stable_sort(
+        order_, [&](std::uint32_t a, std::uint32_t b) { return group_of(a) < group_of(b); });
   }
-  std::ranges::stable_sort(of_groups, {}, &ValuesByRun::value_type::first);
-  ValuesByRun means;
-  means.reserve(of_groups.size());
-  for (auto first = of_groups.begin(); first != of_groups.end();) {
-    double sum = 0.0;
-    int count = 0;
-    auto end = first;
-    for (; end != of_groups.end() && end->first == first->first; ++end, ++count) sum += end->second;
-    means[first->first] = sum / count;
-    first = end;
+  const auto run_at = [&](std::size_t i) { return order_.empty() ? i : order_[i]; };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    begins_[i] = i == 0 || group_of(run_at(i)) != group_of(run_at(i - 1));
+    groups_ += begins_[i];
   }
-  return means;
 }
 
 }  // namespace mapproof

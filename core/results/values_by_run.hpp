@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -49,7 +51,8 @@ class ValuesByRun {
   std::vector<value_type> values_;
 };
 
-/// The group of each run, by Name::id(): 4 bytes per name of the process, and 4 per run.
+/// The group of each run, by Name::id(): 4 bytes per run, and 4 per name of the process where runs
+/// have groups other than themselves.
 class GroupsByRun {
  public:
   GroupsByRun() = default;
@@ -60,8 +63,11 @@ class GroupsByRun {
 
   void set(const Name& run, const Name& group);
 
-  /// Null if the run is not there. @note O(1).
-  const Name* find(const Name& run) const { return contains(run) ? &groups_[run.id()] : nullptr; }
+  /// None if the run is not there. @note O(1).
+  std::optional<Name> find(const Name& run) const {
+    if (!contains(run)) return std::nullopt;
+    return is_alone_[run.id()] ? run : groups_[run.id()];
+  }
   bool contains(const Name& run) const { return run.id() < known_.size() && known_[run.id()]; }
 
   std::size_t size() const { return runs_.size(); }
@@ -69,12 +75,46 @@ class GroupsByRun {
   std::vector<Name> runs() const;
 
  private:
-  std::vector<Name> groups_;  ///< By number of the run.
-  std::vector<bool> known_;   ///< Likewise.
-  std::vector<Name> runs_;    ///< In the order in which they came.
+  std::vector<bool> known_;     ///< By number of the run.
+  std::vector<bool> is_alone_;  ///< Likewise: it is the group of itself.
+  std::vector<Name> groups_;    ///< Likewise, of those that are not alone.
+  std::vector<Name> runs_;      ///< In the order in which they came.
 };
 
-/// The mean of the values of each group's runs. A run without a group is one of its own.
-ValuesByRun means_by_group(const ValuesByRun& values, const GroupsByRun& groups);
+/// Runs by their groups, so that means over groups take no copy of names and values: a bit per run,
+/// and 4 bytes where groups do not ascend as the runs do.
+class RunsByGroup {
+ public:
+  /// Of the runs of the values, at most 2^32 - 1. A run without a group is one of its own.
+  RunsByGroup(const ValuesByRun& values, const GroupsByRun& groups);
+
+  std::size_t groups() const { return groups_; }
+
+  /// The mean of the values of each group's runs, in ascending order of the groups.
+  /// @param value_of  The value of the run of an index.
+  template <typename ValueOf>
+  std::vector<double> means(const ValueOf& value_of) const {
+    std::vector<double> means;
+    means.reserve(groups_);
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = 0; i < begins_.size(); ++i) {
+      if (begins_[i] && count > 0) {
+        means.push_back(sum / count);
+        sum = 0.0;
+        count = 0;
+      }
+      sum += value_of(order_.empty() ? i : order_[i]);
+      ++count;
+    }
+    if (count > 0) means.push_back(sum / count);
+    return means;
+  }
+
+ private:
+  std::vector<std::uint32_t> order_;  ///< Indices of runs by group; empty: as they are.
+  std::vector<bool> begins_;          ///< Per run in that order: it is the first of its group.
+  std::size_t groups_ = 0;
+};
 
 }  // namespace mapproof

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/statistics/ties.hpp"
 
 namespace mapproof {
 namespace {
@@ -32,20 +33,20 @@ Eigen::RowVectorXd ranks(const Eigen::RowVectorXd& values) {
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return values(i); });
   Eigen::RowVectorXd ranks(values.size());
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t end = first + 1;
-    while (end < order.size() && values(order[end]) == values(order[first])) ++end;
-    const double shared = 0.5 * static_cast<double>(first + 1 + end);
-    for (; first < end; ++first) ranks(order[first]) = shared;
-  }
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return values(order[a]) == values(order[b]);
+  };
+  for_each_tie(order.size(), same, [&](std::size_t first, std::size_t end, double rank) {
+    for (; first < end; ++first) ranks(order[first]) = rank;
+  });
   return ranks;
 }
 
-FriedmanTest friedman(const Eigen::MatrixXd& values) {
+FriedmanTest friedman(Eigen::MatrixXd values) {
   if (values.rows() < 2) throw InvalidInput("friedman: at least two units are needed");
   if (values.cols() < 2) throw InvalidInput("friedman: at least two methods are needed");
-  Eigen::MatrixXd of_units(values.rows(), values.cols());
-  for (Eigen::Index i = 0; i < values.rows(); ++i) of_units.row(i) = ranks(values.row(i));
+  for (Eigen::Index i = 0; i < values.rows(); ++i) values.row(i) = ranks(values.row(i));
+  const Eigen::MatrixXd& of_units = values;
 
   FriedmanTest test;
   test.units = static_cast<int>(values.rows());

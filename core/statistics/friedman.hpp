@@ -29,6 +29,6 @@ Eigen::RowVectorXd ranks(const Eigen::RowVectorXd& values);
 /// @param values  n x k, finite: one row per unit, one column per method. Rows must be independent.
 /// @throws InvalidInput unless n >= 2, k >= 2 and all is finite.
 /// @note O(n k log k).
-FriedmanTest friedman(const Eigen::MatrixXd& values);
+FriedmanTest friedman(Eigen::MatrixXd values);
 
 }  // namespace mapproof

@@ -15,17 +15,20 @@ namespace {
 /// Sum over clusters of the squared sum of the values' deviations from the mean.
 double squared_cluster_sums(std::span<const double> values, std::span<const int> clusters,
                             double mean, int& count) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0U);
-  if (!std::ranges::is_sorted(clusters))
+  std::vector<std::size_t> order;  // Empty: as they are.
+  if (!std::ranges::is_sorted(clusters)) {
+    order.resize(values.size());
+    std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return clusters[i]; });
+  }
+  const auto at = [&](std::size_t i) { return order.empty() ? i : order[i]; };
   count = 0;
   double total = 0.0;
-  for (auto first = order.begin(); first != order.end(); ++count) {
-    const int cluster = clusters[*first];
+  for (std::size_t first = 0; first < values.size(); ++count) {
+    const int cluster = clusters[at(first)];
     double sum = 0.0;
-    for (; first != order.end() && clusters[*first] == cluster; ++first)
-      sum += values[*first] - mean;
+    for (; first < values.size() && clusters[at(first)] == cluster; ++first)
+      sum += values[at(first)] - mean;
     total += sum * sum;
   }
   return total;

@@ -83,15 +83,15 @@ class WalshAverages {
 };
 
 void judge_by_ranks(std::span<const double> differences, double confidence, PairedChange& change) {
-  const WalshAverages averages(differences);
   change.by_ranks = true;
+  change.p = signed_rank_test(differences).p;  // Before the averages take their memory.
+  const WalshAverages averages(differences);
   change.shift = averages.median();
   const std::size_t out =
       std::min(averages_left_out(static_cast<double>(differences.size()), confidence),
                (averages.size() - 1) / 2);
   change.low = averages[out];
   change.high = averages[averages.size() - 1 - out];
-  change.p = signed_rank_test(differences).p;
 }
 
 void judge_by_t(std::span<const double> differences, double confidence, PairedChange& change) {

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/normal.hpp>
 
 #include "core/base/errors.hpp"
-#include "core/statistics/friedman.hpp"
+#include "core/statistics/ties.hpp"
 
 namespace mapproof {
 namespace {
@@ -16,8 +16,9 @@ constexpr int kMostExact = 200;
 
 /// The chance that the sum of ranks with a fair sign each is at most `sum`. Doubled ranks are
 /// whole, ties or not.
-double chance_of_at_most(const Eigen::RowVectorXd& ranks, double sum) {
-  const auto top = static_cast<std::size_t>(std::lround(2.0 * ranks.sum()));
+double chance_of_at_most(const std::vector<double>& ranks, double sum) {
+  const double all = std::accumulate(ranks.begin(), ranks.end(), 0.0);
+  const auto top = static_cast<std::size_t>(std::lround(2.0 * all));
   std::vector<double> chance(top + 1, 0.0);
   chance[0] = 1.0;
   std::size_t reached = 0;
@@ -31,12 +32,38 @@ double chance_of_at_most(const Eigen::RowVectorXd& ranks, double sum) {
   return std::accumulate(chance.begin(), chance.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
 }
 
+/// Of the ranks of sizes, ties sharing theirs.
+struct RankSums {
+  double plus = 0.0, minus = 0.0, squares = 0.0;
+
+  double all() const { return plus + minus; }
+  double lesser() const { return std::min(plus, minus); }
+};
+
+/// @param differences  Which are put in the order of their sizes: ranks take no memory.
+/// @param ranks  Gets the rank of each, unless it is null.
+RankSums rank_sums(std::vector<double>& differences, std::vector<double>* ranks) {
+  std::ranges::sort(differences, {}, [](double value) { return std::abs(value); });
+  RankSums sums;
+  const auto same = [&](std::size_t a, std::size_t b) {
+    return std::abs(differences[a]) == std::abs(differences[b]);
+  };
+  for_each_tie(differences.size(), same, [&](std::size_t first, std::size_t end, double rank) {
+    for (; first < end; ++first) {
+      (differences[first] > 0.0 ? sums.plus : sums.minus) += rank;
+      sums.squares += rank * rank;
+      if (ranks != nullptr) ranks->push_back(rank);
+    }
+  });
+  return sums;
+}
+
 /// Of the lesser rank sum. The variance is n (n + 1) (2n + 1) / 24, less (t^3 - t) / 48 for each t
 /// that tie: a quarter of the sum of squared ranks.
-double normal_p(const Eigen::RowVectorXd& ranks, double lesser) {
-  const double from_mean = 0.5 * ranks.sum() - lesser - 0.5;
+double normal_p(const RankSums& sums) {
+  const double from_mean = 0.5 * sums.all() - sums.lesser() - 0.5;
   if (from_mean <= 0.0) return 1.0;
-  const double z = from_mean / std::sqrt(0.25 * ranks.squaredNorm());
+  const double z = from_mean / std::sqrt(0.25 * sums.squares);
   return 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
 }
 
@@ -46,6 +73,7 @@ SignedRankTest signed_rank_test(std::span<const double> differences) {
   SignedRankTest test;
   test.pairs = static_cast<int>(differences.size());
   std::vector<double> nonzero;
+  nonzero.reserve(differences.size());
   for (const double difference : differences) {
     if (!std::isfinite(difference))
       throw InvalidInput("signed_rank_test: a difference is not finite");
@@ -54,16 +82,14 @@ SignedRankTest signed_rank_test(std::span<const double> differences) {
   test.nonzero = static_cast<int>(nonzero.size());
   if (nonzero.empty()) return test;
 
-  const Eigen::Map<const Eigen::RowVectorXd> values(nonzero.data(), test.nonzero);
-  const Eigen::RowVectorXd of_size = ranks(values.cwiseAbs());
-  for (int i = 0; i < test.nonzero; ++i)
-    (nonzero[static_cast<std::size_t>(i)] > 0.0 ? test.rank_sum_plus : test.rank_sum_minus) +=
-        of_size(i);
-  test.effect = (test.rank_sum_plus - test.rank_sum_minus) / of_size.sum();
   test.exact = test.nonzero <= kMostExact;
-  const double lesser = std::min(test.rank_sum_plus, test.rank_sum_minus);
-  test.p = std::min(
-      1.0, test.exact ? 2.0 * chance_of_at_most(of_size, lesser) : normal_p(of_size, lesser));
+  std::vector<double> ranks;  // Of few.
+  const RankSums sums = rank_sums(nonzero, test.exact ? &ranks : nullptr);
+  test.rank_sum_plus = sums.plus;
+  test.rank_sum_minus = sums.minus;
+  test.effect = (sums.plus - sums.minus) / sums.all();
+  test.p =
+      std::min(1.0, test.exact ? 2.0 * chance_of_at_most(ranks, sums.lesser()) : normal_p(sums));
   return test;
 }
 

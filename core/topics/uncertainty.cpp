@@ -63,10 +63,10 @@ TopicDesign uncertainty_design(const TopicExperiment& experiment) {
     design.setups.push_back({id,
                              fmt::format("Ellipses of maps from {}", name(sensor)),
                              {steps_factor(list_option(experiment, "observations"))}});
-  design.setups.push_back({kBlocks,
-                           "Ellipses from blocks of other lengths, bearing",
-                           {{kBlockLength, "length of the blocks, of the usual one", "",
-                             list_option(experiment, "blocks")}}});
+  design.setups.push_back(
+      {kBlocks,
+       "Ellipses from blocks of other lengths, bearing",
+       {{kBlockLength, "relative length of the blocks", "", list_option(experiment, "blocks")}}});
   for (const MethodSetting& setting : kSettings)
     design.methods.push_back({slug(setting), label(setting)});
   design.quantities = {

@@ -342,6 +342,7 @@ void decode_animation(std::string bytes, const Traits& traits, const Take& take)
 }
 
 struct DeleteWebp {
+  void operator()(WebPDemuxer* parts) const { WebPDemuxDelete(parts); }
   void operator()(WebPAnimDecoder* decoder) const { WebPAnimDecoderDelete(decoder); }
 };
 
@@ -356,15 +357,19 @@ bool is_animated_webp(std::string_view bytes) {
 /// By libwebp, as FFmpeg reads no animated WebP.
 void decode_animated_webp(const std::string& bytes, const Take& take) {
   const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+  const std::unique_ptr<WebPDemuxer, DeleteWebp> parts(WebPDemux(&data));
+  if (!parts) throw std::runtime_error("it is damaged");
+  const auto width = static_cast<int>(WebPDemuxGetI(parts.get(), WEBP_FF_CANVAS_WIDTH));
+  const auto height = static_cast<int>(WebPDemuxGetI(parts.get(), WEBP_FF_CANVAS_HEIGHT));
+  // The decoder takes two frames from its first moment on.
+  if (const std::string problem = decoded_size_problem(width, height); !problem.empty())
+    throw std::runtime_error(problem);
   const std::unique_ptr<WebPAnimDecoder, DeleteWebp> decoder(WebPAnimDecoderNew(&data, nullptr));
   WebPAnimInfo facts{};
   if (!decoder || WebPAnimDecoderGetInfo(decoder.get(), &facts) == 0)
     throw std::runtime_error("it is damaged");
-  const int width = static_cast<int>(facts.canvas_width);
-  const int height = static_cast<int>(facts.canvas_height);
-  const WebPDemuxer* parts = WebPAnimDecoderGetDemuxer(decoder.get());
   WebPChunkIterator chunk{};
-  const std::uint64_t profile = WebPDemuxGetChunk(parts, "ICCP", 1, &chunk) == 0
+  const std::uint64_t profile = WebPDemuxGetChunk(parts.get(), "ICCP", 1, &chunk) == 0
                                     ? 0
                                     : profile_digest({chunk.chunk.bytes, chunk.chunk.size});
   WebPDemuxReleaseChunkIterator(&chunk);

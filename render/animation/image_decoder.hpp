@@ -9,6 +9,19 @@
 namespace mapproof {
 
 inline constexpr std::int64_t kMostDecodedPixels = std::int64_t{1} << 28;  ///< Of a frame.
+inline constexpr std::int64_t kLargestDecodedSide = 65'535;                ///< In pixels.
+
+/// Why a frame of a size is not decoded; empty: it is.
+inline std::string decoded_size_problem(std::int64_t width, std::int64_t height) {
+  const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels ";
+  if (width < 1 || height < 1) return size + "are none";
+  if (width > kLargestDecodedSide || height > kLargestDecodedSide)
+    return size + "have more than the " + std::to_string(kLargestDecodedSide) +
+           " a side that are compared";
+  if (width * height > kMostDecodedPixels)
+    return size + "are more than the " + std::to_string(kMostDecodedPixels) + " that are compared";
+  return "";
+}
 
 /// A frame as a viewer shows it.
 struct DecodedFrame {

@@ -303,10 +303,8 @@ std::string ImageReader::bytes(std::size_t count) {
 }
 
 void ImageReader::require_size(std::int64_t width, std::int64_t height) const {
-  if (std::min(width, height) < 1 || std::max(width, height) > kLargestSide ||
-      width * height > kMostDecodedPixels)
-    throw InvalidInput(fmt::format("{} x {} pixels are more than the {} that are compared", width,
-                                   height, kMostDecodedPixels));
+  if (const std::string problem = decoded_size_problem(width, height); !problem.empty())
+    throw InvalidInput(problem);
 }
 
 void ImageReader::require_end() {

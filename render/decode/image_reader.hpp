@@ -40,13 +40,11 @@ struct ImageStrip {
 /// Reads the images of a file one by one, each in strips: frames are composed as a viewer shows
 /// them, the pages of a PDF are drawn at 96 dpi. Programs of their own decode (mapproof-animation,
 /// pdftoppm), each with at most a minute of processor time and 4 GiB, so that a damaged file ends
-/// no more than these. PNGs that are not animated are decoded here, row by row, but for interlaced
-/// ones that are not held whole (png_read.hpp).
+/// no more than these; their frames have the sizes of decoded_size_problem(). PNGs that are not
+/// animated are decoded here, row by row, but for interlaced ones that are not held whole
+/// (png_read.hpp).
 class ImageReader {
  public:
-  static constexpr int kLargestSide = 65'535;  ///< Pixels, of at most kMostDecodedPixels; not of a
-                                               ///< PNG that is decoded here.
-
   /// @param bytes  Must outlive this. @throws InvalidInput with the reason if the program is
   ///               missing, or a PNG is damaged or too large.
   ImageReader(std::string_view bytes, DecodedFormat format);

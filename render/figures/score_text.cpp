@@ -1,9 +1,13 @@
 #include "render/figures/score_text.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
+#include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/number_text.hpp"
 
 namespace mapproof {
@@ -39,6 +43,39 @@ std::string title_with_error(const std::string& subject, const std::optional<Sco
     return fmt::format("{}: {} off after the best affine fit", subject,
                        error_text(score->mpe_all_fitted_m, 2));
   return subject;
+}
+
+std::string title_with_error(const std::string& subject, const MapRecord& record) {
+  std::string title = title_with_error(subject, record.score);
+  if (title != subject) return title;
+  if (const auto worst = worst_anchor(record))
+    return fmt::format("{}: up to {} off at {} ({})", subject, error_text(worst->error_m, 2),
+                       counted(std::ssize(record.anchors), "anchor"), printable(worst->name, 40));
+  return subject;
+}
+
+std::optional<WorstAnchor> worst_anchor(const MapRecord& record) {
+  if (record.frame != Frame::kGroundTruth || !record.ground_truth_m) return std::nullopt;
+  const Eigen::VectorXd errors_m = (record.estimate - *record.ground_truth_m).rowwise().norm();
+  Eigen::Index worst = -1;
+  for (const Eigen::Index anchor : record.anchors)
+    if (std::isfinite(errors_m(anchor)) && (worst < 0 || errors_m(anchor) > errors_m(worst)))
+      worst = anchor;
+  if (worst < 0) return std::nullopt;
+  Eigen::Array2d low = record.estimate.row(worst).head<2>().transpose(), high = low;
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i) {
+    const Eigen::Array2d position = record.estimate.row(i).head<2>().transpose();
+    if (!position.allFinite()) continue;
+    low = low.min(position);
+    high = high.max(position);
+  }
+  const double side_m = (high - low).maxCoeff();
+  constexpr double kMost_percent = 10.0;
+  WorstAnchor out{.name = record.names[static_cast<std::size_t>(worst)],
+                  .error_m = errors_m(worst),
+                  .share_percent = side_m > 0.0 ? 100.0 * errors_m(worst) / side_m : kNaN};
+  out.is_contradicted = out.share_percent > kMost_percent;
+  return out;
 }
 
 }  // namespace mapproof

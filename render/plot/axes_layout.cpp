@@ -48,10 +48,13 @@ std::string whole_label(const ColourScale& colours, const Ticks& ticks) {
 
 constexpr double kWidestName = 9.0;  // Of a tick's label, em; numbers are shorter.
 // Of a row's label: wider in a frame that has the room.
-constexpr double kWidestRowName = 16.0;
+constexpr double kLeastRowName = 13.5, kWidestRowName = 16.0;
 constexpr double kRowNameShare = 0.38;     // Of the frame's width.
 constexpr double kLeastTickGap = 0.25;     // Between labels of ticks that cannot be fewer, em.
 constexpr std::size_t kFewestToHalve = 3;  // Of labels that touch; two are left.
+constexpr std::size_t kFewestLabels = 3;   // Where there is room.
+constexpr double kLeastUpward = 1.8;       // Distance of labels one above the other, em,
+constexpr double kLeastAcross = 2.4;       // and of short ones beside each other.
 constexpr double kLabelLine = 1.55;        // From the foot of tick labels to the axis label's, em.
 
 /// Shortens names, which may come from anywhere.
@@ -258,6 +261,18 @@ Ticks AxesLayout::ticks_for(const Axis& axis, Range range, int most) const {
   return linear_ticks(range.low, range.high, axis.whole ? std::max(step, 1.0) : step);
 }
 
+/// More labels than usual where there is room for them: two do not show what the scale is.
+/// @param most   As usual.
+/// @param least  The least distance of two labels, in em of their text.
+Ticks AxesLayout::enough_ticks(const Axis& axis, Range range, int most, double length,
+                               double least) const {
+  Ticks ticks = ticks_for(axis, range, most);
+  const int room = static_cast<int>(length / (least * theme_.tick_font_pt));
+  for (int more = most + 1; ticks.at.size() < kFewestLabels && more <= room; ++more)
+    ticks = ticks_for(axis, range, more);
+  return ticks;
+}
+
 void AxesLayout::choose_ticks(Axes& axes) const {
   const double em = theme_.tick_font_pt;
   const int most_y = std::clamp(static_cast<int>(axes.frame.height() / (3.2 * em)), 2, 8);
@@ -268,16 +283,20 @@ void AxesLayout::choose_ticks(Axes& axes) const {
   if (panel_.equal_aspect) {
     choose_equal_ticks(axes, most_x, most_y);
   } else {
-    axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x), theme_);
+    axes.x =
+        shaped(enough_ticks(panel_.x, limits_.x, most_x, axes.frame.width(), kLeastAcross), theme_);
     const bool is_named = !panel_.y.names.empty();
     const int most = panel_.y.scale == Scale::kLog ? std::max(most_y, 3)
                      : is_named
                          ? std::max(2, static_cast<int>(axes.frame.height() / (kNameLine * em)))
                          : most_y;
     const double row_em =
-        std::clamp(kRowNameShare * axes.frame.width() / em, kWidestName, kWidestRowName);
-    axes.y = shaped(ticks_for(panel_.y, limits_.y, most), theme_, is_named ? row_em : kWidestName);
+        std::clamp(kRowNameShare * axes.frame.width() / em, kLeastRowName, kWidestRowName);
+    axes.y = shaped(enough_ticks(panel_.y, limits_.y, most, axes.frame.height(), kLeastUpward),
+                    theme_, is_named ? row_em : kWidestName);
   }
+  if (labels_touch(axes) && axes.x.ticks.at.size() > 2)
+    axes.x = shaped(ticks_for(panel_.x, limits_.x, most_x), theme_);
   while (most_x > 2 && labels_touch(axes)) {
     axes.x = shaped(ticks_for(panel_.x, limits_.x, --most_x), theme_);
   }
@@ -287,18 +306,19 @@ void AxesLayout::choose_ticks(Axes& axes) const {
     axes.x = shaped(every_second(axes.x.ticks), theme_);
 }
 
-/// One step for both axes, so that the grid is of squares; but no axis is left with a single tick.
+/// One step for both axes, so that the grid is of squares, unless a side then has fewer than three
+/// labels and room for a step of its own.
 void AxesLayout::choose_equal_ticks(Axes& axes, int most_x, int most_y) const {
   const double step = std::max(tick_step(limits_.x.low, limits_.x.high, most_x),
                                tick_step(limits_.y.low, limits_.y.high, most_y));
-  // A short side that has but one of them has a step of its own.
-  const auto ticks = [step](const Range& limits, int most) {
+  const auto ticks = [&](const Axis& axis, const Range& limits, int most, double length,
+                         double least) {
     Ticks shared = linear_ticks(limits.low, limits.high, step);
-    if (shared.at.size() > 1) return shared;
-    return linear_ticks(limits.low, limits.high, tick_step(limits.low, limits.high, most));
+    if (shared.at.size() >= kFewestLabels) return shared;
+    return enough_ticks(axis, limits, most, length, least);
   };
-  axes.x = shaped(ticks(limits_.x, most_x), theme_);
-  axes.y = shaped(ticks(limits_.y, most_y), theme_);
+  axes.y = shaped(ticks(panel_.y, limits_.y, most_y, axes.frame.height(), kLeastUpward), theme_);
+  axes.x = shaped(ticks(panel_.x, limits_.x, most_x, axes.frame.width(), kLeastAcross), theme_);
 }
 
 bool AxesLayout::labels_touch(const Axes& axes, double gap_em) const {

@@ -95,6 +95,7 @@ class AxesLayout {
   void choose_equal_ticks(Axes& axes, int most_x, int most_y) const;
   bool labels_touch(const Axes& axes, double gap_em = 0.7) const;
   Ticks ticks_for(const Axis& axis, Range range, int most) const;
+  Ticks enough_ticks(const Axis& axis, Range range, int most, double length, double least) const;
   Margins overhang(const Box& frame) const;
   double label_lines(const Axes& axes) const;
   void shrink_to_aspect(Box& frame) const;

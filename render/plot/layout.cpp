@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -48,10 +51,12 @@ std::vector<Panel> with_shared_limits(const Figure& figure) {
 
 class SharedGrid {
  public:
-  SharedGrid(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing)
+  SharedGrid(const Figure& figure, const Box& room, const Theme& theme, double stretch,
+             Drawing& drawing)
       : figure_(figure),
         room_(room),
         theme_(theme),
+        stretch_(stretch),
         drawing_(drawing),
         panels_(with_shared_limits(figure)),
         columns_(columns_within(figure, room.width(), theme)) {
@@ -148,7 +153,7 @@ class SharedGrid {
     const double most = kMostOfPage * theme_.height_pt;
     if (panels_.front().equal_aspect) return std::min(width_ / aspect(), 1.2 * most);
     const double usual =
-        std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
+        stretch_ * std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
     // A row that is named needs its name.
     const auto names = static_cast<double>(panels_.front().y.names.size());
     return std::max(usual, names * AxesLayout::kNameLine * theme_.tick_font_pt + 1.0);
@@ -226,6 +231,7 @@ class SharedGrid {
   const Figure& figure_;
   const Box& room_;
   const Theme& theme_;
+  double stretch_;
   Drawing& drawing_;
   std::vector<Panel> panels_;
   std::size_t columns_;
@@ -237,8 +243,9 @@ class SharedGrid {
 };
 
 /// As lay_out_grid, for panels that share an axis.
-void lay_out_shared(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing) {
-  SharedGrid(figure, room, theme, drawing).lay_out();
+void lay_out_shared(const Figure& figure, const Box& room, const Theme& theme, double stretch,
+                    Drawing& drawing) {
+  SharedGrid(figure, room, theme, stretch, drawing).lay_out();
 }
 
 /// The lowest drawn point of the panels from `first` on.
@@ -258,10 +265,11 @@ double lowest_drawn(const Drawing& drawing, std::size_t first) {
   return bottom;
 }
 
-constexpr double kLeastWidth = 14.0;       // Of a cell, in em.
-constexpr double kLowInColumn = 0.7;       // Height of panels below each other, of the theme's.
-constexpr double kLeastWidthShared = 8.5;  // Where labels stand outside the grid.
-constexpr double kArrowWidth = 5.0;        // Of an arrow and its word between cells, em.
+constexpr double kLeastWidth = 14.0;        // Of a cell, in em;
+constexpr double kLeastWidthOfAxes = 15.0;  // with curves, whose panels else become too narrow.
+constexpr double kLowInColumn = 0.7;        // Height of panels below each other, of the theme's.
+constexpr double kLeastWidthShared = 8.5;   // Where labels stand outside the grid.
+constexpr double kArrowWidth = 5.0;         // Of an arrow and its word between cells, em.
 constexpr int kMostHeights = 3;
 constexpr double kTooLow = 6.0, kLowestFrame = 7.0;  // Height of a frame beside others, em: below
                                                      // the first it gets the second.
@@ -270,8 +278,9 @@ constexpr double kArrowGap = 2.4;                    // Between panels below eac
 /// Cells with axes of their own, and the arrows between them.
 class CellGrid {
  public:
-  CellGrid(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing)
-      : figure_(figure), room_(room), theme_(theme), drawing_(drawing) {}
+  CellGrid(const Figure& figure, const Box& room, const Theme& theme, double stretch,
+           Drawing& drawing)
+      : figure_(figure), room_(room), theme_(theme), stretch_(stretch), drawing_(drawing) {}
 
   void lay_out() {
     const std::size_t count = figure_.panels.size();
@@ -325,7 +334,7 @@ class CellGrid {
     for (std::size_t p = first; p < end; ++p) {
       const Panel& panel = figure_.panels[p];
       if (has_fixed_shape(panel)) continue;
-      height = std::max(height, cell_height(panel, width));
+      height = std::max(height, stretch_ * cell_height(panel, width));
       for (int i = 0; i < kMostHeights; ++i) {
         const Box cell{room_.x0, room_.y0, room_.x0 + width, room_.y0 + height};
         Drawing attempt;
@@ -379,6 +388,7 @@ class CellGrid {
   const Figure& figure_;
   const Box& room_;
   const Theme& theme_;
+  double stretch_;
   Drawing& drawing_;
   std::size_t columns_ = 1;
 };
@@ -392,7 +402,12 @@ std::size_t columns_within(const Figure& figure, double width, const Theme& them
   if (has_names && width < kLeastWidthOfNames * theme.font_pt) return 1;
   const bool narrow = !std::ranges::any_of(figure.panels, has_image) &&
                       (figure.shared_y || std::ranges::all_of(figure.panels, &Panel::bare));
-  const double least = (narrow ? kLeastWidthShared : kLeastWidth) * theme.font_pt +
+  const bool has_curves = std::ranges::none_of(
+      figure.panels, [](const Panel& panel) { return panel.equal_aspect || panel.bare; });
+  const double least = (narrow       ? kLeastWidthShared
+                        : has_curves ? kLeastWidthOfAxes
+                                     : kLeastWidth) *
+                           theme.font_pt +
                        (figure.arrows.empty() ? 0.0 : kArrowWidth * theme.font_pt);
   const auto fit = static_cast<std::size_t>(std::max(1.0, std::floor(width / least)));
   if (fit >= most) return most;
@@ -401,11 +416,13 @@ std::size_t columns_within(const Figure& figure, double width, const Theme& them
   return (count + rows - 1) / rows;
 }
 
-void lay_out_grid(const Figure& figure, const Box& room, const Theme& theme, Drawing& drawing) {
+/// @param stretch  Of the usual height of the rows, but for panels of a fixed shape.
+void lay_out_grid(const Figure& figure, const Box& room, const Theme& theme, double stretch,
+                  Drawing& drawing) {
   if (figure.shared_x || figure.shared_y)
-    lay_out_shared(figure, room, theme, drawing);
+    lay_out_shared(figure, room, theme, stretch, drawing);
   else
-    CellGrid(figure, room, theme, drawing).lay_out();
+    CellGrid(figure, room, theme, stretch, drawing).lay_out();
 }
 
 constexpr double kLeastOfPage = 0.3;     // Of the theme's height, for a frame of equal scales.
@@ -422,26 +439,47 @@ class Head {
   /// The room that is left.
   Box draw() {
     if (theme_.draws_title)
-      add(figure_.title, ItemClass::kTitle, theme_.title_font_pt, theme_.text);
+      add(figure_.title, ItemClass::kTitle, theme_.title_font_pt, theme_.text, kMostTitleLines);
     const double em = theme_.tick_font_pt;
     for (std::size_t i = 0; i < figure_.notes.size() && draws_notes(figure_, theme_); ++i) {
       const double end = page_.y0 + kMostOfHead * page_.height() - 3.0 * FontFacts::kLine * em;
       if (y_ > end && i + 1 < figure_.notes.size()) {
         add(fmt::format("… and {} more notes", figure_.notes.size() - i), ItemClass::kNote, em,
-            theme_.text);
+            theme_.text, kMostNoteLines);
         break;
       }
-      add(figure_.notes[i].text, ItemClass::kNote, em, theme_.of(figure_.notes[i].colour));
+      add(figure_.notes[i].text, ItemClass::kNote, em, theme_.of(figure_.notes[i].colour),
+          kMostNoteLines);
     }
     if (y_ > page_.y0) y_ += theme_.space_pt;
     return {page_.x0, y_, page_.x1, page_.y1};
   }
 
  private:
-  void add(const std::string& text, ItemClass item_class, double em, Colour colour) {
-    constexpr std::size_t kMostLines = 2;
-    for (const ShapedText& line :
-         wrap_text(text, page_.width() / em, kMostLines, theme_.font.get())) {
+  static constexpr std::size_t kMostTitleLines = 3, kMostNoteLines = 2;
+
+  /// The text in lines; where the last one would be short, in as many narrower ones.
+  std::vector<ShapedText> without_widow(const std::string& text, double most,
+                                        std::size_t most_lines) const {
+    constexpr double kShortest = 0.3, kStep = 0.04;  // Of the width.
+    const auto wrapped = [&](double width) {
+      return wrap_text(text, width, most_lines, theme_.font.get());
+    };
+    std::vector<ShapedText> lines = wrapped(most);
+    const std::size_t count = lines.size();
+    if (count < 2 || lines.back().advance > most) return lines;
+    for (double width = most; lines.back().advance < kShortest * most; width -= kStep * most) {
+      std::vector<ShapedText> narrower = wrapped(width - kStep * most);
+      const bool is_whole = narrower.size() == count && text.ends_with(narrower.back().text);
+      if (!is_whole || width < 0.5 * most) break;
+      lines = std::move(narrower);
+    }
+    return lines;
+  }
+
+  void add(const std::string& text, ItemClass item_class, double em, Colour colour,
+           std::size_t most_lines) {
+    for (const ShapedText& line : without_widow(text, page_.width() / em, most_lines)) {
       drawing_.add_text(item_class, 0,
                         {.shaped = line,
                          .whole = text,
@@ -467,8 +505,9 @@ double head_height(const Figure& figure, const Theme& theme) {
   return Head(figure, page, theme, unused).draw().y0;
 }
 
-/// @param height  Of the page; that of several panels follows from them.
-Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
+/// @param height   Of the page; that of several panels follows from them.
+/// @param stretch  Of the rows of several panels.
+Drawing lay_out_on(const Figure& figure, const Theme& theme, double height, double stretch = 1.0) {
   Drawing drawing;
   drawing.id = figure.id;
   drawing.title = figure.title;
@@ -488,22 +527,71 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height) {
   if (figure.panels.size() == 1)
     lay_out_panel(figure.panels[0], 0, room, theme, drawing);
   else
-    lay_out_grid(figure, room, theme, drawing);
+    lay_out_grid(figure, room, theme, stretch, drawing);
   return drawing;
 }
 
 constexpr double kLeastHigher = 0.5;  // In points.
+constexpr double kHigher = 1.1;       // Factor from one height of a page to the next one tried.
 constexpr double kMostFree = 0.1;     // Of a page, below everything that is drawn.
 
 /// The height of the page at which the only frame has its share of it.
 double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
   const double frame = drawing.frames[0].height();
-  if (figure.panels[0].equal_aspect || figure.panels[0].bare)
+  if (figure.panels[0].bare || (figure.panels[0].equal_aspect && theme.draws_title))
     return drawing.height + kLeastOfPage * theme.height_pt - frame;
   // Around the frame everything keeps its height.
   const double head = theme.draws_title ? head_height(figure, theme) : 0.0;
   return head + (drawing.height - head - frame) /
                     (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
+}
+
+/// What of the height of a page in a text the frames of several panels and their titles take, 0 to
+/// 1: where one of them is, not where two are beside each other.
+double share_of_rows(const Drawing& drawing, const Theme& theme) {
+  std::vector<std::pair<double, double>> parts;
+  for (const Box& frame : drawing.frames) parts.emplace_back(frame.y0, frame.y1);
+  for (const Item& item : drawing.items)
+    if (item.item_class == ItemClass::kPanelTitle) {
+      const double foot = std::get<TextLine>(item.what).at.y;
+      parts.emplace_back(foot - FontFacts::kAscent * theme.font_pt,
+                         foot + FontFacts::kDescent * theme.font_pt);
+    }
+  std::ranges::sort(parts);
+  double taken = 0.0, end = 0.0;
+  for (const auto& [from, to] : parts) {
+    taken += std::max(0.0, to - std::max(from, end));
+    end = std::max(end, to);
+  }
+  return taken / drawing.height;
+}
+
+/// How many rows the frames stand in.
+std::size_t rows_of(const Drawing& drawing) {
+  std::set<double> tops;
+  for (const Box& frame : drawing.frames) tops.insert(std::round(frame.y0));
+  return tops.size();
+}
+
+/// Several panels on a page in a text, which is as much higher as they need for their share.
+Drawing lay_out_rows(const Figure& figure, const Theme& theme) {
+  Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
+  const bool is_fixed = std::ranges::any_of(
+      figure.panels, [](const Panel& panel) { return panel.equal_aspect || panel.bare; });
+  if (theme.draws_title || is_fixed) return drawing;
+  double stretch = 1.0;
+  for (int i = 0; i < kMostHeights; ++i) {
+    const double share = share_of_rows(drawing, theme);
+    if (share >= kLeastWithout) break;
+    // Around the frames everything keeps its height.
+    double frames = 0.0;
+    for (const Box& frame : drawing.frames) frames = std::max(frames, frame.height());
+    const double missing = (kLeastWithout - share) / (1.0 - kLeastWithout) * drawing.height;
+    const auto rows = static_cast<double>(rows_of(drawing));
+    stretch *= 1.0 + missing / (rows * frames);
+    drawing = lay_out_on(figure, theme, theme.height_pt, stretch);
+  }
+  return drawing;
 }
 
 }  // namespace
@@ -516,14 +604,20 @@ bool draws_notes(const Figure& figure, const Theme& theme) {
 
 Drawing lay_out(const Figure& figure, const Theme& theme) {
   require_valid(figure);
+  if (figure.panels.size() > 1) return lay_out_rows(figure, theme);
   Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
-  if (figure.panels.size() > 1) return drawing;
   // A legend that leaves the frame too little makes the page higher; then it may need more itself.
-  for (int i = 0; i < kMostHeights; ++i) {
-    const double height = height_for_frame(figure, theme, drawing);
-    if (height <= drawing.height + kLeastHigher) break;
-    drawing = lay_out_on(figure, theme, height);
-  }
+  const auto lacks = [&](const Drawing& one) {
+    return height_for_frame(figure, theme, one) > one.height + kLeastHigher;
+  };
+  for (int i = 0; i < kMostHeights && lacks(drawing); ++i)
+    drawing = lay_out_on(figure, theme, height_for_frame(figure, theme, drawing));
+  // On the higher page it may have room in the frame, which then needs less.
+  for (double height = theme.height_pt * kHigher; height < drawing.height; height *= kHigher)
+    if (Drawing lower = lay_out_on(figure, theme, height); !lacks(lower)) {
+      drawing = std::move(lower);
+      break;
+    }
   // Below a frame of equal scales that is as wide as the page and lower, the page ends.
   const double end = lowest_drawn(drawing, 0) + theme.space_pt;
   if (figure.panels[0].equal_aspect && end < (1.0 - kMostFree) * drawing.height)

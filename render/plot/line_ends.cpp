@@ -80,14 +80,15 @@ std::vector<double> apart(const std::vector<double>& wanted, double row, double 
 
 }  // namespace
 
-std::vector<LineEnd> ends_of_lines(const Panel& panel, const PanelLimits& limits) {
+std::vector<LineEnd> ends_of_lines(const Panel& panel, const PanelLimits& limits, bool anywhere) {
   std::vector<LineEnd> ends;
   if (panel.equal_aspect || panel.bare) return ends;
   for (const Layer& layer : panel.layers) {
     const auto* line = std::get_if<Polyline>(&layer);
     if (line == nullptr || line->label.empty()) continue;
     const auto end = end_of(*line);
-    if (!end || share_of(panel.x, limits.x, end->x) < 1.0 - kFarthestEnd) return {};
+    if (!end) return {};
+    if (!anywhere && share_of(panel.x, limits.x, end->x) < 1.0 - kFarthestEnd) return {};
     const auto same = std::ranges::find(ends, line->label, &LineEnd::label);
     same == ends.end() ? ends.push_back(*end) : void(*same = *end);
   }

@@ -21,7 +21,9 @@ struct LineEnd {
 /// The ends of the lines with a label, one per label (the last one of it), in the order in which a
 /// reader sees them at the right side: from above to below. Empty if some line ends far from the
 /// right side of `limits`, or the axes are of a map.
-std::vector<LineEnd> ends_of_lines(const Panel& panel, const PanelLimits& limits);
+/// @param anywhere  Lines may end far from there, too.
+std::vector<LineEnd> ends_of_lines(const Panel& panel, const PanelLimits& limits,
+                                   bool anywhere = false);
 
 /// Labels beside the ends of a panel's lines, right of its frame, instead of a legend.
 class LineEndLabels {

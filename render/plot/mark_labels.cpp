@@ -6,12 +6,14 @@
 
 #include "core/base/not_finite.hpp"
 #include "render/plot/outlines.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr int kDirections = 16;
 constexpr int kRings = 14;
+constexpr double kMostOfFrame = 0.35;  // Of its width, for a label.
 
 struct LabelBox {
   Box box;
@@ -39,7 +41,9 @@ Shape leader_line(Point at, Point end, const Theme& theme) {
   Shape leader;
   leader.path.move_to({std::lerp(at.x, end.x, rim), std::lerp(at.y, end.y, rim)});
   leader.path.line_to(end);
-  leader.stroke = Stroke{theme.text, theme.hairline_pt, {}};
+  // Dotted and grey: else it would be read as a line of data, such as an error from the same mark.
+  leader.stroke =
+      Stroke{theme.muted, theme.hairline_pt, {theme.hairline_pt, 2 * theme.hairline_pt}};
   return leader;
 }
 
@@ -107,14 +111,18 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
   const double em = theme.tick_font_pt;
   const double gap = 0.25 * theme.space_pt;
   Surroundings around{frame.grown(-gap), std::move(taken), texts_in(layout.panel(), map, theme)};
+  std::vector<std::string> names;
+  for (const Layer& layer : layout.panel().layers)
+    if (const auto* labels = std::get_if<PointLabels>(&layer))
+      names.insert(names.end(), labels->text.begin(), labels->text.end());
   for (const Layer& layer : layout.panel().layers) {
     const auto* labels = std::get_if<PointLabels>(&layer);
     if (labels == nullptr) continue;
     for (std::size_t i = 0; i < labels->x.size(); ++i) {
       const Point at = map(labels->x[i], labels->y[i]);
       if (std::isnan(at.x + at.y)) continue;
-      TextLine line{.shaped = shape_text_within(labels->text[i], 0.35 * frame.width() / em,
-                                                Elide::kMiddle, theme.font.get()),
+      TextLine line{.shaped = shape_label_within(theme, labels->text[i],
+                                                 kMostOfFrame * frame.width() / em, names),
                     .size = em,
                     .colour = theme.of(labels->colour)};
       if (line.shaped.text != labels->text[i]) line.whole = labels->text[i];
@@ -125,7 +133,6 @@ void draw_mark_labels(const AxesLayout& layout, std::size_t panel_index, const B
       line.at = {position->box.x0 + gap - bounds.x0 * em, position->box.y0 + gap - bounds.y0 * em};
       if (position->far) {
         Shape leader = leader_line(at, nearest_in(position->box.grown(-0.5 * gap), at), theme);
-        leader.stroke->colour = theme.of(labels->colour);
         around.taken.lines.push_back(
             {leader.path.points[0], leader.path.points[1], theme.hairline_pt});
         drawing.add(ItemClass::kLeader, panel_index, std::move(leader)).clipped = true;

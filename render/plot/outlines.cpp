@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/not_finite.hpp"
+#include "render/plot/short_names.hpp"
 #include "render/theme/palette.hpp"
 
 namespace mapproof {
@@ -226,8 +227,8 @@ std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const Pan
   const Point at = map(texts.x[i], texts.y[i]);
   if (std::isnan(at.x + at.y)) return std::nullopt;
   const double em = theme.tick_font_pt;
-  TextLine line{.shaped = shape_text_within(texts.text[i], kTextShareOfPage * theme.width_pt / em,
-                                            Elide::kMiddle, theme.font.get()),
+  TextLine line{.shaped = shape_label_within(theme, texts.text[i],
+                                             kTextShareOfPage * theme.width_pt / em, texts.text),
                 .size = em,
                 .colour = theme.of(texts.colour)};
   if (line.shaped.text != texts.text[i]) line.whole = texts.text[i];

@@ -86,15 +86,19 @@ class AxesPainter {
     const double away = layout_.tick_length() + layout_.tick_gap();
     if (layout_.has_x_label()) {
       const std::string whole = axis_title(panel.x, axes_.x.ticks);
+      const Margins margins = layout_.margins(axes_);
+      const double left = f.x0 - margins.left, right = f.x1 + margins.right;
       const ShapedText text =
-          shape_text_within(whole, f.width() / em, Elide::kEnd, theme_.font.get());
-      drawing_.add_text(ItemClass::kAxisLabel, index_,
-                        {.shaped = text,
-                         .whole = whole,
-                         .at = {f.centre().x - text.advance * em / 2.0,
-                                f.y1 + layout_.below_frame() - FontFacts::kDescent * em},
-                         .size = em,
-                         .colour = theme_.text});
+          shape_text_within(whole, (right - left) / em, Elide::kEnd, theme_.font.get());
+      const double width = text.advance * em;
+      drawing_.add_text(
+          ItemClass::kAxisLabel, index_,
+          {.shaped = text,
+           .whole = whole,
+           .at = {std::clamp(f.centre().x - width / 2.0, left, std::max(left, right - width)),
+                  f.y1 + layout_.below_frame() - FontFacts::kDescent * em},
+           .size = em,
+           .colour = theme_.text});
     }
     if (layout_.has_y_label()) {
       const std::string whole = axis_title(panel.y, axes_.y.ticks);
@@ -136,6 +140,7 @@ class AxesPainter {
 };
 
 constexpr std::size_t kMostTitleLines = 2;
+constexpr double kLeastBeside = 0.5;  // Of the room's width, for a frame beside a legend.
 
 /// Where everything of a panel goes.
 struct Arrangement {
@@ -209,7 +214,8 @@ class Arranger {
     Arrangement found{layout_.within(rest), std::nullopt, 1};
     const Box& frame = found.axes.frame;
     found.legend_at = Point{frame.x1 + bar_room(frame) + beside_frame_ + gap, frame.y0};
-    if (size.y > frame.height()) found.axes.frame = {};  // Too long: no choice.
+    const bool is_narrow = !panel_.equal_aspect && frame.width() < kLeastBeside * room.width();
+    if (size.y > frame.height() || is_narrow) found.axes.frame = {};  // No choice.
     return found;
   }
 
@@ -289,7 +295,7 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
       Arranger(layout, of_rest, ends.empty() ? 0.0 : ends.width()).arrange(room);
   const bool at_ends = ends.fit(arrangement.axes.frame, room);
   Legend of_all(panel, theme, cell.width(), as_bars);
-  of_all.order_by_ends(ends_of_lines(panel, panel_limits(panel)));
+  of_all.order_by_ends(ends_of_lines(panel, panel_limits(panel), true));
   const Legend& legend = at_ends ? of_rest : of_all;
   if (!at_ends) arrangement = Arranger(layout, legend, 0.0).arrange(room);
   const Box& frame = arrangement.axes.frame;

@@ -38,13 +38,13 @@ std::vector<Rule> floor_rules(const Ground& ground) {
            .away = Point3::UnitX()}};
 }
 
-/// Corners of the ground and of the strip that the axes' labels need.
+/// Corners of the ground and of the strips that the axes' labels need, which do not meet.
 std::vector<Point3> corners(const Ground& ground, double height_m, std::span<const Point3> also) {
   const double strip = kLabelRoom * ground.side();
   const auto& [low, high] = ground;
   std::vector<Point3> points(also.begin(), also.end());
-  for (const double x : {low.x, high.x + strip})
-    for (const double y : {low.y - strip, high.y}) points.emplace_back(x, y, 0.0);
+  for (const double x : {low.x, high.x}) points.emplace_back(x, low.y - strip, 0.0);
+  for (const double y : {low.y, high.y}) points.emplace_back(high.x + strip, y, 0.0);
   for (const double x : {low.x, high.x})
     for (const double y : {low.y, high.y}) points.emplace_back(x, y, height_m);
   return points;

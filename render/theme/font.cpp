@@ -1,8 +1,10 @@
 #include "render/theme/font.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <new>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <hb-ot.h>
@@ -147,8 +149,7 @@ std::vector<Stretch> stretches(const std::string& text) {
 
 Box glyph_bounds(std::uint32_t glyph, hb_font_t* font) {
   hb_glyph_extents_t e{};
-  if (!hb_font_get_glyph_extents(font, glyph, &e) || e.width == 0 || e.height == 0)
-    return {};
+  if (!hb_font_get_glyph_extents(font, glyph, &e) || e.width == 0 || e.height == 0) return {};
   return {e.x_bearing / FontFacts::kUnitsPerEm, -e.y_bearing / FontFacts::kUnitsPerEm,
           (e.x_bearing + e.width) / FontFacts::kUnitsPerEm,
           -(e.y_bearing + e.height) / FontFacts::kUnitsPerEm};
@@ -321,6 +322,21 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide, co
   return elided(fits);
 }
 
+namespace {
+
+/// Whether a line may end at a blank: not within "K = 7" or "0.12 m".
+bool may_end_line(std::string_view text, std::size_t blank) {
+  constexpr std::array<std::string_view, 15> kUnits = {
+      "m", "mm", "cm", "km", "m²", "s", "ms", "µs", "min", "h", "Hz", "rad", "%", "ppm", "MiB"};
+  const std::string_view rest = text.substr(blank + 1);
+  if (rest.starts_with("= ") || text.substr(0, blank).ends_with(" =")) return false;
+  const bool is_number = blank > 0 && text[blank - 1] >= '0' && text[blank - 1] <= '9';
+  const std::string_view word = rest.substr(0, rest.find_first_of(" ,;:)"));
+  return !is_number || std::ranges::find(kUnits, word) == kUnits.end();
+}
+
+}  // namespace
+
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
                                   const Font* font) {
   std::vector<ShapedText> wrapped;
@@ -329,14 +345,16 @@ std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_
       wrapped.push_back(shape_text_within(text, most, Elide::kEnd, font));
       break;
     }
-    // The longest start that ends before a blank and fits; a word that never fits is elided.
+    // The longest start that ends before a blank and fits; what never fits is elided.
     std::size_t end = std::string_view::npos;
     for (std::size_t blank = text.find(' '); blank != std::string_view::npos;
          blank = text.find(' ', blank + 1)) {
-      if (shape_text(text.substr(0, blank), font).advance > most) break;
-      end = blank;
+      if (!may_end_line(text, blank)) continue;
+      const bool fits = shape_text(text.substr(0, blank), font).advance <= most;
+      if (fits || end == std::string_view::npos) end = blank;
+      if (!fits) break;
     }
-    if (end == std::string_view::npos) end = std::min(text.find(' '), text.size());
+    end = std::min(end, text.size());
     wrapped.push_back(shape_text_within(text.substr(0, end), most, Elide::kEnd, font));
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -14,8 +14,8 @@ struct hb_font_t;
 
 namespace mapproof {
 
-/// Measures of the embedded font, DejaVu Sans, by which lines are set whatever the font. All lengths
-/// here are in em, y downward, the baseline at 0.
+/// Measures of the embedded font, DejaVu Sans, by which lines are set whatever the font. All
+/// lengths here are in em, y downward, the baseline at 0.
 struct FontFacts {
   static constexpr double kAscent = 0.76;   ///< Of "d" and capitals.
   static constexpr double kDescent = 0.24;  ///< Of "g".
@@ -97,6 +97,7 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide = E
                              const Font* font = nullptr);
 
 /// The words of `text` in lines no wider than `most`, at most `lines` of them, the last one elided.
+/// No line ends within "K = 7", or between a number and its unit.
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
                                   const Font* font = nullptr);
 

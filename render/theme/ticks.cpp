@@ -4,29 +4,26 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/text/raised.hpp"
+
 namespace mapproof {
 namespace {
-
-std::string superscript(int exponent) {
-  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  std::string text = exponent < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(exponent))) text += kDigits[digit - '0'];
-  return text;
-}
 
 /// Digits behind the point that distinguish multiples of `step`.
 int decimals_for(double step) {
   return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 15);
 }
 
-std::string log_label(int factor, int exponent) {
-  const int longest = factor == 1 ? 4 : 5;  // "10⁵" is shorter than "100000".
-  if (exponent >= -4 && exponent <= longest)
-    return number_text(factor * std::pow(10.0, exponent), std::max(0, -exponent));
-  return (factor == 1 ? "10" : fmt::format("{}×10", factor)) + superscript(exponent);
+/// Whether the numbers of a decade are written as such: "10⁵" is shorter than "100000".
+bool is_plain(int exponent) { return exponent >= -4 && exponent <= 4; }
+
+std::string log_label(int factor, int exponent, bool plain) {
+  if (plain) return number_text(factor * std::pow(10.0, exponent), std::max(0, -exponent));
+  return factor == 1 ? ten_to_the(exponent) : std::to_string(factor) + power_of_ten(exponent);
 }
 
 /// A round number below a range that is far from 0 for its extent; 0 if it is not.
@@ -56,6 +53,7 @@ int whole_decades(double low, double high) {
 Ticks log_ticks_of(double low, double high, int stride, std::size_t detail) {
   const int first = first_decade(low), last = first + whole_decades(low, high) - 1;
   Ticks ticks;
+  std::vector<std::pair<int, int>> labelled;  // Factor and exponent.
   for (int exponent = first - 1; exponent <= last; ++exponent) {
     for (int factor = 1; factor <= 9; ++factor) {
       const double value = factor * std::pow(10.0, exponent);
@@ -64,12 +62,16 @@ Ticks log_ticks_of(double low, double high, int stride, std::size_t detail) {
           kLabelledFactors[detail].find(static_cast<char>('0' + factor)) != std::string_view::npos;
       if (in_detail && (factor > 1 || (exponent - first) % stride == 0)) {
         ticks.at.push_back(value);
-        ticks.labels.push_back(log_label(factor, exponent));
+        labelled.emplace_back(factor, exponent);
       } else if (stride == 1) {
         ticks.minor.push_back(value);
       }
     }
   }
+  const bool plain =
+      std::ranges::all_of(labelled, [](const auto& label) { return is_plain(label.second); });
+  for (const auto& [factor, exponent] : labelled)
+    ticks.labels.push_back(log_label(factor, exponent, plain));
   return ticks;
 }
 
@@ -99,7 +101,9 @@ double least_distance(const Ticks& three, double low, double high) {
 
 }  // namespace
 
-std::string power_of_ten(int exponent) { return "×10" + superscript(exponent); }
+std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
+
+std::string power_of_ten(int exponent) { return "×" + ten_to_the(exponent); }
 
 std::string number_text(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);

@@ -10,8 +10,8 @@ struct Ticks {
   std::vector<double> at;           ///< Ascending, within the range asked for.
   std::vector<std::string> labels;  ///< As many; equal numbers of decimals, U+2212 for minus.
   std::vector<double> minor;        ///< Without a label, on a log axis.
-  std::string factor;  ///< "×10⁶" to multiply the labels by, "+ 5821200" to add; or empty.
-  double unit = 1.0;   ///< Of the factor: a label is (value − offset) / unit.
+  std::string factor;   ///< "×10⁶" to multiply the labels by, "+ 5821200" to add; or empty.
+  double unit = 1.0;    ///< Of the factor: a label is (value − offset) / unit.
   double offset = 0.0;  ///< Of the factor.
 };
 
@@ -22,12 +22,16 @@ double tick_step(double low, double high, int most);
 Ticks linear_ticks(double low, double high, double step);
 
 /// Decades in [low, high], 0 < low < high, thinned to about `most`; with 2s and 5s between them if
-/// there are fewer than three; linear ticks if there is less than that.
+/// there are fewer than three; linear ticks if there is less than that. All labels are plain
+/// numbers, or all powers of ten where one would be longer than five digits.
 Ticks log_ticks(double low, double high, int most);
 
 /// Three of them, far from each other, for a frame that has no room for more; log_ticks() where
 /// there are no three.
 Ticks three_log_ticks(double low, double high);
+
+/// "10⁶".
+std::string ten_to_the(int exponent);
 
 /// "×10⁶".
 std::string power_of_ten(int exponent);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <set>
@@ -29,11 +30,14 @@ constexpr double kLeastError = 1e-9;
 /// One method and quantity over its steps.
 using Family = std::tuple<std::string, std::string, std::string>;
 
-/// Differences of one run, step by step.
-struct RunPairs {
-  Name unit = {};
-  std::vector<double> differences = {};
+/// By how much one value of a run got worse. 16 bytes: a nightly run may have 10^7.
+struct RunDifference {
+  Name run = {}, unit = {};
+  double value = 0.0;
 };
+
+/// In ascending order of the runs, those of one run step by step.
+using RunDifferences = std::vector<RunDifference>;
 
 /// What one test is of.
 struct Comparison {
@@ -76,10 +80,11 @@ const RunValue* find_run(const std::vector<RunValue>& values, const Name& run) {
   return found != values.end() && found->run == run ? &*found : nullptr;
 }
 
-/// Adds the differences of one step to those of each run, and counts what was lost. A run that is
-/// not there any more is lost as well.
-void add_step(std::map<Name, RunPairs>& runs, Losses& losses, const Quantity& quantity,
+/// Adds the differences of one step, and counts what was lost. A run that is not there any more is
+/// lost as well.
+void add_step(RunDifferences& differences, Losses& losses, const Quantity& quantity,
               const std::vector<RunValue>& before, const std::vector<RunValue>& after) {
+  differences.reserve(differences.size() + std::min(before.size(), after.size()));
   for (const RunValue& old : before) {
     const RunValue* now = find_run(after, old.run);
     const bool had = std::isfinite(old.value);
@@ -88,30 +93,45 @@ void add_step(std::map<Name, RunPairs>& runs, Losses& losses, const Quantity& qu
     losses.lost += had && !has;
     losses.gained += !had && has;
     if (!had || !has) continue;
-    RunPairs& pairs = runs[old.run];
-    pairs.unit = old.unit;
-    pairs.differences.push_back(difference(quantity, old.value, now->value));
+    differences.push_back({old.run, old.unit, difference(quantity, old.value, now->value)});
   }
   for (const RunValue& now : after)
     losses.gained += std::isfinite(now.value) && find_run(before, now.run) == nullptr;
 }
 
+/// How many different names there are.
+std::size_t count_of(std::vector<std::uint32_t> ids) {
+  std::ranges::sort(ids);
+  return ids.size() - std::ranges::unique(ids).size();
+}
+
 /// Means of each run, or of each group: where groups are drawn, or where there are enough.
 /// @return With what they are of.
-std::pair<std::vector<double>, const char*> unit_means(const std::map<Name, RunPairs>& runs,
+std::pair<std::vector<double>, const char*> unit_means(RunDifferences differences,
                                                        int least_layouts, bool draws_groups) {
-  std::map<Name, std::pair<double, int>> units;
-  std::set<Name> groups;
-  for (const auto& [run, pairs] : runs) groups.insert(pairs.unit);
-  const bool by_group = groups.size() < runs.size() &&
-                        (draws_groups || std::cmp_greater_equal(groups.size(), least_layouts));
-  for (const auto& [run, pairs] : runs) {
-    auto& [sum, count] = units[by_group ? pairs.unit : run];
-    for (const double value : pairs.differences) sum += value;
-    count += static_cast<int>(pairs.differences.size());
-  }
+  std::vector<std::uint32_t> ids;
+  ids.reserve(differences.size());
+  const auto count = [&](Name RunDifference::*name) {
+    ids.clear();
+    for (const RunDifference& one : differences) ids.push_back((one.*name).id());
+    return count_of(ids);
+  };
+  const std::size_t runs = count(&RunDifference::run), groups = count(&RunDifference::unit);
+  std::vector<std::uint32_t>().swap(ids);
+  const bool by_group =
+      groups < runs && (draws_groups || std::cmp_greater_equal(groups, least_layouts));
+  Name RunDifference::*const of = by_group ? &RunDifference::unit : &RunDifference::run;
+  if (by_group) std::ranges::stable_sort(differences, {}, of);
   std::vector<double> means;
-  for (const auto& [unit, total] : units) means.push_back(total.first / total.second);
+  means.reserve(by_group ? groups : runs);
+  for (auto first = differences.begin(); first != differences.end();) {
+    const Name unit = (*first).*of;
+    double sum = 0.0;
+    int values = 0;
+    for (; first != differences.end() && (*first).*of == unit; ++first, ++values)
+      sum += first->value;
+    means.push_back(sum / values);
+  }
   return {means, !by_group ? "run" : draws_groups ? "group" : "layout"};
 }
 
@@ -131,25 +151,26 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
   const std::string method = method_of(*steps.back());
   const std::string shown = shown_method_of(labels, *steps.back());
   Losses losses{method, shown, &quantity};
-  std::map<Name, RunPairs> all;
-  std::map<Name, RunPairs> last;
+  RunDifferences all, last;
   for (const SeriesId* series : steps) {
     const auto& before = evidence.reference->scores.at(*series);
     const auto& after = evidence.this_run.at(*series);
+    const std::size_t of_others = all.size();
     add_step(all, losses, quantity, before, after);
-    Losses of_last;
-    if (series == steps.back()) add_step(last, of_last, quantity, before, after);
+    if (series == steps.back() && steps.size() > 1)
+      last.assign(all.begin() + static_cast<std::ptrdiff_t>(of_others), all.end());
   }
-  const auto add = [&](const std::map<Name, RunPairs>& runs, const std::string& subject,
+  const bool has_any = !all.empty();
+  const auto add = [&](RunDifferences differences, const std::string& subject,
                        const std::string& shown_as) {
-    if (runs.empty()) return;
+    if (differences.empty()) return;
     Comparison comparison{.subject = subject,
                           .shown = shown_as,
                           .method = method,
                           .quantity = &quantity,
                           .has_steps = steps.back()->step != 0};
     std::tie(comparison.differences, comparison.unit) =
-        unit_means(runs, rules.least_layouts, evidence.draws_groups);
+        unit_means(std::move(differences), rules.least_layouts, evidence.draws_groups);
     comparison.before = known_median(evidence.reference->scores.at(*steps.back()));
     comparison.after = known_median(evidence.this_run.at(*steps.back()));
     if (std::cmp_less(comparison.differences.size(), rules.least_units))
@@ -157,10 +178,15 @@ void add_family(Work& work, const StudyEvidence& evidence, const RegressionRules
     else
       work.comparisons.push_back(std::move(comparison));
   };
-  add(last, subject_of(*steps.back()), shown_subject(labels, *steps.back()));
-  const std::string mean = fmt::format(", mean of {} steps", steps.size());
-  if (steps.size() > 1) add(all, method + mean, shown + mean);
-  if (all.empty() && losses.lost > 0 && losses.gained > 0) work.other_runs.insert(shown);
+  const bool has_steps = steps.size() > 1;
+  add(std::move(has_steps ? last : all), subject_of(*steps.back()),
+      shown_subject(labels, *steps.back()));
+  if (has_steps) {
+    std::ranges::stable_sort(all, {}, &RunDifference::run);
+    const std::string mean = fmt::format(", mean of {} steps", steps.size());
+    add(std::move(all), method + mean, shown + mean);
+  }
+  if (!has_any && losses.lost > 0 && losses.gained > 0) work.other_runs.insert(shown);
   // Quantities that are lost together are one finding.
   const auto same = std::ranges::find_if(work.losses, [&](const Losses& other) {
     return other.subject == losses.subject && other.lost == losses.lost &&
@@ -199,10 +225,10 @@ void add_vanished(Work& work, const StudyEvidence& evidence) {
       }
       if (!methods.contains(base(series)))
         return {base(series), shown_method_of(labels, without_levels(series))};
-      if (!quantities.contains(series.quantity)) return {"all methods", "all methods"};
+      if (!quantities.contains(series.quantity)) return {kAllMethods, kAllMethods};
       return {method_of(series), shown_method_of(labels, series)};
     }();
-    const bool of_quantity = subject == "all methods" || subjects.contains(subject);
+    const bool of_quantity = subject == kAllMethods || subjects.contains(subject);
     auto same = std::ranges::find_if(work.vanished, [&, &subject = subject](const Vanished& other) {
       return other.subject == subject && (!of_quantity || other.quantity == series.quantity);
     });

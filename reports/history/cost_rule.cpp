@@ -226,8 +226,8 @@ std::vector<NightlySeries> seconds_series(const StudyTrend& trend,
     return all;
   }
   NightlySeries common{.rule = HistoryRule::kAllSeconds,
-                       .subject = "all methods",
-                       .shown = "all methods",
+                       .subject = kAllMethods,
+                       .shown = kAllMethods,
                        .quantity = "seconds",
                        .least = std::log1p(rules.least_slowdown),
                        .floor = rules.seconds_floor};

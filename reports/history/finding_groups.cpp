@@ -1,9 +1,13 @@
 #include "reports/history/finding_groups.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <set>
+#include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -26,10 +30,9 @@ std::string shell_quoted(std::string_view text) {
 
 /// The series that a finding is about; null if it is about others, or is not there any more.
 const SeriesId* series_of(const NightlyFinding& finding, const StudyTrend& trend) {
+  if (finding.subject == kAllMethods) return nullptr;
   for (const auto& [id, values] : trend.medians)
-    if (id.quantity == finding.quantity &&
-        (finding.subject == method_of(id) || finding.subject.starts_with(method_of(id) + ", ")))
-      return &id;
+    if (is_about(finding, id)) return &id;
   return nullptr;
 }
 
@@ -115,6 +118,50 @@ std::string amount(double change) {
                      std::abs(change) < 0.095 ? 2 : 1);
 }
 
+/// The words of a command that quoted_command() of the program made: words between blanks, parts of
+/// them between single quotes, \' for a single quote.
+std::vector<std::string> words_of(const std::string& command) {
+  std::vector<std::string> words(1);
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    if (command[i] == '\'')
+      is_quoted = !is_quoted;
+    else if (!is_quoted && command[i] == '\\' && i + 1 < command.size())
+      words.back() += command[++i];
+    else if (!is_quoted && command[i] == ' ')
+      words.emplace_back();
+    else
+      words.back() += command[i];
+  }
+  return words;
+}
+
+/// A word as a shell reads it, quoted where it must be.
+std::string shell_word(const std::string& word) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("-_./=,:+@%").find(c) != std::string_view::npos;
+  };
+  return !word.empty() && std::ranges::all_of(word, is_plain) ? word : shell_quoted(word);
+}
+
+/// A command of `nightly` for any commit: without the options that name the commit of one nightly
+/// run, build it, choose its reference or write files.
+std::string for_any_commit(const std::string& command) {
+  static const std::set<std::string, std::less<>> kLeftOut = {
+      "--build", "--commit",    "--junit",          "--markdown", "--on-worse",
+      "--out",   "--reference", "--repository-url", "-o"};
+  std::string kept;
+  bool skips_value = false;
+  for (const std::string& word : words_of(command)) {
+    const std::string option = word.substr(0, word.find('='));
+    const bool is_left_out = kLeftOut.contains(option);
+    if (!skips_value && !is_left_out) kept += (kept.empty() ? "" : " ") + shell_word(word);
+    skips_value = !skips_value && is_left_out && option.size() == word.size();
+  }
+  return kept;
+}
+
 bool is_address(std::string_view text) {
   return text.starts_with("https://") || text.starts_with("http://");
 }
@@ -138,9 +185,9 @@ std::string CommitRange::url() const {
 
 std::string CommitRange::bisect() const {
   if (!has_commits()) return "";
-  const std::string run = fmt::format("({}) || exit 125; {} --bisect {}",
-                                      since.build.empty() ? "BUILD" : since.build, since.command,
-                                      since.number);
+  const std::string run =
+      fmt::format("({}) || exit 125; {} --bisect {}", since.build.empty() ? "BUILD" : since.build,
+                  for_any_commit(since.command), since.number);
   return fmt::format("git bisect start {} {} && git bisect run sh -c {}",
                      short_commit(since.commit), short_commit(before.commit), shell_quoted(run));
 }
@@ -175,6 +222,17 @@ std::string FindingGroup::change_of_settings() const {
 }
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
+
+std::string FindingGroup::count_text() const {
+  return numbers.size() < 2 ? "" : counted(std::ssize(numbers), "finding");
+}
+
+std::size_t count_findings(std::span<const FindingGroup> groups, bool known) {
+  std::size_t count = 0;
+  for (const FindingGroup& group : groups)
+    if (group.known.has_value() == known) count += group.numbers.size();
+  return count;
+}
 
 std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,

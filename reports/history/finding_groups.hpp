@@ -22,7 +22,8 @@ struct CommitRange {
   /// The page that compares them; empty if no address is known.
   std::string url() const;
   /// What searches the commit in between; empty without both commits. It builds by `since.build`,
-  /// or BUILD if that is empty.
+  /// or BUILD if that is empty, and calls `since.command` without what names one commit or writes
+  /// files.
   std::string bisect() const;
 };
 
@@ -50,7 +51,8 @@ struct FindingGroup {
   bool in_points = false;            ///< The changes are in points rather than in percent.
   std::vector<int> numbers = {};     ///< Index of each finding in its nightly run, from 1.
   std::vector<std::string> sentences = {};
-  std::vector<std::string> lines = {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
+  std::vector<std::string> lines =
+      {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
   std::optional<NightlyNote> known = {};  ///< By which all of them are known.
   CommitRange commits = {};
 
@@ -60,6 +62,8 @@ struct FindingGroup {
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;
+  /// "2 findings"; empty for one.
+  std::string count_text() const;
 };
 
 /// The findings of a nightly run in groups: those that are new first, else in their order.
@@ -68,9 +72,12 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,
                                   std::span<const NightlyNote> notes);
 
-/// The index of the nightly run that changes of a study are shown against: the one that the last was
-/// compared with, or the one before its findings began if that is earlier; the first where that is
-/// none of these.
+/// "3 findings" of all groups that are known, or that are not: as many as their count_text() say.
+std::size_t count_findings(std::span<const FindingGroup> groups, bool known);
+
+/// The index of the nightly run that changes of a study are shown against: the one that the last
+/// was compared with, or the one before its findings began if that is earlier; the first where that
+/// is none of these.
 /// @param findings  Of the last nightly run; those of other studies are left out.
 std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings);
 

@@ -19,6 +19,7 @@
 #include "reports/history/accuracy_rule.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/history/study_course.hpp"
 #include "reports/model/format.hpp"
 #include "reports/model/report.hpp"
 
@@ -68,6 +69,9 @@ constexpr std::size_t kMostOnIndex = 2;
 /// Small figures of a first screen.
 constexpr std::size_t kMostSmall = 6;
 
+/// Groups of findings in a section at most; the trends list all.
+constexpr std::size_t kMostGroups = 30;
+
 /// Links to nightly runs in one sentence at most; the index lists all.
 constexpr std::size_t kMostLinked = 10;
 
@@ -111,24 +115,41 @@ Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
   return all;
 }
 
-/// Figures of the last nightly run's studies, those that have findings first.
-std::vector<Figure> course(const IndexFacts& facts) {
+/// The last nightly run's studies, those that have findings first.
+std::vector<const StudyTrend*> trends_by_findings(const IndexFacts& facts) {
   std::vector<const StudyTrend*> trends;
   for (const StudyTrend& trend : facts.trends) trends.push_back(&trend);
   const auto found = found_on(facts.nightly_runs.back().number, facts.findings);
   std::ranges::stable_partition(trends, [&](const StudyTrend* trend) {
     return std::ranges::find(found, trend->name, &NightlyFinding::study) != found.end();
   });
-  const bool among_others = trends.size() > 1;
+  return trends;
+}
+
+TrendLocation on_index(const IndexFacts& facts) {
+  const bool among_others = facts.trends.size() > 1;
+  return {.among_others = among_others, .most = among_others ? 1 : kMostOnIndex};
+}
+
+/// Their figures.
+std::vector<Figure> course(const IndexFacts& facts) {
   std::vector<Figure> figures;
   std::set<std::string> ids;
-  for (const StudyTrend* trend : trends)
-    for (Figure& figure :
-         trend_figures(*trend, facts.findings,
-                       {.among_others = among_others, .most = among_others ? 1 : kMostOnIndex}))
+  for (const StudyTrend* trend : trends_by_findings(facts))
+    for (Figure& figure : trend_figures(*trend, facts.findings, on_index(facts)))
       if (figures.size() < kMostOnIndex && ids.insert(figure.id).second)
         figures.push_back(std::move(figure));
   return figures;
+}
+
+/// What they measured where nothing could be compared or nothing changed.
+std::string measured(const IndexFacts& facts) {
+  std::string text;
+  std::size_t count = 0;
+  for (const StudyTrend* trend : trends_by_findings(facts))
+    for (const std::string& sentence : trend_sentences(*trend, facts.findings, on_index(facts)))
+      if (++count <= kMostOnIndex) text += " " + sentence;
+  return text;
 }
 
 /// A warning on nightly runs that were lost, with what is left of them; nothing if none was.
@@ -150,62 +171,51 @@ std::optional<Callout> reported_of(const LostNightlyRuns& lost) {
                  {{{text}}}};
 }
 
-/// The series of a study that changed most since nightly run `from`: "ISOMAP, K = 6: MPE +17.6 %".
-std::string greatest_change(const StudyTrend& trend, std::size_t from) {
-  std::string text;
-  double most = 0.0;
-  for (const auto& [id, levels] : trend.levels) {
-    const NightlyRule rule = rule_of(id, trend.quantities, trend.levels);
-    const double worsening = levels.back() - levels[from];
-    if (!is_accuracy(rule) || !std::isfinite(worsening) || std::abs(worsening) <= most) continue;
-    most = std::abs(worsening);
-    const Quantity& quantity = trend.quantities.at(id.quantity);
-    text = fmt::format("{}: {} {}\u00a0{}", shown_method_of(trend.labels, id), quantity.label,
-                       format_number(change_of(quantity, worsening), 1, true),
-                       rule == NightlyRule::kRatio ? "%" : "points");
-  }
-  constexpr double kLeast = 5e-4;  // Half of what is shown.
-  return most < kLeast ? "" : text;
+/// A course as a cell of a table, and its curve.
+/// @param without  What the cell says where there is no course.
+void add_course(const std::optional<Course>& course, const std::string& without, Row& row) {
+  row.cells.emplace_back(text(course ? course->words : without));
+  if (!course || course->curve.changes.empty()) return;
+  row.curves.push_back(course->curve);
+  row.curves.back().cell = row.cells.size() - 1;
 }
 
 /// One line per study of the last nightly run.
 Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
-  Table table{.id = "studies",
-              .caption = "Change of each study over its nightly runs.",
-              .columns = {{"Study", "", "", ""},
-                          {"Change", "%", "",
-                           "Mean over the judged methods and quantities, against the reference run, "
-                           "or the one before what got worse; above zero is worse"},
-                          {"Largest change", "", "", "Of one method and quantity, in its own values"},
-                          {"Trends", "", "", ""},
-                          {"Report", "", "", ""}},
-              .rows = {},
-              .notes = {}};
+  Table table{
+      .id = "studies",
+      .caption = "Change of each study over its nightly runs.",
+      .columns = {{"Study", "", "", ""},
+                  {"Worse", "", "",
+                   "The greatest change for the worse against the reference run, or the one "
+                   "before what got worse; red where it is a finding, grey where it is none"},
+                  {"Better", "", "",
+                   "The greatest change for the better of 1 % or half a point at least; it "
+                   "is not tested"},
+                  {"Trends", "", "", ""},
+                  {"Report", "", "", ""}},
+      .rows = {},
+      .notes = {}};
   for (const StudyTrend& trend : facts.trends) {
-    const std::size_t from = base_index(trend, found_on(this_run.number, facts.findings));
-    const std::vector<double> change = change_over_nightly_runs(trend, from);
-    const std::string most = greatest_change(trend, from);
     const Phrase report = links.report(this_run.number, trend.name);
     const Phrase trends = links.trends(trend.name);
-    const double last = change.back();
-    table.rows.push_back({{text(trend.name),
-                           std::isfinite(last) ? Cell{NumberCell{last, 1, true}} : MissingCell{},
-                           most.empty() ? text("none") : text(most),
-                           TextCell{trends.text, trends.emphasis},
-                           TextCell{report.text, report.emphasis}},
-                          fmt::format("{} to {}",
-                                      counted(std::ssize(trend.nightly_runs), "nightly run"),
-                                      this_run.number)});
-    table.rows.back().curve = change;
+    Row row{{text(trend.name)},
+            fmt::format("{} to {}", counted(std::ssize(trend.nightly_runs), "nightly run"),
+                        this_run.number)};
+    const std::string without = trend.nightly_runs.size() < 2 ? "not compared" : "none";
+    add_course(worst_course(trend, facts.findings, facts.notes), without, row);
+    add_course(best_course(trend, facts.findings), without, row);
+    row.cells.emplace_back(TextCell{trends.text, trends.emphasis});
+    row.cells.emplace_back(TextCell{report.text, report.emphasis});
+    table.rows.push_back(std::move(row));
   }
   return table;
 }
 
 /// What got worse in one group, and where to find it.
-FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
-                           NightlyLinks& links) {
-  const NightlyFacts& this_run = facts.nightly_runs.back();
+/// @param to  Links to pages on it.
+FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, NightlyLinks& links) {
   const CommitRange& commits = group.commits;
   FindingBlock block;
   block.title = group.headline();
@@ -215,6 +225,8 @@ FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
   auto& phrases = block.text.phrases;
   phrases.push_back({group.study, Emphasis::kData});
   if (!group.setup.empty()) phrases.push_back({", " + group.setup});
+  if (const std::string count = group.count_text(); !count.empty())
+    phrases.push_back({", " + count});
   phrases.push_back({fmt::format(", since nightly run {}", commits.since.number)});
   if (!commits.since.started_utc.empty())
     phrases.push_back({" (" + local_time(commits.since) + ")"});
@@ -226,54 +238,80 @@ FindingBlock finding_block(const FindingGroup& group, const IndexFacts& facts,
     phrases.push_back(links.commit(commits.since));
     phrases.push_back({" as before it"});
   }
-  phrases.push_back({". See "});
-  const std::string file =
-      comparison_file(commits.before.number, commits.since.number, group.study);
-  if (facts.comparisons.contains(file)) {
-    phrases.push_back(
-        links.comparison(commits.before.number, commits.since.number, group.study));
-    phrases.push_back({", "});
-  }
-  phrases.push_back(links.trends(group.study));
-  phrases.push_back({", "});
-  phrases.push_back(links.report(this_run.number, group.study));
-  phrases.push_back({"."});
+  phrases.push_back({". "});
+  for (Phrase& phrase : ways(std::move(to), std::nullopt).phrases)
+    phrases.push_back(std::move(phrase));
   if (group.known) {
     phrases.push_back({" Known: "});
     phrases.push_back({group.known->text, Emphasis::kData});
-  } else {
-    for (const int number : group.numbers)
-      block.keys += fmt::format("{}{}.{}", block.keys.empty() ? "" : " ", this_run.number, number);
   }
   return block;
+}
+
+/// "7.1 7.2": the findings of a group as commands name them.
+std::string keys_of(const FindingGroup& group, int nightly_run) {
+  std::string keys;
+  for (const int number : group.numbers)
+    keys += fmt::format("{}{}.{}", keys.empty() ? "" : " ", nightly_run, number);
+  return keys;
+}
+
+/// Those of its groups of findings that a page shows.
+std::span<const FindingGroup> shown_groups(std::span<const FindingGroup> groups) {
+  return groups.first(std::min(groups.size(), kMostGroups));
+}
+
+/// That others are with the findings of the trends; nothing if there are none.
+void add_rest(std::size_t groups, Section& section) {
+  if (groups > kMostGroups)
+    section.blocks.emplace_back(Paragraph{
+        {{fmt::format("And {} more, among the findings of the trends.", groups - kMostGroups)}}});
+}
+
+bool is_on(const NightlyNote& note, const FindingGroup& group) {
+  return std::ranges::find(group.numbers, note.finding) != group.numbers.end();
 }
 
 /// What got worse, what is new first; nothing if nothing did.
 std::optional<Section> worse_section(const IndexFacts& facts, const NightlySummary& summary,
                                      NightlyLinks& links) {
-  constexpr std::size_t kMostBlocks = 30;
   if (summary.groups.empty()) return std::nullopt;
   Section section{"worse", "What got worse", {}};
-  for (const FindingGroup& group : summary.groups) {
-    if (section.blocks.size() == kMostBlocks) {
-      section.blocks.emplace_back(Paragraph{{{fmt::format(
-          "And {} more, among the findings of the trends.", summary.groups.size() - kMostBlocks)}}});
-      break;
-    }
-    section.blocks.emplace_back(finding_block(group, facts, links));
+  for (const FindingGroup& group : shown_groups(summary.groups)) {
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    std::vector<Phrase> to;
+    if (facts.comparisons.contains(comparison_file(before, since, group.study)))
+      to.push_back(links.comparison(before, since, group.study));
+    to.push_back(links.trends(group.study));
+    to.push_back(links.report(summary.facts.number, group.study));
+    FindingBlock block = finding_block(group, std::move(to), links);
+    if (!block.known) block.keys = keys_of(group, summary.facts.number);
+    for (const NightlyNote& note : summary.notes)
+      if (note.kind == NoteKind::kNote && is_on(note, group)) {
+        block.text.phrases.push_back(
+            {fmt::format(" Note on {}.{}: ", note.nightly_run, note.finding)});
+        block.text.phrases.push_back({note.text, Emphasis::kData});
+      }
+    section.blocks.emplace_back(std::move(block));
   }
+  add_rest(summary.groups.size(), section);
   return section;
 }
 
-Section last_section(const IndexFacts& facts, NightlyLinks& links) {
+Section last_section(const IndexFacts& facts, const NightlySummary& summary, NightlyLinks& links) {
   Section last{"last", "The last nightly run", {}};
   const NightlyFacts& this_run = facts.nightly_runs.back();
   if (auto damage = reported_of(facts.lost)) last.blocks.emplace_back(std::move(*damage));
-  for (const NightlyNote& note : notes_on(this_run.number, facts.notes))
-    if (note.kind != NoteKind::kKnown)
-      last.blocks.emplace_back(
-          Callout{Callout::Tone::kNote, note.kind == NoteKind::kAccepted ? "Accepted" : "Note",
-                  {{{note.text, Emphasis::kData}}}});
+  for (const NightlyNote& note : notes_on(this_run.number, facts.notes)) {
+    const bool is_with_its_finding =
+        std::ranges::any_of(shown_groups(summary.groups),
+                            [&](const FindingGroup& group) { return is_on(note, group); });
+    if (note.kind == NoteKind::kKnown || is_with_its_finding) continue;
+    std::string title = note.kind == NoteKind::kAccepted ? "Accepted" : "Note";
+    if (note.finding > 0) title += fmt::format(" on {}.{}", note.nightly_run, note.finding);
+    last.blocks.emplace_back(
+        Callout{Callout::Tone::kNote, std::move(title), {{{note.text, Emphasis::kData}}}});
+  }
   if (!facts.trends.empty())
     last.blocks.emplace_back(studies_table(facts, links));
   else if (const auto made = facts.studies.find(this_run.number); made != facts.studies.end())
@@ -394,30 +432,6 @@ NightlySummary last_summary(const IndexFacts& facts) {
   return summary;
 }
 
-std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from) {
-  const auto mean_of = [&](NightlyRule judged) {
-    std::vector<double> means;
-    for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i) {
-      double sum = 0.0;
-      int count = 0;
-      for (const auto& [id, levels] : trend.levels) {
-        if (rule_of(id, trend.quantities, trend.levels) != judged) continue;
-        const double worsening = levels[i] - levels[from];
-        if (!std::isfinite(worsening)) continue;
-        sum += worsening;
-        ++count;
-      }
-      means.push_back(count == 0 ? kNaN : sum / count);
-    }
-    return means;
-  };
-  std::vector<double> change = mean_of(NightlyRule::kRatio);
-  if (std::ranges::none_of(change, [](double v) { return std::isfinite(v); }))
-    return mean_of(NightlyRule::kPoints);
-  for (double& value : change) value = 100.0 * std::expm1(value);
-  return change;
-}
-
 Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
   Table table{
       .id = "nightly-runs",
@@ -524,16 +538,25 @@ std::vector<Paragraph> last_findings(const IndexFacts& facts, NightlyLinks& link
       to.push_back(links.trends(trend.name));
     }
   std::vector<Paragraph> findings = {
-      {{strong("Last"),
-        phrase(fmt::format(": {}, of {}.", dated_name(this_run),
-                           studies.empty() ? "no study that is still there" : listed(studies, 4)))}}};
+      {{strong("Last"), phrase(fmt::format(": {}, of {}.", dated_name(this_run),
+                                           studies.empty() ? "no study that is still there"
+                                                           : listed(studies, 4)))}}};
   const auto reference =
       std::ranges::find(facts.nightly_runs, this_run.reference.value_or(0), &NightlyFacts::number);
-  findings.push_back({{strong("Compared with"),
-                       phrase(": " + (reference == facts.nightly_runs.end()
-                                          ? std::string("no earlier nightly run.")
-                                          : dated_name(*reference) + "."))}});
-  if (!to.empty() && to.size() <= kMostLinked) findings.push_back(ways(std::move(to), std::nullopt));
+  findings.push_back(
+      {{strong("Compared with"), phrase(": " + (reference == facts.nightly_runs.end()
+                                                    ? std::string("no earlier nightly run.")
+                                                    : dated_name(*reference) + "."))}});
+  if (reference != facts.nightly_runs.end())
+    if (const CommitRange range{*reference, this_run}; !range.url().empty()) {
+      findings.back().phrases.push_back(phrase(" Commits since: "));
+      findings.back().phrases.push_back(links.commits(range));
+      findings.back().phrases.push_back(phrase("."));
+    }
+  if (const std::string values = measured(facts); !values.empty())
+    findings.push_back({{strong("Measured"), phrase(":" + values)}});
+  if (!to.empty() && to.size() <= kMostLinked)
+    findings.push_back(ways(std::move(to), std::nullopt));
   return findings;
 }
 
@@ -554,8 +577,13 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
   page.report.opening.findings.push_back(
       ways({links.index(), links.report(this_run.number, trend.name)}, reference));
-  page.report.sections.push_back(
-      {"trends", "Trends", {nightly_runs_shown(trend), gallery_of(page.figures)}});
+  Section trends{"trends", "Trends", {nightly_runs_shown(trend)}};
+  BulletList values;
+  for (std::string& sentence : trend_sentences(trend, findings))
+    values.items.push_back({{{std::move(sentence)}}});
+  if (!values.items.empty()) trends.blocks.emplace_back(std::move(values));
+  if (!page.figures.empty()) trends.blocks.emplace_back(gallery_of(page.figures));
+  page.report.sections.push_back(std::move(trends));
   page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
@@ -582,8 +610,9 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
                   local_time(this_run));
   const NightlySummary summary = last_summary(facts);
   report.opening.standing = nightly_standing(summary);
-  if (auto worse = worse_section(facts, summary, links)) report.sections.push_back(std::move(*worse));
-  report.sections.push_back(last_section(facts, links));
+  if (auto worse = worse_section(facts, summary, links))
+    report.sections.push_back(std::move(*worse));
+  report.sections.push_back(last_section(facts, summary, links));
   page.figures = course(facts);
   report.opening.findings = last_findings(facts, links);
   show_first(page.figures, report.opening);
@@ -592,15 +621,44 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
         {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
   }
   report.sections.push_back(
-      {"nightly-runs",
-       "All nightly runs",
-       {nightly_runs_table(facts, links)}});
+      {"nightly-runs", "All nightly runs", {nightly_runs_table(facts, links)}});
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
 }
 
 namespace {
+
+/// What got worse of a study, at the head of its report.
+Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
+  Section section{"worse", "What got worse", {}};
+  std::size_t count = 0;
+  for (const FindingGroup& group : study.groups) {
+    if (group.study != study.name || ++count > kMostGroups) continue;
+    std::vector<Phrase> to;
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    if (study.comparisons.contains(comparison_file(before, since, group.study)))
+      to.push_back(links.comparison(before, since, group.study));
+    to.push_back(links.trends(group.study));
+    section.blocks.emplace_back(finding_block(group, std::move(to), links));
+  }
+  add_rest(count, section);
+  return section;
+}
+
+/// Puts what got worse before everything else: its section, then in each study of the report the
+/// sections that show it.
+void put_regressed_first(Report& report, Section worse) {
+  std::vector<Section>& sections = report.sections;
+  for (auto begin = sections.begin(); begin != sections.end();) {
+    const auto end = std::find_if(begin, sections.end(), [&](const Section& section) {
+      return section.group != begin->group;
+    });
+    std::stable_partition(begin, end, shows_regression);
+    begin = end;
+  }
+  if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
+}
 
 /// Makes a figure of what got worse the one of the first screen; the one that was is a small one.
 void show_regressed(Report& report) {
@@ -625,10 +683,10 @@ void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLink
   Opening& opening = report.opening;
   report.subtitle +=
       fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
-  opening.standing =
-      study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
+  opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
   mark_regressed(report, study.figures, study.groups, study.name);
   show_regressed(report);
+  put_regressed_first(report, worse_of_study(study, links));
   std::optional<Phrase> reference;
   if (study.is_compared && nightly_run.facts.reference)
     reference = links.report(*nightly_run.facts.reference, study.name);

@@ -92,11 +92,6 @@ struct IndexFacts {
 /// The last nightly run of them, with its findings in groups; empty facts without any.
 NightlySummary last_summary(const IndexFacts& facts);
 
-/// By how much the accuracy of a study is worse than in the nightly run of index `from`, in percent
-/// of what it was: the mean of its judged series, one value per nightly run, NaN where there is
-/// none. In points where all of its series are judged by points.
-std::vector<double> change_over_nightly_runs(const StudyTrend& trend, std::size_t from);
-
 /// One row per nightly run, the last one first.
 Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links);
 
@@ -119,11 +114,12 @@ struct StudyOfNightlyRun {
   bool is_compared = false;     ///< As for trend_page().
   const LostNightlyRuns& lost;  ///< Not empty: reported, since the history was found damaged.
   std::span<const FindingGroup> groups = {};  ///< Of the nightly run.
-  std::span<const Figure> figures = {};       ///< Of the report: those of what got worse are marked.
+  std::span<const Figure> figures = {};    ///< Of the report: those of what got worse are marked.
+  std::set<std::string> comparisons = {};  ///< As of IndexFacts, with those that are to be made.
 };
 
-/// Puts the verdict on a study's nightly run at the head of its report, with links to related
-/// pages.
+/// Puts the verdict on a study's nightly run and what got worse at the head of its report, with
+/// links to related pages, and before its other sections those that show what got worse.
 void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links);
 
 }  // namespace mapproof

@@ -249,16 +249,25 @@ std::vector<NightlyStudy> HistoryStore::studies(int nightly_run) {
 }
 
 Scores HistoryStore::scores(int nightly_run, const std::string& study) {
-  Statement rows(
+  Statement series(
       *database_,
-      "SELECT r.name, r.unit, s.sensor, s.method, s.step, s.quantity, v.value "
+      "SELECT t.id, v.series, COUNT(*), s.sensor, s.method, s.step, s.quantity "
       "FROM studies t JOIN scores v ON v.study = t.id JOIN series s ON s.id = v.series "
-      "JOIN runs r ON r.id = v.run WHERE t.nightly_run = ? AND t.name = ? ORDER BY r.name");
-  rows.bind(nightly_run).bind(study);
+      "WHERE t.nightly_run = ? AND t.name = ? GROUP BY t.id, v.series");
+  series.bind(nightly_run).bind(study);
   Scores scores;
-  while (rows.step())
-    scores[{rows.text(2), rows.text(3), static_cast<int>(rows.integer(4)), rows.text(5)}].push_back(
-        {rows.text(0), rows.text(1), rows.real(6)});
+  while (series.step()) {
+    std::vector<RunValue>& values = scores[{series.text(3), series.text(4),
+                                            static_cast<int>(series.integer(5)), series.text(6)}];
+    values.reserve(static_cast<std::size_t>(series.integer(2)));
+    Statement rows(*database_,
+                   "SELECT r.name, r.unit, v.value FROM scores v JOIN runs r ON r.id = v.run "
+                   "WHERE v.study = ? AND v.series = ?");
+    rows.bind(series.integer(0)).bind(series.integer(1));
+    while (rows.step()) values.push_back({rows.text(0), rows.text(1), rows.real(2)});
+    if (!std::ranges::is_sorted(values, {}, &RunValue::run))
+      std::ranges::sort(values, {}, &RunValue::run);
+  }
   return scores;
 }
 

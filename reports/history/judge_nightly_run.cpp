@@ -136,14 +136,15 @@ void drop_before(StudyTrend& trend, int nightly_run) {
     for (auto& [series, values] : *all) values.erase(values.begin(), values.begin() + count);
 }
 
-StudyEvidence evidence_of(HistoryStore& store, const NightlyRun& this_run,
-                          const NightlyStudy& study, int pinned) {
+/// @param study  Of this nightly run, whose scores are lent to the evidence.
+StudyEvidence evidence_of(HistoryStore& store, const NightlyRun& this_run, NightlyStudy& study,
+                          int pinned) {
   StudyEvidence evidence{.trend = store.trend(study.name, study.experiment_digest, kTrendRuns,
                                               this_run.facts.number - 1),
-                         .this_run = study.scores,
                          .draws_groups = study.draws_groups};
   drop_before(evidence.trend, pinned);
   add_this_run(evidence.trend, this_run.facts, study);
+  evidence.this_run = std::move(study.scores);
   if (!this_run.facts.reference) return evidence;
   for (const NightlyStudy& then : store.studies(*this_run.facts.reference))
     if (then.name == study.name && then.experiment_digest == study.experiment_digest)
@@ -248,9 +249,10 @@ std::vector<std::string> judge_nightly_run(HistoryStore& store, NightlyRun& this
         "the clock stands at {}, before the end of nightly run {} at {}: nightly runs are ordered "
         "by their number",
         this_run.facts.started_utc, nightly_runs.back().number, nightly_runs.back().ended_utc));
-  for (const NightlyStudy& study : this_run.studies) {
-    RuleOutcome outcome =
-        judge_study(evidence_of(store, this_run, study, pinned), rules, yesterday);
+  for (NightlyStudy& study : this_run.studies) {
+    StudyEvidence evidence = evidence_of(store, this_run, study, pinned);
+    RuleOutcome outcome = judge_study(evidence, rules, yesterday);
+    study.scores = std::move(evidence.this_run);
     std::ranges::move(outcome.findings, std::back_inserter(this_run.findings));
     std::ranges::move(outcome.remarks, std::back_inserter(remarks));
   }

@@ -54,6 +54,13 @@ std::size_t levels_begin(const std::string& method) {
   return method.size();
 }
 
+bool is_about(const NightlyFinding& finding, const SeriesId& series) {
+  if (finding.quantity != series.quantity) return false;
+  const std::string method = method_of(series);
+  return finding.subject == kAllMethods || finding.subject == method ||
+         finding.subject.starts_with(method + ", ");
+}
+
 std::string subject_of(const SeriesId& series) {
   return series.step == 0 ? method_of(series)
                           : fmt::format("{}, {} steps", method_of(series), series.step);

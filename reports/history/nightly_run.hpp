@@ -92,11 +92,14 @@ std::string_view name(HistoryRule rule);
 std::optional<HistoryRule> rule_named(std::string_view name);
 NightlyVerdict verdict_of(HistoryRule rule);
 
+/// The subject of a finding that is about the whole study.
+inline constexpr const char* kAllMethods = "all methods";
+
 /// One thing that got worse.
 struct NightlyFinding {
   std::string study = {};
   HistoryRule rule = HistoryRule::kAccuracy;
-  std::string subject = {};   ///< "bearing, isomap-K6"; of the whole study: "all methods".
+  std::string subject = {};   ///< "bearing, isomap-K6"; of the whole study: kAllMethods.
   std::string quantity = {};  ///< Quantity::id, or "memory".
   int since = 0;              ///< The nightly run in which it began, as far as can be determined.
   std::string sentence = {};  ///< With numbers.
@@ -104,6 +107,10 @@ struct NightlyFinding {
   /// judged by points. Its sign is that of the value's change. Empty: results are lost.
   std::optional<double> change = {};
 };
+
+/// Whether a finding is about a series: about its quantity, and its method at any step or all
+/// methods.
+bool is_about(const NightlyFinding& finding, const SeriesId& series);
 
 /// The most severe verdict of these findings.
 NightlyVerdict verdict_of(const std::vector<NightlyFinding>& findings);

@@ -54,15 +54,17 @@ void add_sessions(NightlyStudy& nightly_run, const std::vector<Session>& session
 Scores scores_of(const Results& results, const std::vector<Result>& seconds) {
   Scores scores;
   for (const std::vector<Result>* rows : {&results.rows, &seconds}) {
-    const Result* before = nullptr;
-    std::vector<RunValue>* of_series = nullptr;  // Null: the quantity is not kept.
-    for (const Result& row : *rows) {
-      if (before == nullptr || !is_same_series(*before, row))
-        of_series = results.quantities.at(row.quantity).nightly == NightlyRule::kNone
-                        ? nullptr
-                        : &scores[series_of(row)];
-      before = &row;
-      if (of_series != nullptr) of_series->push_back({row.run, row.group, row.value});
+    for (auto first = rows->begin(); first != rows->end();) {
+      const auto end = std::find_if(
+          first, rows->end(), [&](const Result& row) { return !is_same_series(*first, row); });
+      if (results.quantities.at(first->quantity).nightly != NightlyRule::kNone) {
+        std::vector<RunValue>& of_series = scores[series_of(*first)];
+        const std::size_t size = of_series.size() + static_cast<std::size_t>(end - first);
+        if (size > of_series.capacity()) of_series.reserve(std::max(size, 2 * of_series.size()));
+        for (auto row = first; row != end; ++row)
+          of_series.push_back({row->run, row->group, row->value});
+      }
+      first = end;
     }
   }
   for (auto& [series, values] : scores) std::ranges::sort(values, {}, &RunValue::run);

@@ -1,6 +1,10 @@
 #include "reports/history/nightly_standing.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -8,6 +12,7 @@
 
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {
@@ -15,7 +20,9 @@ namespace {
 /// What, by how much, since when, and in which commits.
 std::string sentence_of(const FindingGroup& group) {
   std::string text = group.setup.empty() ? "" : group.setup + ", ";
-  text += fmt::format("{}, since nightly run {}", group.headline(), group.commits.since.number);
+  text += group.headline();
+  if (const std::string count = group.count_text(); !count.empty()) text += ", " + count;
+  text += fmt::format(", since nightly run {}", group.commits.since.number);
   if (group.commits.has_commits()) text += ", commits " + group.commits.text();
   return text + (group.known ? "; known: " + group.known->text : ".");
 }
@@ -23,14 +30,18 @@ std::string sentence_of(const FindingGroup& group) {
 /// @param before  Put before each sentence.
 void add_findings(std::span<const FindingGroup> groups, const std::string& study,
                   const std::string& before, Standing& standing) {
-  std::size_t count = 0;
-  for (const FindingGroup& group : groups)
-    if (group.study == study && ++count <= kMostReported)
+  std::size_t count = 0, more = 0;
+  for (const FindingGroup& group : groups) {
+    if (group.study != study) continue;
+    if (++count <= kMostReported)
       standing.sentences.push_back(before + sentence_of(group));
-  if (count > kMostReported)
-    standing.sentences.push_back(fmt::format("{}{} {} more, among the findings of its trends.",
-                                             before, before.empty() ? "And" : "and",
-                                             count - kMostReported));
+    else
+      more += group.numbers.size();
+  }
+  if (more > 0)
+    standing.sentences.push_back(
+        fmt::format("{}{} {}, among those of its trends.", before, before.empty() ? "And" : "and",
+                    counted(static_cast<long long>(more), "more finding")));
 }
 
 /// The studies that have findings, in the order of these.
@@ -47,19 +58,15 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
                         const std::string& study, bool is_compared) {
   Standing result;
   add_findings(groups, study, "", result);
-  long long count = 0, known = 0;
-  for (const FindingGroup& group : groups)
-    if (group.study == study) (group.known ? known : count) += std::ssize(group.numbers);
-  result.worse = count > 0;
-  const std::string this_run = fmt::format("Nightly run {}: ", nightly_run.number);
-  if (result.worse)
-    result.title = this_run + counted(count, "thing") + " got worse";
-  else if (is_compared && nightly_run.reference)
-    result.title =
-        this_run + fmt::format("nothing {}got worse than in nightly run {}", known > 0 ? "new " : "",
-                               *nightly_run.reference);
-  else
-    result.title = this_run + "not compared: no nightly run to compare with has the same settings";
+  std::vector<FindingGroup> of_study;
+  std::ranges::copy_if(groups, std::back_inserter(of_study),
+                       [&](const FindingGroup& group) { return group.study == study; });
+  result.worse = count_findings(of_study, false) > 0;
+  NightlyFacts facts = nightly_run;
+  if (!is_compared) facts.reference.reset();
+  std::string sentence = lower_case(verdict_sentence(facts, of_study));
+  sentence.pop_back();  // A title has no full stop.
+  result.title = fmt::format("Nightly run {}: {}", nightly_run.number, sentence);
   return result;
 }
 
@@ -154,7 +161,9 @@ bool is_of_setup(const Table& table, const Row& row, const std::string& setup) {
 
 /// Whether one of the table's columns shows the quantity.
 bool shows_quantity(const Table& table, const std::string& quantity) {
-  const auto has = [&](const std::string& text) { return text.find(quantity) != std::string::npos; };
+  const auto has = [&](const std::string& text) {
+    return text.find(quantity) != std::string::npos;
+  };
   return has(table.caption) || std::ranges::any_of(table.columns, [&](const Column& column) {
            return has(column.title) || has(column.group) || has(column.tooltip);
          });
@@ -162,10 +171,12 @@ bool shows_quantity(const Table& table, const std::string& quantity) {
 
 void mark_table(Table& table, const FindingGroup& group) {
   if (!shows_quantity(table, group.quantity)) return;
-  for (Row& row : table.rows)
-    if (names_method(table, row, group) && is_of_setup(table, row, group.setup))
-      add(row.regressed,
-          has_level_columns(table, group) ? group.change_of_settings() : group.change_text());
+  for (Row& row : table.rows) {
+    if (!names_method(table, row, group) || !is_of_setup(table, row, group.setup)) continue;
+    add(row.regressed,
+        has_level_columns(table, group) ? group.change_of_settings() : group.change_text());
+    table.secondary = false;
+  }
 }
 
 std::string label_of(const Layer& layer) {
@@ -179,24 +190,116 @@ std::string label_of(const Layer& layer) {
       layer);
 }
 
-bool draws(const Figure& figure, const FindingGroup& group) {
-  bool quantity = figure.title.find(group.quantity) != std::string::npos;
-  bool method = false;
-  for (const Panel& panel : figure.panels) {
-    quantity = quantity || panel.y.label.find(group.quantity) != std::string::npos;
-    for (const Layer& layer : panel.layers) {
-      const std::string label = label_of(layer);
-      method = method || (!label.empty() && (label == group.method ||
-                                             std::ranges::find(group.lines, label) !=
-                                                 group.lines.end()));
+/// A name and its value: "K" and "6".
+using Assignment = std::pair<std::string, std::string>;
+
+/// "K" and "6", "noise" and "0.1", "pace" and "2" of "K = 6, noise=0.1 pace=2".
+std::vector<Assignment> assignments_of(const std::string& setting) {
+  std::vector<Assignment> all;
+  for (std::size_t at = 0; at < setting.size();) {
+    const std::size_t is = setting.find('=', at);
+    if (is == std::string::npos) break;
+    const bool has_blanks = is > at && setting[is - 1] == ' ';
+    const std::size_t value = std::min(is + (has_blanks ? 2 : 1), setting.size());
+    const std::size_t end = std::min(setting.find_first_of(" ,", value), setting.size());
+    all.emplace_back(setting.substr(at, is - at - (has_blanks ? 1 : 0)),
+                     setting.substr(value, end - value));
+    at = std::min(setting.find_first_not_of(" ,", end), setting.size());
+  }
+  return all;
+}
+
+/// Whether an axis is that of a parameter or factor: "K", "noise [m]", "laser noise [m]" of noise.
+bool is_axis_of(const Axis& axis, const std::string& name) {
+  const std::string of = axis.label.substr(0, axis.label.find(" ["));
+  return of == name || of.ends_with(" " + name);
+}
+
+/// Where the settings are on a curve over one of their parameters, in a panel that shows the values
+/// of all others; empty if they are not on it.
+std::vector<double> points_of(const std::vector<std::string>& settings, const Figure& figure,
+                              const Panel& panel) {
+  std::vector<double> points;
+  for (const std::string& setting : settings) {
+    std::optional<double> x;
+    bool shows_others = true;
+    for (const auto& [name, value] : assignments_of(setting)) {
+      if (is_axis_of(panel.x, name))
+        x = number_in(value);
+      else
+        shows_others =
+            shows_others && (has_word(panel.title, value) || has_word(figure.title, value));
+    }
+    if (x && shows_others) points.push_back(*x);
+  }
+  return points;
+}
+
+/// Whether a text begins with what it is about: "Bearing: MPE", "Bearing, K = 6", "bearing/lpca".
+bool begins_with(const std::string& text, const std::string& name) {
+  const std::string all = lower_case(text), begin = lower_case(name);
+  return all.starts_with(begin) &&
+         (all.size() == begin.size() ||
+          std::string_view(":,/").find(all[begin.size()]) != std::string_view::npos);
+}
+
+/// Of each panel, whether it is about something: those that name it, or all panels of a figure that
+/// names it where no panel does.
+template <typename Names>
+std::vector<bool> panels_about(const Figure& figure, bool figure_names, const Names& names) {
+  std::vector<bool> about;
+  for (const Panel& panel : figure.panels) about.push_back(names(panel));
+  if (std::ranges::find(about, true) == about.end()) about.assign(about.size(), figure_names);
+  return about;
+}
+
+std::vector<bool> panels_of_setup(const Figure& figure, const std::string& setup) {
+  const bool figure_names = setup.empty() || begins_with(figure.title, setup) ||
+                            std::ranges::any_of(figure.record_ids, [&](const std::string& record) {
+                              return begins_with(record, setup);
+                            });
+  return panels_about(figure, figure_names, [&](const Panel& panel) {
+    return !setup.empty() && begins_with(panel.title, setup);
+  });
+}
+
+std::vector<bool> panels_of_quantity(const Figure& figure, const std::string& quantity) {
+  const auto has = [&](const std::string& text) {
+    return text.find(quantity) != std::string::npos;
+  };
+  return panels_about(figure, has(figure.title),
+                      [&](const Panel& panel) { return has(panel.y.label); });
+}
+
+/// The curves of a figure that got worse: those of the settings, or that of the method over them.
+std::vector<RegressedCurve> curves_of(const Figure& figure, const FindingGroup& group) {
+  const std::vector<bool> of_setup = panels_of_setup(figure, group.setup),
+                          of_quantity = panels_of_quantity(figure, group.quantity);
+  std::vector<RegressedCurve> curves;
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) {
+    if (!of_setup[i] || !of_quantity[i]) continue;
+    for (const Layer& layer : figure.panels[i].layers) {
+      RegressedCurve curve{.label = label_of(layer), .panel = i};
+      const bool is_of_setting = holds(group.lines, curve.label);
+      if (curve.label.empty() || (!is_of_setting && curve.label != group.method)) continue;
+      if (!is_of_setting) curve.at = points_of(group.settings, figure, figure.panels[i]);
+      const bool is_elsewhere = !is_of_setting && !group.settings.empty() && curve.at.empty();
+      if (!is_elsewhere && std::ranges::find(curves, curve) == curves.end())
+        curves.push_back(std::move(curve));
     }
   }
-  return quantity && method;
+  return curves;
 }
 
 void mark_figure(FigureBlock& block, std::span<const Figure> figures, const FindingGroup& group) {
   const auto figure = std::ranges::find(figures, block.id, &Figure::id);
-  if (figure != figures.end() && draws(*figure, group)) add(block.regressed, group.headline());
+  if (figure == figures.end()) return;
+  const std::vector<RegressedCurve> curves = curves_of(*figure, group);
+  if (curves.empty()) return;
+  add(block.regressed, group.headline());
+  for (const RegressedCurve& curve : curves)
+    if (std::ranges::find(block.regressed_curves, curve) == block.regressed_curves.end())
+      block.regressed_curves.push_back(curve);
 }
 
 void mark_block(Block& block, std::span<const Figure> figures, const FindingGroup& group) {

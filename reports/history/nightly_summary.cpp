@@ -21,13 +21,6 @@ namespace {
 
 constexpr std::size_t kLongestText = 2000;  ///< Characters of a sentence.
 
-std::size_t count_of(const std::vector<FindingGroup>& groups, bool known) {
-  std::size_t count = 0;
-  for (const FindingGroup& group : groups)
-    if (group.known.has_value() == known) count += group.numbers.size();
-  return count;
-}
-
 std::string text_of(const std::string& text) { return markdown_text(text, kLongestText); }
 
 /// A link whose words are a text of ours.
@@ -38,6 +31,7 @@ std::string linked(const std::string& words, const std::string& url) {
 std::string markdown_item(const FindingGroup& group) {
   std::string item = fmt::format("- **{}**, {}", text_of(group.headline()), text_of(group.study));
   if (!group.setup.empty()) item += fmt::format(", {}", text_of(group.setup));
+  if (const std::string count = group.count_text(); !count.empty()) item += ", " + count;
   item += fmt::format(", since nightly run {}", group.commits.since.number);
   if (const std::string when = local_time(group.commits.since); !when.empty())
     item += fmt::format(" ({})", text_of(when));
@@ -97,8 +91,9 @@ std::string case_xml(const Case& one, const std::string& study) {
   if (one.group->commits.has_commits())
     text += fmt::format("{}\n{}\n", xml_line(one.group->commits.text()),
                         xml_line(one.group->commits.bisect()));
-  return fmt::format("{}>\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
-                     head, xml_line(one.group->headline()), name(one.group->rule), text);
+  return fmt::format(
+      "{}>\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n", head,
+      xml_line(one.group->headline()), name(one.group->rule), text);
 }
 
 const char* colour_of(NightlyVerdict verdict, bool compared) {
@@ -108,8 +103,8 @@ const char* colour_of(NightlyVerdict verdict, bool compared) {
 
 }  // namespace
 
-std::size_t NightlySummary::new_findings() const { return count_of(groups, false); }
-std::size_t NightlySummary::known_findings() const { return count_of(groups, true); }
+std::size_t NightlySummary::new_findings() const { return count_findings(groups, false); }
+std::size_t NightlySummary::known_findings() const { return count_findings(groups, true); }
 
 NightlyVerdict NightlySummary::verdict() const {
   NightlyVerdict verdict = NightlyVerdict::kPassed;
@@ -119,9 +114,7 @@ NightlyVerdict NightlySummary::verdict() const {
 }
 
 std::string NightlySummary::title() const {
-  NightlyFacts facts_of_new = facts;
-  facts_of_new.verdict = verdict();
-  std::string sentence = lower_case(verdict_sentence(facts_of_new, new_findings()));
+  std::string sentence = lower_case(verdict_sentence(facts, groups));
   sentence.pop_back();  // A title has no full stop.
   std::string text = fmt::format("Nightly run {}: {}", facts.number, sentence);
   if (const auto known = static_cast<long long>(known_findings()); known > 0)
@@ -137,18 +130,25 @@ std::string NightlySummary::short_verdict() const {
   return counted(static_cast<long long>(count), "finding");
 }
 
-std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings) {
-  const std::string count = counted(static_cast<long long>(findings), "finding");
-  switch (nightly_run.verdict) {
-    case NightlyVerdict::kPassed:
-      return nightly_run.reference
-                 ? fmt::format("Nothing got worse than in nightly run {}.", *nightly_run.reference)
-                 : "Not compared: no nightly run to compare with has the same settings.";
-    case NightlyVerdict::kCost:
-      return "Accuracy is unchanged; seconds or memory grew: " + count + ".";
-    default:
-      return "Accuracy got worse or results are lost: " + count + ".";
-  }
+std::string verdict_sentence(const NightlyFacts& nightly_run,
+                             std::span<const FindingGroup> groups) {
+  bool is_less_accurate = false, is_lost = false;
+  for (const FindingGroup& group : groups)
+    if (!group.known) {
+      is_lost |= group.rule == HistoryRule::kLostResults;
+      is_less_accurate |= group.rule != HistoryRule::kLostResults &&
+                          verdict_of(group.rule) == NightlyVerdict::kAccuracy;
+    }
+  const std::size_t findings = count_findings(groups, false);
+  const std::string count = ": " + counted(static_cast<long long>(findings), "finding") + ".";
+  if (is_less_accurate && is_lost) return "Accuracy got worse and results are lost" + count;
+  if (is_less_accurate) return "Accuracy got worse" + count;
+  if (is_lost) return "Results are lost" + count;
+  if (findings > 0) return "Accuracy is unchanged; seconds or memory grew" + count;
+  if (!nightly_run.reference)
+    return "Not compared: no nightly run to compare with has the same settings.";
+  return fmt::format("Nothing {}got worse than in nightly run {}.",
+                     count_findings(groups, true) > 0 ? "new " : "", *nightly_run.reference);
 }
 
 std::string nightly_markdown(const NightlySummary& summary) {
@@ -197,8 +197,7 @@ std::string nightly_badge(const NightlySummary& summary) {
   constexpr int kLabelWidth = 50, kMargin = 16;
   constexpr double kCharacter = 6.7;  // Of Verdana at 11 pixels, on the mean.
   const std::string verdict = summary.short_verdict();
-  const auto characters =
-      std::ranges::count_if(verdict, [](char c) { return (c & 0xC0) != 0x80; });
+  const auto characters = std::ranges::count_if(verdict, [](char c) { return (c & 0xC0) != 0x80; });
   const int width = kMargin + static_cast<int>(kCharacter * static_cast<double>(characters));
   const std::string shown = xml_line(verdict);
   return fmt::format(
@@ -226,7 +225,8 @@ std::string nightly_badge_json(const NightlySummary& summary) {
 
 namespace {
 
-/// A name-based UUID of what an entry is about: it stays the same however often the feed is written.
+/// A name-based UUID of what an entry is about: it stays the same however often the feed is
+/// written.
 std::string entry_identifier(const std::string& identifier, const NightlyFacts& facts) {
   const std::string hash =
       sha256_hex(fmt::format("{} {} {}", identifier, facts.number, facts.started_utc));
@@ -266,10 +266,9 @@ std::string entry_of(const NightlySummary& summary, const FeedFacts& feed) {
 
 std::string nightly_feed(const FeedFacts& facts) {
   std::string entries;
-  for (const NightlySummary& summary : facts.summaries)
-    entries += entry_of(summary, facts);
-  const std::string updated = facts.summaries.empty() ? "1970-01-01T00:00:00Z"
-                              : facts.summaries.front().facts.ended_utc;
+  for (const NightlySummary& summary : facts.summaries) entries += entry_of(summary, facts);
+  const std::string updated =
+      facts.summaries.empty() ? "1970-01-01T00:00:00Z" : facts.summaries.front().facts.ended_utc;
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<feed xmlns=\"http://www.w3.org/2005/Atom\">\n"

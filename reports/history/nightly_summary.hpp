@@ -14,7 +14,7 @@ struct NightlySummary {
   std::vector<FindingGroup> groups = {};  ///< Those that are new first.
   std::vector<StudyTrend> trends = {};    ///< Of its studies.
   std::vector<std::string> remarks = {};
-  std::vector<NightlyNote> notes = {};  ///< On this nightly run.
+  std::vector<NightlyNote> notes = {};      ///< On this nightly run.
   std::vector<NightlyNote> all_notes = {};  ///< On all nightly runs.
 
   /// How many findings are not known.
@@ -22,17 +22,18 @@ struct NightlySummary {
   std::size_t known_findings() const;
   /// The verdict without the findings that are known.
   NightlyVerdict verdict() const;
-  /// "Nightly run 7: accuracy got worse or results are lost: 2 findings".
+  /// "Nightly run 7: accuracy got worse: 2 findings".
   std::string title() const;
   /// The same in a few words, for a badge: "passed", "MPE +17.6 %", "3 findings".
   std::string short_verdict() const;
 };
 
 /// "Nothing got worse than in nightly run 3.", "Accuracy got worse: 2 findings.", "Not compared: …"
-std::string verdict_sentence(const NightlyFacts& nightly_run, std::size_t findings);
+/// @param groups  All of them; those that are known fail nothing and are not counted.
+std::string verdict_sentence(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups);
 
-/// For a comment, a job's page or a message: title, findings with their commits, remarks. Nothing in
-/// it is active: names are text.
+/// For a comment, a job's page or a message: title, findings with their commits, remarks. Nothing
+/// in it is active: names are text.
 std::string nightly_markdown(const NightlySummary& summary);
 
 /// JUnit XML: a test suite per study and a test case per method and judged quantity, which fails if
@@ -50,7 +51,8 @@ std::string nightly_badge_json(const NightlySummary& summary);
 struct FeedFacts {
   std::string identifier;                 ///< Of the history (HistoryStore::identifier()).
   std::vector<NightlySummary> summaries;  ///< Of the nightly runs, the last one first.
-  std::string nightly_runs = {};  ///< Where nightly_runs/ lies, from the feed's folder: "../store/".
+  std::string nightly_runs =
+      {};  ///< Where nightly_runs/ lies, from the feed's folder: "../store/".
 };
 
 /// An Atom feed [rfc4287] of nightly runs, one entry each: its title, its findings with their

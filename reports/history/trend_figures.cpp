@@ -20,8 +20,10 @@
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "render/figures/number_text.hpp"
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/shown_names.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -66,18 +68,10 @@ Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
   return reported;
 }
 
-/// Whether a finding is about this line: about its method, or about all.
-bool is_about(const NightlyFinding& finding, const SeriesId& id) {
-  if (finding.quantity != id.quantity) return false;
-  const std::string method = method_of(id);
-  return finding.subject == "all methods" || finding.subject == method ||
-         finding.subject.starts_with(method + ", ");
-}
-
 /// Whether one is about it by name.
 bool is_found(const Reported& reported, const SeriesId& id) {
   return std::ranges::any_of(reported.findings, [&](const auto& found) {
-    return found.second->subject != "all methods" && is_about(*found.second, id);
+    return found.second->subject != kAllMethods && is_about(*found.second, id);
   });
 }
 
@@ -133,20 +127,35 @@ std::vector<Line> shown_settings(const Reported& reported, const std::string& se
   return lines;
 }
 
-/// "7: 11-22", the number and the local date of a nightly run.
-std::string tick_of(const NightlyFacts& nightly_run) {
-  constexpr std::size_t kMonth = 5, kDate = 5;  // In "2026-11-22 …".
+constexpr std::size_t kDay = 10, kTime = 16;  ///< Digits of "2026-11-22 02:30 …" up to these.
+
+/// The local date of a nightly run, "2026-11-22"; empty if it is not known.
+std::string day_of(const NightlyFacts& nightly_run) {
   const std::string time = local_time(nightly_run);
-  const bool is_dated = time.size() > kMonth + kDate && time[kMonth - 1] == '-';
-  return std::to_string(nightly_run.number) + (is_dated ? ": " + time.substr(kMonth, kDate) : "");
+  return time.size() >= kTime && time[4] == '-' ? time.substr(0, kDay) : "";
 }
 
-/// The nightly runs side by side.
+/// "7: 11-22", the number and the local date of a nightly run, or its hour: "7: 02:30".
+std::string tick_of(const NightlyFacts& nightly_run, bool by_hour) {
+  constexpr std::size_t kMonth = 5;  // In "2026-11-22".
+  const std::string number = std::to_string(nightly_run.number), day = day_of(nightly_run);
+  if (day.empty()) return number;
+  return number + ": " +
+         (by_hour ? local_time(nightly_run).substr(kDay + 1, kTime - kDay - 1)
+                  : day.substr(kMonth));
+}
+
+/// The nightly runs side by side, by the hour where all are of one day.
 ErrorPanel panel_of(const StudyTrend& trend) {
+  const std::string day = day_of(trend.nightly_runs.front());
+  const bool by_hour =
+      !day.empty() && std::ranges::all_of(trend.nightly_runs, [&](const NightlyFacts& other) {
+        return day_of(other) == day;
+      });
   ErrorPanel panel;
-  panel.x.label = "nightly run: date";
+  panel.x.label = by_hour ? "nightly run: time on " + day : "nightly run: date";
   for (const NightlyFacts& nightly_run : trend.nightly_runs)
-    panel.x.names.push_back(tick_of(nightly_run));
+    panel.x.names.push_back(tick_of(nightly_run, by_hour));
   panel.x.limits = Range{-0.5, static_cast<double>(trend.nightly_runs.size()) - 0.5};
   return panel;
 }
@@ -215,7 +224,9 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
   // Changes lie around 0, by one percent or point at least: lines at 0 are in the middle.
   if (spec.quantity.starts_with("change of ")) {
     const Range found = figure.panels.front().y.limits.value_or(Range{0.0, 0.0});
-    figure.panels.front().y.limits = Range{std::min(found.low, -1.0), std::max(found.high, 1.0)};
+    // What fell has the room at its edge that the figure leaves above.
+    const double low = found.low < 0.0 ? found.low - 0.05 * (found.high - found.low) : found.low;
+    figure.panels.front().y.limits = Range{std::min(low, -1.0), std::max(found.high, 1.0)};
   }
   figure.varies = varies;
   return figure;
@@ -234,9 +245,29 @@ std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string
   return known ? std::optional(method_series(*known)) : std::nullopt;
 }
 
-/// What got worse of a quantity in the last nightly run, or that nothing did.
-std::string course_of(const Reported& reported, const std::string& sensor,
-                      const Quantity& quantity) {
+/// A setup as a title or a sentence begins with it; a label of the study stays as it is.
+std::string first_setup(const StudyLabels& labels, const std::string& sensor) {
+  std::string setup = shown_setup(labels, sensor);
+  if (!setup.empty() && !labels.setups.contains(sensor) && setup[0] >= 'a' && setup[0] <= 'z')
+    setup[0] = static_cast<char>(setup[0] - 'a' + 'A');
+  return setup;
+}
+
+/// Of what has no finding: that an error has not got worse; of seconds, which may not be judged
+/// yet, by how much they changed; of what is never judged its name.
+/// @param changes  Of the lines in the last nightly run, in percent if of seconds.
+std::string course_without_finding(const Quantity& quantity, const std::vector<double>& changes) {
+  if (is_accuracy(quantity.nightly)) return quantity.label + " has not got worse";
+  if (quantity.nightly != NightlyRule::kDuration || changes.empty()) return quantity.label;
+  const auto [least, most] = std::ranges::minmax(changes);
+  return fmt::format("{} changed by {} to {}\u00a0%", quantity.label, format_number(least, 0, true),
+                     format_number(most, 0, true));
+}
+
+/// What got worse of a quantity in the last nightly run, or what else is to be said of it.
+/// @param changes  As for course_without_finding().
+std::string course_of(const Reported& reported, const std::string& sensor, const Quantity& quantity,
+                      const std::vector<double>& changes) {
   std::vector<NightlyFinding> worse;
   for (const auto& [nightly_run, finding] : reported.findings)
     if (nightly_run + 1 == reported.trend.nightly_runs.size() && finding->quantity == quantity.id)
@@ -248,20 +279,94 @@ std::string course_of(const Reported& reported, const std::string& sensor,
       words.push_back(group.method + ": " + group.change_text());
   constexpr std::size_t kMostNamed = 2;
   const std::string text =
-      words.empty() ? quantity.label + " has not got worse" : listed(words, kMostNamed);
-  return setup.empty() ? text : setup + ": " + text;
+      words.empty() ? course_without_finding(quantity, changes) : listed(words, kMostNamed);
+  return setup.empty() ? text : first_setup(reported.trend.labels, sensor) + ": " + text;
+}
+
+std::ptrdiff_t count_known(const std::vector<double>& values) {
+  return std::ranges::count_if(values, [](double value) { return std::isfinite(value); });
+}
+
+/// Of how many nightly runs the values can be compared: those of the line that has most of them.
+std::ptrdiff_t compared_runs(const std::vector<Line>& lines) {
+  std::ptrdiff_t most = 0;
+  for (const Line& line : lines) most = std::max(most, count_known(*line.values));
+  return most;
+}
+
+/// Whether a value differs from the first that is known by more than rounding.
+bool has_changed(const std::vector<double>& values, const Tolerance& rounding) {
+  const auto first =
+      std::ranges::find_if(values, [](double value) { return std::isfinite(value); });
+  return std::any_of(first, values.end(), [&](double value) {
+    return std::isfinite(value) && !rounding.holds(*first, value);
+  });
+}
+
+/// Whether there is a course to draw: a change over two nightly runs or more, or a finding.
+bool has_course(const Reported& reported, const std::vector<Line>& lines,
+                const Quantity& quantity) {
+  if (compared_runs(lines) < 2) return false;
+  return std::ranges::any_of(lines, [&](const Line& line) {
+    const bool is_found = std::ranges::any_of(
+        reported.findings, [&](const auto& found) { return is_about(*found.second, line.id); });
+    return is_found || has_changed(*line.values, quantity.rounding);
+  });
+}
+
+/// "0.061\u00a0m".
+std::string value_text(double value, const std::string& unit) {
+  return significant(value) + (unit.empty() ? "" : "\u00a0" + unit);
+}
+
+/// "; change 0 % in 2 nightly runs." of what did not change; of one nightly run which it is.
+std::string without_change(const StudyTrend& trend, const std::vector<double>& values) {
+  const std::ptrdiff_t known = count_known(values);
+  if (known > 1) return fmt::format("; change 0\u00a0% in {} nightly runs.", known);
+  std::size_t i = 0;
+  while (i + 1 < values.size() && !std::isfinite(values[i])) ++i;
+  return fmt::format(" in nightly run {}.", trend.nightly_runs[i].number);
+}
+
+/// What was measured where there is no course to draw: "Bearing: MPE from 0.06 m (SMACOF) to 0.3 m
+/// (LPCA), 10 methods in nightly run 1."; nothing if there is no value.
+std::optional<std::string> values_sentence(const Reported& reported, const std::string& sensor,
+                                           const Quantity& quantity) {
+  std::vector<Line> lines = shown_settings(reported, sensor, quantity.id);
+  if (lines.empty() || has_course(reported, lines, quantity)) return std::nullopt;
+  std::ranges::stable_sort(lines, {},
+                           [](const Line& line) { return level_over_nightly_runs(*line.values); });
+  if (quantity.better == Better::kHigher) std::ranges::reverse(lines);
+  const auto value_of = [&](const Line& line) {
+    return fmt::format("{} ({})", value_text(level_over_nightly_runs(*line.values), quantity.unit),
+                       shown_method(reported.trend.labels, line.id.method));
+  };
+  const std::string setup = first_setup(reported.trend.labels, sensor);
+  std::string text = fmt::format("{}{} ", setup.empty() ? "" : setup + ": ", quantity.label);
+  text += lines.size() == 1 ? value_of(lines.front())
+                            : fmt::format("from {} to {}, {} methods", value_of(lines.front()),
+                                          value_of(lines.back()), lines.size());
+  const Line& longest = *std::ranges::max_element(
+      lines, {}, [](const Line& line) { return count_known(*line.values); });
+  return text + without_change(reported.trend, *longest.values);
 }
 
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
   const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
-  if (lines.empty()) return std::nullopt;
   const Quantity& facts = reported.trend.quantities.at(quantity);
-  ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
-                                   course_of(reported, sensor, facts));
+  if (!has_course(reported, lines, facts)) return std::nullopt;
   const bool by_ratio =
       facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
   const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
+  const auto shown_of = [&](const Line& line) {
+    return changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
+  };
+  std::vector<double> last;
+  for (const Line& line : lines)
+    if (const double value = shown_of(line).back(); std::isfinite(value)) last.push_back(value);
+  ErrorLinesSpec spec = named_spec(reported, id_of(quantity) + "-" + id_of(sensor),
+                                   course_of(reported, sensor, facts, last));
   spec.y_label = changes ? fmt::format("change of {} [{}]", facts.label, by_ratio ? "%" : "points")
                          : label_with_unit(facts);
   if (changes) spec.log_from = kInfinity;
@@ -280,8 +385,7 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
     std::optional<std::size_t> series = style_of(reported.trend.labels, line.id.method);
     if (series) series = series_of_setting(*series, settings[*series]++);
     const std::string label = shown_method(reported.trend.labels, line.id.method);
-    const std::vector<double> values =
-        changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
+    const std::vector<double> values = shown_of(line);
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
@@ -295,10 +399,25 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
 }
 
-std::optional<Figure> memory_figure(const Reported& reported) {
+bool is_about_memory(const NightlyFinding& finding) { return finding.quantity == "memory"; }
+
+bool has_memory_course(const Reported& reported) {
   const std::vector<double>& known = reported.trend.peak_memory_mib;
-  if (std::ranges::none_of(known, [](double value) { return std::isfinite(value); }))
-    return std::nullopt;
+  const bool is_found = std::ranges::any_of(
+      reported.findings, [](const auto& found) { return is_about_memory(*found.second); });
+  return count_known(known) > 1 && (is_found || has_changed(known, {0.0, 0.0}));
+}
+
+std::optional<std::string> memory_sentence(const Reported& reported) {
+  const std::vector<double>& known = reported.trend.peak_memory_mib;
+  const double level = level_over_nightly_runs(known);
+  if (!std::isfinite(level) || has_memory_course(reported)) return std::nullopt;
+  return "Peak memory " + value_text(level, "MiB") + without_change(reported.trend, known);
+}
+
+std::optional<Figure> memory_figure(const Reported& reported) {
+  if (!has_memory_course(reported)) return std::nullopt;
+  const std::vector<double>& known = reported.trend.peak_memory_mib;
   const std::vector<double> mib = changes_of(known, base_of(reported), true);
   ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory over the nightly runs");
   spec.y_label = "change of peak memory [%]";
@@ -310,8 +429,7 @@ std::optional<Figure> memory_figure(const Reported& reported) {
   ErrorPanel panel = panel_of(reported.trend);
   panel.lines.push_back(
       {.label = "peak memory", .key = "peak-memory", .x = places_of(reported.trend), .mean = mib});
-  const auto is_memory = [](const NightlyFinding& finding) { return finding.quantity == "memory"; };
-  mark_findings(reported, "peak memory", mib, is_memory, panel);
+  mark_findings(reported, "peak memory", mib, is_about_memory, panel);
   return drawn(std::move(spec), std::move(panel), true);
 }
 
@@ -351,6 +469,21 @@ std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings
   if (!is_full())
     if (auto figure = memory_figure(reported)) figures.push_back(std::move(*figure));
   return figures;
+}
+
+std::vector<std::string> trend_sentences(const StudyTrend& trend, const NightlyFindings& findings,
+                                         const TrendLocation& location) {
+  const Reported reported = reported_of(trend, findings, location);
+  std::vector<std::string> sentences;
+  const auto add = [&](const std::optional<std::string>& sentence) {
+    if (sentence) sentences.push_back((location.among_others ? trend.name + ", " : "") + *sentence);
+  };
+  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported)) {
+    if (location.most > 0 && sentences.size() >= location.most) return sentences;
+    add(values_sentence(reported, sensor, trend.quantities.at(quantity)));
+  }
+  if (location.most == 0) add(memory_sentence(reported));
+  return sentences;
 }
 
 }  // namespace mapproof

@@ -15,16 +15,24 @@ using NightlyFindings = std::map<int, std::vector<NightlyFinding>>;
 /// The page that a trend's figures are for.
 struct TrendLocation {
   bool among_others = false;  ///< With other studies': ids and titles name the study.
-  std::size_t most = 0;  ///< Figures at most; 0: all. Those that this nightly run's findings are
-                         ///< about go first.
+  std::size_t most = 0;  ///< Figures or sentences at most; 0: all. Those that this nightly run's
+                         ///< findings are about go first.
 };
 
 /// Figures of a trend: one a sensor and quantity of accuracy, seconds, memory. Lines are the
 /// setting of each method that was best over the nightly runs, and every setting that has a finding
-/// on one of them, which is marked there. Pure: the same values give the same figures.
+/// on one of them, which is marked there. What has fewer than two values of a line, or did not
+/// change and has no finding, has a sentence instead. Pure: the same values give the same figures.
 /// @param trend     At least one nightly run.
 /// @param findings  Of any study; those of other studies are left out.
 std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings& findings,
                                   const TrendLocation& location = {});
+
+/// What trend_figures() draws nothing of: "Bearing: MPE from 0.06 m (SMACOF) to 0.3 m (LPCA), 10
+/// methods; change 0 % in 2 nightly runs." Values are medians over runs and over the nightly runs.
+/// Peak memory is only there where all are.
+/// @param trend, findings  As for trend_figures().
+std::vector<std::string> trend_sentences(const StudyTrend& trend, const NightlyFindings& findings,
+                                         const TrendLocation& location = {});
 
 }  // namespace mapproof

@@ -11,6 +11,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/percent.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/html/regression_marks.hpp"
 #include "reports/model/format.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -30,23 +31,22 @@ void check_drawing(const std::string& id, const std::string& drawing) {
 }
 
 constexpr double kWidth = 160.0, kHeight = 28.0, kMargin = 3.0;
-/// The least change that fills half of the height: less would show rounding as mountains.
-constexpr double kLeastPercent = 1.0;
 
-/// Less is the same for a reader: the rule for accuracy asks for as much.
-const char* class_of(double percent) {
-  if (percent >= kLeastPercent) return "worse";
-  return percent <= -kLeastPercent ? "better" : "same";
-}
-
-/// A small curve of changes in percent, oldest first, with a line at zero: an <svg> element without
-/// text of its own. Above zero is worse. Classes give the colours: "better", "same", "worse".
-std::string curve_svg(const std::vector<double>& percent) {
-  double most = kLeastPercent;
-  for (const double value : percent)
+/// A small curve of changes, oldest first, with a line at zero: an <svg> element without text of
+/// its own. Above zero is worse. Classes give the colours: "worse" where a finding is about the
+/// change, "better", "same". Changes below the least do not fill half of the height: rounding would
+/// seem like mountains.
+std::string curve_svg(const ChangeCurve& curve) {
+  const std::vector<double>& changes = curve.changes;
+  const auto class_of = [&](std::size_t i) {
+    if (i < curve.is_found.size() && curve.is_found[i]) return "worse";
+    return changes[i] <= -curve.least ? "better" : "same";
+  };
+  double most = curve.least;
+  for (const double value : changes)
     if (std::isfinite(value)) most = std::max(most, std::abs(value));
   const double step =
-      percent.size() > 1 ? (kWidth - 2 * kMargin) / static_cast<double>(percent.size() - 1) : 0.0;
+      changes.size() > 1 ? (kWidth - 2 * kMargin) / static_cast<double>(changes.size() - 1) : 0.0;
   const auto x = [&](std::size_t i) { return kMargin + step * static_cast<double>(i); };
   const auto y = [&](double value) { return kHeight / 2 - (kHeight / 2 - kMargin) * value / most; };
   std::string svg = fmt::format(
@@ -54,14 +54,14 @@ std::string curve_svg(const std::vector<double>& percent) {
       "aria-hidden=\"true\" focusable=\"false\"><line class=\"zero\" x1=\"0\" x2=\"{}\" "
       "y1=\"{}\" y2=\"{}\"/>",
       kWidth, kHeight, kWidth, kHeight, kWidth, kHeight / 2, kHeight / 2);
-  for (std::size_t i = 0; i + 1 < percent.size(); ++i)
-    if (std::isfinite(percent[i]) && std::isfinite(percent[i + 1]))
+  for (std::size_t i = 0; i + 1 < changes.size(); ++i)
+    if (std::isfinite(changes[i]) && std::isfinite(changes[i + 1]))
       svg += fmt::format(
           "<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>",
-          class_of(percent[i + 1]), x(i), y(percent[i]), x(i + 1), y(percent[i + 1]));
-  if (!percent.empty() && std::isfinite(percent.back()))
+          class_of(i + 1), x(i), y(changes[i]), x(i + 1), y(changes[i + 1]));
+  if (!changes.empty() && std::isfinite(changes.back()))
     svg += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\"/>",
-                       class_of(percent.back()), x(percent.size() - 1), y(percent.back()));
+                       class_of(changes.size() - 1), x(changes.size() - 1), y(changes.back()));
   return svg + "</svg>";
 }
 
@@ -92,6 +92,7 @@ data heading_data(const Table& table, std::size_t index, bool two_rows) {
   out.set("tooltip", text_or_false(column.tooltip));
   out.set("index", fmt::format("{}", index));
   out.set("text", holds_text(table, index));
+  out.set("interval", holds_intervals(table, index));
   out.set("group", false);
   out.set("rows", two_rows && column.group.empty() ? data("2") : data(false));
   const bool begins = index > 0 && table.columns[index - 1].group != column.group;
@@ -143,11 +144,10 @@ struct SortKey {
   }
 };
 
-/// Whether the row's curve stands in this cell, its first number.
-bool has_curve(const Row& row, std::size_t index) {
-  const auto is_number = [](const Cell& cell) { return std::holds_alternative<NumberCell>(cell); };
-  return !row.curve.empty() && is_number(row.cells[index]) &&
-         std::none_of(row.cells.begin(), row.cells.begin() + static_cast<long>(index), is_number);
+/// The curve that stands in a cell; false if there is none.
+data curve_data(const Row& row, std::size_t index) {
+  const auto curve = std::ranges::find(row.curves, index, &ChangeCurve::cell);
+  return curve == row.curves.end() ? data(false) : data(curve_svg(*curve));
 }
 
 data cell_data(const Table& table, const Row& row, std::size_t index, const HtmlOptions& options) {
@@ -159,7 +159,7 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const bool is_file = !link.empty();
   out.set("value",
           is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]));
-  out.set("curve", has_curve(row, index) ? data(curve_svg(row.curve)) : data(false));
+  out.set("curve", curve_data(row, index));
   out.set("heads", index == 0);
   out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));
   out.set("is_text", text != nullptr || holds_text(table, index));
@@ -245,6 +245,13 @@ void add_notes(const Table& table, const FigureContext& drawn, data& out) {
   out.set("earlier_notes", earlier);
 }
 
+/// "not_converged" as "not converged"; what is not such a code stays as it is.
+std::string words_of_code(std::string code) {
+  const auto is_of_code = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+  if (std::ranges::all_of(code, is_of_code)) std::ranges::replace(code, '_', ' ');
+  return code;
+}
+
 /// The cell of a matrix of warnings; without an item, an empty one.
 data warning_cell(const StatusList::Item* item, const std::string& id) {
   data out;
@@ -268,6 +275,12 @@ std::vector<std::string> distinct(const std::vector<StatusList::Item>& items, Ge
   return found;
 }
 
+std::vector<std::string> titles_of(const PageLinks& links) {
+  std::vector<std::string> titles;
+  for (const PageLinks::Item& item : links.items) titles.push_back(item.title);
+  return titles;
+}
+
 /// Longer texts scroll in a box of their own.
 constexpr std::size_t kLong = 200;
 
@@ -289,6 +302,16 @@ data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
 
 }  // namespace
 
+MarkedDrawing marked_drawing(const FigureBlock& figure, const FigureContext& drawn) {
+  MarkedDrawing marked{.svg = drawn.svg ? drawn.svg(figure.id) : ""};
+  std::map<std::string, std::size_t> rings;  // By label: a curve may be in several panels.
+  for (const RegressedCurve& curve : figure.regressed_curves)
+    rings[curve.label] += mark_curve(curve, marked.svg);
+  marked.ringed =
+      !rings.empty() && std::ranges::all_of(rings, [](const auto& one) { return one.second > 0; });
+  return marked;
+}
+
 data figure_data(const FigureBlock& figure, const FigureContext& drawn,
                  const HtmlOptions& options) {
   data out;
@@ -299,10 +322,11 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   out.set("value", figure.value);
   out.set("wide", data(figure.wide));
   out.set("long", figure.caption.size() > kLongCaption);
-  const std::string drawing = drawn.svg ? drawn.svg(figure.id) : "";
+  const auto [drawing, ringed] = marked_drawing(figure, drawn);
   check_drawing(figure.id, drawing);
   out.set("svg", text_or_false(drawing));
   out.set("regressed", text_or_false(figure.regressed));
+  out.set("ringed", data(ringed));
   out.set("folder", folder_data(options.figure_folder, options));
   std::string records;
   for (const std::string& id : figure.record_ids) records += (records.empty() ? "" : "; ") + id;
@@ -379,10 +403,16 @@ class BlockVisitor {
   }
 
   void operator()(const BulletList& bullets) {
-    list items;
+    list items, more;
     for (const Paragraph& item : bullets.items)
-      items.push_back(data("phrases", phrases_data(item, options_)));
-    block_.set("bullet_list", data("items", items));
+      (items.size() < bullets.open ? items : more)
+          .push_back(data("phrases", phrases_data(item, options_)));
+    data out;
+    out.set("items", items);
+    out.set("any_more", data(!more.empty()));
+    out.set("more_words", fmt::format("{} more", more.size()));
+    out.set("more", more);
+    block_.set("bullet_list", out);
   }
 
   void operator()(const Highlights& highlights) {
@@ -431,8 +461,9 @@ class BlockVisitor {
       items.push_back(std::move(out));
     }
     data out;
-    out.set("words", links.words);
-    out.set("many", data(links.items.size() > kMostLinksOpen));
+    const bool are_many = links.items.size() > kMostLinksOpen;
+    out.set("words", links.words + (are_many ? ": " + listed(titles_of(links), 3) : ""));
+    out.set("many", data(are_many));
     out.set("links", items);
     block_.set("page_links", out);
   }
@@ -468,7 +499,7 @@ class BlockVisitor {
     for (const std::string& code : codes) {
       const auto item = std::ranges::find(statuses.items, code, &StatusList::Item::code);
       data head;
-      head.set("code", code);
+      head.set("words", words_of_code(code));
       head.set("meaning", item->meaning);
       heads.push_back(std::move(head));
     }
@@ -499,8 +530,7 @@ class BlockVisitor {
   static data status_data(const StatusList::Item& item, const std::string& id) {
     data out;
     out.set("id", id);
-    out.set("code", item.code);
-    out.set("meaning", item.meaning);
+    out.set("words", words_of_code(item.code));
     out.set("where", item.where);
     out.set("failed", item.failed);
     out.set("count", fmt::format("{} of {}", item.count, counted(item.of, "map")));

@@ -24,6 +24,13 @@ struct FigureContext {
 /// Each note of the report's tables, with the first table that has it.
 std::map<std::string, const Table*> first_notes(const Report& report);
 
+/// A drawing with rings around the points of curves that got worse.
+struct MarkedDrawing {
+  std::string svg = {};
+  bool ringed = false;  ///< Each of the figure's regressed curves has a ring in some panel.
+};
+MarkedDrawing marked_drawing(const FigureBlock& figure, const FigureContext& drawn);
+
 /// The data for the figure's template.
 /// @throws InvalidInput if its drawing holds the end tag of the element that holds it.
 kainjow::mustache::data figure_data(const FigureBlock& figure, const FigureContext& drawn,

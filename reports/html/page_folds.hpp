@@ -6,9 +6,11 @@
 
 namespace mapproof {
 
-/// Folds what few readers open, until a page has some fifteen screens: secondary tables, then
-/// figures behind the first ones of each gallery, then whole sections. What got worse stays open.
-/// O(n) in the blocks of the report and their figures.
+/// Folds parts of a page until it has some fifteen screens, and no more of them than that takes:
+/// first what stands behind the first tables and figures of a section, then sections for few
+/// readers and for some, then the same of sections that most readers want: figures, tables, the
+/// sections themselves. What got worse stays open, and the first section of a study. O(n) in the
+/// blocks of the report, the rows of its tables and its figures.
 /// @return The sections of `report` that are folded as a whole.
 std::set<const Section*> fold_to_screens(Report& report);
 

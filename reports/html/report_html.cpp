@@ -94,10 +94,49 @@ data figure_link(const FigureBlock& figure) {
   return out;
 }
 
+/// The link to the figure of the first screen, with what got worse in it.
+data main_figure_link(const FigureBlock& figure, const FigureContext& drawn) {
+  data out = figure_link(figure);
+  out.set("regressed", text_or_false(figure.regressed));
+  out.set("ringed", data(!figure.regressed.empty() && marked_drawing(figure, drawn).ringed));
+  return out;
+}
+
+/// What a small image is called: a long title as far as what its figure shows.
+std::string short_title(const std::string& title) {
+  constexpr std::size_t kMost = 40;
+  if (title.size() <= kMost) return title;
+  return title.substr(0, std::min({title.find(": "), title.find(" ("), title.find(" · ")}));
+}
+
+/// The gallery that a figure stands in, or the figure itself: figures of one kind are a family.
+const void* family_of(const Report& report, const FigureBlock& figure) {
+  for (const Section& section : report.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* gallery = std::get_if<Gallery>(&block))
+        for (const FigureBlock& own : gallery->figures)
+          if (&own == &figure) return gallery;
+  return &figure;
+}
+
+/// The first few figures of the opening, no two of one family or with equal words.
 list thumbnails(const Report& report) {
+  constexpr std::size_t kMost = 6;
   list shown;
-  for (const std::string& id : report.opening.figure_ids)
-    if (const FigureBlock* figure = figure_of(report, id)) shown.push_back(figure_link(*figure));
+  std::set<std::string> titles;
+  std::set<const void*> families;
+  for (const std::string& id : report.opening.figure_ids) {
+    const FigureBlock* figure = figure_of(report, id);
+    if (figure == nullptr || titles.size() == kMost) continue;
+    const std::string title = short_title(figure->title);
+    const void* family = family_of(report, *figure);
+    if (titles.contains(title) || families.contains(family)) continue;
+    titles.insert(title);
+    families.insert(family);
+    data link = figure_link(*figure);
+    link.set("title", title);
+    shown.push_back(std::move(link));
+  }
   return shown;
 }
 
@@ -121,7 +160,8 @@ std::pair<std::string, std::string> first_sentences(const std::string& text) {
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};
 }
 
-void set_opening(data& page, const Report& report, const HtmlOptions& options) {
+void set_opening(data& page, const Report& report, const FigureContext& drawn,
+                 const HtmlOptions& options) {
   const Opening& opening = report.opening;
   list findings, folded;
   std::vector<Paragraph> all = opening.findings;
@@ -153,7 +193,8 @@ void set_opening(data& page, const Report& report, const HtmlOptions& options) {
   page.set("any_folded", data(!folded.empty()));
   page.set("folded_words", counted(static_cast<long long>(folded.size()), "more finding"));
   const FigureBlock* main_figure = figure_of(report, opening.main_figure);
-  page.set("main_figure", main_figure == nullptr ? data(false) : figure_link(*main_figure));
+  page.set("main_figure",
+           main_figure == nullptr ? data(false) : main_figure_link(*main_figure, drawn));
   page.set("any_thumbnails", data(!opening.figure_ids.empty()));
   page.set("any_images", data(main_figure != nullptr || !opening.figure_ids.empty()));
   page.set("thumbnails", thumbnails(report));
@@ -176,7 +217,7 @@ std::string report_html(const Report& whole, const Templates& templates, const S
   page.set("provenance", text_or_false(provenance_of(report)));
   set_page_frame(page, "report", templates);
   const FigureContext drawn{.svg = svg, .notes = first_notes(report)};
-  set_opening(page, report, options);
+  set_opening(page, report, drawn, options);
   list sections;
   for (const Section& section : report.sections)
     sections.push_back(section_data(section, report, drawn, options, folded.contains(&section)));

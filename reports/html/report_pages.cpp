@@ -52,15 +52,33 @@ std::set<const FigureBlock*> folded_figures(const Report& report,
   return folded;
 }
 
+/// The figures that are open in the sections that most readers want.
+std::set<const FigureBlock*> wanted_figures(const Report& report,
+                                            const std::set<const FigureBlock*>& folded) {
+  std::set<const FigureBlock*> wanted;
+  for (const Section& section : report.sections) {
+    if (section.interest != Interest::kMost) continue;
+    for (const Block& block : section.blocks) {
+      if (const auto* figure = std::get_if<FigureBlock>(&block)) wanted.insert(figure);
+      if (const auto* gallery = std::get_if<Gallery>(&block))
+        for (const FigureBlock& figure : gallery->figures)
+          if (!folded.contains(&figure)) wanted.insert(&figure);
+    }
+  }
+  return wanted;
+}
+
 /// Figures in the order in which the first page takes them.
 std::vector<const FigureBlock*> by_weight(const Report& report,
                                           const std::set<const FigureBlock*>& folded) {
+  const std::set<const FigureBlock*> wanted = wanted_figures(report, folded);
   std::vector<const FigureBlock*> all = figures(report);
   const std::vector<std::string>& first = report.opening.figure_ids;
   const auto weight = [&](const FigureBlock* figure) {
     if (figure->id == report.opening.main_figure) return 0;
     if (!figure->regressed.empty() || std::ranges::find(first, figure->id) != first.end()) return 0;
-    return (figure->value == "scene" ? 2 : 1) + (folded.contains(figure) ? 2 : 0);
+    if (wanted.contains(figure)) return 1;
+    return (figure->value == "scene" ? 3 : 2) + (folded.contains(figure) ? 2 : 0);
   };
   std::ranges::stable_sort(all, {}, weight);
   return all;
@@ -69,9 +87,7 @@ std::vector<const FigureBlock*> by_weight(const Report& report,
 std::set<std::string> tables_of_first_page(const Report& report, std::size_t most) {
   std::vector<const Table*> all = tables(report);
   std::ranges::stable_sort(all, {}, [](const Table* table) {
-    const bool is_worse =
-        std::ranges::any_of(table->rows, [](const Row& row) { return !row.regressed.empty(); });
-    return is_worse ? 0 : table->secondary ? 2 : 1;
+    return is_regressed(*table) ? 0 : table->secondary ? 2 : 1;
   });
   std::set<std::string> held;
   std::size_t bytes = 0;
@@ -246,19 +262,16 @@ class Division {
     links_.items.push_back({std::move(element), page_path(page), title});
   }
 
-  /// "9000 figures on pages 7 to 51: room-0, room-1 and 8998 more".
+  /// "9000 figures and 2 tables on pages 7 to 51".
   std::string words_of_links() const {
-    std::vector<std::string> titles;
-    for (const PageLinks::Item& item : links_.items) titles.push_back(item.title);
     const auto of_tables = std::ranges::count_if(links_.items, [](const PageLinks::Item& item) {
       return item.element.starts_with("table-");
     });
-    const auto of_figures = std::ssize(titles) - of_tables;
+    const auto of_figures = std::ssize(links_.items) - of_tables;
     std::string text;
     if (of_figures > 0) text = counted(of_figures, "figure");
     if (of_tables > 0) text += (text.empty() ? "" : " and ") + counted(of_tables, "table");
-    return fmt::format("{} on {}: {}", text, pages_text(first_page_, last_page_),
-                       listed(titles, 3));
+    return fmt::format("{} on {}", text, pages_text(first_page_, last_page_));
   }
 
   /// "9900 of 10000 figures and 3 of 8 tables are on pages 2 to 40 …".

@@ -1,7 +1,6 @@
 #include "reports/model/format.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -11,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/markup.hpp"
+#include "core/base/text/raised.hpp"
 #include "core/base/text/utf8.hpp"
 
 namespace mapproof {
@@ -20,12 +20,10 @@ constexpr const char* kMinus = "\u2212";
 constexpr const char* kReplacement = "\uFFFD";
 constexpr double kLargest = 1e9;  ///< Beyond any coordinate on Earth, an exponent reads better.
 
-constexpr int kDecimalsOfP = 3;  ///< As many as kLeastP has.
+constexpr int kDecimalsOfP = 3;   ///< As many as kLeastP has.
 constexpr int kManyDecimals = 6;  ///< What has these is small as a whole.
 
-bool is_below_least(const NumberCell& cell) {
-  return cell.least > 0.0 && cell.value < cell.least;
-}
+bool is_below_least(const NumberCell& cell) { return cell.least > 0.0 && cell.value < cell.least; }
 
 struct CellFormatter {
   std::string operator()(const TextCell& cell) const { return displayable(cell.text); }
@@ -43,14 +41,9 @@ struct CellFormatter {
 
 /// "1.23e+11" as "1.23 × 10¹¹"; other texts as they are.
 std::string with_power(const std::string& text) {
-  static constexpr std::array kDigits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   const std::size_t at = text.find('e');
   if (at == std::string::npos) return text;
-  const int exponent = std::stoi(text.substr(at + 1));
-  std::string power = exponent < 0 ? "⁻" : "";
-  for (const char digit : std::to_string(std::abs(exponent)))
-    power += kDigits[static_cast<std::size_t>(digit - '0')];
-  return text.substr(0, at) + "\u00A0×\u00A010" + power;
+  return text.substr(0, at) + "\u00A0×\u00A010" + raised(std::stoi(text.substr(at + 1)));
 }
 
 /// What is said instead of an error that is no use as a number; empty if it is one.
@@ -86,9 +79,7 @@ std::string page_metres(double error_m, int decimals) {
   return great.empty() ? page_number(error_m, decimals) + " m" : great;
 }
 
-NumberCell p_cell(double p) {
-  return {.value = p, .decimals = kDecimalsOfP, .least = kLeastP};
-}
+NumberCell p_cell(double p) { return {.value = p, .decimals = kDecimalsOfP, .least = kLeastP}; }
 
 std::string p_words(double p) {
   if (p >= 1.0) return "p = 1";
@@ -103,8 +94,8 @@ std::string small_p_words(double p) {
 std::string page_cell(const Cell& cell, const Column& column) {
   const auto* number = std::get_if<NumberCell>(&cell);
   if (number != nullptr && is_below_least(*number)) return format_cell(cell);
-  const bool errors_m = column.errors_m.value_or(column.unit == "m") ||
-                        (number != nullptr && number->error_m);
+  const bool errors_m =
+      column.errors_m.value_or(column.unit == "m") || (number != nullptr && number->error_m);
   const auto shown = [&](double value, int decimals, bool with_sign) {
     const std::string great = errors_m ? great_error(value) : "";
     return great.empty() ? page_number(value, decimals, with_sign) : great;

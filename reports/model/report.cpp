@@ -62,6 +62,33 @@ bool holds_text(const Table& table, std::size_t column) {
   });
 }
 
+bool holds_intervals(const Table& table, std::size_t column) {
+  return std::ranges::any_of(table.rows, [&](const Row& row) {
+    return std::holds_alternative<IntervalCell>(row.cells[column]);
+  });
+}
+
+bool is_regressed(const Table& table) {
+  return std::ranges::any_of(table.rows, [](const Row& row) { return !row.regressed.empty(); });
+}
+
+std::size_t regressed_figures(const Gallery& gallery) {
+  for (std::size_t i = gallery.figures.size(); i > 0; --i)
+    if (!gallery.figures[i - 1].regressed.empty()) return i;
+  return 0;
+}
+
+bool shows_regression(const Section& section) {
+  return std::ranges::any_of(section.blocks, [](const Block& block) {
+    const auto* table = std::get_if<Table>(&block);
+    const auto* figure = std::get_if<FigureBlock>(&block);
+    const auto* gallery = std::get_if<Gallery>(&block);
+    return (table != nullptr && is_regressed(*table)) ||
+           (figure != nullptr && !figure->regressed.empty()) ||
+           (gallery != nullptr && regressed_figures(*gallery) > 0);
+  });
+}
+
 std::vector<const Table*> tables(const Report& report) {
   std::vector<const Table*> found;
   for (const Section& section : report.sections)

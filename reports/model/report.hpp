@@ -38,6 +38,8 @@ struct Paragraph {
 
 struct BulletList {
   std::vector<Paragraph> items;
+  /// A page shows so many of them and folds the rest.
+  std::size_t open = std::numeric_limits<std::size_t>::max();
 };
 
 /// A few numbers to be seen first.
@@ -96,14 +98,20 @@ struct Column {
   std::optional<bool> errors_m = std::nullopt;
 };
 
+/// By how much something got worse over time, as a small curve beside a cell; pages alone show it.
+struct ChangeCurve {
+  std::size_t cell = 0;              ///< Index of the cell that it stands in.
+  std::vector<double> changes = {};  ///< Oldest first, above zero is worse; NaN: not known.
+  std::vector<bool> is_found = {};   ///< Per change: whether a finding is about it.
+  double least = 1.0;                ///< Improvements of less are drawn as no change.
+};
+
 struct Row {
   std::vector<Cell> cells;     ///< One a column.
   std::string source;          ///< Which records the numbers come from.
   bool marked = false;         ///< The best of its table.
   std::string regressed = {};  ///< What got worse of it: "MPE +17.6 %"; pages alone show it.
-  /// By how much something got worse over time, oldest first, in percent, as a small curve beside
-  /// the first number; NaN: not known. Pages alone show it.
-  std::vector<double> curve = {};
+  std::vector<ChangeCurve> curves = {};
 };
 
 struct Table {
@@ -113,6 +121,15 @@ struct Table {
   std::vector<Row> rows;
   std::vector<std::string> notes;
   bool secondary = false;  ///< What few readers need: a page folds it.
+};
+
+/// A curve of a figure that got worse.
+struct RegressedCurve {
+  std::string label = {};       ///< Of the curve.
+  std::vector<double> at = {};  ///< The x values of its points; none: all of them.
+  std::size_t panel = 0;        ///< Index of its panel in the figure.
+
+  bool operator==(const RegressedCurve&) const = default;
 };
 
 /// Where a figure stands; its drawing is handed to the writer apart.
@@ -125,7 +142,9 @@ struct FigureBlock {
   std::string value = "figure";  ///< What it is as a value, in ID.VALUE.json: "figure", "scene".
   std::vector<std::string> steps = {};  ///< Its panels, where they are one thing at several times.
   std::string regressed = {};           ///< What got worse of what it shows; pages alone show it.
-  bool wide = false;                    ///< It has many panels: a page gives it the whole width.
+  std::vector<RegressedCurve> regressed_curves = {};  ///< Of its drawing, marked by pages alone.
+  bool wide = false;  ///< It has many panels: a page gives it the whole width.
+  bool tall = false;  ///< Its panels stand below each other.
 };
 
 /// Figures of one kind, side by side.
@@ -185,11 +204,19 @@ struct StatusList {
 using Block = std::variant<Paragraph, BulletList, Highlights, Callout, Table, FigureBlock, Gallery,
                            PageLinks, KeyValues, FindingBlock, StatusList>;
 
+/// How many readers open a report for what a section says.
+enum class Interest {
+  kSome,
+  kMost,  ///< A page folds it last.
+  kFew,   ///< A page folds it first.
+};
+
 struct Section {
   std::string id;  ///< [a-z0-9-]+, unique among sections.
   std::string title;
   std::vector<Block> blocks;
   std::string group = {};  ///< In a report of several studies, the one that it belongs to.
+  Interest interest = Interest::kSome;
 };
 
 /// How what is reported stands against something earlier.
@@ -229,6 +256,16 @@ void check(const Report& report);
 
 /// Whether a column holds words rather than numbers.
 bool holds_text(const Table& table, std::size_t column);
+
+/// Whether any cell of a column is an interval.
+bool holds_intervals(const Table& table, std::size_t column);
+
+/// Whether a row of a table got worse.
+bool is_regressed(const Table& table);
+/// How many figures of a gallery there are up to the last that shows what got worse; 0: none does.
+std::size_t regressed_figures(const Gallery& gallery);
+/// Whether a table or a figure of a section shows what got worse.
+bool shows_regression(const Section& section);
 
 /// All tables and all figures of a report, in reading order.
 std::vector<const Table*> tables(const Report& report);

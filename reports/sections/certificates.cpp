@@ -121,7 +121,8 @@ std::optional<Section> certificates_section(const Study& study) {
   std::vector<std::string> by;
   for (const auto& [solver, count] : solved)
     by.push_back(fmt::format("{} by {}", count, title_of_solver(solver)));
-  Section section{"certificates", "Certificates of the semidefinite programs", {}};
+  Section section{
+      "certificates", "Certificates of the semidefinite programs", {}, "", Interest::kFew};
   section.blocks.emplace_back(plain(fmt::format(
       "{} solved, {}. Each solution has an upper bound from its dual. Feasible and optimal to "
       "within {:g}: {} of them; the largest relative gap is {}, the largest residual {}. Those of "

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/words.hpp"
 #include "core/results/quantity.hpp"
 #include "render/figures/diagrams/fit.hpp"
 #include "reports/sections/fit_text.hpp"
@@ -49,6 +50,18 @@ Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string
                          .ratio = test.statistic / test.bound,
                          .is_cause = is_cause(fit, test)});
   return fit_tests_figure(spec);
+}
+
+Highlights::Item fit_number(const Fit& fit) {
+  const auto exceeded = std::ranges::count_if(fit.tests, &FitTest::exceeds);
+  const std::string tests = counted(std::ssize(fit.tests), "test");
+  return {.label = "the map to its data",
+          .value = verdict_words(fit.verdict),
+          .detail = fit.tests.empty()
+                        ? "no test could be made"
+                        : fmt::format("{} of {} beyond what noise explains", exceeded, tests),
+          .section = kFitSection,
+          .falls_short = fit.verdict == FitVerdict::kDoesNotFit};
 }
 
 Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures, const std::string& id,

@@ -14,6 +14,10 @@ inline constexpr const char* kFitSection = "fit";
 /// The figure of all tests of a fit; its verdict stands under the title.
 Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string> record_ids);
 
+/// Whether the data fit the map, and on how many tests that rests, for the first screen; its link
+/// leads to the section kFitSection.
+Highlights::Item fit_number(const Fit& fit);
+
 /// The section at the head of a report of a map: the verdict in words, its causes, what is open or
 /// missing, the figures, and the least effects that would have been seen.
 /// @param figures  That show the fit, the one of its tests first.

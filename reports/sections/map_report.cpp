@@ -15,6 +15,7 @@
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
+#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
@@ -184,36 +185,62 @@ std::string meaning_of(const ErrorWords& error, const MapRecord& record) {
                      error.limit.empty() ? "" : ", ", error.limit);
 }
 
-/// How far the map puts the anchor that it misses most from where it was given.
-std::optional<Highlights::Item> worst_anchor(const MapRecord& record) {
-  if (record.frame != Frame::kGroundTruth || !any_ground_truth(record)) return std::nullopt;
-  const Eigen::VectorXd errors = (record.estimate - *record.ground_truth_m).rowwise().norm();
-  std::optional<Index> worst;
-  for (const Index anchor : record.anchors)
-    if (std::isfinite(errors(anchor)) && (!worst || errors(anchor) > errors(*worst)))
-      worst = anchor;
-  if (!worst) return std::nullopt;
-  return Highlights::Item{"greatest distance of an anchor from its given position",
-                          page_metres(errors(*worst)),
-                          fmt::format("{}, of {}", record.names[static_cast<std::size_t>(*worst)],
-                                      counted(std::ssize(record.anchors), "anchor")),
-                          kPositions};
+/// "map of 2.4 m by 2.5 m", against which a reader weighs its errors; empty without metres.
+std::string extent_words(const MapRecord& record) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(kInfinity), high = -low;
+  for (Index i = 0; i < record.estimate.rows(); ++i) {
+    if (!placed(record.estimate, i)) continue;
+    const Eigen::Vector2d position = record.estimate.row(i).head<2>().transpose();
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  if (record.frame != Frame::kGroundTruth || !(low.array() <= high.array()).all()) return "";
+  return fmt::format("map of {} m by {} m", significant(high.x() - low.x(), 2),
+                     significant(high.y() - low.y(), 2));
 }
 
-Highlights numbers_of(const MapRecord& record) {
+/// The first error stands beside the size of the map.
+std::string with_extent(const std::string& words, bool is_first, const MapRecord& record) {
+  const std::string extent = is_first ? extent_words(record) : "";
+  return extent.empty() ? words : extent + "; " + words;
+}
+
+/// How far the map puts the anchor that it misses most from where it was given.
+std::optional<Highlights::Item> anchor_number(const MapRecord& record, bool is_first_error) {
+  const std::optional<WorstAnchor> worst = worst_anchor(record);
+  if (!worst) return std::nullopt;
+  return Highlights::Item{
+      "greatest distance of an anchor from its given position", page_metres(worst->error_m),
+      with_extent(
+          fmt::format("{}, of {}", worst->name, counted(std::ssize(record.anchors), "anchor")),
+          is_first_error, record),
+      kPositions, worst->is_contradicted};
+}
+
+/// How good the map is comes first: its errors, or else whether the data fit it.
+Highlights numbers_of(const MapReportInput& input) {
+  const MapRecord& record = input.record;
   Highlights out;
   if (record.score)
     for (const ErrorWords& error : error_words(*record.score))
-      out.items.push_back({error.name, error.value, meaning_of(error, record), kPositions});
-  if (auto anchor = worst_anchor(record)) out.items.push_back(*std::move(anchor));
+      out.items.push_back({error.name, error.value,
+                           with_extent(meaning_of(error, record), out.items.empty(), record),
+                           kPositions});
+  auto worst = anchor_number(record, !record.score);
+  const bool has_worst = worst.has_value();
+  const bool is_contradicted = has_worst && worst->falls_short;
+  if (is_contradicted) out.items.push_back(*worst);  // Before a fit that says nothing of it.
+  if (input.fit_number) out.items.push_back(*input.fit_number);
+  if (has_worst && !is_contradicted) out.items.push_back(*std::move(worst));
   out.items.push_back({"landmarks mapped",
                        fmt::format("{} of {}", mapped_count(record), record.estimate.rows()),
                        counted(record.step, "observation") + " used", kPositions});
-  out.items.push_back({"anchors", fmt::format("{}", record.anchors.size()),
-                       record.frame != Frame::kGroundTruth ? "shape alone, without scale"
-                       : record.anchors.empty()            ? "map in metres, in a frame of its own"
-                                                           : "map in metres, in their frame",
-                       kPositions});
+  if (!has_worst)  // Else it says how many there are.
+    out.items.push_back({"anchors", fmt::format("{}", record.anchors.size()),
+                         record.frame != Frame::kGroundTruth ? "shape alone, without scale"
+                         : record.anchors.empty() ? "map in metres, in a frame of its own"
+                                                  : "map in metres, in their frame",
+                         kPositions});
   out.items.push_back({"warnings and failures", fmt::format("{}", record.statuses.size()),
                        record.statuses.empty() ? "none" : "listed with their reasons", kWarnings});
   return out;
@@ -261,7 +288,7 @@ Paragraph what_was_done(const MapRecord& record) {
 Opening opening_of(const MapReportInput& input) {
   const MapRecord& record = input.record;
   Opening opening;
-  opening.numbers = numbers_of(record);
+  opening.numbers = numbers_of(input);
   opening.findings.push_back(what_was_done(record));
   if (!input.verdict.empty())
     opening.findings.push_back({{strong("Fit"), phrase(": " + input.verdict)}});
@@ -277,7 +304,7 @@ Opening opening_of(const MapReportInput& input) {
       if (const auto* figure = std::get_if<FigureBlock>(&block))
         opening.figure_ids.push_back(figure->id);
   for (const FigureBlock& figure : input.more_figures)
-    if (opening.figure_ids.size() < kMostThumbnails) opening.figure_ids.push_back(figure.id);
+    if (opening.figure_ids.size() < kMostCandidates) opening.figure_ids.push_back(figure.id);
   return opening;
 }
 
@@ -412,6 +439,15 @@ Report map_report(const MapReportInput& input) {
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);
   return report;
+}
+
+std::string with_anchors(const std::string& verdict, const MapRecord& record) {
+  const std::optional<WorstAnchor> worst = worst_anchor(record);
+  if (!worst || !worst->is_contradicted) return verdict;
+  return fmt::format(
+      "{} But the map misses the given position of anchor {} by {}, {:.0f}\u00a0% of its longer "
+      "side.",
+      verdict, printable(worst->name, 40), page_metres(worst->error_m), worst->share_percent);
 }
 
 std::string scored_landmarks_text(const MapRecord& record) {

@@ -27,6 +27,7 @@ struct MapReportInput {
   std::vector<Section> more = {};   ///< After the landmarks: what else was asked for.
   std::optional<Section> fit = {};  ///< At the head: see fit_section().
   std::string verdict = {};         ///< On the fit, a sentence: see verdict_text().
+  std::optional<Highlights::Item> fit_number = {};  ///< See fit_number().
 };
 
 /// Opening, summary, figure, landmarks (with errors where the ground truth is known), remarks,
@@ -36,6 +37,10 @@ Report map_report(const MapReportInput& input);
 /// Uncertainty of each landmark of a map: half axes and angle of its ellipse, the largest first.
 /// @throws InvalidInput unless there is a covariance a landmark.
 Section uncertainty_section(const MapRecord& record, const MapUncertainty& uncertainty);
+
+/// The verdict on the fit, and the anchor that the map contradicts, if any, which the fit to the
+/// data does not show.
+std::string with_anchors(const std::string& verdict, const MapRecord& record);
 
 /// Over which landmarks the MPE of a map is: "26 landmarks, without the 4 anchors"; empty without
 /// an MPE.

@@ -95,8 +95,8 @@ void add_best(const SensorMethods& sensor, Highlights& numbers) {
   }
   std::string detail = label(best->setting);
   if (const SettingSummary* paper = best_published(sensor.methods))
-    detail += fmt::format("; best published: {}, {}", whole_metres(paper->published->mpe_m),
-                          info(paper->setting.method).label);
+    detail = fmt::format("best published: {}, {}; ours: {}", whole_metres(paper->published->mpe_m),
+                         info(paper->setting.method).label, detail);
   numbers.items.push_back(
       {label_text, whole_metres(best->mpe_m->mean), std::move(detail), sensor.section()});
 }
@@ -218,7 +218,7 @@ std::vector<std::string> present_ids(const std::vector<std::string>& ids,
 
 void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
                     Opening& opening) {
-  opening.figure_ids = present_ids(ids, figures, kMostThumbnails + 1);
+  opening.figure_ids = present_ids(ids, figures, kMostCandidates);
   if (opening.figure_ids.empty()) return;
   opening.main_figure = opening.figure_ids.front();
   opening.figure_ids.erase(opening.figure_ids.begin());

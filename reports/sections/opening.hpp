@@ -11,8 +11,8 @@
 
 namespace mapproof {
 
-/// As many small figures fit beside the figure of an opening.
-inline constexpr std::size_t kMostThumbnails = 6;
+/// As many figures an opening names: a page shows a few of them small, each of another kind.
+inline constexpr std::size_t kMostCandidates = 18;
 
 /// The opening of a study's report: published errors inside our intervals, published orderings,
 /// the best method of each sensor, how the maps ended, and a figure of each kind.

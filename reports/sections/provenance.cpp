@@ -154,7 +154,7 @@ Table sessions_table(std::string id, std::span<const Session> sessions) {
 
 Section provenance_section(const Study& study, std::span<const Session> sessions,
                            std::span<const Timing> timings, const std::string& command) {
-  Section section{"provenance", "Provenance", {}};
+  Section section{"provenance", "Provenance", {}, "", Interest::kFew};
   section.blocks.emplace_back(
       plain("Every number here comes from the study\u2019s records; this command makes them and "
             "this report again, to the byte (durations aside):"));

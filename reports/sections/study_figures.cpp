@@ -41,7 +41,8 @@ FigureGroup scene_group(FigureSource& source) {
       {},
       study_scenes(source),
       {},
-      2};
+      2,
+      Interest::kMost};
   if (!group.scenes.empty()) group.films = study_films(source);
   return group;
 }
@@ -56,11 +57,16 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
 
   StudyFigures figures;
   const auto add = [&](const char* id, const char* title, const char* words,
-                       std::vector<Figure> group, std::size_t open = kFiguresOpen) {
+                       std::vector<Figure> group, std::size_t open = kFiguresOpen,
+                       Interest interest = Interest::kSome) {
     number(group);
     if (!group.empty())
-      figures.groups.push_back(
-          {.id = id, .title = title, .words = words, .figures = std::move(group), .open = open});
+      figures.groups.push_back({.id = id,
+                                .title = title,
+                                .words = words,
+                                .figures = std::move(group),
+                                .open = open,
+                                .interest = interest});
   };
   add("observations", "From observations to a map",
       "Drawn from actual runs: no pose of the robot enters a map.", std::move(scans), 2);
@@ -76,7 +82,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "one map is highlighted in all. Where the paper shows a map, the run whose MPE is nearest to "
       "it is shown with the median run. The last figures show each method on its own median run: "
       "neither its best map nor its worst.",
-      std::move(maps), compared);
+      std::move(maps), compared, Interest::kMost);
   add("forming", "How maps form and scatter",
       "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
       "scatter over the runs of that layout.",
@@ -85,21 +91,21 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
     figures.groups.push_back(std::move(scenes));
   add("parameters", "Error over parameters",
       "At the last checkpoint; bands and bars are 95 % intervals of the mean.",
-      parameter_figures(source), 0);
+      parameter_figures(source), 0, Interest::kFew);
   add("comparison", "Methods side by side",
       "Each at its best parameter. Ranks are over layouts, since runs in one layout are not "
       "independent; distances and eigenvalues are of the median run of the best method.",
-      comparison_figures(source), 3);
+      comparison_figures(source), 3, Interest::kFew);
   add("conditions", "Error over conditions",
       "What happens if one thing is changed: methods with the parameters that the experiment "
       "names. "
       "The levels of one figure share their random numbers.",
-      condition_figures(source), 0);
+      condition_figures(source), 0, Interest::kFew);
   add("cost", "Accuracy against seconds",
       "Seconds of one map beyond what the methods of a history share: distances, the order of "
       "neighbours, and the map that a method starts from. They differ from one run of the program "
       "to the next.",
-      cost_figures(source, timings));
+      cost_figures(source, timings), kFiguresOpen, Interest::kFew);
   return figures;
 }
 
@@ -127,6 +133,7 @@ std::vector<const Film*> all_films(const StudyFigures& figures) {
 FigureBlock figure_block(const Figure& figure) {
   FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
   block.wide = figure.panels.size() >= kManyPanels;
+  block.tall = figure.panels.size() > 1 && figure.columns == 1;
   if (!figure.id.starts_with(kForming)) return block;
   for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);
   return block;

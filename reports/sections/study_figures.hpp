@@ -24,6 +24,7 @@ struct FigureGroup {
   std::vector<Scene> scenes = {};   ///< They stand after the figures.
   std::vector<Film> films = {};     ///< Of scenes of the same ids, drawn when they are asked for.
   std::size_t open = kFiguresOpen;  ///< A page shows so many of them and folds the rest.
+  Interest interest = Interest::kSome;  ///< Of its section.
 
   bool empty() const { return figures.empty() && scenes.empty(); }
 };

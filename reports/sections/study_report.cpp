@@ -56,7 +56,7 @@ void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& sec
                           counted(std::ssize(ranks.methods), "method"))));
 }
 
-constexpr std::size_t kLocationsShown = 5;     ///< With what was found; of the others the id alone.
+constexpr std::size_t kLocationsShown = 5;  ///< With what was found; of the others the id alone.
 constexpr std::size_t kLocationsListed = 1000;  ///< Some 60 kB of a page.
 
 /// Sensor and method: what statuses are counted by, over all parameters.
@@ -179,6 +179,7 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   const std::vector<SettingSummary> best = best_of_each_method(all);
   const bool grid = all.size() > best.size();
   Section section;
+  section.interest = Interest::kMost;
   section.id = fmt::format("methods-{}", name(sensor.sensor.sensor));
   section.title = title_of(sensor.sensor.sensor) + ": methods";
   section.blocks.emplace_back(plain(fmt::format(
@@ -238,6 +239,7 @@ Section summary_section(const Study& study) {
 
 Section figures_section(const FigureGroup& group) {
   Section section{group.id, group.title, {}};
+  section.interest = group.interest;
   section.blocks.emplace_back(plain(group.words));
   section.blocks.emplace_back(gallery_of(group));
   return section;
@@ -245,7 +247,7 @@ Section figures_section(const FigureGroup& group) {
 
 std::optional<Section> variations_section(const Study& study) {
   if (study.experiment.variations.empty()) return std::nullopt;
-  Section section{"variations", "Variations", {}};
+  Section section{"variations", "Variations", {}, "", Interest::kFew};
   section.blocks.emplace_back(
       plain("The numbers behind the figures of anchors, noise and missing entries, one thing "
             "changed at a time."));

@@ -19,12 +19,6 @@
 namespace mapproof {
 namespace {
 
-bool is_interval(const Table& table, std::size_t column) {
-  for (const Row& row : table.rows)
-    if (std::holds_alternative<IntervalCell>(row.cells[column])) return true;
-  return false;
-}
-
 /// A spreadsheet would take such a text for a formula; the sign in front makes it a text.
 std::string harmless(const std::string& text) {
   constexpr std::string_view kBegins = "=+-@\t\r\n";
@@ -231,7 +225,7 @@ TableLines csv_lines(const Table& table) {
   TableLines lines;
   std::vector<bool> intervals;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
-    intervals.push_back(is_interval(table, i));
+    intervals.push_back(holds_intervals(table, i));
     const std::string title = with_plain_spaces(full_heading(table.columns[i]));
     if (i > 0) lines.head += ',';
     lines.head += intervals[i] ? harmless(title + ", low") + "," + harmless(title + ", high")

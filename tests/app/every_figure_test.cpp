@@ -56,7 +56,8 @@ TEST(EveryFigureOfEveryStudy, KeepsTheRulesAndShowsAMethodInOneStyleThatNoOtherH
   MethodStyles styles;
   for (const Figure& figure : figures) {
     styles.see(figure);
-    for (const Theme& theme : {report_theme(), paper_theme(3.25)}) expect_clean(figure, theme);
+    for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)})
+      expect_clean(figure, theme);
   }
   for (const std::string& conflict : styles.conflicts()) ADD_FAILURE() << conflict;
 }

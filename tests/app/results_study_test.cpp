@@ -198,7 +198,8 @@ TEST_F(StudyOfAnotherProgram, HasPagesOfANightlyRunThatAgree) {
   const std::string page = read_file(store / "compare/0001-0002/localisers.html");
   EXPECT_EQ(page.find("too few"), std::string::npos);
   EXPECT_NE(page.find("What differs: <bdi>nightly run 1, "), std::string::npos);
-  EXPECT_NE(page.find("Nightly run 2: 6 things got worse: indoors, EKF: "), std::string::npos);
+  EXPECT_NE(page.find("Nightly run 2: accuracy got worse: 6 findings: indoors, EKF: "),
+            std::string::npos);
   EXPECT_EQ(page.find("Stale:"), std::string::npos) << "ranks can stay while errors change";
 
   // A table whose columns are levels marks the method that got worse, and says at which levels.

@@ -1,5 +1,7 @@
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { cpSync, existsSync, mkdtempSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
@@ -57,5 +59,89 @@ test("the first column of the table of nightly runs is as wide as a number", asy
   const { page, close } = await open(phone, history, "index.html");
   const { width } = await page.locator("#table-nightly-runs tbody th").first().boundingBox();
   assert.ok(width < 80, `${width}`);
+  await close();
+});
+
+/// The folder of a history whose second nightly run got worse, with a commit each.
+const regressed = process.env.MAPPROOF_REGRESSED;
+const ofRegressed = { skip: regressed ? false : "no python3, which makes the study" };
+const study = "localisers";
+
+test("as many findings are listed as the title counts, and the curve is red", ofRegressed, async () => {
+  const { page, close } = await open({}, regressed, "index.html");
+  const title = await page.locator(".standing strong").innerText();
+  const [, count] = title.match(/: (\d+) findings?$/);
+  const items = await page.locator(".standing li").allInnerTexts();
+  const listed = items.map((item) => Number(item.match(/(\d+) (?:more )?findings/)?.[1] ?? 1));
+  assert.equal(listed.reduce((sum, one) => sum + one), Number(count), items.join("\n"));
+  const row = page.locator("#table-studies tbody tr").first();
+  assert.equal(await row.locator("svg.curve circle").first().getAttribute("class"), "worse");
+  await close();
+});
+
+test("the first screen says what ran, how good it is, compared with what, what is wrong and where " +
+  "the rest is", ofRegressed, async () => {
+  const { page, close } = await open({ viewport: { width: 1280, height: 800 } }, regressed,
+    "index.html");
+  const opening = page.locator("#opening");
+  const text = await opening.innerText();
+  for (const answer of [/Last: nightly run 2, .*, of localisers/, /accuracy got worse/,
+    /Compared with: nightly run 1/, /EKF: .* \+/, /report of nightly run 2/])
+    assert.match(text, answer);
+  const box = await opening.locator(".standing").boundingBox();
+  assert.ok(box.y + box.height < 800);
+  await close();
+});
+
+test("statistics and the search for the commit are behind a click", ofRegressed, async () => {
+  const { page, close } = await open({}, regressed, "index.html");
+  const finding = page.locator("#section-worse .worsening").first();
+  const command = finding.locator("pre");
+  assert.equal(await command.isVisible(), false);
+  await finding.locator("summary").click();
+  const line = await command.innerText();
+  assert.match(line, /^git bisect start [0-9a-f]{9} [0-9a-f]{9} && git bisect run sh -c /);
+  assert.doesNotMatch(line, /--commit|--build/);
+  assert.match(await finding.innerText(), /diff of nightly runs 1 and 2/);
+  await close();
+});
+
+test("a nightly run's report begins with what got worse, marked in tables and figures", ofRegressed,
+  async () => {
+    const { page, close } = await open({}, join(regressed, "nightly_runs", "0002", study));
+    const ids = await page.locator("main > section").evaluateAll((all) => all.map((one) => one.id));
+    assert.deepEqual(ids.slice(0, 2), ["opening", "section-worse"]);
+    const next = page.locator("main > section").nth(2);
+    assert.ok(await next.locator(".regression").count() > 0);
+    assert.ok(await page.locator("tr.regressed").first().isVisible());
+    const figure = page.locator("figure:has(p.regression)").first();
+    await figure.scrollIntoViewIfNeeded();
+    await figure.locator(".drawing > svg").waitFor();
+    assert.ok(await figure.locator("svg .got-worse").count() > 0);
+    assert.ok(await page.locator(".opening p.regression").isVisible());
+    await close();
+  });
+
+test("decisions that the page saves are taken by the program", ofRegressed, async () => {
+  const folder = mkdtempSync(join(tmpdir(), "mapproof-decisions-"));
+  const store = join(folder, "history");
+  cpSync(regressed, store, { recursive: true });
+  const first = await open({ acceptDownloads: true }, store, "index.html");
+  const boxes = first.page.locator(".worsening .decision");
+  for (let i = 0; i < await boxes.count(); ++i) {
+    await boxes.nth(i).getByRole("combobox").selectOption("known");
+    await boxes.nth(i).getByRole("textbox").fill("the <b>map</b> changed, issue 12");
+  }
+  const saved = first.page.waitForEvent("download");
+  await first.page.getByRole("button", { name: "Save decisions" }).click();
+  const file = join(folder, "mapproof-decisions.json");
+  await (await saved).saveAs(file);
+  await first.close();
+  execFileSync(process.env.MAPPROOF_PROGRAM, ["history", store, "--from", file, "--quiet"]);
+  const { page, close } = await open({}, store, "index.html");
+  assert.match(await page.locator(".standing strong").innerText(), /nothing new got worse .* known$/);
+  assert.equal(await page.locator(".standing.worse").count(), 0);
+  assert.match(await page.locator(".worsening.known").first().innerText(),
+    /Known: the <b>map<\/b> changed, issue 12/);
   await close();
 });

@@ -10,6 +10,10 @@ import { chromium } from "playwright-core";
 export const study = process.env.MAPPROOF_REPORT;
 export const comparison = process.env.MAPPROOF_DIFF_PAGE;
 
+/// The pages of all kinds, [name, folder]; MAPPROOF_PAGES has "name=folder", separated by colons.
+export const kinds = (process.env.MAPPROOF_PAGES ?? "").split(":").filter(Boolean)
+  .map((each) => each.split("="));
+
 export const textOf = (name) => readFileSync(join(study, name), "utf8");
 
 let browser;

@@ -1,12 +1,15 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "render/figures/unit_scale.hpp"
+#include "render/plot/short_names.hpp"
 #include "tests/support/samples/drawn_panels.hpp"
 #include "tests/support/samples/sample_studies.hpp"
 
@@ -79,6 +82,12 @@ ErrorLine three_points(const std::string& label, std::vector<double> mean, doubl
   return line;
 }
 
+ErrorLine of_means(const std::string& label, std::vector<double> mean) {
+  ErrorLine line{.label = label, .key = "key", .mean = std::move(mean)};
+  for (std::size_t i = 0; i < line.mean.size(); ++i) line.x.push_back(static_cast<double>(i) + 1.0);
+  return line;
+}
+
 TEST(BestLine, IsNamedWithItsValueAtTheEnd) {
   const std::vector<ErrorLine> lines = {three_points("A", {3, 2, 0.25}, 0.01),
                                         three_points("B", {1, 1, 1}, 0.01)};
@@ -93,19 +102,168 @@ TEST(BestLine, IsNamedWithThoseWhoseIntervalsOverlapItsOwn) {
                                         three_points("B", {1, 1, 0.3}, 0.1),
                                         three_points("C", {1, 1, 0.9}, 0.1)};
   EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
-            "A and B have the lowest MPE after 3 steps, from 0.25\u00A0m");
+            "A and B have the lowest MPE after 3 steps, 0.25\u00A0m and 0.30\u00A0m");
+}
+
+TEST(BestLine, OfManyThatAreEqualIsTheSpanOfTheirValues) {
+  std::vector<ErrorLine> lines;
+  for (const char* label : {"A", "B", "C", "D"})
+    lines.push_back(
+        three_points(label, {1, 1, 0.19 + 0.01 * static_cast<double>(lines.size())}, 0.1));
+  EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
+            "after 3 steps, all 4 methods have an MPE of 0.19\u00A0m to 0.22\u00A0m");
+  EXPECT_EQ(best_at_end({lines[0], lines[1]}, {}, "after {} steps"),
+            "after 3 steps, both methods have an MPE of 0.19\u00A0m to 0.20\u00A0m");
+  lines.push_back(three_points("LEM, K = 6", {1, 1, 0.9}, 0.1));
+  EXPECT_EQ(
+      best_at_end(lines, {}, "after {} steps"),
+      "after 3 steps, 4 of 5 methods have an MPE of 0.19\u00A0m to 0.22\u00A0m, LEM 0.90\u00A0m");
+}
+
+TEST(BestLine, OfAFamilyIsCalledSo) {
+  std::vector<ErrorLine> lines = {three_points("A", {3, 2, 0.25}, 0.01),
+                                  three_points("B", {1, 1, 1}, 0.01)};
+  LineQuantity mpe;
+  mpe.family = "these 2";
+  EXPECT_EQ(best_at_end(lines, mpe, "after {} steps"),
+            "of these 2, A has the lowest MPE after 3 steps, 0.25\u00A0m");
+  mpe.family = "the 2 on a neighbour graph";
+  for (ErrorLine& line : lines) line.mean.back() = 0.25;
+  lines.push_back(three_points("C", {1, 1, 0.25}, 0.01));
+  EXPECT_EQ(best_at_end(lines, mpe, "after {} steps"),
+            "after 3 steps, all of the 2 on a neighbour graph have an MPE of 0.25\u00A0m");
+}
+
+TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
+  EXPECT_EQ(best_over({three_points("A", {1, 2, 3}, 0.3), three_points("B", {1.5, 2.5, 3.5}, 0.3)},
+                      {}, {"noise"}),
+            "");
+  EXPECT_EQ(best_over({three_points("A", {1, 2, 3}, 0.2), three_points("B", {1.5, 2.5, 3.5}, 0.2)},
+                      {}, {"noise"}),
+            "A has the lowest MPE throughout");
+  const ErrorLine a = of_means("A", {0.99691, 1, 2}), b = of_means("B", {0.99696, 3, 4});
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "A has the lowest MPE wherever they differ");
+  EXPECT_EQ(best_over({a, b, of_means("C", {2, 3, 4})}, {}, {"noise"}),
+            "A has the lowest MPE, alone at 2 of 3 points");
+  EXPECT_EQ(best_over({of_means("A", {0.99691, 1}), of_means("B", {0.99696, 1.001})}, {}, {"K"}),
+            "");
+  EXPECT_EQ(best_of_points({{a, b}}, {}), "A has the lowest MPE at 2 of 3 points");
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "");
 }
 
 TEST(BestLine, OverAnAxisIsOneOrChanges) {
   const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {2, 2.5, 1}, 0.1);
-  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [°]")),
-            "A has the lowest MPE at noise = 1°, B at 3°");
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [°]")), "A has the lowest MPE at 1°, B at 3°");
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [m]")),
+            "A has the lowest MPE at noise\u00A0=\u00A01\u00A0m, B at 3\u00A0m");
   EXPECT_EQ(best_over({a, three_points("C", {4, 4, 4}, 0.1)}, {}, {"noise"}),
             "A has the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, three_points("C", {4, 1, 4}, 0.1)}, {}, line_axis("noise [°]")),
+            "A has the lowest MPE at 1° and 3°, but not between");
   EXPECT_EQ(best_over({a, a}, {}, {"noise"}), "");  // Neither is better.
   EXPECT_EQ(best_over({}, {}, {"noise"}), "");
-  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "A has the lowest MPE, 1.0\u00A0m at K = 1");
-  EXPECT_EQ(best_of_all({a}, {}, {"K"}), "the lowest MPE of A is 1.0\u00A0m at K = 1");
+  EXPECT_EQ(best_of_all({a, three_points("C", {4, 4, 4}, 0.1)}, {}, {"K"}),
+            "A has the lowest MPE, 1.0\u00A0m at K\u00A0=\u00A01");
+  EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "");  // B's best is as good.
+  EXPECT_EQ(best_of_all({a}, {}, {"K"}), "the lowest MPE of A is 1.0\u00A0m at K\u00A0=\u00A01");
+}
+
+TEST(BestLine, AtBothEndsIsNotDeniedTheBestBetween) {
+  const ErrorLine a = of_means("A", {1, 3, 1, 3, 1}), b = of_means("B", {2, 2, 2, 2, 2});
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [°]")),
+            "A has the lowest MPE at 1° and 5°, but not throughout");
+  const ErrorLine c = of_means("C", {1, 3, 2, 3, 1});  // As good as B at 3.
+  EXPECT_EQ(best_over({c, b}, {}, line_axis("noise [°]")),
+            "C has the lowest MPE at 1° and 5°, but not throughout");
+}
+
+TEST(BestLine, WhereverTheyDifferCountsThePointsAtWhichManyAreBest) {
+  std::vector<ErrorLine> lines = {of_means("A", {2, 1})};
+  for (const char* label : {"B", "C", "D", "E"}) lines.push_back(of_means(label, {1, 2}));
+  EXPECT_EQ(best_over(lines, {}, line_axis("noise [°]")),
+            "A has the lowest MPE at 2°, but not throughout");
+  lines[0].mean[0] = kNaN;  // The others are all equal there.
+  EXPECT_EQ(best_over(lines, {}, line_axis("noise [°]")),
+            "A has the lowest MPE wherever they differ");
+}
+
+TEST(BestLine, IsPluralIfItStandsForSeveralWhateverItsLabel) {
+  const ErrorLine a = of_means("Map and scan matching", {1, 1}), b = of_means("B", {2, 2});
+  LineQuantity mpe;
+  EXPECT_EQ(best_over({a, b}, mpe, {"noise"}),
+            "Map and scan matching has the lowest MPE throughout");
+  EXPECT_EQ(best_of_points({{a, b}}, mpe),
+            "Map and scan matching has the lowest MPE at all points");
+  mpe.plural = {a.label};
+  EXPECT_EQ(best_over({a, b}, mpe, {"noise"}),
+            "Map and scan matching have the lowest MPE throughout");
+  EXPECT_EQ(best_of_points({{a, b}}, mpe),
+            "Map and scan matching have the lowest MPE at all points");
+}
+
+TEST(ShortNames, AreOfWholePartsOfLabelsOfOurs) {
+  EXPECT_EQ(short_name("Pairwise-complete, kNN-SMACOF"), "Pairwise, kNN");
+  EXPECT_EQ(short_name("bearing alone, its order"), "bearing, its order");
+  EXPECT_EQ(short_name("white noise, 1 % of the range, plain SVD"), "white noise, 1 %, plain SVD");
+  EXPECT_EQ(short_name("SMACOF, equal weights, from scratch and 2 others"),
+            "SMACOF, scratch and 2 others");
+  for (const char* label : {"noise of the range", "Robust PCA with missing data",
+                            "A, incrementally", "kNN-SMACOF", "Pairwise-completed"})
+    EXPECT_EQ(short_name(label), label);
+}
+
+TEST(ShapedLabel, KeepsWhatTellsItFromTheOthers) {
+  const Theme theme;
+  const std::vector<std::string> others = {"SMACOF, kNN weights, K = 5",
+                                           "SMACOF, kNN weights, K = 7", "ISOMAP, K = 7"};
+  const double most = shape_text("SMACOF kNN, K = 7", theme.font.get()).advance - 0.5;
+  EXPECT_EQ(shape_label_within(theme, others[1], most, {others[1], others[2]}).text, "SMACOF kNN");
+  const std::string a = shape_label_within(theme, others[0], most, others).text;
+  const std::string b = shape_label_within(theme, others[1], most, others).text;
+  EXPECT_NE(a, b);
+  EXPECT_TRUE(b.ends_with("K = 7")) << b;
+}
+
+TEST(BestLine, IsNoneWhereAllAreEqual) {
+  const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {1, 3, 2}, 0.1);
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("noise [°]")), "A has the lowest MPE at 2°, B at 3°");
+  const ErrorLine c = three_points("C", {1, 1.5, 1}, 0.1);
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "C has the lowest MPE wherever they differ");
+}
+
+TEST(BestLine, HasNoParameterThatTellsNoTwoApart) {
+  const ErrorLine a = three_points("SMACOF, kNN weights, K = 7", {1, 2, 3}, 0.1);
+  const ErrorLine b = three_points("ISOMAP, K = 5", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "SMACOF kNN has the lowest MPE throughout");
+  const ErrorLine c = three_points("SMACOF, kNN weights, K = 5", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_over({a, c}, {}, {"noise"}), "SMACOF kNN, K = 7 has the lowest MPE throughout");
+}
+
+TEST(BestLine, OfSeveralPanelsIsBestAtMostPoints) {
+  const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {2, 3, 1}, 0.1);
+  EXPECT_EQ(best_of_points({{a, b}, {a, b}}, {}), "A has the lowest MPE at 4 of 6 points");
+  EXPECT_EQ(best_of_points({{a, three_points("C", {4, 4, 4}, 0.1)}}, {}),
+            "A has the lowest MPE at all points");
+}
+
+TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
+  const auto words = [](const char* unit, double greatest) {
+    const ScaledUnit scaled = scaled_unit(unit, greatest);
+    return fmt::format("{:.3g} {}", scaled.factor * greatest, scaled.unit);
+  };
+  EXPECT_EQ(words("m", 0.0098), "9.8 mm");
+  EXPECT_EQ(words("m", 0.5), "0.5 m");
+  EXPECT_EQ(words("s", 0.032), "32 ms");
+  EXPECT_EQ(words("s", 4.7e-4), "470 µs");
+  EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
+  EXPECT_EQ(words("ppm", 12.0), "12 ppm");
+  EXPECT_EQ(words("%", 1e-9), "1e-09 %");
+}
+
+TEST(ShortNames, LeaveParametersOut) {
+  EXPECT_EQ(without_parameters("SMACOF kNN, K = 7"), "SMACOF kNN");
+  EXPECT_EQ(without_parameters("Whole, SDE, K = 8 3.50"), "Whole, SDE 3.50");
+  EXPECT_EQ(without_parameters("white noise, 1 %"), "white noise, 1 %");
 }
 
 TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {

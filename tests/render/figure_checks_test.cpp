@@ -177,6 +177,52 @@ TEST(FigureRules, FindFramesThatTakeLittleOfThePage) {
   EXPECT_NE(rules_broken_by({named, named}).find("the panels take"), std::string::npos);
 }
 
+TEST(FigureRules, FindABarThatIsCutByTheFrame) {
+  Panel panel{
+      .title = "",
+      .layers = {straight("a", 0.0, 10.0),
+                 Segments{.label = "b", .x0 = {5.0}, .y0 = {-4.0}, .x1 = {5.0}, .y1 = {4.0}}}};
+  panel.y.limits = Range{0.0, 10.0};
+  const char* const rule = "a bar of 'b' is cut by the frame";
+  EXPECT_NE(rules_broken_by({panel}).find(rule), std::string::npos);
+  std::get<Segments>(panel.layers[1]).arrow = true;
+  EXPECT_EQ(rules_broken_by({panel}).find(rule), std::string::npos);
+}
+
+TEST(FigureRules, FindAPointThatMayBeAnywhereBelowItsAxis) {
+  Panel panel{.title = "",
+              .layers = {straight("a", 1.0, 10.0), Scatter{.label = "b", .x = {5.0}, .y = {1.0}}}};
+  panel.y.scale = Scale::kLog;
+  panel.y.limits = Range{1.0, 20.0};
+  EXPECT_NE(rules_broken_by({panel}).find("a point of 'b' is at the foot"), std::string::npos);
+}
+
+TEST(FigureRules, FindATextOfWhichAPartIsLeftOut) {
+  Panel panel{.title = "", .layers = {straight("a", 0.0, 10.0)}};
+  panel.x.label = std::string(300, 'x');
+  EXPECT_NE(rules_broken_by({panel}).find("the axis-label 'xxx"), std::string::npos);
+}
+
+TEST(FigureRules, FindATitleThatCountsWhatItDoesNotName) {
+  Figure figure = plot_of({{.title = "", .layers = {straight("a", 0.0, 10.0)}}});
+  figure.title = "A, B and 3 more have the lowest MPE";
+  EXPECT_NE(joined(broken_rules(figure, report_theme())).find("the title"), std::string::npos);
+}
+
+TEST(FigureRules, HoldRowsOfPanelsInAColumnToTheirShare) {
+  std::vector<Panel> panels;
+  for (const char* title : {"one", "two"}) {
+    Panel& panel = panels.emplace_back(Panel{.title = title, .layers = {}});
+    for (int i = 0; i < 6; ++i) {
+      Polyline line = straight("line of a long name " + std::to_string(i), 0.0, i);
+      line.dash = static_cast<Dash>(i % 5);
+      line.colour = series_colour(static_cast<std::size_t>(i));
+      panel.layers.push_back(line);
+    }
+  }
+  EXPECT_EQ(joined(broken_rules(plot_of(panels), paper_theme(3.25))), "");
+}
+
 TEST(FigureRules, FindALineThatIsLostOnItsPage) {
   Panel empty{.title = "", .layers = {Polyline{.label = "", .x = {4.9, 5.0}, .y = {5.0, 5.0}}}};
   empty.x.limits = empty.y.limits = Range{0.0, 10.0};

@@ -231,6 +231,29 @@ TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
   EXPECT_EQ(title_with_error("A map", std::nullopt), "A map");
 }
 
+TEST(ScoreWords, NameTheAnchorThatAMapMissesMost) {
+  MapRecord record;
+  record.names = {"a", "b", "c"};
+  record.estimate.resize(3, 2);
+  record.estimate << 0, 0, 4, 1, 2, 1;
+  EXPECT_FALSE(worst_anchor(record));
+  record.ground_truth_m = record.estimate;
+  (*record.ground_truth_m)(1, 1) += 0.3;
+  (*record.ground_truth_m)(2, 1) += 2.0;  // No anchor.
+  record.anchors = {0, 1};
+  ASSERT_TRUE(worst_anchor(record));
+  EXPECT_EQ(worst_anchor(record)->name, "b");
+  EXPECT_NEAR(worst_anchor(record)->share_percent, 7.5, 1e-9);  // 0.3 m of 4 m.
+  EXPECT_FALSE(worst_anchor(record)->is_contradicted);
+  EXPECT_EQ(title_with_error("A map", record), "A map: up to 0.30 m off at 2 anchors (b)");
+  (*record.ground_truth_m)(1, 1) += 0.2;
+  EXPECT_TRUE(worst_anchor(record)->is_contradicted);
+  record.score = Score{0.219, 4.7, 0.2, 4.7};
+  EXPECT_EQ(title_with_error("A map", record), "A map: 0.22 m off in the mean");
+  record.frame = Frame::kSimilarity;  // No metres.
+  EXPECT_FALSE(worst_anchor(record));
+}
+
 TEST(Words, NumbersAreReadable) {
   EXPECT_EQ(significant(0.2194), "0.219");
   EXPECT_EQ(significant(141.4), "141");

@@ -351,8 +351,8 @@ TEST(LineEnds, HaveShortNamesWhereLongOnesAreTooLong) {
 TEST(Legend, HasShortNamesOfMethodsInAColumn) {
   Figure figure = with_lines({1.0, 3.0}, "SMACOF, kNN weights, K = ");
   std::get<Polyline>(figure.panels[0].layers[1]).x = {0.0, 0.3};
-  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(3.25)))[1], "SMACOF kNN, K = 1");
-  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(6.75)))[1], "SMACOF, kNN weights, K = 1");
+  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(3.25)))[0], "SMACOF kNN, K = 1");
+  EXPECT_EQ(legend_words(lay_out(figure, paper_theme(6.75)))[0], "SMACOF, kNN weights, K = 1");
 }
 
 /// What stands for the bands.

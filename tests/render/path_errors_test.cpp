@@ -118,6 +118,27 @@ TEST(PathErrorMap, IsBrokenByAGap) {
   EXPECT_TRUE(std::isnan(estimate.values[20]));
 }
 
+TEST(PathErrorCurves, AreBrokenByAPause) {
+  PoseErrors poses = straight(std::vector<double>(40, 0.1));
+  poses.has_times = true;
+  const auto breaks = [&] {
+    const Figure figure = path_error_curves_figure({"errors", "Errors", {{"gap", &poses}}, {}});
+    std::vector<std::ptrdiff_t> found;
+    for (const Panel& panel : figure.panels) {
+      const std::vector<double>& y = std::get<Polyline>(panel.layers.at(0)).y;
+      found.push_back(std::ranges::count_if(y, [](double value) { return std::isnan(value); }));
+    }
+    found.push_back(figure.caption.find("broken") == std::string::npos ? 0 : 1);
+    return found;
+  };
+  poses.time_s.tail(20).array() += 9.0;  // Ten steps.
+  EXPECT_EQ(breaks(), (std::vector<std::ptrdiff_t>{0, 0, 0}));
+  poses.time_s.tail(20).array() += 0.5;
+  EXPECT_EQ(breaks(), (std::vector<std::ptrdiff_t>{1, 1, 1}));
+  poses.has_times = false;
+  EXPECT_EQ(breaks(), (std::vector<std::ptrdiff_t>{0, 0, 0}));
+}
+
 TEST(Layout, APageEndsBelowAMapThatIsWiderThanHigh) {
   Figure figure;
   figure.id = "wide";

@@ -53,12 +53,16 @@ TEST(ConvergenceFigure, DrawsThe95PercentBars) {
   EXPECT_NEAR(bars[0].y1[0], 1.06 * mean, 1e-12);
 }
 
-TEST(ConvergenceFigure, EndsABarThatReachesZeroBelowTheFrameAndLeavesUnknownPointsOut) {
+TEST(ConvergenceFigure, EndsABarThatReachesZeroInAnArrowAndLeavesUnknownPointsOut) {
   ConvergenceCurve curve = white();
   curve.points[2].observation.half_width = 2.0 * curve.points[2].observation.mean;
   curve.points[4].observation = {};
   const Panel panel = convergence_figure("fig-1b", curve).panels[0];
-  EXPECT_LT(layers_of<Segments>(panel)[0].y0[2], panel.y.limits->low);
+  const auto bars = layers_of<Segments>(panel);
+  ASSERT_EQ(bars.size(), 2u);
+  EXPECT_EQ(bars[0].y0.size(), curve.points.size() - 2);
+  EXPECT_TRUE(bars[1].arrow);
+  EXPECT_EQ(bars[1].y1, std::vector<double>{panel.y.limits->low});
   EXPECT_EQ(labelled<Polyline>(panel, "measured")->x.size(), curve.points.size() - 1);
 }
 
@@ -120,22 +124,28 @@ TEST(SingularValuesFigure, TakesTheGreatestDroppedWhereNoLevelIsKnownAndNothingW
   EXPECT_EQ(panel_of({100, 50, 20, 8, 0}).title, "4-D");
 }
 
+TEST(SingularValuesFigure, LeavesOutWhatIs0WithinRounding) {
+  const Figure figure =
+      singular_values_figure({"s", "", {{"4-D", {100, 50, 20, 8, 2, 1e-14}, 4, {}}}, {}});
+  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "dropped")->y, (std::vector<double>{2.0}));
+  EXPECT_TRUE(figure.caption.ends_with("Not shown, as 0 within rounding: 1 value."));
+}
+
 TEST(SingularValuesFigure, RefusesWhatIsNoSingularValue) {
   EXPECT_THROW(singular_values_figure({"s", "", {{"", {1.0, -1.0}, 4, {}}}, {}}), InvalidInput);
   EXPECT_THROW(singular_values_figure({"s", "", {{"", {INFINITY}, 4, {}}}, {}}), InvalidInput);
 }
 
-TEST(WindowCurveFigure, RingsTheChosenLengthAndCrossesThoseThatPredictNothing) {
-  const WindowCurve windows{{240, 120, 60}, {0.66, 0.58, NAN}, 120};
+TEST(WindowCurveFigure, RingsTheChosenLengthAndSaysWhichPredictNothing) {
+  const WindowCurve windows{{240, 120, 60, 30}, {0.66, 0.58, NAN, NAN}, 120};
   const Figure figure = window_curve_figure({"windows-plaza-1", "", windows, "plaza-1"});
   const Panel& panel = figure.panels[0];
   EXPECT_EQ(labelled<Polyline>(panel, "held-out ranges")->x, (std::vector<double>{120, 240}));
   EXPECT_EQ(labelled<Scatter>(panel, "chosen")->x, (std::vector<double>{120}));
   EXPECT_EQ(labelled<Scatter>(panel, "chosen")->y, (std::vector<double>{0.58}));
-  const Scatter failed = labelled<Scatter>(panel, "predicts nothing").value();
-  EXPECT_EQ(failed.x, (std::vector<double>{60}));
-  EXPECT_LT(failed.y[0], panel.y.limits->high);
-  EXPECT_GT(failed.y[0], 0.66);
+  ASSERT_EQ(figure.notes.size(), 1u);
+  EXPECT_EQ(figure.notes[0].text, "2 windows, of 30\u00A0s to 60\u00A0s, predict nothing.");
+  EXPECT_TRUE(figure.caption.ends_with(figure.notes[0].text));
   EXPECT_TRUE(contains(figure.alt, "60 s predicts nothing"));
 }
 

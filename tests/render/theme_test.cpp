@@ -203,6 +203,13 @@ TEST(Ticks, DecadesAreLabelledOnALogAxis) {
   EXPECT_FALSE(ticks.minor.empty());
 }
 
+TEST(Ticks, OfOneLogAxisAreAllPlainOrAllPowers) {
+  EXPECT_EQ(log_ticks(90.0, 2e5, 8).labels, (std::vector<std::string>{"10²", "10³", "10⁴", "10⁵"}));
+  EXPECT_EQ(log_ticks(0.5, 2e4, 8).labels,
+            (std::vector<std::string>{"1", "10", "100", "1000", "10000"}));
+  EXPECT_EQ(log_ticks(3e5, 3e6, 8).labels, (std::vector<std::string>{"5×10⁵", "10⁶", "2×10⁶"}));
+}
+
 TEST(Ticks, ManyDecadesAreThinned) {
   const Ticks ticks = log_ticks(1e-12, 1e12, 6);
   EXPECT_LE(ticks.at.size(), 6u);
@@ -306,6 +313,22 @@ TEST(WrappedText, BreaksAtBlanksAndElidesTheLastLine) {
   EXPECT_TRUE(lines[1].text.ends_with("…")) << lines[1].text;
   for (const ShapedText& line : lines) EXPECT_LE(line.advance, 6.0);
   EXPECT_TRUE(wrap_text("", 6.0, 2).empty());
+}
+
+TEST(WrapText, KeepsEquationsAndNumbersWithTheirUnitsTogether) {
+  for (double width = 4.0; width < 14.0; width += 0.5)
+    for (const ShapedText& line : wrap_text("SDE, K = 7 errs by 0.12 m there", width, 9)) {
+      EXPECT_FALSE(line.text.ends_with("=") || line.text.ends_with("K") ||
+                   line.text.ends_with("0.12"))
+          << line.text;
+    }
+}
+
+TEST(WrapText, DoesNotBreakAnEquationThatNeverFits) {
+  const auto lines = wrap_text("K = 1234567 errs", 3.0, 9);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].text, "K =…");
+  EXPECT_EQ(lines[1].text, "errs");
 }
 
 }  // namespace

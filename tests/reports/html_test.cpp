@@ -1,3 +1,4 @@
+#include "reports/html/regression_marks.hpp"
 #include "reports/html/report_html.hpp"
 
 #include <regex>
@@ -7,10 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/output/write_figure.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/sha256.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/study_report.hpp"
+#include "reports/sections/wording.hpp"
 #include "tests/reports/hostile_report.hpp"
 #include "tests/reports/synthetic_study.hpp"
 
@@ -71,6 +75,29 @@ TEST(ReportHtml, HasNoInlineStyleOrHandlerThatItsPolicyWouldBlock) {
   const std::string page = study_page();
   EXPECT_TRUE(all_matches(page, "<[a-z]+[^>]* (style)=").empty());
   EXPECT_TRUE(all_matches(page, "<[a-z]+[^>]* (on[a-z]+)=").empty());
+}
+
+TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindOrTitle) {
+  const auto figure = [](const std::string& id, const std::string& title) {
+    return FigureBlock{id, title, "c", "a", {}};
+  };
+  Report report{"r", "", {}, ""};
+  report.sections = {
+      {"one", "One", {Gallery{{figure("a-1", "First map"), figure("a-2", "Second map")}}}},
+      {"two",
+       "Two",
+       {figure("b", "Relative errors over distance, in percent: SLAM is the lowest"),
+        figure("c", "Relative errors over distance, in percent: SLAM drifts least"),
+        figure("d", "A path")}}};
+  report.opening.figure_ids = {"a-1", "a-2", "b", "c", "d"};
+  report.opening.other_pages = "1 figure is on page 2.";
+  const std::string page = report_html(report, load_templates(), {});
+  const std::string small = between(page, "<ul class=\"thumbnails\">", "</ul>");
+  EXPECT_EQ(all_matches(small, "href=\"#figure-([^\"]*)\""),
+            (std::vector<std::string>{"a-1", "b", "d"}));
+  EXPECT_NE(small.find("<bdi>Relative errors over distance, in percent</bdi>"), std::string::npos);
+  // What is elsewhere is said after all that is here.
+  EXPECT_GT(page.find("1 figure is on page 2."), page.find("id=\"section-two\""));
 }
 
 TEST(ReportHtml, GivesEachIdOnce) {
@@ -207,6 +234,40 @@ TEST(ReportHtml, OfManyStudiesFoldsSectionsButTheFirstOfEachAndWhatGotWorse) {
   }
 }
 
+TEST(ReportHtml, FoldsWhatFewReadersWantFirstAndWhatMostWantLast) {
+  Report report = large_report(1, 9);
+  report.sections[1].interest = Interest::kFew;
+  report.sections[8].interest = Interest::kMost;
+  BulletList list;
+  for (int i = 0; i < 9; ++i) list.items.push_back(plain(fmt::format("point {}", i)));
+  report.sections[0].blocks.emplace_back(list);
+  const std::string page = report_html(report, load_templates(), {});
+  const auto section = [&](const char* id) {
+    const std::size_t at = page.find(fmt::format("<section id=\"section-{}\"", id));
+    return page.substr(at, page.find("</section>", at) - at);
+  };
+  const std::string few = section("s0-1"), most = section("s0-8");
+  EXPECT_NE(few.find("class=\"closed\""), std::string::npos);
+  EXPECT_EQ(most.find("class=\"closed\""), std::string::npos);
+  EXPECT_EQ(most.find("class=\"fold"), std::string::npos) << "its table and its figures are open";
+  const std::string first = section("s0-0");
+  const std::size_t more = first.find("<summary>6 more</summary>");
+  ASSERT_NE(more, std::string::npos);
+  EXPECT_LT(first.find("point 2"), more);
+  EXPECT_GT(first.find("point 3"), more);
+}
+
+TEST(ReportHtml, SaysWarningsInWords) {
+  Report report{"t", "", {{"w", "Warnings", {}}}, ""};
+  StatusList list;
+  list.items.push_back(
+      {"not_converged", "It stopped early.", "bearing, LLE", 1, 4, false, {{"r", ""}}});
+  report.sections[0].blocks.emplace_back(list);
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("<th scope=\"col\">not converged</th>"), std::string::npos);
+  EXPECT_EQ(page.find("not_converged"), std::string::npos);
+}
+
 TEST(ReportHtml, RefusesAnOpeningWithAMissingFigure) {
   Report report = with_figures(2);
   EXPECT_THROW(report_html(report, load_templates(), {}), InvalidInput);
@@ -220,6 +281,107 @@ TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
   EXPECT_NE(page.find("LLE is 5 % less accurate."), std::string::npos);
+}
+
+TEST(ReportHtml, DrawsAChangeInTheColourOfItsFindings) {
+  Report report{"t", "", {}, ""};
+  Table table{.id = "t", .caption = "c", .columns = {{"Study", "", "", ""}, {"Worse", "", "", ""}}};
+  Row row{{TextCell{"mine"}, TextCell{"seconds"}}, ""};
+  row.curves = {{.cell = 1, .changes = {-2.0, 0.5, 40.0}, .is_found = {false, false, false}}};
+  table.rows = {row};
+  report.sections = {{"s", "S", {table}}};
+  const auto page_with = [&](bool is_found) {
+    std::get<Table>(report.sections[0].blocks[0]).rows[0].curves[0].is_found[2] = is_found;
+    return report_html(report, load_templates(), {});
+  };
+  EXPECT_NE(page_with(true).find("<circle class=\"worse\""), std::string::npos);
+  EXPECT_NE(page_with(false).find("<circle class=\"same\""), std::string::npos);
+  std::get<Table>(report.sections[0].blocks[0]).rows[0].curves[0].changes[2] = -3.0;
+  EXPECT_NE(page_with(false).find("<circle class=\"better\""), std::string::npos);
+}
+
+TEST(RegressionMarks, AreRingsAroundThePointsOfTheCurve) {
+  const std::string svg =
+      "<svg><path data-curve=\"A &amp; B\" d=\"m0 0\"/>"
+      "<g id=\"f-mean\" data-curve=\"A &amp; B\" data-points=\"6, 0.1;8, 0.2\">"
+      "<path class=\"line\" clip-path=\"url(#f-c0)\" d=\"m0 0\"/>"
+      "<use class=\"marker\" href=\"#s\" x=\"10\" y=\"20\"/>"
+      "<use class=\"marker\" href=\"#s\" x=\"30\" y=\"40\"/></g></svg>";
+  const auto rings = [&](const RegressedCurve& curve) {
+    std::string marked = svg;
+    mark_curve(curve, marked);
+    std::string centres;
+    for (std::size_t at = marked.find("<circle"); at != std::string::npos;
+         at = marked.find("<circle", at + 1))
+      centres += marked.substr(at + 26, marked.find(" r=", at) - at - 26) + ";";
+    return centres;
+  };
+  EXPECT_EQ(rings({"A & B", {}}), "cx=\"10\" cy=\"20\";cx=\"30\" cy=\"40\";");
+  EXPECT_EQ(rings({"A & B", {8.0}}), "cx=\"30\" cy=\"40\";");
+  EXPECT_EQ(rings({"A", {}}), "");
+}
+
+/// The drawing of a line in each of two panels.
+std::string two_panels(const ErrorLine& line) {
+  ErrorLinesSpec spec{.id = "f", .title = "MPE over K", .panels = {{.title = "a"}, {.title = "b"}}};
+  for (ErrorPanel& panel : spec.panels) panel.lines = {line};
+  return figure_svg(error_lines_figure(spec), report_theme());
+}
+
+std::vector<double> centres(const std::string& svg) {
+  std::vector<double> all;
+  for (const std::string& x : all_matches(svg, "class=\"got-worse\" cx=\"([0-9.]+)\""))
+    all.push_back(std::stod(x));
+  return all;
+}
+
+TEST(RegressionMarks, AreOnTheCurveOfOnePanelWhateverItsNameAndErrors) {
+  const std::string label = "A & B's \"map\"";
+  const std::string svg =
+      two_panels({.label = label, .key = "a", .x = {6.0, 8.0, 10.0}, .mean = {0.1, 0.2, 2000.0}});
+  ASSERT_NE(svg.find("data-over"), std::string::npos) << "an error is above 1 km";
+  std::string left = svg, right = svg, one = svg, none = svg;
+  EXPECT_EQ(mark_curve({.label = label, .panel = 0}, left), 3U);
+  EXPECT_EQ(mark_curve({.label = label, .panel = 1}, right), 3U);
+  EXPECT_EQ(mark_curve({.label = label, .at = {8.0}, .panel = 1}, one), 1U);
+  EXPECT_EQ(mark_curve({.label = label, .at = {7.0}, .panel = 1}, none), 0U);
+  ASSERT_EQ(centres(left).size(), 3U);
+  ASSERT_EQ(centres(right).size(), 3U);
+  EXPECT_LT(centres(left).back(), centres(right).front());
+  EXPECT_EQ(centres(one), std::vector<double>{centres(right)[1]});
+  EXPECT_EQ(none, svg);
+}
+
+TEST(RegressionMarks, AreNotDrawnWhereAPointHasNoMarker) {
+  ErrorLine line{.label = "A", .key = "a"};
+  for (int i = 0; i < 500; ++i) {
+    line.x.push_back(i);
+    line.mean.push_back(1.0 + 0.001 * i);
+  }
+  std::string svg = two_panels(line);
+  EXPECT_EQ(mark_curve({.label = "A", .at = {0.0}}, svg), 1U);
+  EXPECT_EQ(mark_curve({.label = "A", .at = {1.0}}, svg), 0U) << "too near to the marker before";
+}
+
+TEST(ReportHtml, SaysThatAPointIsRingedWhereItIs) {
+  const ErrorLine line{.label = "A", .key = "a", .x = {6.0, 8.0}, .mean = {0.1, 0.2}};
+  Report report = with_figures(5);
+  report.opening.main_figure = "f-0";
+  auto& figure = std::get<FigureBlock>(report.sections[0].blocks[0]);
+  figure.regressed = "A: MPE +20 %";
+  const auto said = [&](const std::string& svg) {
+    const std::string page =
+        report_html(report, load_templates(), [&](const std::string&) { return svg; });
+    EXPECT_EQ(all_matches(page, "(A: MPE \\+20 %)").size(), 2U) << "with the figure, and first";
+    return all_matches(page, "(ringed in the figure)").size();
+  };
+  figure.regressed_curves = {{.label = "A", .at = {8.0}}};
+  EXPECT_EQ(said(two_panels(line)), 2U);
+  EXPECT_EQ(said("<svg></svg>"), 0U);
+  figure.regressed_curves = {{.label = "A", .at = {7.0}}};
+  EXPECT_EQ(said(two_panels(line)), 0U);
+  figure.regressed_curves = {{.label = "A", .at = {8.0}}, {.label = "B"}};
+  EXPECT_EQ(said(two_panels(line)), 0U) << "one of two curves is not ringed";
 }
 
 TEST(ReportHtml, NamesTheCommandOfAFigureWithTheProvenanceAlone) {

@@ -1,10 +1,14 @@
 #include "reports/sections/map_report.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/fit_section.hpp"
 
 namespace mapproof {
 namespace {
@@ -25,7 +29,8 @@ MapRecord triangle() {
   return record;
 }
 
-Report report_of(const MapRecord& record) {
+Report report_of(const MapRecord& record,
+                 const std::optional<Highlights::Item>& fit_number = std::nullopt) {
   return map_report({record,
                      "Map of x.csv",
                      {{"File", "x.csv"}},
@@ -34,7 +39,11 @@ Report report_of(const MapRecord& record) {
                      {"map", "t", "c", "a", {record.id}},
                      {},
                      {"0.1.0", "abc", "d", {}},
-                     "mapproof map"});
+                     "mapproof map",
+                     {},
+                     {},
+                     {},
+                     fit_number});
 }
 
 const Table& landmarks(const Report& report) { return *tables(report).back(); }
@@ -47,6 +56,79 @@ TEST(MapReport, GivesEachLandmarkItsErrorAndAnUnmappedOneADash) {
   EXPECT_NEAR(std::get<NumberCell>(table.rows[1].cells[5]).value, 5.0, 1e-12);
   EXPECT_TRUE(std::isnan(std::get<NumberCell>(table.rows[2].cells[1]).value));
   EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[6]).text, "yes");
+}
+
+TEST(MapReport, JudgesTheMapByItsFitAndItsErrorBesideItsSize) {
+  MapRecord record = triangle();
+  const Fit fit{.verdict = FitVerdict::kDoesNotFit,
+                .tests = {{.code = FitCode::kResiduals, .statistic = 9.0, .bound = 4.0},
+                          {.code = FitCode::kOutliers, .statistic = 1.0, .bound = 4.0}}};
+  const Highlights::Item number = fit_number(fit);
+  EXPECT_EQ(number.value, "does not fit");
+  EXPECT_EQ(number.detail, "1 of 2 tests beyond what noise explains");
+  EXPECT_TRUE(number.falls_short);
+  const std::vector<Highlights::Item> numbers = report_of(record).opening.numbers.items;
+  EXPECT_TRUE(numbers.front().detail.starts_with("map of 3.0 m by 4.0 m; "))
+      << numbers.front().detail;
+  EXPECT_EQ(report_of(record, number).opening.numbers.items.front().value, number.value)
+      << "without errors it is the first";
+  record.score = Score{0.219, 4.7, 0.2, 4.7};
+  const std::vector<Highlights::Item> of_score = report_of(record).opening.numbers.items,
+                                      of_both = report_of(record, number).opening.numbers.items;
+  const auto at = std::ranges::find(of_both, number.value, &Highlights::Item::value);
+  const auto errors = std::ranges::count_if(of_score, [](const Highlights::Item& item) {
+    return item.label == "MPE" || item.label == "MOE";
+  });
+  EXPECT_EQ(errors, 2);
+  EXPECT_EQ(at - of_both.begin(), errors) << "behind the errors";
+  EXPECT_EQ(of_both.size(), of_score.size() + 1);
+}
+
+TEST(MapReport, OpensWithTheFitUnlessErrorsAreKnown) {
+  MapRecord record = triangle();
+  const Fit fit{.verdict = FitVerdict::kFits,
+                .tests = {{.code = FitCode::kResiduals, .statistic = kNaN, .bound = 4.0}}};
+  MapReportInput input{.record = record,
+                       .title = "Map",
+                       .facts = {},
+                       .remarks = {},
+                       .figure = {"map", "t", "c", "a", {record.id}},
+                       .more_figures = {},
+                       .provenance = {"0.1.0", "abc", "d", {}},
+                       .command = "mapproof map",
+                       .fit_number = fit_number(fit)};
+  const auto labels = [&] {
+    std::vector<std::string> all;
+    for (const Highlights::Item& item : map_report(input).opening.numbers.items)
+      all.push_back(item.label);
+    return all;
+  };
+  EXPECT_EQ(labels().at(0), "the map to its data");
+  EXPECT_EQ(input.fit_number->detail, "0 of 1 test beyond what noise explains");  // Not known.
+  record.score = Score{0.2, 4.7, kNaN, kNaN};
+  ASSERT_GE(labels().size(), 3u);
+  EXPECT_EQ(labels().at(0), "MPE");
+  EXPECT_EQ(labels().at(2), "the map to its data");
+}
+
+TEST(MapReport, SaysThatAnAnchorIsFarOffThoughTheDataFit) {
+  MapRecord record = triangle();
+  const auto anchor_item = [&] {
+    for (const Highlights::Item& item : report_of(record).opening.numbers.items)
+      if (item.label.starts_with("greatest distance of an anchor")) return item;
+    return Highlights::Item{};
+  };
+  EXPECT_FALSE(anchor_item().falls_short);
+  EXPECT_EQ(with_anchors("The data fit the map.", record), "The data fit the map.");
+  record.anchors = {0, 1};
+  (*record.ground_truth_m)(1, 0) = 3.0;
+  (*record.ground_truth_m)(1, 1) = 3.5;
+  EXPECT_TRUE(anchor_item().falls_short);  // 0.5 m in a map of 4 m.
+  EXPECT_EQ(with_anchors("The data fit the map.", record),
+            "The data fit the map. But the map misses the given position of anchor b by 0.500 m, "
+            "12\u00a0% of its longer side.");
+  const Report report = report_of(record);
+  EXPECT_EQ(report.opening.numbers.items.front().label, anchor_item().label);
 }
 
 TEST(MapReport, ListsTheLargestErrorsOfManyLandmarks) {
@@ -136,8 +218,10 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
   const Report report = report_of(record);
   const auto& items = report.opening.numbers.items;
   EXPECT_EQ(items[0].value, "0.310 m");
-  EXPECT_EQ(items[0].detail,
-            "mean position error over 2 landmarks, after the best affine fit to all landmarks");
+  EXPECT_EQ(
+      items[0].detail,
+      "map of 3.0 m by 4.0 m; mean position error over 2 landmarks, after the best affine fit "
+      "to all landmarks");
   EXPECT_EQ(items[1].value, "4.20 %");
   record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);

@@ -36,6 +36,8 @@ class Rows {
     return *this;
   }
 
+  void declare(const Quantity& quantity) { study_.results.quantities.declare(quantity); }
+
   ResultsStudy study(bool are_repeats = true) {
     study_.name = "test";
     study_.title = "Test";
@@ -447,6 +449,24 @@ TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
   EXPECT_EQ(first.detail, "even, over 3 data sets");
 }
 
+TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
+  const auto warns = [](double percent) {
+    Rows rows("associated_percent");
+    rows.declare(study_quantity("associated_percent", "associated poses", "%", Better::kHigher));
+    const ResultsStudy study = rows.add("m", "a1", percent).add("m", "b1", 99.0).study(true);
+    const ResultsView view(study);
+    const Report report = results_report(
+        {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+    for (const Paragraph& finding : report.opening.findings)
+      for (const Phrase& phrase : finding.phrases)
+        if (phrase.text.find("only 75.1\u00A0% (m, a1) of the poses") != std::string::npos)
+          return true;
+    return false;
+  };
+  EXPECT_TRUE(warns(75.14));
+  EXPECT_FALSE(warns(90.0));
+}
+
 TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {
   const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
   const ResultsView view(study);
@@ -456,6 +476,25 @@ TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {
   EXPECT_EQ(first.value, "0.150\u00a0m");
   EXPECT_EQ(first.label, "MPE");
   EXPECT_EQ(first.detail, "m");
+}
+
+TEST(ResultsReport, OpensWithFiguresOfPathsInTheOrderOfTheirRuns) {
+  const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
+  const ResultsView view(study);
+  StudyFigures figures;
+  for (const char* id : {"curves", "errors-first", "maps", "errors-second", "errors-third"})
+    figures.groups.push_back(
+        {.id = std::string("test-") + id,
+         .title = id,
+         .words = "",
+         .figures = {{.id = std::string("test-") + id + "-1", .title = id, .panels = {Panel{}}}}});
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = figures, .provenance = {}});
+  std::vector<std::string> shown = report.opening.figure_ids;
+  if (!report.opening.main_figure.empty()) shown.insert(shown.begin(), report.opening.main_figure);
+  EXPECT_EQ(shown,
+            (std::vector<std::string>{"test-errors-first-1", "test-errors-second-1",
+                                      "test-errors-third-1", "test-curves-1", "test-maps-1"}));
 }
 
 TEST(ResultsView, ShowsShortTimesInUnitsThatFitThem) {
@@ -647,6 +686,74 @@ TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
     if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
   EXPECT_EQ(labels, (std::vector<std::string>{"K = 6, from scratch (3 methods)",
                                               "p, incremental and 2 others"}));
+}
+
+/// The first figure of methods m and n over two levels; each has two runs.
+Figure figure_of_two(const std::string& quantity, double half_spread) {
+  Rows rows(quantity);
+  for (const double noise : {0.1, 0.2})
+    for (const char* method : {"m", "n"})
+      for (const double sign : {-1.0, 1.0})
+        rows.add(method, sign < 0.0 ? "a" : "b",
+                 100.0 * noise + (method[0] == 'n' ? 5.0 : 0.0) + sign * half_spread,
+                 {{"noise", noise}});
+  rows.declare(study_quantity(quantity, "Coverage", "%", Better::kHigher));
+  const ResultsStudy study = rows.study();
+  return results_figures(ResultsView(study), {}).groups.at(0).figures.at(0);
+}
+
+TEST(ResultsFigures, NoMethodStandsOutWithinTheSpreadOfFewRuns) {
+  EXPECT_TRUE(
+      figure_of_two("share_percent", 1.0).title.ends_with("n has the highest coverage throughout"))
+      << figure_of_two("share_percent", 1.0).title;
+  EXPECT_TRUE(
+      figure_of_two("share_percent", 3.0)
+          .title.ends_with("no method stands out, coverage between 10\u00A0% and 25\u00A0%"))
+      << figure_of_two("share_percent", 3.0).title;
+}
+
+TEST(ResultsFigures, TheSampleOfSingleRunsOfSeveralMethodsIsGrey) {
+  const Figure figure = figure_of_two("share_percent", 1.0);
+  const auto& sample = std::get<Scatter>(figure.panels[0].layers.at(0));
+  EXPECT_EQ(sample.label, "single runs");
+  EXPECT_EQ(sample.colour, ThemeColour::kMuted);
+}
+
+TEST(ResultsFigures, CoverageIsComparedWithItsAim) {
+  const Figure figure = figure_of_two("mean_covered_percent", 1.0);
+  const auto& aim = std::get<Polyline>(figure.panels[0].layers.at(0));
+  EXPECT_EQ(aim.y, (std::vector<double>{95.0, 95.0}));
+  EXPECT_GE(figure.panels[0].y.limits->high, 95.0);
+  EXPECT_TRUE(figure_of_two("mean_covered_percent", 1.0)
+                  .title.ends_with("coverage between 10\u00A0% and 25\u00A0%, aimed at 95\u00A0%"))
+      << figure_of_two("mean_covered_percent", 1.0).title;
+}
+
+TEST(ResultsFigures, ALineAt0IsMissedOnlyIfItWasLeftOut) {
+  // Five alike lines are joined, and none is at 0.
+  Rows rows("gap_s");
+  for (const char* run : {"a", "b"})
+    for (const double noise : {0.1, 0.2, 0.3, 0.4})
+      for (const char* method : {"m", "n", "o", "p", "q"})
+        rows.add(method, run, method[0] < 'p' ? noise : 2.0 * noise, {{"noise", noise}});
+  rows.declare(study_quantity("gap_s", "Lag", "s", Better::kLower));
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const Figure figure = results_figures(view, {}).groups.at(0).figures.at(0);
+  EXPECT_EQ(figure.caption.find("compared with"), std::string::npos) << figure.caption;
+}
+
+TEST(ResultsFigures, ADistributionsMedianIsThatOfItsRuns) {
+  const auto title_of = [](int runs) {
+    Rows rows;
+    for (int run = 1; run <= runs; ++run) rows.add("m", std::to_string(run), run);
+    const ResultsStudy study = rows.study();
+    const ResultsView view(study);
+    return results_figures(view, {}).groups.at(0).figures.at(0).title;
+  };
+  // Of an even number the mean of both; of very many not the end of a step of several.
+  EXPECT_NE(title_of(6).find("the median MPE is 3.5\u00A0m"), std::string::npos) << title_of(6);
+  EXPECT_NE(title_of(10).find("the median MPE is 5.5\u00A0m"), std::string::npos) << title_of(10);
 }
 
 TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {

@@ -191,9 +191,10 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   const SlamStudy study = sample_slam_study();
   const Opening opening = slam_opening(study, slam_figures(study, {}));
   const std::string all = words(opening);
-  EXPECT_TRUE(all.starts_with("0.12 m mean position error, Plaza 1 (over ")) << all;
-  EXPECT_NE(all.find("spectral, 4-D 0.41 m; dead reckoning "), std::string::npos) << all;
-  EXPECT_NE(all.find("\u22120.50 power of the number of measurements"), std::string::npos) << all;
+  EXPECT_TRUE(all.starts_with("0.12 m mean position error, Plaza 1 (dead reckoning ")) << all;
+  EXPECT_NE(all.find("spectral, 4\u2011D 0.41 m; over "), std::string::npos) << all;
+  EXPECT_NE(all.find("50\u00a0% of the model error is left with 4 times"), std::string::npos)
+      << all;
   EXPECT_NE(all.find("2 recorded drives"), std::string::npos) << all;
   EXPECT_EQ(opening.main_figure, "fig-2b");
   EXPECT_LT(all.size(), 900U) << all;

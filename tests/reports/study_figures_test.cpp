@@ -56,7 +56,8 @@ Experiment experiment_with_everything() {
   experiment.layouts = 2;
   experiment.poses = 3;
   for (SensorStudy& sensor : experiment.sensors)
-    sensor.methods = {{Method::kLpca, {}}, {Method::kIsomap, {5, 6}}};
+    sensor.methods = {{Method::kLpca, {}}, {Method::kIsomap, {5, 6, 7, 8}}};
+  experiment.sensors.back().methods[1].parameters.pop_back();  // Three are no curve.
   const MethodSetting isomap{Method::kIsomap, 6.0};
   const auto variation = [&](const char* id, Factor factor, std::vector<double> levels) {
     return Variation{.id = id,
@@ -81,6 +82,27 @@ Experiment experiment_with_everything() {
   experiment.figures[3].methods = {Method::kIsomap};
   experiment.figures[3].example = PublishedValue{.setting = isomap, .mpe_m = 0.1};
   return experiment;
+}
+
+TEST(StudyFigures, TitlesOfSomeOfTheMethodsSayOfWhich) {
+  Experiment experiment = experiment_with_everything();
+  experiment.variations.clear();
+  experiment.figures.clear();
+  experiment.sensors.resize(1);
+  experiment.sensors[0].methods.push_back({Method::kLle, {6.0}});
+  Study study{.experiment = experiment, .provenance = {}, .runs = {}};
+  for (const RunId& id : runs_of(experiment))
+    study.runs.push_back(simulate_run(experiment, id).run);
+  const StudyFigures figures =
+      study_figures(study, {},
+                    {.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                     .details = [](const RunId&) { return std::nullopt; }});
+  std::map<std::string, std::string> titles;
+  for (const Figure* figure : all_figures(figures)) titles[figure->id] = figure->title;
+  const std::string graph = titles.at("mpe-visibility-graph");
+  EXPECT_NE(graph.find("of the 2 on a neighbour graph"), std::string::npos) << graph;
+  const std::string alone = titles.at("mpe-visibility-global");  // Has no rank.
+  EXPECT_EQ(alone.find("lowest"), std::string::npos) << alone;
 }
 
 TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
@@ -110,7 +132,8 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
   EXPECT_EQ(ids_of(figures, "forming"),
             (std::vector<std::string>{"forming-visibility", "scatter-visibility", "forming-bearing",
                                       "scatter-bearing"}));
-  EXPECT_EQ(ids_of(figures, "parameters").size(), 4U);
+  EXPECT_EQ(ids_of(figures, "parameters"),
+            (std::vector<std::string>{"parameter-mpe-visibility-k", "parameter-moe-visibility-k"}));
   EXPECT_EQ(ids_of(figures, "comparison").size(), 6U);
   EXPECT_EQ(ids_of(figures, "conditions"),
             (std::vector<std::string>{"anchors-visibility", "level-noise", "level-together"}));

@@ -32,6 +32,14 @@ TEST(TopicWords, AskAQuestionOfEveryTopic) {
   }
 }
 
+TEST(TopicWords, SayEqualOrLessThanThePrecisionInPlaceOfNoMetres) {
+  EXPECT_EQ(regret_words(0.0).value, "equal");
+  EXPECT_EQ(regret_words(0.0).words, "to");
+  EXPECT_EQ(regret_words(0.0004).value, "< 0.001\u00a0m");
+  EXPECT_EQ(regret_words(0.0006).value, "0.001 m");
+  EXPECT_EQ(regret_words(0.022).words, "worse than");
+}
+
 TEST(TopicWords, AreNoneOfATopicThatIsNotKnown) {
   TopicStudy study;
   study.experiment.topic = "weather";

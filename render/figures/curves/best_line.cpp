@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -10,11 +12,13 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostNamed = 3;
+constexpr std::size_t kMostOthers = 2;  ///< Behind a finding about most of the lines.
 
 /// A line's value at one x.
 struct At {
@@ -62,23 +66,134 @@ std::string has_the_best(const LineQuantity& quantity, bool several) {
                      quantity.lower_is_better ? "lowest" : "highest", quantity.label);
 }
 
-/// "noise = 10 °".
-std::string equation(const LineAxis& axis, double x) {
-  return fmt::format("{} = {}", axis.name, with_unit(data_number(x), axis.unit));
-}
-
-bool is_tied(const std::vector<At>& known, const At& best) {
-  return std::ranges::count(known, best.mean(), &At::mean) > 1;
+/// Of x without its name where the unit says what it is: "10°", but "K = 7" and, of a quantity in
+/// the same unit, "noise = 10 %".
+std::string place(const LineAxis& axis, double x, const LineQuantity& quantity) {
+  const std::string value = with_unit(data_number(x), axis.unit);
+  const bool is_clear = !axis.unit.empty() && axis.unit != quantity.unit;
+  return is_clear ? value : fmt::format("{}\u00A0=\u00A0{}", axis.name, value);
 }
 
 std::string value_text(double value, const LineQuantity& quantity) {
   return with_unit(significant(value, 2), quantity.unit);
 }
 
+/// Values with as many decimals as two significant digits of the least take.
+std::vector<std::string> value_texts(const std::vector<double>& values,
+                                     const LineQuantity& quantity) {
+  constexpr int kMostDecimals = 6;
+  double least = HUGE_VAL;
+  for (const double value : values)
+    if (value != 0.0) least = std::min(least, std::abs(value));
+  const int exponent = std::isfinite(least) ? static_cast<int>(std::floor(std::log10(least))) : 0;
+  const int decimals = std::clamp(1 - exponent, 0, kMostDecimals);
+  std::vector<std::string> texts;
+  for (const double value : values)
+    texts.push_back(with_unit(rounded_text(value, decimals, 2), quantity.unit));
+  return texts;
+}
+
 std::set<double> xs_of(const std::vector<ErrorLine>& lines) {
   std::set<double> xs;
   for (const At& at : all_known(lines)) xs.insert(at.x());
   return xs;
+}
+
+/// Without its parameter: "SMACOF kNN" of "SMACOF, kNN weights, K = 7".
+std::string name_alone(const std::string& label) {
+  return without_parameters(short_method_name(label));
+}
+
+/// How a sentence names a line: short, and without the parameter unless another line is then alike.
+std::string named(const ErrorLine& line, const std::vector<ErrorLine>& lines) {
+  const std::string name = name_alone(line.label);
+  const bool is_unique = std::ranges::none_of(lines, [&](const ErrorLine& other) {
+    return other.label != line.label && name_alone(other.label) == name;
+  });
+  return is_unique ? name : short_method_name(line.label);
+}
+
+std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLine>& lines) {
+  std::vector<std::string> names;
+  for (const At& at : some) names.push_back(named(*at.line, lines));
+  return listed(names, kMostNamed);
+}
+
+/// Whether no reader should rank two values: their intervals overlap, or the digits shown are
+/// equal.
+bool tie(const At& a, const At& b, const LineQuantity& quantity) {
+  if (a.mean() == b.mean() || overlap(a, b)) return true;
+  const std::vector<std::string> texts = value_texts({a.mean(), b.mean()}, quantity);
+  return texts[0] == texts[1];
+}
+
+/// Those that tie with the best, the best first, and the others, ascending from the best on.
+struct Contest {
+  std::vector<At> equal, others;
+};
+
+Contest contest_of(std::vector<At> known, const LineQuantity& quantity) {
+  std::ranges::stable_sort(known, [&](const At& a, const At& b) {
+    return quantity.lower_is_better ? a.mean() < b.mean() : a.mean() > b.mean();
+  });
+  Contest contest;
+  for (const At& at : known)
+    (at.line == known.front().line || tie(at, known.front(), quantity) ? contest.equal
+                                                                       : contest.others)
+        .push_back(at);
+  return contest;
+}
+
+/// "0.19 m to 0.23 m"; one value if both round to the same.
+std::string span_text(const std::vector<At>& some, const LineQuantity& quantity) {
+  const auto [least, greatest] = std::ranges::minmax(some, {}, &At::mean);
+  const std::vector<std::string> texts = value_texts({least.mean(), greatest.mean()}, quantity);
+  return texts[0] == texts[1] ? texts[0] : texts[0] + " to " + texts[1];
+}
+
+/// Of many lines that tie with the best: "after 2000 steps, 4 of 5 methods have
+/// an MPE of 0.19 m to 0.23 m, LEM 0.40 m".
+std::string equal_words(const Contest& contest, const std::vector<ErrorLine>& lines,
+                        const LineQuantity& quantity, const std::string& where) {
+  const std::size_t all = contest.equal.size() + contest.others.size();
+  const std::string number =
+      contest.others.empty() ? "all" : fmt::format("{}", contest.equal.size());
+  std::string text;
+  if (!quantity.family.empty())
+    text = fmt::format("{}, {} of {} have", where, number, quantity.family);
+  else if (contest.others.empty())
+    text =
+        fmt::format("{}, {} methods have", where, all == 2 ? "both" : fmt::format("all {}", all));
+  else
+    text = fmt::format("{}, {} of {} methods have", where, number, all);
+  text +=
+      fmt::format(" {} of {}", with_article(quantity.label), span_text(contest.equal, quantity));
+  if (contest.others.empty()) return text;
+  if (contest.others.size() > kMostOthers)
+    return fmt::format("{}, the others {}", text, span_text(contest.others, quantity));
+  std::vector<std::string> others;
+  for (const At& at : contest.others)
+    others.push_back(named(*at.line, lines) + " " + value_text(at.mean(), quantity));
+  return fmt::format("{}, {}", text, listed(others, kMostOthers));
+}
+
+/// The lines that are best at an x, several if they tie.
+std::vector<At> best_at(const std::vector<ErrorLine>& lines, double x,
+                        const LineQuantity& quantity) {
+  return contest_of(known_at(lines, x), quantity).equal;
+}
+
+bool is_plural(const ErrorLine& line, const LineQuantity& quantity) {
+  return std::ranges::find(quantity.plural, line.label) != quantity.plural.end();
+}
+
+bool has_line(const std::vector<At>& some, const ErrorLine* line) {
+  return std::ranges::find(some, line, &At::line) != some.end();
+}
+
+bool are_alike(const std::vector<At>& a, const std::vector<At>& b) {
+  return a.size() == b.size() &&
+         std::ranges::all_of(a, [&](const At& at) { return has_line(b, at.line); });
 }
 
 }  // namespace
@@ -89,26 +204,34 @@ LineAxis line_axis(const std::string& label) {
   return {label.substr(0, unit), label.substr(unit + 2, label.size() - unit - 3)};
 }
 
+std::string with_article(const std::string& label) {
+  constexpr std::string_view kSpoken = "AEFHILMNORSX";  // Letters whose names begin with a vowel.
+  constexpr std::string_view kVowels = "aeiouAEIOU";
+  const auto is_capital = [&](std::size_t i) { return label[i] >= 'A' && label[i] <= 'Z'; };
+  const bool is_initials = label.size() > 1 && is_capital(0) && is_capital(1);
+  const bool has_vowel =
+      !label.empty() && (is_initials ? kSpoken : kVowels).find(label[0]) != std::string_view::npos;
+  return (has_vowel ? "an " : "a ") + label;
+}
+
 std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                         const std::string& where) {
   const std::set<double> xs = xs_of(lines);
   if (xs.empty()) return "";
-  const std::vector<At> known = known_at(lines, *xs.rbegin());
-  const At best = best_in(known, quantity);
-  const std::string at = fmt::format(fmt::runtime(where), data_number(best.x()));
+  const Contest contest = contest_of(known_at(lines, *xs.rbegin()), quantity);
+  const std::string at = fmt::format(fmt::runtime(where), data_number(*xs.rbegin()));
   if (lines.size() == 1)
-    return fmt::format("{} has {} of {} {}", best.line->label, quantity.label,
-                       value_text(best.mean(), quantity), at);
-  std::vector<std::string> names = {best.line->label};
-  for (const At& other : known)
-    if (other.line != best.line && overlap(other, best)) names.push_back(other.line->label);
-  if (names.size() == 1)
-    return fmt::format("{} {} {}, {}", names.front(), has_the_best(quantity, false), at,
-                       value_text(best.mean(), quantity));
-  if (names.size() == known.size() && names.size() > kMostNamed)
-    return fmt::format("No method differs clearly in {} {}", quantity.label, at);
-  return fmt::format("{} {} {}, from {}", listed(names, kMostNamed), has_the_best(quantity, true),
-                     at, value_text(best.mean(), quantity));
+    return fmt::format("{} has {} of {} {}", named(lines.front(), lines),
+                       with_article(quantity.label),
+                       value_text(contest.equal.front().mean(), quantity), at);
+  if (contest.equal.size() > kMostNamed || (contest.others.empty() && contest.equal.size() > 1))
+    return equal_words(contest, lines, quantity, at);
+  std::vector<double> means;
+  for (const At& one : contest.equal) means.push_back(one.mean());
+  const std::string family = quantity.family.empty() ? "" : fmt::format("of {}, ", quantity.family);
+  return fmt::format("{}{} {} {}, {}", family, listed_names(contest.equal, lines),
+                     has_the_best(quantity, contest.equal.size() > 1), at,
+                     listed(value_texts(means, quantity), kMostNamed));
 }
 
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
@@ -116,23 +239,60 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
   const std::set<double> xs = xs_of(lines);
   if (xs.empty()) return "";
   if (lines.size() == 1) return best_of_all(lines, quantity, axis);
-  std::set<std::string> best;
-  for (const double x : xs) {
-    const std::vector<At> known = known_at(lines, x);
-    const At at = best_in(known, quantity);
-    if (is_tied(known, at)) return "";
-    best.insert(at.line->label);
+  std::vector<std::vector<At>> best;
+  for (const double x : xs) best.push_back(best_at(lines, x, quantity));
+  const auto in_all = [](const std::vector<std::vector<At>>& points) {
+    std::vector<At> some = points.front();
+    for (const std::vector<At>& one : points)
+      std::erase_if(some, [&](const At& at) { return !has_line(one, at.line); });
+    return some;
+  };
+  const auto finding = [&](const std::vector<At>& some) {
+    return fmt::format(
+        "{} {}", listed_names(some, lines),
+        has_the_best(quantity, some.size() > 1 || is_plural(*some.front().line, quantity)));
+  };
+  const std::vector<At> throughout = in_all(best);
+  if (throughout.size() == lines.size()) return "";
+  if (!throughout.empty() && throughout.size() <= kMostNamed) {
+    const auto alone = std::ranges::count_if(
+        best, [&](const std::vector<At>& one) { return one.size() == throughout.size(); });
+    const auto of_all = std::ranges::count_if(best, [&](const std::vector<At>& one) {
+      return one.size() == known_at(lines, one.front().x()).size();
+    });
+    if (alone == 0) return "";
+    if (alone == std::ssize(best)) return finding(throughout) + " throughout";
+    if (alone + of_all == std::ssize(best)) return finding(throughout) + " wherever they differ";
+    return fmt::format("{}, alone at {} of {} points", finding(throughout), alone, best.size());
   }
-  const At first = best_in(known_at(lines, *xs.begin()), quantity);
-  const At last = best_in(known_at(lines, *xs.rbegin()), quantity);
-  if (best.size() == 1)
-    return fmt::format("{} {} throughout", first.line->label, has_the_best(quantity, false));
-  if (first.line->label == last.line->label)
-    return fmt::format("{} {} at both ends, but not throughout", first.line->label,
-                       has_the_best(quantity, false));
-  return fmt::format("{} {} at {}, {} at {}", first.line->label, has_the_best(quantity, false),
-                     equation(axis, first.x()), last.line->label,
-                     with_unit(data_number(last.x()), axis.unit));
+  // Where all lines are equal, as without a disturbance, none is better.
+  std::vector<std::vector<At>> differing = best;
+  std::erase_if(differing, [&](const std::vector<At>& one) {
+    return one.size() == known_at(lines, one.front().x()).size();
+  });
+  if (differing.empty()) return "";
+  if (const std::vector<At> some = in_all(differing); !some.empty() && some.size() <= kMostNamed)
+    return finding(some) + " wherever they differ";
+  std::erase_if(differing, [](const std::vector<At>& one) { return one.size() > kMostNamed; });
+  if (differing.empty()) return "";
+  const std::vector<At>&first = differing.front(), &last = differing.back();
+  if (are_alike(first, last)) {
+    const double from = first.front().x(), to = last.front().x();
+    const bool is_between = std::ranges::any_of(best, [&](const std::vector<At>& one) {
+      const double x = one.front().x();
+      return from < x && x < to &&
+             std::ranges::any_of(first, [&](const At& at) { return has_line(one, at.line); });
+    });
+    // One point is left alone if at all others too many lines are equal to be named.
+    const std::string where = from == to ? place(axis, from, quantity)
+                                         : fmt::format("{} and {}", place(axis, from, quantity),
+                                                       with_unit(data_number(to), axis.unit));
+    return fmt::format("{} at {}, but not {}", finding(first), where,
+                       is_between || from == to ? "throughout" : "between");
+  }
+  return fmt::format("{} at {}, {} at {}", finding(first), place(axis, first.front().x(), quantity),
+                     listed_names(last, lines),
+                     with_unit(data_number(last.front().x()), axis.unit));
 }
 
 std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
@@ -143,10 +303,42 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
   if (lines.size() == 1)
     return fmt::format("the {} {} of {} is {} at {}",
                        quantity.lower_is_better ? "lowest" : "highest", quantity.label,
-                       best.line->label, value_text(best.mean(), quantity),
-                       equation(axis, best.x()));
-  return fmt::format("{} {}, {} at {}", best.line->label, has_the_best(quantity, false),
-                     value_text(best.mean(), quantity), equation(axis, best.x()));
+                       named(*best.line, lines), value_text(best.mean(), quantity),
+                       place(axis, best.x(), quantity));
+  const bool has_tie = std::ranges::any_of(
+      known, [&](const At& at) { return at.line != best.line && tie(at, best, quantity); });
+  if (has_tie) return "";
+  return fmt::format("{} {}, {} at {}", named(*best.line, lines), has_the_best(quantity, false),
+                     value_text(best.mean(), quantity), place(axis, best.x(), quantity));
+}
+
+std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
+                           const LineQuantity& quantity) {
+  std::map<std::string, int> wins;
+  std::vector<ErrorLine> all;
+  int points = 0;
+  double value = 0.0;
+  for (const std::vector<ErrorLine>& lines : panels) {
+    for (const ErrorLine& line : lines)
+      if (std::ranges::find(all, line.label, &ErrorLine::label) == all.end()) all.push_back(line);
+    for (const double x : xs_of(lines)) {
+      ++points;
+      const std::vector<At> best = best_at(lines, x, quantity);
+      if (best.size() > 1) continue;
+      ++wins[best.front().line->label];
+      value = best.front().mean();
+    }
+  }
+  if (wins.empty()) return "";
+  const auto most = std::ranges::max_element(wins, {}, &std::pair<const std::string, int>::second);
+  if (std::ranges::count(wins, most->second, &std::pair<const std::string, int>::second) > 1)
+    return "";
+  const auto& line = *std::ranges::find(all, most->first, &ErrorLine::label);
+  const std::string best =
+      fmt::format("{} {}", named(line, all), has_the_best(quantity, is_plural(line, quantity)));
+  if (points == 1) return fmt::format("{}, {}", best, value_text(value, quantity));
+  if (most->second == points) return best + " at all points";
+  return fmt::format("{} at {} of {} points", best, most->second, points);
 }
 
 }  // namespace mapproof

@@ -9,11 +9,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
 namespace {
@@ -33,6 +35,17 @@ std::vector<std::size_t> by_length(const WindowCurve& windows) {
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::sort(order, {}, [&](std::size_t i) { return windows.lengths_s[i]; });
   return order;
+}
+
+/// "4 windows, of 2.3 s to 6.4 s, predict nothing." @param lengths_s  Ascending, not empty.
+std::string failed_words(const std::vector<double>& lengths_s) {
+  const auto seconds = [](double length_s) {
+    return with_unit(fmt::format("{:.3g}", length_s), "s");
+  };
+  const std::string shortest = seconds(lengths_s.front());
+  return lengths_s.size() == 1 ? fmt::format("The window of {} predicts nothing.", shortest)
+                               : fmt::format("{} windows, of {} to {}, predict nothing.",
+                                             lengths_s.size(), shortest, seconds(lengths_s.back()));
 }
 
 constexpr const char* kMeasurements = "ranges";
@@ -63,9 +76,10 @@ int pairs_of(const ConvergenceCurve& curve) {
 }
 
 std::string means_of(const ConvergenceCurve& curve) {
-  return fmt::format("Means over {} of path and environment, {}, {}; bars: 95 % intervals.",
-                     counted(pairs_of(curve), "random pair"), counted(curve.landmarks, "landmark"),
-                     curve.title);
+  return fmt::format(
+      "Means over {} of path and environment, {}, {}; bars: 95 % intervals, arrows: those that "
+      "reach below the frame, as to 0.",
+      counted(pairs_of(curve), "random pair"), counted(curve.landmarks, "landmark"), curve.title);
 }
 
 std::string slope_of(const ErrorLine& line) {
@@ -113,7 +127,7 @@ std::string angle_title(const ErrorLine& sine, const ErrorLine& bound) {
 
 /// What the largest factorisation took.
 std::string factorization_title(std::span<const FactorizationCost> costs) {
-  if (costs.empty()) return "Seconds of the factorisation";
+  if (costs.empty()) return "Time of the factorisation";
   const FactorizationCost& most = *std::ranges::max_element(costs, {}, [](const auto& cost) {
     return static_cast<double>(cost.landmarks) * cost.landmarks * static_cast<double>(cost.steps);
   });
@@ -122,7 +136,9 @@ std::string factorization_title(std::span<const FactorizationCost> costs) {
 }
 
 /// Costs with the same N or the same T as a line; alone they make none.
-std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool over_steps) {
+/// @param factor  Of the seconds.
+std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool over_steps,
+                                  double factor) {
   const auto fixed = [&](const FactorizationCost& cost) {
     return over_steps ? static_cast<long>(cost.landmarks) : cost.steps;
   };
@@ -142,7 +158,7 @@ std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool
     std::ranges::sort(members, {}, varied);
     for (const FactorizationCost& cost : members) {
       line.x.push_back(static_cast<double>(varied(cost)));
-      line.mean.push_back(cost.seconds);
+      line.mean.push_back(factor * cost.seconds);
     }
     if (line.x.size() > 1 && line.x.front() < line.x.back()) lines.push_back(std::move(line));
   }
@@ -156,10 +172,8 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   const WindowCurve& windows = spec.windows;
   const ErrorAxis axis = error_axis(windows.held_out_m, {}, 6.0);
   Polyline curve{.label = "held-out ranges", .marker = Marker::kCircle, .mark = {"held-out", {}}};
-  Scatter failed{
-      .label = "predicts nothing", .colour = ThemeColour::kWarning, .marker = Marker::kCross};
   Scatter chosen{.label = "chosen", .colour = ThemeColour::kSeries2, .filled = false, .size = 2.0};
-  const double top = axis.near_top();
+  std::vector<double> failed_s;
   Figure figure;
   figure.alt = "Typical error of held-out ranges by window length:";
   for (const std::size_t i : by_length(windows)) {
@@ -167,11 +181,12 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
     const bool predicts = std::isfinite(error);
     figure.alt +=
         fmt::format(" {:.3g} s {};", length, predicts ? error_text(error) : "predicts nothing");
-    const Point at{length, predicts ? axis.raised({error}).front() : top};
-    if (!predicts)
-      add_point(failed, at);
-    else
-      add_point(curve, at);
+    if (!predicts) {
+      failed_s.push_back(length);
+      continue;
+    }
+    const Point at{length, axis.raised({error}).front()};
+    add_point(curve, at);
     if (length != windows.chosen_s) continue;
     add_point(chosen, at);
     chosen.marks.push_back({"chosen", {{"x", data_number(length)}, {"y", data_number(error)}}});
@@ -189,9 +204,15 @@ Figure window_curve_figure(const WindowCurveSpec& spec) {
   Panel& panel = figure.panels.emplace_back();
   panel.x = {.label = "window length [s]", .scale = Scale::kLog};
   panel.y = {.label = "held-out range error [m]", .scale = axis.scale, .limits = axis.limits};
-  panel.layers = {curve, failed, chosen};
+  panel.layers = {curve, chosen};
   std::erase_if(panel.layers, is_empty);
-  if (panel.layers.empty()) figure.notes.push_back({"No length was tried.", ThemeColour::kWarning});
+  if (!failed_s.empty()) {
+    const std::string failed = failed_words(failed_s);
+    figure.caption += " " + failed;
+    figure.notes.push_back({failed, ThemeColour::kText});
+  }
+  if (panel.layers.empty() && failed_s.empty())
+    figure.notes.push_back({"No length was tried.", ThemeColour::kWarning});
   require_valid(figure);
   return figure;
 }
@@ -274,16 +295,24 @@ Figure factorization_cost_figure(const std::string& id, std::span<const Factoriz
   spec.title = factorization_title(costs);
   spec.varies = true;
   spec.caption =
-      "Seconds of singular values and upgrade over the number of steps T and of landmarks N, "
-      "with the slopes of O((2N)\u00B2 T). They vary from run to run.";
-  spec.panels = {
-      {"Over steps", "steps T", "seconds", cost_lines(costs, true), SlopeGuide{"slope 1", 1.0}, {}},
-      {"Over landmarks",
-       "landmarks N",
-       "seconds",
-       cost_lines(costs, false),
-       SlopeGuide{"slope 2", 2.0},
-       {}}};
+      "Time of singular values and upgrade over the number of steps T and of landmarks N, with the "
+      "slopes of O((2N)\u00B2 T). It varies from run to run.";
+  double longest_s = 0.0;
+  for (const FactorizationCost& cost : costs) longest_s = std::max(longest_s, cost.seconds);
+  const ScaledUnit unit = scaled_unit("s", longest_s);
+  const std::string label = fmt::format("time [{}]", unit.unit);
+  spec.panels = {{"Over steps",
+                  "steps T",
+                  label,
+                  cost_lines(costs, true, unit.factor),
+                  SlopeGuide{"slope 1", 1.0},
+                  {}},
+                 {"Over landmarks",
+                  "landmarks N",
+                  label,
+                  cost_lines(costs, false, unit.factor),
+                  SlopeGuide{"slope 2", 2.0},
+                  {}}};
   return log_log_figure(spec);
 }
 

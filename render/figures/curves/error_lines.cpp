@@ -23,7 +23,7 @@ constexpr std::array kMarkers = {Marker::kCircle,  Marker::kSquare,       Marker
 constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDashDot, Dash::kDotted,
                                 Dash::kLongDash};
 
-constexpr double kLeastOfHeight = 0.3;  // What values take of an axis from 0.
+constexpr double kLeastOfHeight = 0.3;  // What lines take of an axis from 0.
 
 /// "; bands: its 95 % interval", or bars where bands would hide each other; empty without
 /// intervals.
@@ -59,19 +59,20 @@ void append(std::vector<double>& all, const std::vector<double>& some) {
 }
 
 ErrorAxis axis_of(const ErrorLinesSpec& spec) {
-  std::vector<double> means, intervals;
+  std::vector<double> means, intervals, points;
   for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
       append(means, line.mean);
       append(intervals, line.low);
       append(intervals, line.high);
     }
-    for (const ErrorPoint& point : panel.points) means.push_back(point.y);
+    for (const ErrorPoint& point : panel.points) points.push_back(point.y);
   }
   const auto beyond = [&](double value) { return value > spec.ceiling; };
   std::erase_if(means, beyond);
+  std::erase_if(points, beyond);
   std::ranges::replace_if(intervals, beyond, spec.ceiling);
-  return error_axis(means, intervals, spec.log_from);
+  return error_axis(means, intervals, spec.log_from, points);
 }
 
 /// Labels in the order of their first appearance, and the style of each.
@@ -269,11 +270,11 @@ std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>
 }
 
 ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
-                     double log_from) {
-  Span of_means, all;
-  of_means.see(means);
-  all.see(means);
-  all.see(intervals);
+                     double log_from, const std::vector<double>& points) {
+  Span of_means, lines, all;
+  for (Span* span : {&of_means, &lines, &all}) span->see(means);
+  for (Span* span : {&lines, &all}) span->see(intervals);
+  for (Span* span : {&of_means, &all}) span->see(points);
   if (!of_means.known()) return {Scale::kLinear, {0.0, 1.0}};
   if (of_means.low > 0.0 && of_means.high / of_means.low > log_from) {
     const double low = std::max(all.low, of_means.low / 3.0);
@@ -281,9 +282,11 @@ ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>
     const double margin = std::pow(high / low, 0.05);
     return {Scale::kLog, {low / margin, high * margin}};
   }
-  // From 0, unless all the values would lie in the frame's uppermost part.
+  // From 0, unless all the lines would lie in the frame's uppermost part.
   const double extent = all.high - all.low;
-  if (extent > 0.0 && extent < kLeastOfHeight * all.high)
+  const bool is_high = extent < kLeastOfHeight * all.high ||
+                       (all.low > 0.0 && lines.low > (1.0 - kLeastOfHeight) * 1.06 * all.high);
+  if (extent > 0.0 && is_high)
     return {Scale::kLinear, {all.low - 0.06 * extent, all.high + 0.06 * extent}};
   const double low = std::min(all.low, 0.0);
   const double high = all.high > low ? all.high : low + 1.0;

@@ -101,7 +101,8 @@ struct ErrorAxis {
 };
 
 /// @param intervals  Both ends of the intervals; may be empty.
+/// @param points     Other values that the frame holds, as of single runs.
 ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
-                     double log_from = 20.0);
+                     double log_from = 20.0, const std::vector<double>& points = {});
 
 }  // namespace mapproof

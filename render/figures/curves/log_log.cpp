@@ -17,6 +17,7 @@ namespace {
 constexpr double kAbove = 1.8;        // Factor of a guide over the highest first value.
 constexpr double kAxisMargin = 0.06;  // Of an axis' length, at both ends.
 constexpr double kLeastSpan = 2.0;    // Of the greatest over the least value on an axis.
+constexpr double kLowestBar = 3.0;    // Factor below the least mean to which bars widen the axis.
 
 bool is_shown(double value) { return value > 0.0 && std::isfinite(value); }
 
@@ -46,6 +47,7 @@ class PanelBuilder {
   explicit PanelBuilder(const LogLogPanel& from) : from_(from) {
     for (const auto* lines : {&from.lines, &from.bounds})
       for (const ErrorLine& line : *lines) see(line);
+    see_lows();
   }
 
   Panel build() {
@@ -55,13 +57,14 @@ class PanelBuilder {
     y_.see(guide.y);
     panel.x = {.label = from_.x_label, .scale = Scale::kLog, .limits = widened(x_)};
     panel.y = {.label = from_.y_label, .scale = Scale::kLog, .limits = widened(y_)};
-    low_end_ = 0.5 * panel.y.limits->low;
+    low_end_ = panel.y.limits->low;
     panel.layers.push_back(guide);
     for (const ErrorLine& bound : from_.bounds)
       panel.layers.push_back(line(bound, {ThemeColour::kText, Dash::kDashed, Marker::kNone}));
     for (std::size_t i = 0; i < from_.lines.size(); ++i) {
       const SeriesStyle style = series_style(from_.lines[i].series.value_or(i));
-      panel.layers.push_back(bars(from_.lines[i], style, aside(i)));
+      for (const bool is_open : {false, true})
+        panel.layers.push_back(bars(from_.lines[i], style, aside(i), is_open));
       panel.layers.push_back(line(from_.lines[i], style));
     }
     std::erase_if(panel.layers, is_empty);
@@ -75,7 +78,16 @@ class PanelBuilder {
       x_.see(line.x[i]);
       y_.see(line.mean[i]);
       if (!line.high.empty() && is_shown(line.high[i])) y_.see(line.high[i]);
+      if (!line.low.empty()) lows_.push_back(line.low[i]);
     }
+  }
+
+  /// Widens the axis for the lower ends of bars: for those that reach to 0 or far down, which end
+  /// in arrows, by as much as arrows need.
+  void see_lows() {
+    if (!y_.known()) return;
+    const double lowest = y_.low / kLowestBar;
+    for (const double low : lows_) y_.see(std::max(low, lowest));
   }
 
   static Polyline line(const ErrorLine& from, const SeriesStyle& style) {
@@ -97,12 +109,17 @@ class PanelBuilder {
     return x_.known() ? std::pow(std::max(x_.high / x_.low, kLeastSpan), kStep * steps) : 1.0;
   }
 
-  Segments bars(const ErrorLine& from, const SeriesStyle& style, double aside) const {
-    Segments bars{.colour = style.colour, .width = 1.6};
+  /// @param is_open  Those that end below the frame, as arrows down to it; else the others.
+  Segments bars(const ErrorLine& from, const SeriesStyle& style, double aside, bool is_open) const {
+    Segments bars{.colour = style.colour, .width = 1.6, .arrow = is_open};
     for (std::size_t i = 0; i < from.low.size(); ++i) {
       if (!is_shown(from.x[i]) || !is_shown(from.mean[i]) || !is_shown(from.high[i])) continue;
-      const double low = is_shown(from.low[i]) ? std::max(from.low[i], low_end_) : low_end_;
-      add_line(bars, {aside * from.x[i], low}, {aside * from.x[i], from.high[i]});
+      if (is_open != (from.low[i] < low_end_)) continue;
+      const Point high{aside * from.x[i], from.high[i]};
+      if (is_open)
+        add_line(bars, high, {high.x, low_end_});
+      else
+        add_line(bars, {high.x, from.low[i]}, high);
     }
     return bars;
   }
@@ -124,6 +141,7 @@ class PanelBuilder {
 
   const LogLogPanel& from_;
   Span x_, y_;
+  std::vector<double> lows_;
   double low_end_ = 0.0;
 };
 

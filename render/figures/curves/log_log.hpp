@@ -44,7 +44,8 @@ double log_log_slope(const std::vector<double>& x, const std::vector<double>& y)
 std::string slope_words(double slope);
 
 /// Panels with two logarithmic axes each; values that are not positive are left out, and bars that
-/// reach down to zero end at the frame. The alt text gives each line's ends and its slope.
+/// reach to zero, or to less than a third of all means, end in arrows at the frame. The alt text
+/// gives each line's ends and its slope.
 /// @throws InvalidInput if a line's vectors disagree in length.
 Figure log_log_figure(const LogLogSpec& spec);
 

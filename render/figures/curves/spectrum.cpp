@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kLeastValue = 1e-12;  // Of the greatest value; smaller ones stand at the foot.
+constexpr double kLeastValue = 1e-12;  // Of the greatest value; smaller ones are not shown.
 constexpr std::size_t kMostSingularValues = 16;
 
 void require_values(const SingularValuesSpec& spec) {
@@ -62,8 +62,8 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
   Scatter kept{.label = "kept", .colour = ThemeColour::kSeries1};
   Scatter dropped{.label = "dropped", .colour = ThemeColour::kText, .filled = false};
   for (std::size_t i = 0; i < std::min(one.values.size(), kMostSingularValues); ++i) {
-    if (std::isnan(one.values[i])) continue;
-    const Point at{static_cast<double>(i + 1), std::max(one.values[i], y.low)};
+    if (std::isnan(one.values[i]) || one.values[i] < y.low) continue;
+    const Point at{static_cast<double>(i + 1), one.values[i]};
     add_line(stems, {at.x, y.low}, at);
     Scatter& points = i < one.rank ? kept : dropped;
     add_point(points, at);
@@ -152,13 +152,18 @@ Figure singular_values_figure(const SingularValuesSpec& spec) {
       "dashed: the level of noise, or the greatest value that is dropped.";
   figure.alt = "Singular values, logarithmic.";
   const Range y = limits_of(shown);
+  std::ptrdiff_t below = 0;
   for (const SingularValues* one : shown) {
     figure.panels.push_back(panel_of(*one, figure.panels.size(), y, last));
     figure.alt += fmt::format(" {}:", one->title);
     for (std::size_t i = 0; i < std::min(one->values.size(), kMostSingularValues); ++i)
+      below += one->values[i] < y.low ? 1 : 0;
+    for (std::size_t i = 0; i < std::min(one->values.size(), kMostSingularValues); ++i)
       figure.alt += fmt::format("{} {}", i == 0 ? "" : ",", significant(one->values[i]));
     figure.alt += ".";
   }
+  if (below > 0)
+    figure.caption += fmt::format(" Not shown, as 0 within rounding: {}.", counted(below, "value"));
   if (figure.panels.empty()) {
     figure.panels.resize(1);
     figure.notes.push_back({"There are no singular values.", ThemeColour::kWarning});

@@ -22,15 +22,6 @@ bool is_position(const Points& points, Index row) {
   return points.row(row).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() < kFarthest;
 }
 
-/// The longest step of time that is not a pause.
-double longest_step(const Eigen::VectorXd& time_s) {
-  std::vector<double> steps;
-  for (Index i = 1; i < time_s.size(); ++i) steps.push_back(time_s(i) - time_s(i - 1));
-  if (steps.empty()) return kInfinity;
-  const double middle = upper_median(std::move(steps));
-  return middle > 0.0 ? kLongPause * middle : kInfinity;
-}
-
 /// Distance of a point from the piece of line between two others.
 double distance_m(const Points& points, Index row, Index from, Index to) {
   const Eigen::RowVector2d along = points.row(to) - points.row(from);
@@ -69,6 +60,14 @@ void add_break(ThinLine& line) {
 }
 
 }  // namespace
+
+double longest_step(const Eigen::VectorXd& time_s) {
+  std::vector<double> steps;
+  for (Index i = 1; i < time_s.size(); ++i) steps.push_back(time_s(i) - time_s(i - 1));
+  if (steps.empty()) return kInfinity;
+  const double middle = upper_median(std::move(steps));
+  return middle > 0.0 ? kLongPause * middle : kInfinity;
+}
 
 ThinLine thin_path(const Trajectory& path, double tolerance_m) {
   if (path.positions_m.rows() != path.size())

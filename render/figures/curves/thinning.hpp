@@ -14,6 +14,9 @@ struct ThinLine {
   std::vector<double> y;
 };
 
+/// The longest step of time that is not a pause: ten usual ones; infinite where there is none.
+double longest_step(const Eigen::VectorXd& time_s);
+
 /// A path with the fewest points that Douglas and Peucker's rule leaves: what is left out lies
 /// within `tolerance_m` of the line [douglas1973]. Positions that are not numbers, and pauses of
 /// more than ten usual steps of time, break it.

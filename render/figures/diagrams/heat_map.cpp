@@ -9,6 +9,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/unit_text.hpp"
+#include "render/figures/curves/best_line.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/number_text.hpp"
 
@@ -57,6 +58,13 @@ Range span_of(const HeatMapSpec& spec) {
   return {range.low - around, range.high + around};
 }
 
+std::string cell_text(const HeatMapSpec& spec, double value, Scale scale) {
+  constexpr int kDigits = 3;
+  if (scale == Scale::kLinear) return rounded_text(value, spec.decimals, kCellDigits);
+  const int before = static_cast<int>(std::floor(std::log10(value))) + 1;
+  return rounded_text(value, std::clamp(kDigits - before, 0, spec.decimals), kCellDigits);
+}
+
 Cells cells_of(const HeatMapSpec& spec) {
   Cells cells;
   const std::size_t columns = spec.x_names.size(), rows = spec.y_names.size();
@@ -75,12 +83,13 @@ Cells cells_of(const HeatMapSpec& spec) {
       const double value = spec.values[row * columns + column];
       const bool is_there = std::isfinite(value);
       cells.values.push_back(is_there ? value : kNaN);
-      cells.text.push_back(is_there ? rounded_text(value, spec.decimals, kCellDigits) : "");
+      cells.text.push_back(is_there ? cell_text(spec, value, cells.colour_scale.scale) : "");
     }
   return cells;
 }
 
-std::string description_of(const HeatMapSpec& spec) {
+/// The cells of the least and of the greatest value.
+std::pair<std::size_t, std::size_t> extreme_cells(const HeatMapSpec& spec) {
   std::size_t least = 0, most = 0;
   const auto beats = [&](std::size_t i, std::size_t so_far, double sign) {
     const double value = spec.values[i], best = spec.values[so_far];
@@ -90,6 +99,11 @@ std::string description_of(const HeatMapSpec& spec) {
     if (beats(i, least, -1.0)) least = i;
     if (beats(i, most, 1.0)) most = i;
   }
+  return {least, most};
+}
+
+std::string description_of(const HeatMapSpec& spec) {
+  const auto [least, most] = extreme_cells(spec);
   return fmt::format("Least: {} at {}; greatest: {} at {}.", with_unit_of(spec, spec.values[least]),
                      place_of(spec, least), with_unit_of(spec, spec.values[most]),
                      place_of(spec, most));
@@ -132,6 +146,18 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
   figure.alt = figure.caption + " " + description_of(spec);
   require_valid(figure);
   return figure;
+}
+
+std::string heat_map_finding(const HeatMapSpec& spec, const std::string& quantity) {
+  check_heat_map(spec);
+  const auto words = [&](std::size_t cell) {
+    return fmt::format(
+        "{} at {} and {}", with_unit(significant(spec.values[cell], 2), spec.unit),
+        with_unit(spec.x_names[cell % spec.x_names.size()], line_axis(spec.x_label).unit),
+        with_unit(spec.y_names[cell / spec.x_names.size()], line_axis(spec.y_label).unit));
+  };
+  const auto [least, most] = extreme_cells(spec);
+  return fmt::format("lowest {} {}, highest {}", quantity, words(least), words(most));
 }
 
 }  // namespace mapproof

@@ -15,7 +15,9 @@ struct HeatMapSpec {
   std::vector<std::string> x_names, y_names;  ///< Of their levels, ascending.
   /// One per combination: row by row, the rows in the order of `y_names`; NaN: missing.
   std::vector<double> values;
-  int decimals = 3;                  ///< Of the numbers in the cells: rounded_text().
+  /// Of the numbers in the cells: rounded_text(); of logarithmic colours, at most, and three
+  /// digits.
+  int decimals = 3;
   std::string quantity;              ///< "MPE".
   std::string unit;                  ///< "m"; may be empty.
   std::string missing = "no value";  ///< What a hatched cell means.
@@ -28,5 +30,10 @@ struct HeatMapSpec {
 /// and are not percentages.
 /// @throws InvalidInput if values and levels differ in number or no value is there.
 Figure heat_map_figure(const HeatMapSpec& spec);
+
+/// Where the values are least and greatest, as a title: "lowest MPE 0.04 m at 50 and 1.5 m, highest
+/// 0.36 m at 80 and 4 m", first the level of x. @param quantity  In a sentence.
+/// @throws InvalidInput as above.
+std::string heat_map_finding(const HeatMapSpec& spec, const std::string& quantity);
 
 }  // namespace mapproof

@@ -149,7 +149,8 @@ class MeasurementFigure {
                      heading(0.22 * m_.reach_m),
                      robot()};
     const std::size_t seen = count(View::kVisible), hidden = count(View::kHidden);
-    figure_.title = "Visibility-only measurement";
+    figure_.title = fmt::format("Visibility-only measurement: {} seen, {} hidden",
+                                counted(seen, "landmark"), hidden);
     figure_.caption = fmt::format(
         "Visibility at step {} of layout {}, pose {}: of {} the robot sees {}; {} within {} mm "
         "hidden behind another. Filled: visible; heavy rings: hidden; pale: out of reach; grey: "
@@ -179,7 +180,8 @@ class MeasurementFigure {
     panel_.layers.push_back(robot());
     panel_.layers.push_back(labels);
     const auto known = static_cast<std::size_t>((m_.bearings_rad.array().isFinite()).count());
-    figure_.title = "Bearing-only measurement";
+    figure_.title =
+        fmt::format("Bearing-only measurement: the angles to {}", counted(known, "landmark"));
     figure_.caption = fmt::format(
         "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
         "{}.",

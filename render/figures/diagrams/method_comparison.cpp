@@ -12,6 +12,8 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/figures/unit_scale.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -260,21 +262,23 @@ struct ParetoLayers {
   std::vector<std::string> words;  ///< Of those on the front.
 };
 
-void add_setting(Scatter& points, const CostedSetting& one, std::size_t i) {
-  add_point(points, {one.seconds, one.mpe_m});
+void add_setting(Scatter& points, const CostedSetting& one, double time, std::size_t i) {
+  add_point(points, {time, one.mpe_m});
   points.marks.push_back({fmt::format("setting-{}", i + 1),
                           {{"setting", one.label}, {"error", data_number(one.mpe_m)}}});
 }
 
-ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
+/// @param unit  Of the times.
+ParetoLayers layers_of(const std::vector<CostedSetting>& settings, const ScaledUnit& unit) {
   ParetoLayers layers;
   const std::vector<std::size_t> front = pareto_front(settings);
   for (const std::size_t i : front) {
     const CostedSetting& one = settings[i];
-    if (!layers.steps.x.empty()) add_point(layers.steps, {one.seconds, layers.steps.y.back()});
-    add_point(layers.steps, {one.seconds, one.mpe_m});
-    add_setting(layers.best, one, i);
-    add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+    const double time = unit.factor * one.seconds;
+    if (!layers.steps.x.empty()) add_point(layers.steps, {time, layers.steps.y.back()});
+    add_point(layers.steps, {time, one.mpe_m});
+    add_setting(layers.best, one, time, i);
+    add_label(layers.names, {time, one.mpe_m}, one.label);
     layers.words.push_back(
         fmt::format("{} ({} in {})", one.label, error_text(one.mpe_m), seconds_text(one.seconds)));
   }
@@ -282,8 +286,9 @@ ParetoLayers layers_of(const std::vector<CostedSetting>& settings) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const CostedSetting& one = settings[i];
     if (!usable(one) || std::ranges::find(front, i) != front.end()) continue;
-    add_setting(layers.beaten, one, i);
-    if (!crowded) add_label(layers.names, {one.seconds, one.mpe_m}, one.label);
+    const double time = unit.factor * one.seconds;
+    add_setting(layers.beaten, one, time, i);
+    if (!crowded) add_label(layers.names, {time, one.mpe_m}, one.label);
   }
   return layers;
 }
@@ -339,11 +344,13 @@ std::string ranking_title(const CriticalDifferenceSpec& spec, const std::string&
                             }) -
       1;
   const auto others = std::ssize(spec.methods) - 1;
-  return fmt::format("{} ranks best by {}; {}", best.label, by,
-                     alike == 0 ? "all others differ from it"
-                     : alike == others
-                         ? std::string("no other differs from it significantly")
-                         : fmt::format("{} of {} others do not differ from it", alike, others));
+  const std::string others_words =
+      alike == 0        ? "all others rank significantly lower"
+      : alike == others ? "no other differs from it significantly"
+                        : fmt::format("{} of {} others rank{} significantly lower", others - alike,
+                                      others, others - alike == 1 ? "s" : "");
+  return fmt::format("{} ranks best by {}; {}", without_parameters(short_method_name(best.label)),
+                     by, others_words);
 }
 
 Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {
@@ -394,10 +401,15 @@ std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings
 Figure pareto_figure(const ParetoSpec& spec) {
   require_costs(spec);
   std::vector<double> errors;
+  double longest_s = 0.0;
   for (const CostedSetting& one : spec.settings)
-    if (usable(one)) errors.push_back(one.mpe_m);
+    if (usable(one)) {
+      errors.push_back(one.mpe_m);
+      longest_s = std::max(longest_s, one.seconds);
+    }
   const ErrorAxis axis = error_axis(errors, {}, 8.0);
-  const ParetoLayers layers = layers_of(spec.settings);
+  const ScaledUnit unit = scaled_unit("s", longest_s);
+  const ParetoLayers layers = layers_of(spec.settings, unit);
 
   Figure figure;
   figure.id = spec.id;
@@ -405,7 +417,7 @@ Figure pareto_figure(const ParetoSpec& spec) {
   figure.record_ids = spec.record_ids;
   figure.varies = true;
   Panel& panel = figure.panels.emplace_back();
-  panel.x.label = "seconds a map";
+  panel.x.label = fmt::format("time per map [{}]", unit.unit);
   panel.x.scale = Scale::kLog;
   panel.y.label = spec.y_label;
   panel.y.scale = axis.scale;
@@ -414,10 +426,10 @@ Figure pareto_figure(const ParetoSpec& spec) {
   std::erase_if(panel.layers, is_empty);
 
   figure.caption =
-      "Mean error against the median seconds of a map, those of the maps it starts from included, "
-      "a point a setting; filled: no other is both faster and better. Seconds are of one run of "
-      "the program and differ from run to run.";
-  figure.alt = fmt::format("{} against seconds a map for {}.", spec.y_label,
+      "Mean error against the median time per map, that of the maps it starts from included, a "
+      "point per setting; filled: no other is both faster and better. Times are of one run of the "
+      "program and differ from run to run.";
+  figure.alt = fmt::format("{} against the time per map for {}.", spec.y_label,
                            counted(static_cast<long long>(errors.size()), "setting"));
   if (!layers.words.empty())
     figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";

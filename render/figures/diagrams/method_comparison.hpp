@@ -58,8 +58,8 @@ struct CriticalDifferenceSpec {
 ///         difference is positive and there are at most 30 methods.
 Figure critical_difference_figure(const CriticalDifferenceSpec& spec);
 
-/// What such a diagram shows, as a title: "SDE ranks best by MPE; 3 of 9 others do not differ from
-/// it". @param by  What the methods are ranked by.
+/// What such a diagram shows, as a title: "SDE ranks best by MPE; 6 of 9 others rank significantly
+/// lower". @param by  What the methods are ranked by.
 std::string ranking_title(const CriticalDifferenceSpec& spec, const std::string& by);
 
 /// What a setting of a method costs and how far its maps are off.
@@ -81,8 +81,8 @@ struct ParetoSpec {
 /// first.
 std::vector<std::size_t> pareto_front(const std::vector<CostedSetting>& settings);
 
-/// Error against seconds a map, a point a setting, those on the front filled, named and joined.
-/// Seconds differ from run to run: the figure is marked so.
+/// Error against the time per map, a point per setting, those on the front filled, named and
+/// joined. Times differ from run to run: the figure is marked so.
 /// @throws InvalidInput if a value is infinite or negative.
 Figure pareto_figure(const ParetoSpec& spec);
 

@@ -54,6 +54,12 @@ std::string in_lines(std::string words) {
   return words;
 }
 
+std::string in_one_line(std::string title) {
+  if (const std::size_t end = title.find('\n'); end != std::string::npos)
+    title.replace(end, 1, ", ");
+  return title;
+}
+
 /// For a panel of a strip: no names, small marks.
 void make_small(Panel& panel) {
   std::erase_if(panel.layers,
@@ -75,8 +81,9 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
     if (!named) make_small(panel);
     figure.panels.push_back(std::move(panel));
     figure.record_ids.push_back(record.id);
-    figure.alt += (i == 0 ? "" : "; ") + maps[i]->title + " " + scored(*maps[i], true);
-    if (record.estimate.array().isNaN().any()) without_position.push_back(maps[i]->title);
+    figure.alt += (i == 0 ? "" : "; ") + in_one_line(maps[i]->title) + " " + scored(*maps[i], true);
+    if (record.estimate.array().isNaN().any())
+      without_position.push_back(in_one_line(maps[i]->title));
   }
   figure.alt = fmt::format("{}: {}.", counted(maps.size(), "map"), figure.alt);
   figure.caption = spec.title + ". ";

@@ -10,10 +10,12 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
 namespace {
@@ -36,15 +38,32 @@ double root_mean_square(const Eigen::VectorXd& values) {
   return std::sqrt(values.squaredNorm() / static_cast<double>(values.size()));
 }
 
+double median_of(const Eigen::VectorXd& errors_m) {
+  return median(std::span(errors_m.data(), static_cast<std::size_t>(errors_m.size())));
+}
+
+double greatest_of(const PathErrorsSpec& spec) {
+  double greatest_m = 0.0;
+  for (const PathErrorLine& line : spec.lines)
+    greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
+  return greatest_m;
+}
+
+/// The unit of all errors of a figure.
+ScaledUnit unit_of(const PathErrorsSpec& spec) { return scaled_unit("m", greatest_of(spec)); }
+
+std::string in_unit(double error_m, const ScaledUnit& unit, int digits = 3) {
+  return with_unit(significant(unit.factor * error_m, digits), unit.unit);
+}
+
 std::string numbers_of(const PathErrorsSpec& spec) {
+  const ScaledUnit unit = unit_of(spec);
   std::string text;
   for (const PathErrorLine& line : spec.lines) {
     const Eigen::VectorXd& errors_m = line.poses->error_m;
-    text += fmt::format(
-        " {}: {}, RMSE {} m, median {} m, greatest {} m.", line.label,
-        counted(errors_m.size(), "pose"), significant(root_mean_square(errors_m)),
-        significant(median(std::span(errors_m.data(), static_cast<std::size_t>(errors_m.size())))),
-        significant(errors_m.maxCoeff()));
+    text += fmt::format(" {}: {}, RMSE {}, median {}, greatest {}.", line.label,
+                        counted(errors_m.size(), "pose"), in_unit(root_mean_square(errors_m), unit),
+                        in_unit(median_of(errors_m), unit), in_unit(errors_m.maxCoeff(), unit));
   }
   return text;
 }
@@ -102,14 +121,14 @@ std::vector<Eigen::Index> shown_poses(const PoseErrors& poses) {
 }
 
 Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index> plane,
-                double greatest_m) {
+                double greatest_m, const ScaledUnit& unit) {
   const PoseErrors& poses = *line.poses;
   Polyline ground_truth{.label = "ground truth", .colour = ThemeColour::kMuted, .width = 0.6};
   Polyline estimate{.label = "estimate", .width = kPathWidth};
   estimate.mark = {.id = "errors", .data = {{"method", line.label}}};
-  estimate.colour_scale = {.limits = {0.0, greatest_m > 0.0 ? greatest_m : 1.0},
+  estimate.colour_scale = {.limits = {0.0, greatest_m > 0.0 ? unit.factor * greatest_m : 1.0},
                            .ramp = Ramp::kViridis,
-                           .bar_label = "error [m]"};
+                           .bar_label = fmt::format("error [{}]", unit.unit)};
   for (const Eigen::Index i : shown_poses(poses)) {
     const auto add = [&](const SpacePoints& path, Polyline& to) {
       to.x.push_back(i < 0 ? kNaN : path(i, plane.first));
@@ -117,7 +136,7 @@ Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index>
     };
     add(poses.ground_truth_m, ground_truth);
     add(poses.estimate_m, estimate);
-    estimate.values.push_back(i < 0 ? kNaN : poses.error_m(i));
+    estimate.values.push_back(i < 0 ? kNaN : unit.factor * poses.error_m(i));
   }
   Panel panel;
   panel.x.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.first)]);
@@ -128,13 +147,34 @@ Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index>
   return panel;
 }
 
-Polyline curve_of(const PathErrorLine& line, const Eigen::VectorXd& over, bool is_labelled) {
-  const Eigen::VectorXd& errors_m = line.poses->error_m;
-  ThinLine thin = thin_curve(over, {errors_m.begin(), errors_m.end()}, kCurveBins);
+/// The poses, by their numbers, and -1 where none are associated for longer than usual.
+std::vector<Eigen::Index> poses_and_pauses(const PoseErrors& poses) {
+  const double longest_s = poses.has_times ? longest_step(poses.time_s) : kInfinity;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < poses.size(); ++i) {
+    if (i > 0 && poses.time_s(i) - poses.time_s(i - 1) > longest_s) rows.push_back(-1);
+    rows.push_back(i);
+  }
+  return rows;
+}
+
+bool has_pauses(const PathErrorsSpec& spec) {
+  return std::ranges::any_of(spec.lines, [](const PathErrorLine& line) {
+    return std::cmp_greater(poses_and_pauses(*line.poses).size(), line.poses->size());
+  });
+}
+
+Polyline curve_of(const PathErrorLine& line, const Eigen::VectorXd& over, const ScaledUnit& unit) {
+  std::vector<double> x, errors;
+  for (const Eigen::Index i : poses_and_pauses(*line.poses)) {
+    x.push_back(i < 0 ? x.back() : over(i));
+    errors.push_back(i < 0 ? kNaN : unit.factor * line.poses->error_m(i));
+  }
+  ThinLine thin =
+      thin_curve(Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x)), errors, kCurveBins);
   const SeriesStyle style = series_style(line.series);
-  return {.label = is_labelled ? fmt::format("{}, RMSE {} m", line.label,
-                                             significant(root_mean_square(errors_m)))
-                               : "",
+  return {.label = fmt::format("{}, RMSE {}", line.label,
+                               in_unit(root_mean_square(line.poses->error_m), unit)),
           .x = std::move(thin.x),
           .y = std::move(thin.y),
           .colour = style.colour,
@@ -168,14 +208,11 @@ Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown) {
   const auto plane = plane_of(spec);
   PathErrorsSpec one = spec;
   one.lines = {spec.lines[shown]};
-  Figure figure =
-      figure_of(one, fmt::format("The aligned estimate, coloured by the position error; grey: the "
-                                 "ground truth. RMSE: {} m.",
-                                 significant(root_mean_square(spec.lines[shown].poses->error_m))));
-  double greatest_m = 0.0;
-  for (const PathErrorLine& line : spec.lines)
-    greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
-  figure.panels.push_back(map_panel(spec.lines[shown], plane, greatest_m));
+  Figure figure = figure_of(
+      one, fmt::format("The aligned estimate, coloured by the position error; grey: the "
+                       "ground truth. RMSE: {}.",
+                       in_unit(root_mean_square(spec.lines[shown].poses->error_m), unit_of(spec))));
+  figure.panels.push_back(map_panel(spec.lines[shown], plane, greatest_of(spec), unit_of(spec)));
   require_valid(figure);
   return figure;
 }
@@ -183,10 +220,14 @@ Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown) {
 Figure path_error_curves_figure(const PathErrorsSpec& spec) {
   check(spec);
   const bool has_times = spec.lines.front().poses->has_times;
-  Figure figure =
-      figure_of(spec, fmt::format("Position error of each pose over {} and over the way along the "
-                                  "ground truth.",
-                                  has_times ? "time" : "the number of the pose"));
+  Figure figure = figure_of(
+      spec, fmt::format("Position error of each pose over {} and over the way along the "
+                        "ground truth.{}",
+                        has_times ? "time" : "the number of the pose",
+                        has_pauses(spec) ? " Lines are broken where no pose is associated "
+                                           "for more than ten usual steps of time."
+                                         : ""));
+  const ScaledUnit unit = unit_of(spec);
   Panel over_time, over_way;
   over_time.x.label = has_times ? "time [s]" : "pose";
   over_way.x.label = "way [m]";
@@ -194,29 +235,28 @@ Figure path_error_curves_figure(const PathErrorsSpec& spec) {
   for (const PathErrorLine& line : spec.lines)
     first_s = std::min(first_s, has_times ? line.poses->time_s(0) : 0.0);
   for (const PathErrorLine& line : spec.lines) {
-    over_time.layers.emplace_back(curve_of(line, line.poses->time_s.array() - first_s, true));
-    over_way.layers.emplace_back(curve_of(line, line.poses->distance_m, true));
+    over_time.layers.emplace_back(curve_of(line, line.poses->time_s.array() - first_s, unit));
+    over_way.layers.emplace_back(curve_of(line, line.poses->distance_m, unit));
   }
   for (Panel* panel : {&over_time, &over_way}) {
-    panel->y.label = "error [m]";
+    panel->y.label = fmt::format("error [{}]", unit.unit);
     figure.panels.push_back(std::move(*panel));
   }
   figure.shared_y = true;
-  double greatest_m = 0.0;
-  for (const PathErrorLine& line : spec.lines)
-    greatest_m = std::max(greatest_m, line.poses->error_m.maxCoeff());
+  const double greatest = unit.factor * greatest_of(spec);
   for (Panel& panel : figure.panels)
-    panel.y.limits = Range{0.0, greatest_m > 0.0 ? 1.05 * greatest_m : 1.0};
+    panel.y.limits = Range{0.0, greatest > 0.0 ? 1.05 * greatest : 1.0};
   require_valid(figure);
   return figure;
 }
 
 Figure path_error_distribution_figure(const PathErrorsSpec& spec) {
   Figure figure = figure_of(spec, "Lines: the share of poses whose error is at or below a value.");
+  const ScaledUnit unit = unit_of(spec);
   Panel positions;
-  positions.x.label = "position error [m]";
+  positions.x.label = fmt::format("position error [{}]", unit.unit);
   for (const PathErrorLine& line : spec.lines)
-    positions.layers.emplace_back(distribution_of(line, line.poses->error_m));
+    positions.layers.emplace_back(distribution_of(line, unit.factor * line.poses->error_m));
   figure.panels.push_back(std::move(positions));
   const bool has_angles = std::ranges::all_of(
       spec.lines, [](const PathErrorLine& line) { return line.poses->error_deg.size() > 0; });
@@ -232,6 +272,46 @@ Figure path_error_distribution_figure(const PathErrorsSpec& spec) {
   figure.shared_y = figure.panels.size() > 1;
   require_valid(figure);
   return figure;
+}
+
+std::string path_error_finding(const PathErrorsSpec& spec, std::size_t shown) {
+  check(spec);
+  const ScaledUnit unit = unit_of(spec);
+  const PathErrorLine& line = spec.lines.at(shown);
+  return fmt::format("{} errs by {} (RMSE), {} at most", line.label,
+                     in_unit(root_mean_square(line.poses->error_m), unit, 2),
+                     in_unit(line.poses->error_m.maxCoeff(), unit, 2));
+}
+
+std::string path_errors_finding(const PathErrorsSpec& spec) {
+  check(spec);
+  const auto rmse_of = [](const PathErrorLine& line) {
+    return root_mean_square(line.poses->error_m);
+  };
+  const auto best = std::ranges::min_element(spec.lines, {}, rmse_of);
+  if (spec.lines.size() == 1) return path_error_finding(spec, 0);
+  return fmt::format("{} errs least, by {} (RMSE)", best->label,
+                     in_unit(rmse_of(*best), unit_of(spec), 2));
+}
+
+std::string path_medians_finding(const PathErrorsSpec& spec) {
+  check(spec);
+  constexpr std::size_t kMostNamed = 3;
+  const ScaledUnit unit = unit_of(spec);
+  std::vector<const PathErrorLine*> lines;
+  for (const PathErrorLine& line : spec.lines) lines.push_back(&line);
+  const auto median_error = [](const PathErrorLine* line) {
+    return median_of(line->poses->error_m);
+  };
+  std::ranges::stable_sort(lines, {}, median_error);
+  if (lines.size() > kMostNamed)
+    return fmt::format("half of the poses err by less than {} with {}, {} with {}",
+                       in_unit(median_error(lines.front()), unit, 2), lines.front()->label,
+                       in_unit(median_error(lines.back()), unit, 2), lines.back()->label);
+  std::vector<std::string> words;
+  for (const PathErrorLine* line : lines)
+    words.push_back(fmt::format("{} with {}", in_unit(median_error(line), unit, 2), line->label));
+  return "half of the poses err by less than " + listed(words, kMostNamed);
 }
 
 }  // namespace mapproof

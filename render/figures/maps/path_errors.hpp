@@ -33,7 +33,8 @@ struct PathErrorsSpec {
 Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown);
 
 /// The errors of poses over time (over the number of the pose without times) and over the way.
-/// Lines are thinned to their least and greatest values in 200 pieces.
+/// Lines are thinned to their least and greatest values in 200 pieces, and broken where no pose is
+/// associated for more than ten usual steps of time.
 /// @throws InvalidInput as above.
 Figure path_error_curves_figure(const PathErrorsSpec& spec);
 
@@ -41,5 +42,12 @@ Figure path_error_curves_figure(const PathErrorsSpec& spec);
 /// it, of orientations.
 /// @throws InvalidInput as above.
 Figure path_error_distribution_figure(const PathErrorsSpec& spec);
+
+/// What these figures show, as titles: "ORB errs by 9.8 mm (RMSE), 28 mm at most", "ORB errs least,
+/// by 9.8 mm (RMSE)", and "half of the poses err by less than 7.9 mm with ORB and 11 mm with rgbd".
+/// @throws InvalidInput as above.
+std::string path_error_finding(const PathErrorsSpec& spec, std::size_t shown);
+std::string path_errors_finding(const PathErrorsSpec& spec);
+std::string path_medians_finding(const PathErrorsSpec& spec);
 
 }  // namespace mapproof

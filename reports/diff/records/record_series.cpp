@@ -107,13 +107,16 @@ void compare_pair(const PairedValue& pair, const Name& run, const Tolerance& tol
 std::optional<PairedTest> paired_test(const ValuesByRun& differences, const GroupsByRun& groups,
                                       bool draws_groups) {
   PairedTest test;
-  std::vector<double> means, by_run;
-  for (const auto& [group, value] : means_by_group(differences, groups)) means.push_back(value);
-  for (const auto& [run, value] : differences) by_run.push_back(value);
-  const bool are_runs = means.size() == by_run.size();
-  const bool by_group = draws_groups || static_cast<int>(means.size()) >= kLeastTested;
+  std::vector<double> units = RunsByGroup(differences, groups).means([&](std::size_t i) {
+    return differences.begin()[static_cast<std::ptrdiff_t>(i)].second;
+  });
+  const bool are_runs = units.size() == differences.size();
+  const bool by_group = draws_groups || static_cast<int>(units.size()) >= kLeastTested;
   test.unit = !by_group || (draws_groups && are_runs) ? "run" : draws_groups ? "group" : "layout";
-  const std::vector<double>& units = by_group ? means : by_run;
+  if (!by_group && !are_runs) {
+    units.clear();
+    for (const auto& [run, value] : differences) units.push_back(value);
+  }
   if (static_cast<int>(units.size()) < kLeastTested) return std::nullopt;
   test.test = signed_rank_test(units);
   test.p = test.test.p;

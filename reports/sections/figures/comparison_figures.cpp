@@ -13,6 +13,7 @@
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/plot/short_names.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -215,9 +216,10 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
     }
     if (spec.settings.empty()) continue;
     const auto best = std::ranges::min_element(spec.settings, {}, &CostedSetting::mpe_m);
-    // Without the seconds, which vary from run to run.
-    spec.title = fmt::format("{}: {} has the lowest MPE; what each method costs",
-                             title_of(sensor.sensor.sensor), best->label);
+    // Without times, which vary from run to run.
+    spec.title = fmt::format(
+        "{}: whatever the time, {} has the lowest MPE, {}", title_of(sensor.sensor.sensor),
+        without_parameters(short_method_name(best->label)), error_text(best->mpe_m, 2));
     figures.push_back(pareto_figure(spec));
   }
   return figures;

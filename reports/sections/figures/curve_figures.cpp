@@ -1,6 +1,7 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,8 +32,9 @@ constexpr Measure kMoe{"moe", "MOE", "%", "mean orientation error", &SettingSumm
 /// Methods that share a figure, in its order.
 struct Family {
   std::string id;
-  std::string words;  ///< ", methods on a neighbour graph"; may be empty.
-  std::vector<Method> methods;
+  std::string words;       ///< ", methods on a neighbour graph"; may be empty.
+  std::string among = {};  ///< " on a neighbour graph", in a finding about some of all methods.
+  std::vector<Method> methods = {};
   std::string note = {};  ///< For the caption.
 };
 
@@ -77,6 +79,15 @@ std::string caption(const std::vector<Steps>& curves, const Measure& measure,
                      ends, family.note);
 }
 
+/// "these 5", "the 5 on a neighbour graph"; empty if the study has no other methods with a score.
+std::string family_words(const Family& family, std::size_t shown,
+                         const std::vector<Steps>& history) {
+  const auto all = std::ranges::count_if(
+      history, [](const Steps& steps) { return !steps.empty() && has_score(steps); });
+  if (std::cmp_greater_equal(shown, all)) return "";
+  return fmt::format("{} {}{}", family.among.empty() ? "these" : "the", shown, family.among);
+}
+
 /// Nothing if none of the methods was scored.
 void add_curves(FigureSource& source, const SensorStudy& sensor, const Measure& measure,
                 const Family& family, std::vector<Figure>& figures) {
@@ -98,8 +109,11 @@ void add_curves(FigureSource& source, const SensorStudy& sensor, const Measure& 
     spec.curves.push_back(curve(source.study().experiment, steps, measure));
     for (const SettingSummary& summary : steps) spec.record_ids.push_back(source_of(summary));
   }
-  if (const std::string best =
-          best_at_end(spec.curves, {measure.name, measure.unit}, "after {} observations");
+  if (const std::string best = best_at_end(spec.curves,
+                                           {.label = measure.name,
+                                            .unit = measure.unit,
+                                            .family = family_words(family, shown.size(), history)},
+                                           "after {} observations");
       !best.empty())
     spec.title = fmt::format("{}: {}", title_of(shown.front().front().sensor), best);
   figures.push_back(error_curve_figure(spec));
@@ -115,9 +129,9 @@ std::vector<Method> methods_where(bool graph) {
 /// The two families that a sensor's methods fall into.
 std::vector<Family> graph_families(const char* id, Sensor sensor) {
   return {{fmt::format("{}-{}-global", id, name(sensor)), ", methods without a neighbour graph",
-           methods_where(false)},
+           " without a neighbour graph", methods_where(false)},
           {fmt::format("{}-{}-graph", id, name(sensor)), ", methods on a neighbour graph",
-           methods_where(true)}};
+           " on a neighbour graph", methods_where(true)}};
 }
 
 /// The methods of others beside that of mapproof with the least error in the end.
@@ -127,6 +141,7 @@ std::optional<Family> family_of_others(FigureSource& source, const SensorStudy& 
   if (experiment.external_methods.empty()) return std::nullopt;
   Family family{fmt::format("{}-{}-external", measure.id, name(sensor.sensor.sensor)),
                 ", methods of others",
+                "",
                 {},
                 " The methods of others are shown beside that of mapproof with the least MPE."};
   std::vector<SettingSummary> ours;
@@ -145,7 +160,7 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
   std::vector<Method> shown;
   for (const PaperFigure& figure : experiment.figures)
     if (figure.kind == FigureKind::kErrorCurve && figure.sensor == sensor) {
-      result.push_back({figure.id, "", figure.methods});
+      result.push_back({.id = figure.id, .words = "", .methods = figure.methods});
       shown.insert(shown.end(), figure.methods.begin(), figure.methods.end());
     }
   if (result.empty()) return graph_families(kMpe.id, sensor);
@@ -157,8 +172,7 @@ std::vector<Family> paper_families(const Experiment& experiment, Sensor sensor) 
           "the division is ours.",
           result.size());
   Family others{fmt::format("mpe-{}-others", name(sensor)),
-                ", methods that the paper's figures leave out",
-                {}};
+                ", methods that the paper's figures leave out"};
   for (const MethodInfo& method : all_methods())
     if (std::ranges::find(shown, method.method) == shown.end())
       others.methods.push_back(method.method);

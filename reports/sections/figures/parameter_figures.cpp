@@ -18,6 +18,9 @@ namespace {
 /// A map with an error of this many sides of the room carries no information but that it is wrong.
 constexpr double kOffTheRoom = 10.0;
 
+/// Of a parameter: two or three points are no curve, and the table has them.
+constexpr std::size_t kFewestValues = 4;
+
 using Estimate = std::optional<MeanEstimate> SettingSummary::*;
 
 ParameterLine parameter_line(const Experiment& experiment,
@@ -64,7 +67,7 @@ std::string above_words(const ParameterGroup& group, double ceiling_m) {
 }
 
 /// The figure of all methods with that parameter: methods of different ones err on different
-/// scales. Empty if no method has two values of it.
+/// scales. Empty if no method has enough values of it for a curve.
 std::optional<Figure> parameter_figure(const FigureSource& source, const SensorStudy& sensor,
                                        const std::vector<SettingSummary>& all,
                                        const ParameterInfo& parameter, bool of_mpe) {
@@ -91,7 +94,7 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
     for (const SettingSummary& summary : all)
       if (summary.setting.method == grid.method && summary.setting.parameter)
         values.push_back(summary);
-    if (values.size() < 2 || best_of(values) == nullptr) continue;
+    if (values.size() < kFewestValues || best_of(values) == nullptr) continue;
     const Experiment& experiment = source.study().experiment;
     group.methods.push_back(
         of_mpe ? parameter_line(experiment, values, &SettingSummary::mpe_m, &PublishedValue::mpe_m)

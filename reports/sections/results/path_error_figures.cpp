@@ -63,16 +63,15 @@ std::vector<FigureGroup> path_error_figures(const ResultsStudy& study,
     const std::string of_run_title = runs.size() == 1 ? "" : run + ": ";
     for (std::size_t i = 0; i < spec.lines.size(); ++i) {
       spec.id = fmt::format("{}-path-{}", id, i + 1);
-      spec.title = fmt::format("{}{}, path coloured by error", of_run_title, spec.lines[i].label);
+      spec.title = of_run_title + path_error_finding(spec, i);
       group.figures.push_back(path_error_map_figure(spec, i));
     }
     spec.id = id + "-curves";
-    spec.title =
-        runs.size() == 1 ? "Errors along the path" : of_run_title + "errors along the path";
+    spec.title = of_run_title + path_errors_finding(spec);
     group.figures.push_back(path_error_curves_figure(spec));
     spec.id = id + "-distribution";
-    spec.title =
-        runs.size() == 1 ? "Distribution of errors" : of_run_title + "distribution of errors";
+    const std::string medians = path_medians_finding(spec);
+    spec.title = of_run_title.empty() ? "Half" + medians.substr(4) : of_run_title + medians;
     group.figures.push_back(path_error_distribution_figure(spec));
   }
   return groups;

@@ -43,6 +43,7 @@ std::vector<MethodRuns> methods_at(const ResultsView& view, const ResultsBlock& 
 /// The runs that all of them have, ascending.
 std::vector<Name> common_runs(const std::vector<MethodRuns>& methods) {
   std::vector<Name> runs;
+  runs.reserve(methods.front().values.size());
   for (const auto& [run, value] : methods.front().values)
     if (std::ranges::all_of(methods, [&run = run](const MethodRuns& method) {
           return method.values.contains(run);
@@ -51,19 +52,51 @@ std::vector<Name> common_runs(const std::vector<MethodRuns>& methods) {
   return runs;
 }
 
+/// Leaves the runs that all methods have.
+void keep_common_runs(std::vector<MethodRuns>& methods) {
+  const auto has_runs_of_first = [&](const MethodRuns& method) {
+    return std::ranges::equal(method.values, methods.front().values, {},
+                              &ValuesByRun::value_type::first, &ValuesByRun::value_type::first);
+  };
+  if (std::ranges::all_of(methods, has_runs_of_first)) return;
+  const std::vector<Name> runs = common_runs(methods);
+  for (MethodRuns& method : methods) method.values.keep(runs);
+}
+
+/// Different names, by their numbers: a bit per name of the process.
+class NameSet {
+ public:
+  void insert(const Name& name) {
+    if (name.id() >= is_in_.size()) is_in_.resize(name.id() + std::size_t{1});
+    size_ += !is_in_[name.id()];
+    is_in_[name.id()] = true;
+  }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::vector<bool> is_in_;
+  std::size_t size_ = 0;
+};
+
 /// Takes away the methods that would take groups, or half of the runs, from all others; none where
 /// fewer than two would stay. @return Those taken away.
 std::vector<std::size_t> leave_out(const ResultsView& view, std::vector<MethodRuns>& methods) {
-  ValuesByRun all;
-  for (const MethodRuns& method : methods) all.merge(method.values);
-  const std::size_t groups = view.group_means(all).size();
-  const auto stays = [&](const MethodRuns& method) {
-    return view.group_means(method.values).size() == groups &&
-           2 * method.values.size() >= all.size();
-  };
+  NameSet runs, groups;
+  std::vector<std::size_t> groups_of;
+  for (const MethodRuns& method : methods) {
+    NameSet of_method;
+    for (const auto& [run, value] : method.values) {
+      const Name group = view.run_groups().find(run).value_or(run);
+      runs.insert(run);
+      of_method.insert(group);
+      groups.insert(group);
+    }
+    groups_of.push_back(of_method.size());
+  }
   std::vector<std::size_t> left_out;
-  for (const MethodRuns& method : methods)
-    if (!stays(method)) left_out.push_back(method.method);
+  for (std::size_t i = 0; i < methods.size(); ++i)
+    if (groups_of[i] != groups.size() || 2 * methods[i].values.size() < runs.size())
+      left_out.push_back(methods[i].method);
   if (methods.size() < left_out.size() + 2) return {};
   std::erase_if(methods, [&](const MethodRuns& method) {
     return std::ranges::find(left_out, method.method) != left_out.end();
@@ -71,70 +104,87 @@ std::vector<std::size_t> leave_out(const ResultsView& view, std::vector<MethodRu
   return left_out;
 }
 
-double mean_of(const ValuesByRun& values) {
-  double sum = 0.0;
-  for (const auto& [run, value] : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
+/// One method's values in the runs that all have.
+struct MethodValues {
+  std::size_t method;
+  std::vector<double> values;
+  double mean = 0.0;
+};
 
-std::vector<double> group_differences(const ResultsView& view, const MethodRuns& a,
-                                      const MethodRuns& b) {
-  ValuesByRun differences;
-  differences.reserve(a.values.size());
-  for (const auto& [run, value] : a.values) differences[run] = value - *b.values.find(run);
-  std::vector<double> all;
-  for (const auto& [group, value] : view.group_means(differences)) all.push_back(value);
+/// The values without the runs' names.
+MethodValues values_of(MethodRuns method) {
+  MethodValues all{method.method, {}};
+  all.values.reserve(method.values.size());
+  double sum = 0.0;
+  for (const auto& [run, value] : method.values) {
+    all.values.push_back(value);
+    sum += value;
+  }
+  all.mean = sum / static_cast<double>(all.values.size());
   return all;
 }
 
-FriedmanTest ranks_of(const ResultsView& view, const std::vector<MethodRuns>& methods, int groups,
+std::vector<double> group_differences(const RunsByGroup& groups, const MethodValues& a,
+                                      const MethodValues& b) {
+  return groups.means([&](std::size_t run) { return a.values[run] - b.values[run]; });
+}
+
+/// @param methods  Whose values are let go one after the other.
+FriedmanTest ranks_of(const RunsByGroup& groups, std::vector<MethodValues> methods,
                       bool lower_is_better) {
-  Eigen::MatrixXd values(groups, std::ssize(methods));
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(groups.groups()), std::ssize(methods));
   for (Eigen::Index j = 0; j < values.cols(); ++j) {
-    Eigen::Index i = 0;
-    for (const auto& [group, value] : view.group_means(methods[static_cast<std::size_t>(j)].values))
-      values(i++, j) = lower_is_better ? value : -value;
+    const std::vector<double> of_runs =
+        std::exchange(methods[static_cast<std::size_t>(j)].values, {});
+    const std::vector<double> means = groups.means([&](std::size_t run) { return of_runs[run]; });
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      const double value = means[static_cast<std::size_t>(i)];
+      values(i, j) = lower_is_better ? value : -value;
+    }
   }
-  return friedman(values);
+  return friedman(std::move(values));
 }
 
 /// Compares at one condition; empty where no two methods have a run in common.
 std::optional<MethodComparison> compare_at(const ResultsView& view, const ResultsBlock& block,
                                            const Quantity& quantity, const Condition& at) {
-  std::vector<MethodRuns> methods = methods_at(view, block, quantity, at);
-  if (methods.size() < 2) return std::nullopt;
+  std::vector<MethodRuns> by_run = methods_at(view, block, quantity, at);
+  if (by_run.size() < 2) return std::nullopt;
   MethodComparison comparison;
   comparison.block = &block;
   comparison.quantity = &quantity;
   comparison.at = at;
-  for (const std::size_t method : leave_out(view, methods))
+  for (const std::size_t method : leave_out(view, by_run))
     comparison.left_out.push_back(view.study().methods[method].label);
-  const std::vector<Name> runs = common_runs(methods);
-  if (runs.empty()) return std::nullopt;
-  for (MethodRuns& method : methods) {
-    comparison.has_all_runs &= method.values.size() == runs.size();
-    method.values.keep(runs);
-  }
-  comparison.runs = static_cast<int>(runs.size());
-  comparison.groups = static_cast<int>(view.group_means(methods.front().values).size());
+  std::vector<std::size_t> all_runs;
+  for (const MethodRuns& method : by_run) all_runs.push_back(method.values.size());
+  keep_common_runs(by_run);
+  const std::size_t runs = by_run.front().values.size();
+  if (runs == 0) return std::nullopt;
+  comparison.has_all_runs = std::ranges::all_of(all_runs, [&](std::size_t n) { return n == runs; });
+  const RunsByGroup groups(by_run.front().values, view.run_groups());
+  comparison.runs = static_cast<int>(runs);
+  comparison.groups = static_cast<int>(groups.groups());
+  std::vector<MethodValues> methods;
+  for (MethodRuns& method : by_run) methods.push_back(values_of(std::move(method)));
 
   const bool lower = quantity.better == Better::kLower;
-  std::ranges::stable_sort(methods, [&](const MethodRuns& a, const MethodRuns& b) {
-    return lower ? mean_of(a.values) < mean_of(b.values) : mean_of(a.values) > mean_of(b.values);
+  std::ranges::stable_sort(methods, [&](const MethodValues& a, const MethodValues& b) {
+    return lower ? a.mean < b.mean : a.mean > b.mean;
   });
   std::vector<double> p;
-  for (const MethodRuns& method : methods) {
+  for (const MethodValues& method : methods) {
     comparison.methods.push_back(
-        {.method = method.method, .mean = mean_of(method.values), .change = std::nullopt});
+        {.method = method.method, .mean = method.mean, .change = std::nullopt});
     if (&method == &methods.front() || comparison.groups < 2) continue;
     comparison.methods.back().change =
-        paired_change(group_differences(view, method, methods.front()));
+        paired_change(group_differences(groups, method, methods.front()));
     p.push_back(comparison.methods.back().change->p);
   }
   const std::vector<double> corrected = holm(p);
   for (std::size_t i = 0; i < corrected.size(); ++i)
     comparison.methods[i + 1].corrected_p = corrected[i];
-  if (comparison.groups > 1) comparison.ranks = ranks_of(view, methods, comparison.groups, lower);
+  if (comparison.groups > 1) comparison.ranks = ranks_of(groups, std::move(methods), lower);
   return comparison;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
@@ -20,6 +21,7 @@
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/number_text.hpp"
+#include "render/figures/unit_scale.hpp"
 #include "reports/sections/method_ranks.hpp"
 
 namespace mapproof {
@@ -166,6 +168,17 @@ Scale scale_of(const std::vector<Level>& levels) {
   return spans_widely_above_0(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
 }
 
+/// The least and the greatest value of the runs; NaN of fewer than two.
+Range spread_of(const ResultsView& view, const Condition& at, const ResultsLine& line,
+                const Quantity& quantity) {
+  std::vector<double> values;
+  for (const auto& [run, value] : view.numbers(at, line, quantity).values) values.push_back(value);
+  if (values.size() < 2) return {kNaN, kNaN};
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return {least, greatest};
+}
+
+/// `low` and `high` are of the interval or, of few groups of runs, of the runs themselves.
 ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
                    const ResultsLine& line, std::size_t index) {
   ErrorLine curve;
@@ -177,90 +190,179 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
     const auto interval = view.interval(mean, quantity);
     curve.x.push_back(std::get<double>(block.levels[i].value));
     curve.mean.push_back(mean ? mean->mean : kNaN);
-    curve.low.push_back(interval ? interval->low : kNaN);
-    curve.high.push_back(interval ? interval->high : kNaN);
+    Range spread{interval ? interval->low : kNaN, interval ? interval->high : kNaN};
+    if (view.groups() < kFewestGroups)
+      spread = spread_of(view, block.conditions[i], line, quantity);
+    curve.low.push_back(spread.low);
+    curve.high.push_back(spread.high);
   }
   return curve;
 }
 
-/// What the labels of some lines end with: "from scratch" of "SMACOF, from scratch" and "ISOMAP,
-/// from scratch"; else the first one with the number of the others.
-std::string joined_label(const std::vector<std::string>& labels) {
+/// How curves that are the same are named: what only their labels end with, "from scratch (2
+/// methods)" of "SMACOF, from scratch" and "ISOMAP, from scratch"; else two by both labels, more by
+/// the first one and their number.
+std::string joined_label(const std::vector<std::string>& labels,
+                         const std::vector<std::string>& others) {
   constexpr std::string_view kComma = ", ";
   for (std::size_t at = labels.front().find(kComma); at != std::string::npos;
        at = labels.front().find(kComma, at + 1)) {
     const std::string end = labels.front().substr(at);
-    if (std::ranges::all_of(labels, [&](const std::string& one) { return one.ends_with(end); }))
+    const auto has_end = [&](const std::string& one) { return one.ends_with(end); };
+    if (std::ranges::all_of(labels, has_end) && std::ranges::none_of(others, has_end))
       return fmt::format("{} ({} methods)", end.substr(kComma.size()), labels.size());
   }
+  constexpr std::size_t kLongest = 40;  // Of a label, in characters.
+  if (labels.size() == 2 && labels[0].size() + labels[1].size() < kLongest)
+    return labels[0] + " and " + labels[1];
   return fmt::format("{} and {}", labels.front(), counted(std::ssize(labels) - 1, "other"));
 }
 
-/// Curves that are the same as one: drawn each, the last would hide the others.
-std::vector<ErrorLine> joined(std::vector<ErrorLine> curves) {
-  std::vector<ErrorLine> apart;
-  while (!curves.empty()) {
-    const ErrorLine first = curves.front();
-    std::vector<std::string> labels;
-    std::erase_if(curves, [&](const ErrorLine& one) {
-      const bool is_same = one.x == first.x && one.mean == first.mean;
-      if (is_same) labels.push_back(one.label);
-      return is_same || one.key == first.key;
-    });
-    apart.push_back(first);
-    if (labels.size() < 2) continue;
-    apart.back().label = joined_label(labels);
-    apart.back().series = std::nullopt;
-  }
-  return apart;
+/// Curves of a block.
+struct Curves {
+  std::vector<ErrorLine> lines;
+  std::vector<std::string> joined = {};  ///< Labels of those that are several.
+  bool lacks_compared_with = false;      ///< What the others are compared with is left out.
+  bool has_bands = false;                ///< Else `low` and `high` serve findings alone.
+};
+
+/// As they are drawn.
+std::vector<ErrorLine> drawn(Curves curves) {
+  for (ErrorLine& line : curves.lines)
+    if (!curves.has_bands || std::ranges::none_of(line.low, is_known)) {
+      line.low.clear();
+      line.high.clear();
+    }
+  return std::move(curves.lines);
 }
 
-/// The curves of a block, those without a value left out; of many, or without intervals, the lines
-/// alone, and those that are the same joined.
-std::vector<ErrorLine> curves_of(const ResultsView& view, const ResultsBlock& block,
-                                 const Quantity& quantity) {
+/// Joins curves that are the same to one, in the style of the first: drawn each, the last would
+/// hide the others.
+void join_same(Curves& curves) {
+  std::vector<ErrorLine> apart;
+  for (const ErrorLine& first : curves.lines) {
+    const auto is_same = [&](const ErrorLine& one) {
+      return one.x == first.x && one.mean == first.mean;
+    };
+    if (std::ranges::any_of(apart, is_same)) continue;
+    std::vector<std::string> labels, others;
+    for (const ErrorLine& one : curves.lines) (is_same(one) ? labels : others).push_back(one.label);
+    apart.push_back(first);
+    if (labels.size() == 1) continue;
+    apart.back().label = joined_label(labels, others);
+    curves.joined.push_back(apart.back().label);
+  }
+  curves.lines = std::move(apart);
+}
+
+/// A distance from the results of another method, which are 0 of that method itself.
+bool is_distance_from_another(const Quantity& quantity) {
+  return quantity.id.starts_with("gap_") || quantity.id.starts_with("greatest_gap_");
+}
+
+/// A distance of parts per million: what counts is how little it is, not whose is the least.
+bool is_tiny_distance(const Quantity& quantity) {
+  return is_distance_from_another(quantity) && quantity.unit == "ppm";
+}
+
+/// Leaves the curves of what the others are compared with out, unless there are no others.
+/// @return Whether there was one.
+bool drop_compared_with(std::vector<ErrorLine>& curves) {
+  const auto is_0 = [](const ErrorLine& curve) {
+    return std::ranges::any_of(curve.mean, is_known) &&
+           std::ranges::all_of(curve.mean,
+                               [](double mean) { return mean == 0.0 || std::isnan(mean); });
+  };
+  return !std::ranges::all_of(curves, is_0) && std::erase_if(curves, is_0) > 0;
+}
+
+/// The curves of a block, those without a value left out; many, or of few groups of runs, are drawn
+/// without bands, and those of many that are the same are joined.
+Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const bool is_log = scale_of(block.levels) == Scale::kLog;
-  std::vector<ErrorLine> curves;
+  Curves curves;
+  curves.has_bands = lines.size() <= kMostBands && view.groups() >= kFewestGroups;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
-    if (lines.size() > kMostBands || view.groups() < kFewestGroups ||
-        std::ranges::none_of(curve.low, is_known)) {
-      curve.low.clear();
-      curve.high.clear();
-    }
     if (is_log) drop_level_0(curve);
-    curves.push_back(std::move(curve));
+    curves.lines.push_back(std::move(curve));
   }
-  return lines.size() > kMostBands ? joined(std::move(curves)) : curves;
+  if (is_distance_from_another(quantity))
+    curves.lacks_compared_with = drop_compared_with(curves.lines);
+  if (lines.size() > kMostBands) join_same(curves);
+  return curves;
 }
 
-/// "Regret with anchors" as "regret with anchors", but "MPE" as it is.
+/// In a unit in which the values of the curves need no power of ten; an MPE is in m everywhere.
+/// @return The quantity with that unit.
+Quantity scale_to_unit(const Quantity& quantity, Curves& curves, std::vector<ErrorPoint>& points) {
+  if (quantity.label == "MPE") return quantity;
+  double greatest = 0.0;
+  const auto for_each_value = [&](std::vector<ErrorLine>& lines, auto&& visit) {
+    for (ErrorLine& line : lines)
+      for (std::vector<double>* values : {&line.mean, &line.low, &line.high})
+        for (double& value : *values) visit(value);
+    for (ErrorPoint& point : points) visit(point.y);
+  };
+  std::vector<ErrorLine> shown_lines = drawn(curves);
+  for_each_value(shown_lines,
+                 [&](double& value) { greatest = std::max(greatest, std::abs(value)); });
+  const ScaledUnit unit = scaled_unit(quantity.unit, greatest);
+  for_each_value(curves.lines, [&](double& value) { value *= unit.factor; });
+  Quantity shown = quantity;
+  shown.unit = unit.unit;
+  return shown;
+}
+
+/// "Regret with anchors" as "regret with anchors", but "MPE" as it is; "MOE, reflection allowed" as
+/// "MOE (reflection allowed)".
 std::string in_sentence(std::string label) {
+  if (const std::size_t comma = label.find(", "); comma != std::string::npos)
+    label = fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
   if (label.size() < 2 || lower_case(label.substr(1, 1)) != label.substr(1, 1)) return label;
   return lower_case(label.substr(0, 1)) + label.substr(1);
 }
 
+/// The coverage that 95 % ellipses are meant to have [%]: more is as wrong as less. Nothing of
+/// other quantities.
+std::optional<double> aim_of(const Quantity& quantity) {
+  return quantity.id.ends_with("_covered_percent") ? std::optional(95.0) : std::nullopt;
+}
+
+/// Whether one side of the quantity is better: findings then name methods.
+bool has_better_side(const Quantity& quantity) {
+  return quantity.better != Better::kNeither && !aim_of(quantity);
+}
+
 /// Which method is best over the axis; empty of a quantity that has no better side.
-std::string finding_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
-                       const std::string& x_label) {
-  if (quantity.better == Better::kNeither || lines.size() < 2) return "";
-  return best_over(lines,
-                   {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower},
+std::string finding_of(const Curves& curves, const Quantity& quantity, const std::string& x_label) {
+  if (!has_better_side(quantity) || curves.lines.size() < 2) return "";
+  return best_over(curves.lines,
+                   {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower,
+                    curves.joined},
                    line_axis(x_label));
 }
 
 /// What lines do where none of them is called the best: of one, how it goes from the first x to the
-/// last; of several, between which values they lie. Empty if nothing is known.
-std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity) {
+/// last; of several, that none stands out and between which values they lie; of tiny distances, how
+/// much they are at most; of what is aimed at, the aim. Empty if nothing is known.
+/// @param unit  Of the lines' values.
+std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
+                      const std::string& unit) {
   std::vector<double> known;
   for (const ErrorLine& line : lines)
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
   if (known.empty()) return "";
   const auto words = [&](double value) {
-    return with_unit(rounded_text(value, decimals_of(known)), quantity.unit);
+    const std::string number = rounded_text(value, decimals_of(known));
+    const bool is_power = unit.starts_with("10");
+    return is_power ? number + "\u00D7" + unit : with_unit(number, unit);
   };
+  if (is_tiny_distance(quantity))
+    return fmt::format("{} is at most {}", in_sentence(quantity.label),
+                       words(std::ranges::max(known)));
   const std::string first = words(known.front()), last = words(known.back());
   if (lines.size() == 1)
     return first == last
@@ -268,8 +370,14 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
                : fmt::format("{} {} from {} to {}", in_sentence(quantity.label),
                              known.back() < known.front() ? "falls" : "rises", first, last);
   const auto [least, greatest] = std::ranges::minmax(known);
-  return fmt::format("{} between {} and {}", in_sentence(quantity.label), words(least),
-                     words(greatest));
+  const std::string span = words(least) == words(greatest)
+                               ? words(least)
+                               : fmt::format("between {} and {}", words(least), words(greatest));
+  if (const auto aim = aim_of(quantity))
+    return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
+                       with_unit(data_number(*aim), unit));
+  return fmt::format("{}{} {}", has_better_side(quantity) ? "no method stands out, " : "",
+                     in_sentence(quantity.label), span);
 }
 
 /// The values of the runs that the curves are means of, if these are too few for intervals; none
@@ -296,30 +404,74 @@ std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& blo
   return points;
 }
 
+/// The legend's sample of points of several lines is grey: else it would be that of one line alone.
+void add_sample_of_runs(Panel& panel, const std::vector<ErrorPoint>& points) {
+  const auto is_other = [&](const ErrorPoint& point) { return point.line != points[0].line; };
+  if (std::ranges::none_of(points, is_other)) return;
+  panel.layers.insert(panel.layers.begin(), Scatter{.label = points[0].label,
+                                                    .x = {kNaN},
+                                                    .y = {kNaN},
+                                                    .colour = ThemeColour::kMuted,
+                                                    .marker = points[0].marker,
+                                                    .filled = false,
+                                                    .size = points[0].size});
+}
+
+/// A line at the value that is aimed at, below the others.
+void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
+  const std::vector<double>& x = lines.front().x;
+  panel.layers.insert(panel.layers.begin(), Polyline{.label = "aimed at",
+                                                     .x = {x.front(), x.back()},
+                                                     .y = {aim, aim},
+                                                     .colour = ThemeColour::kMuted,
+                                                     .dash = Dash::kDotted});
+  if (!panel.y.limits) return;
+  Range& limits = *panel.y.limits;
+  const double margin = 0.05 * std::max(limits.high - aim, aim - limits.low);
+  limits = {std::min(limits.low, aim - margin), std::max(limits.high, aim + margin)};
+}
+
 std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
                                    const Quantity& quantity) {
   LevelCurveSpec spec;
   spec.id = figure_id(block.id, quantity.id);
-  spec.title = block.title + ": " + quantity.label;
   spec.x_label = view.factor_label(block.factor);
   spec.x_scale = scale_of(block.levels);
-  spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
   spec.great_errors = view.has_great_errors(quantity);
   spec.record_ids = {record_of(block)};
-  spec.methods = curves_of(view, block, quantity);
+  Curves curves = curves_of(view, block, quantity);
+  if (!distinguishes(curves.lines)) return std::nullopt;
   spec.points = runs_of(view, block, quantity);
+  std::erase_if(spec.points, [&](const ErrorPoint& point) {
+    return std::ranges::find(curves.lines, point.line, &ErrorLine::label) == curves.lines.end();
+  });
+  const Quantity shown = scale_to_unit(quantity, curves, spec.points);
+  spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
-  if (!distinguishes(spec.methods)) return std::nullopt;
-  if (const std::string best = finding_of(spec.methods, quantity, spec.x_label); !best.empty())
-    spec.title = block.title + ": " + best;
-  else if (const std::string course = course_of(spec.methods, quantity); !course.empty())
-    spec.title = block.title + ": " + course;
+  std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
+  if (finding.empty()) finding = course_of(curves.lines, quantity, shown.unit);
+  spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
+  spec.methods = drawn(std::move(curves));
   Figure figure = level_curve_figure(spec);
+  add_sample_of_runs(figure.panels.front(), spec.points);
+  if (const auto aim = aim_of(quantity)) add_aim(figure.panels.front(), *aim, spec.methods);
   if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
     figure.caption += " The table has the level 0, which a logarithmic axis has not.";
+  if (curves.lacks_compared_with)
+    figure.caption += " What the others are compared with is at 0 and has no line.";
   return figure;
+}
+
+/// Which method is best at most of the points of several panels: "ISOMAP has the lowest MPE at 7 of
+/// 9 points". Empty of a quantity that has no better side.
+/// @param joined  Labels of lines that are several.
+std::string most_often_best(const std::vector<std::vector<ErrorLine>>& panels,
+                            const Quantity& quantity, const std::vector<std::string>& joined) {
+  if (!has_better_side(quantity)) return "";
+  return best_of_points(panels, {in_sentence(quantity.label), quantity.unit,
+                                 quantity.better == Better::kLower, joined});
 }
 
 /// The curves of several blocks, a panel each on one y axis.
@@ -329,26 +481,44 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   if (!has_axes || overview.blocks.size() > kMostPanels) return std::nullopt;
   ErrorLinesSpec spec;
   spec.id = figure_id(overview.id, quantity.id);
-  spec.title = fmt::format("{}: {}", overview.title, quantity.label);
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
   spec.great_errors = view.has_great_errors(quantity);
   spec.record_ids = {record_of(*overview.blocks.front())};
+  std::vector<std::string> joined;
+  std::vector<std::vector<ErrorLine>> judged;
   for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
     const ResultsBlock& block = *overview.blocks[i];
     ErrorPanel& panel = spec.panels.emplace_back();
     panel.title = overview.names[i];
     panel.x.label = view.factor_label(block.factor);
     panel.x.scale = scale_of(block.levels);
-    panel.lines = curves_of(view, block, quantity);
+    const Curves curves = curves_of(view, block, quantity);
+    judged.push_back(curves.lines);
+    panel.lines = drawn(curves);
+    joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
     panel.points = runs_of(view, block, quantity);
     if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
+  const std::string finding = most_often_best(judged, quantity, joined);
+  spec.title =
+      finding.empty()
+          ? fmt::format("{}: {}", overview.title, quantity.label)
+          : fmt::format("{}: {}", overview.title.substr(0, overview.title.find(": ")), finding);
   spec.over = fmt::format(" over {} by {}", view.factor_label(overview.blocks.front()->factor),
                           overview.factors);
-  return error_lines_figure(spec);
+  Figure figure = error_lines_figure(spec);
+  for (std::size_t i = 0; i < spec.panels.size(); ++i)
+    add_sample_of_runs(figure.panels[i], spec.panels[i].points);
+  return figure;
+}
+
+double median_of(const ValuesByRun& runs) {
+  std::vector<double> values;
+  for (const auto& [run, value] : runs) values.push_back(value);
+  return median(values);
 }
 
 /// The share of runs at or below a value, in steps; of many runs each step is of several.
@@ -368,6 +538,28 @@ ErrorLine distribution_of(const ValuesByRun& runs) {
     curve.mean.push_back(share);
   }
   return curve;
+}
+
+/// What distributions show: of one method the median and the greatest value, of several in one
+/// panel which has the best median; else the quantity alone.
+/// @param medians  Over the runs, of each line of the first panel.
+std::string distribution_words(const std::vector<ErrorPanel>& panels,
+                               const std::vector<double>& medians, const Quantity& quantity) {
+  if (panels.size() != 1 || panels.front().lines.empty()) return quantity.label;
+  const std::vector<ErrorLine>& lines = panels.front().lines;
+  const auto words = [&](double value) { return with_unit(significant(value, 2), quantity.unit); };
+  const std::string name = in_sentence(quantity.label);
+  if (lines.size() == 1)
+    return fmt::format("the median {} is {}, the greatest {}", name, words(medians.front()),
+                       words(lines.front().x.back()));
+  std::vector<ErrorLine> of_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    of_lines.push_back(
+        {.label = lines[i].label, .key = lines[i].key, .x = {0.0}, .mean = {medians[i]}});
+  const LineQuantity of_medians{"median " + name, quantity.unit,
+                                quantity.better != Better::kHigher};
+  const std::string best = best_of_points({of_lines}, of_medians);
+  return !has_better_side(quantity) || best.empty() ? quantity.label : best;
 }
 
 /// Whether any method has values of several runs at one level.
@@ -409,7 +601,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   spec.record_ids = {record_of(block)};
   spec.log_from = HUGE_VAL;
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
-  std::vector<double> values;
+  std::vector<double> values, medians;
   for (std::size_t i = 0; i < block.conditions.size(); ++i) {
     ErrorPanel& panel = spec.panels.emplace_back();
     if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
@@ -418,6 +610,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
       const auto runs = view.numbers(block.conditions[i], lines[k], quantity).values;
       ErrorLine curve = distribution_of(runs);
       if (curve.x.empty()) continue;
+      if (i == 0) medians.push_back(median_of(runs));
       values.insert(values.end(), curve.x.begin(), curve.x.end());
       curve.label = lines[k].label;
       curve.key = key_of(k);
@@ -427,11 +620,18 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   }
   if (spans_widely(values))
     for (ErrorPanel& panel : spec.panels) panel.x.scale = Scale::kLog;
+  spec.title =
+      fmt::format("{}: {}", block.title, distribution_words(spec.panels, medians, quantity));
   return error_lines_figure(spec);
 }
 
+/// Nothing where no two mean ranks can differ by the critical difference, as over few groups of
+/// runs, and of distances from one of the methods itself.
 std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
-  if (!has_rank_diagram(comparison)) return std::nullopt;
+  if (!has_rank_diagram(comparison) || is_distance_from_another(*comparison.quantity))
+    return std::nullopt;
+  if (critical_difference(comparison) > static_cast<double>(comparison.methods.size()) - 1.0)
+    return std::nullopt;
   CriticalDifferenceSpec spec;
   spec.alpha = kSignificanceOfMethods;
   spec.id = figure_id(comparison.id, "ranks-" + comparison.quantity->id);
@@ -524,7 +724,6 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
     for (const ResultsLine& line : lines) {
       HeatMapSpec spec;
       spec.id = fmt::format("{}-{}-{}", id, slug_of(quantity.id), slug_of(line.method));
-      spec.title = fmt::format("{}, {}: {}", setup.label, line.label, quantity.label);
       spec.x_label = view.factor_label(grid->x);
       spec.y_label = view.factor_label(grid->y);
       spec.x_names = names_of(grid->x_levels);
@@ -535,8 +734,10 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
       spec.unit = quantity.unit;
       spec.missing = "no run gave a value";
       spec.record_ids = {setup.id};
-      if (std::ranges::any_of(spec.values, [](double mean) { return std::isfinite(mean); }))
-        group.figures.push_back(heat_map_figure(spec));
+      if (std::ranges::none_of(spec.values, is_known)) continue;
+      spec.title = fmt::format("{}, {}: {}", setup.label, line.label,
+                               heat_map_finding(spec, in_sentence(quantity.label)));
+      group.figures.push_back(heat_map_figure(spec));
     }
   }
   return group;
@@ -573,7 +774,7 @@ void make_ids_unique(StudyFigures& figures) {
 std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
                           const Quantity& quantity) {
   if (block.has_axis()) {
-    const std::vector<ErrorLine> curves = curves_of(view, block, quantity);
+    const std::vector<ErrorLine> curves = curves_of(view, block, quantity).lines;
     if (curves.empty())
       return fmt::format("{}: there is no curve, since no run gave a value.", quantity.label);
     if (distinguishes(curves)) return "";

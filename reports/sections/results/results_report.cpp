@@ -14,6 +14,7 @@
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/evaluate/evaluation_rows.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "render/figures/number_text.hpp"
 #include "reports/sections/opening.hpp"
@@ -56,6 +57,8 @@ void add_extent(const TopicStudy& study, KeyValues& facts) {
   facts.items.push_back({"Steps", {fmt::format("{}", experiment.steps), Emphasis::kPlain}});
 }
 
+constexpr const char* kNoUsableMap = ": no usable map";  ///< Ends the title of its figure.
+
 std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
   const auto setup = std::ranges::find(study.design.setups, map.at.setup.get(), &TopicSetup::id);
   std::string title = is_of_data(study) || setup == study.design.setups.end()
@@ -66,7 +69,7 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
   title += ": " + series_label(study.design, map.method);
   constexpr double kMostTurned_percent = 25.0;  // Of triples; 50 are chance.
   if (const auto& score = map.map.score)
-    title += score->moe_percent > kMostTurned_percent ? ": no usable map"
+    title += score->moe_percent > kMostTurned_percent ? kNoUsableMap
              : std::isfinite(score->mpe_m)            ? ": " + error_text(score->mpe_m) + " off"
                                                       : "";
   if (map.uncertainty) title += ", 95\u00a0% ellipses by the bootstrap";
@@ -206,11 +209,12 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
     if (errors.id.starts_with(path_error_prefix(input.view.study())))
       sections.push_back({errors.id, errors.title, {gallery_of(errors)}});
   if (!input.cost.empty()) {
-    Section section{input.view.study().name + "-cost", "Cost", {}};
+    Section section{input.view.study().name + "-cost", "Cost", {}, "", Interest::kFew};
     for (const Table& table : input.cost) section.blocks.emplace_back(table);
     sections.push_back(std::move(section));
   }
-  sections.push_back({input.view.study().name + "-provenance", "Provenance", input.provenance});
+  sections.push_back({input.view.study().name + "-provenance", "Provenance", input.provenance, "",
+                      Interest::kFew});
   return sections;
 }
 
@@ -445,35 +449,67 @@ Highlights numbers_of(const ResultsReportInput& input) {
   return numbers;
 }
 
+/// "only 75.1 % of the poses are associated (orb, desk)"; empty if there are enough of each path.
+std::string few_associated(const ResultsStudy& study) {
+  std::vector<std::string> few;
+  for (const Result& row : study.results.rows)
+    if (row.quantity == "associated_percent" && row.value < kFewAssociated_percent)
+      few.push_back(fmt::format("{:.3g}\u00A0% ({}, {})", row.value,
+                                label_of(study.methods, row.method), row.run));
+  constexpr std::size_t kMostNamed = 3;
+  return few.empty() ? ""
+                     : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
+}
+
 /// What is wrong, in one paragraph: what is missing or lost, and what whoever knows the study says.
 Paragraph warnings_paragraph(const ResultsReportInput& input) {
   std::vector<std::string> wrong = input.warnings;
   if (!input.incomplete.empty()) wrong.push_back("incomplete: " + input.incomplete);
   if (std::string losses = losses_of(input.view); !losses.empty()) wrong.push_back(losses);
+  if (std::string few = few_associated(input.view.study()); !few.empty()) wrong.push_back(few);
   std::string text = wrong.empty() ? "none; every result has a value." : "";
   for (const std::string& one : wrong) text += (text.empty() ? "" : "; ") + one;
   if (!text.ends_with('.')) text += '.';
   return {{strong("Warnings"), phrase(": " + text)}};
 }
 
-/// Where a map or a path is, it is what a reader wants to open: it comes before curves, one of each
-/// group first, and before all the best method's map where it is best, then paths in the colours of
-/// their errors.
+/// Those that stand for a group in the opening: the first one, and others spread over the rest, so
+/// that neighbours, which are of one data set, do not fill it. Maps that are of no use are left
+/// out.
+std::vector<std::string> spread(const std::vector<Figure>& figures) {
+  std::vector<std::string> usable, ids;
+  for (const Figure& figure : figures)
+    if (figure.title.find(kNoUsableMap) == std::string::npos) usable.push_back(figure.id);
+  constexpr std::size_t kMost = 6;
+  const std::size_t step = std::max<std::size_t>(1, usable.size() / kMost);
+  for (std::size_t i = 0; i < usable.size(); i += step) ids.push_back(usable[i]);
+  return ids;
+}
+
+/// Where a map or a path is, it is what a reader wants to open: it comes before curves, and before
+/// all the best method's map where it is best, or what shows the errors of several systems
+/// together. Groups take turns.
 std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
-  std::vector<std::string> paths, first, rest;
+  const ResultsStudy& study = view.study();
+  std::vector<std::string> ids;
   if (const auto best = best_over_runs(view))
-    paths.push_back(fmt::format("{}-map-{}-{}", view.study().name,
-                                slug_of(view.study().methods[best->method].id),
-                                slug_of(best->run)));
+    ids.push_back(fmt::format("{}-map-{}-{}", study.name, slug_of(study.methods[best->method].id),
+                              slug_of(best->run)));
+  std::vector<std::vector<std::string>> groups;
+  std::ptrdiff_t paths = 0;  // The first of them.
   for (const FigureGroup& group : figures.groups) {
-    auto& opening = group.id.starts_with(path_error_prefix(view.study())) ? paths : first;
-    for (const Figure& figure : group.figures)
-      (&figure == &group.figures.front() ? opening : rest).push_back(figure.id);
-    for (const Scene& scene : group.scenes) first.push_back(scene.id);
+    std::vector<std::string> own = spread(group.figures);
+    for (const Scene& scene : group.scenes) own.push_back(scene.id);
+    const bool is_of_paths = group.id.starts_with(path_error_prefix(study));
+    if (is_of_paths && study.methods.size() > 1) own.insert(own.begin(), group.id + "-curves");
+    groups.insert(is_of_paths ? groups.begin() + paths++ : groups.end(), std::move(own));
   }
-  paths.insert(paths.end(), first.begin(), first.end());
-  paths.insert(paths.end(), rest.begin(), rest.end());
-  return paths;
+  std::size_t turns = 0;
+  for (const std::vector<std::string>& own : groups) turns = std::max(turns, own.size());
+  for (std::size_t turn = 0; turn < turns; ++turn)
+    for (const std::vector<std::string>& own : groups)
+      if (turn < own.size()) ids.push_back(own[turn]);
+  return ids;
 }
 
 }  // namespace

@@ -318,9 +318,14 @@ std::optional<MeanEstimate> ResultsView::mean(const Condition& at, const Results
                                               const Quantity& quantity) const {
   std::vector<double> values;
   std::vector<int> clusters;
-  for (const auto& [run, value] : numbers(at, line, quantity).values) {
-    values.push_back(value);
-    clusters.push_back(clusters_[groups_.find(run)->id()]);
+  {
+    const ValuesByRun by_run = numbers(at, line, quantity).values;
+    values.reserve(by_run.size());
+    clusters.reserve(by_run.size());
+    for (const auto& [run, value] : by_run) {
+      values.push_back(value);
+      clusters.push_back(clusters_[groups_.find(run)->id()]);
+    }
   }
   if (values.empty()) return std::nullopt;
   return clustered_mean(values, clusters);
@@ -349,10 +354,6 @@ StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line)
       ++counts.codes[code];
   }
   return counts;
-}
-
-ValuesByRun ResultsView::group_means(const ValuesByRun& runs) const {
-  return means_by_group(runs, groups_);
 }
 
 std::string ResultsView::level_words(const Level& level) const {

@@ -97,8 +97,8 @@ class ResultsView {
                                    const Quantity& quantity) const;
   /// What is known of how a line's runs ended.
   StatusCounts statuses(const Condition& at, const ResultsLine& line) const;
-  /// The mean of each group's runs.
-  ValuesByRun group_means(const ValuesByRun& runs) const;
+  /// The group of each run of the study.
+  const GroupsByRun& run_groups() const { return groups_; }
 
   /// "noise 0.1 m": a level in words.
   std::string level_words(const Level& level) const;

@@ -144,6 +144,20 @@ Section section_of(const FigureGroup* figures, std::string id, std::string title
   return section;
 }
 
+/// The path and beside it the drive from above, which readers want to see; then what they rest on.
+Section path_section(const FigureGroup* figures, std::string id, std::string title) {
+  if (figures == nullptr) return {std::move(id), std::move(title), {}};
+  constexpr std::string_view kDriveScene = "scene-drive-";  // docs/figures.md
+  Section section{figures->id, figures->title, {plain(figures->words)}};
+  Gallery gallery = gallery_of(*figures);
+  const auto others = std::ranges::stable_partition(
+      gallery.figures.begin() + 1, gallery.figures.end(),
+      [](const FigureBlock& figure) { return figure.id.starts_with(kDriveScene); });
+  gallery.open = static_cast<std::size_t>(others.begin() - gallery.figures.begin());
+  section.blocks.emplace_back(std::move(gallery));
+  return section;
+}
+
 /// Eq. 5 and what the paper's text reads off it.
 Paragraph bound_words(const ConvergenceCurve& curve) {
   std::vector<double> steps, sines;
@@ -162,8 +176,9 @@ Paragraph bound_words(const ConvergenceCurve& curve) {
 }
 
 /// One log of a real robot.
-Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
-  Section section = section_of(figures, slam_run_group(run), "Range-only SLAM: " + title_of(run));
+Section slam_run_section(const SlamRun& run, const FigureGroup* figures, bool is_of_paper) {
+  Section section = path_section(figures, slam_run_group(run), "Range-only SLAM: " + title_of(run));
+  section.interest = Interest::kMost;
   if (run.windows)
     section.blocks.emplace_back(plain(fmt::format(
         "Ranges come one at a time: windows of {:.3g} s bring them to common times. Of the lengths "
@@ -171,7 +186,10 @@ Section slam_run_section(const SlamRun& run, const FigureGroup* figures) {
         "give ranges at the most times it is the one that best predicts ranges held out, without "
         "the ground truth.",
         run.windows->chosen_s)));
-  if (auto landmarks = slam_landmark_table(run)) section.blocks.emplace_back(*std::move(landmarks));
+  if (auto landmarks = slam_landmark_table(run)) {
+    landmarks->secondary = is_of_paper;  // Else it is what was asked for.
+    section.blocks.emplace_back(*std::move(landmarks));
+  }
   add_remarks(run, section);
   return section;
 }
@@ -187,6 +205,7 @@ std::optional<Section> histories_section(const SlamReportInput& input) {
   Section section = figures != nullptr
                         ? figures_section(*figures)
                         : Section{kSlamHistories, "Range-only SLAM: mapping without a path", {}};
+  section.interest = Interest::kFew;
   section.blocks.emplace_back(slam_history_table(*input.study.histories));
   return section;
 }
@@ -211,6 +230,7 @@ std::optional<Section> cost_section(const SlamReportInput& input) {
           : Section{kSlamCost,
                     "Range-only SLAM: cost",
                     {plain("Seconds differ from one run of the program to the next.")}};
+  section.interest = Interest::kFew;
   if (is_of_paper(input.study))
     section.blocks.emplace_back(plain(
         "The paper states O((2N)\u00B2 T) for its factorisation, and \u201Cusually taking less "
@@ -294,13 +314,15 @@ std::optional<Highlights::Item> error_number(const SlamRun& run) {
   });
   if (method == methods.end()) return std::nullopt;
   std::vector<std::string> details;
-  if (const auto length = length_m(run.log))
-    details.push_back(*length < 1000.0 ? fmt::format("over {:.0f}\u00a0m", *length)
-                                       : fmt::format("over {:.1f}\u00a0km", *length / 1000.0));
   for (auto other = method + 1; other != methods.end(); ++other)
     if (const TrajectoryError* error = error_of(run, *other);
         error != nullptr && std::isfinite(error->mean_m))
-      details.push_back(fmt::format("{} {}", info(*other).label, metres_of(error->mean_m)));
+      details.push_back(
+          fmt::format("{} {}", unbroken(info(*other).label), metres_of(error->mean_m)));
+  std::ranges::reverse(details);  // Dead reckoning, which every reader knows, first.
+  if (const auto length = length_m(run.log))
+    details.push_back(*length < 1000.0 ? fmt::format("over {:.0f}\u00a0m", *length)
+                                       : fmt::format("over {:.1f}\u00a0km", *length / 1000.0));
   return Highlights::Item{"mean position error, " + title_of(run),
                           metres_of(error_of(run, *method)->mean_m),
                           fmt::format("{}", fmt::join(details, "; ")), "slam-accuracy"};
@@ -321,9 +343,14 @@ void add_run_numbers(const SlamStudy& study, Highlights& numbers) {
 void add_slope(const SlamStudy& study, Highlights& numbers) {
   const double slope =
       study.convergence.empty() ? kNaN : convergence_slope(study.convergence.front());
-  if (std::isfinite(slope))
-    numbers.items.push_back({"power of the number of measurements that the model error follows",
-                             slope_words(slope), "theory: \u22121/2", kSlamSimulation});
+  if (!std::isfinite(slope)) return;
+  constexpr double kMore = 4.0, kTheory = -0.5;
+  numbers.items.push_back(
+      {fmt::format("of the model error is left with {:g} times the measurements", kMore),
+       fmt::format("{:.0f}\u00a0%", 100.0 * std::pow(kMore, slope)),
+       fmt::format("theory: {:.0f}\u00a0%; powers {} and \u22121/2",
+                   100.0 * std::pow(kMore, kTheory), slope_words(slope)),
+       kSlamSimulation});
 }
 
 /// All warnings and failures, and in how many records.
@@ -374,8 +401,7 @@ Section slam_summary_section(const SlamStudy& study) {
 std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
   const RunList runs = runs_of(study, false);
   if (runs.empty()) return std::nullopt;
-  Section section{"slam-accuracy", "Range-only SLAM: methods", {}};
-  section.blocks.emplace_back(slam_drive_table(runs));
+  Section section{"slam-accuracy", "Range-only SLAM: methods", {}, "", Interest::kMost};
   Table errors = is_of_paper(study)
                      ? slam_error_table("table-plaza", "Methods on the Plaza data sets", runs)
                      : slam_error_table("slam-errors", "Methods", runs);
@@ -384,6 +410,7 @@ std::optional<Section> slam_accuracy_section(const SlamStudy& study) {
         "Published: the paper\u2019s text prints no errors of these methods, so no column holds "
         "any.");
   section.blocks.emplace_back(std::move(errors));
+  section.blocks.emplace_back(slam_drive_table(runs));
   if (auto alignments = slam_alignment_table(runs)) fold(*std::move(alignments), section);
   return section;
 }
@@ -422,7 +449,8 @@ std::vector<Section> slam_sections(const SlamReportInput& input) {
   if (auto accuracy = slam_accuracy_section(study)) sections.push_back(*std::move(accuracy));
   for (const SlamRun& run : study.runs)
     if (!run.simulated)
-      sections.push_back(slam_run_section(run, group_of(input.figures, slam_run_group(run))));
+      sections.push_back(
+          slam_run_section(run, group_of(input.figures, slam_run_group(run)), is_of_paper(study)));
   if (auto simulation = slam_simulation_section(study, group_of(input.figures, kSlamSimulation)))
     sections.push_back(*std::move(simulation));
   if (auto histories = histories_section(input)) sections.push_back(*std::move(histories));
@@ -434,7 +462,7 @@ std::vector<Section> slam_sections(const SlamReportInput& input) {
 }
 
 Section slam_provenance_section(const SlamReportInput& input) {
-  Section section{"slam-provenance", "Range-only SLAM: provenance", {}};
+  Section section{"slam-provenance", "Range-only SLAM: provenance", {}, "", Interest::kFew};
   section.blocks.emplace_back(
       plain("Every number here comes from the study\u2019s records; this command makes them and "
             "this report again, to the byte (seconds aside):"));

@@ -73,21 +73,20 @@ TopicHeadline choice_headline(const TopicStudy& study) {
   const auto [best, least] = best_criterion(study, "regret_m");
   if (best.empty()) return {};
   const double fixed = mean_over_all(study, kFixedMethod, "regret_m");
-  return {page_metres(least), "worse than the best map: the map that a criterion picks",
-          fmt::format("{}; a fixed method {}, a random pick {}", best, page_metres(fixed),
-                      page_metres(mean_over_all(study, kRandomPick, "regret_m"))),
-          std::isnan(fixed) ? ""
-          : least < fixed   ? "better than a fixed method"
-                            : "no better than a fixed method",
-          least >= fixed};
+  const auto [value, words] = regret_words(least);
+  return {
+      value, fmt::format("{} the best map: the map that a criterion picks", words), "by " + best,
+      std::isnan(fixed) ? ""
+                        : fmt::format("{} than a fixed method, {}",
+                                      least < fixed ? "better" : "no better", page_metres(fixed)),
+      least >= fixed};
 }
 
 }  // namespace
 
-const TopicWords kChoiceWords = {
-    .topic = "choice",
-    .question = choice_question,
-    .conclusions = choice_conclusions,
-    .headline = choice_headline};
+const TopicWords kChoiceWords = {.topic = "choice",
+                                 .question = choice_question,
+                                 .conclusions = choice_conclusions,
+                                 .headline = choice_headline};
 
 }  // namespace mapproof

@@ -99,7 +99,8 @@ TopicHeadline missing_headline(const TopicStudy& study) {
   const double pairwise = regret_m(study, "pairwise-complete-smacof-knn");
   const double ppca = regret_m(study, "ppca-smacof-knn");
   const bool is_best = !(regret > pairwise) && !(regret > ppca);
-  return {page_metres(regret), "worse than the best map: the strategy chosen for missing data",
+  const auto [value, words] = regret_words(regret);
+  return {value, fmt::format("{} the best map: the strategy chosen for missing data", words),
           fmt::format("always pairwise-complete {}, always PPCA {}", page_metres(pairwise),
                       page_metres(ppca)),
           is_best ? "as good as the better of both" : "one of both is better everywhere", !is_best};
@@ -107,10 +108,9 @@ TopicHeadline missing_headline(const TopicStudy& study) {
 
 }  // namespace
 
-const TopicWords kMissingWords = {
-    .topic = "missing",
-    .question = missing_question,
-    .conclusions = missing_conclusions,
-    .headline = missing_headline};
+const TopicWords kMissingWords = {.topic = "missing",
+                                  .question = missing_question,
+                                  .conclusions = missing_conclusions,
+                                  .headline = missing_headline};
 
 }  // namespace mapproof

@@ -101,6 +101,12 @@ std::vector<std::string> mixed_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
+/// "better than", "no better than", "better, in one layout, than".
+std::string comparative(const std::string& verdict) {
+  if (verdict.starts_with("not")) return "no better than";
+  return verdict + (verdict.find(',') == std::string::npos ? " than" : ", than");
+}
+
 /// At the last level of the first setup that has maps of several sensors and of one.
 TopicHeadline mixed_headline(const TopicStudy& study) {
   for (const TopicSetup& setup : study.design.setups) {
@@ -110,20 +116,22 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
     if (single.method == nullptr || mix.method == nullptr) continue;
     const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
     const std::string verdict = difference ? verdict_words(*difference) : "";
-    return {page_metres(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
-            fmt::format("{} alone {}", single.method->label, page_metres(single.mean_m)),
-            verdict.empty() ? "" : verdict + ", compared with the best sensor alone",
-            !verdict.starts_with("better")};
+    return {
+        page_metres(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
+        verdict.empty() ? fmt::format("the best sensor alone {}", page_metres(single.mean_m)) : "",
+        verdict.empty() ? ""
+                        : fmt::format("{} the best sensor alone, {}", comparative(verdict),
+                                      page_metres(single.mean_m)),
+        difference && !verdict.starts_with("better")};
   }
   return {};
 }
 
 }  // namespace
 
-const TopicWords kMixedWords = {
-    .topic = "mixed",
-    .question = mixed_question,
-    .conclusions = mixed_conclusions,
-    .headline = mixed_headline};
+const TopicWords kMixedWords = {.topic = "mixed",
+                                .question = mixed_question,
+                                .conclusions = mixed_conclusions,
+                                .headline = mixed_headline};
 
 }  // namespace mapproof

@@ -74,23 +74,20 @@ TopicHeadline moved_headline(const TopicStudy& study) {
   if (std::isnan(named)) return {};
   const double still = named_without_move(study);
   constexpr double kLevel = 5.0;  // Percent.
-  return {
-      fmt::format("{:.0f}\u00a0%", named), "of moved landmarks named, " + level_words(setup, at),
-      std::isnan(still)
-          ? std::string()
-          : fmt::format("where nothing moves, one is named in {:.1f}\u00a0% of the logs", still),
-      std::isnan(still) ? ""
-      : still > kLevel  ? "more false names than the 5\u00a0% aimed at"
-                        : "no more false names than the 5\u00a0% aimed at",
-      still > kLevel};
+  return {fmt::format("{:.0f}\u00a0%", named),
+          "of moved landmarks named, " + level_words(setup, at), "",
+          std::isnan(still)
+              ? std::string()
+              : fmt::format("{:.1f}\u00a0% named where nothing moves, {:.0f}\u00a0% aimed at",
+                            still, kLevel),
+          still > kLevel};
 }
 
 }  // namespace
 
-const TopicWords kMovedWords = {
-    .topic = "moved",
-    .question = moved_question,
-    .conclusions = moved_conclusions,
-    .headline = moved_headline};
+const TopicWords kMovedWords = {.topic = "moved",
+                                .question = moved_question,
+                                .conclusions = moved_conclusions,
+                                .headline = moved_headline};
 
 }  // namespace mapproof

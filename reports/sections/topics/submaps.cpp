@@ -74,17 +74,16 @@ TopicHeadline submaps_headline(const TopicStudy& study) {
   if (std::isnan(parts + whole)) return {};
   const auto difference = topic_difference(study, at, "parts-" + name, "whole-" + name, "mpe_m");
   return {page_metres(parts), "MPE of joined sub-maps, " + level_words(setup, at),
-          fmt::format("{}; of the whole {}", label(setting), page_metres(whole)),
+          fmt::format("{}; {}", page_metres(whole), label(setting)),
           difference ? verdict_words(*difference) + ", compared with the whole map" : "",
           difference && verdict_words(*difference).starts_with("worse")};
 }
 
 }  // namespace
 
-const TopicWords kSubmapsWords = {
-    .topic = "submaps",
-    .question = submaps_question,
-    .conclusions = submaps_conclusions,
-    .headline = submaps_headline};
+const TopicWords kSubmapsWords = {.topic = "submaps",
+                                  .question = submaps_question,
+                                  .conclusions = submaps_conclusions,
+                                  .headline = submaps_headline};
 
 }  // namespace mapproof

@@ -21,6 +21,13 @@ std::span<const TopicWords* const> all_topic_words() {
   return kAll;
 }
 
+RegretWords regret_words(double regret_m) {
+  constexpr double kLeast_m = 0.0005;  // What page_metres() shows as 0.001 m.
+  if (regret_m == 0.0) return {"equal", "to"};
+  if (std::abs(regret_m) < kLeast_m) return {"< 0.001\u00a0m", "worse than"};
+  return {page_metres(regret_m), "worse than"};
+}
+
 std::string question_of(const TopicExperiment& experiment) {
   const TopicWords* words = words_of(experiment.topic);
   return words == nullptr ? "" : words->question(experiment);

@@ -20,6 +20,14 @@ struct TopicHeadline {
   bool falls_short = false;
 };
 
+/// By how much a mean error is larger than that of the best map, with the words that follow it:
+/// {"0.022 m", "worse than"}, {"< 0.001 m", "worse than"}, {"equal", "to"}.
+struct RegretWords {
+  std::string value;
+  std::string_view words;
+};
+RegretWords regret_words(double regret_m);
+
 /// The words of a topic (core/topics/topic.hpp).
 struct TopicWords {
   std::string_view topic;  ///< In files: "missing".

@@ -108,6 +108,20 @@ TEST(AnimatedImages, OfWebPAreUnreadableIfTheyAreCut) {
   EXPECT_EQ(compared(kFormats / "before/film.webp", file).at("verdict"), "unreadable");
 }
 
+TEST(AnimatedImages, OfWebPAreRefusedByTheSizeThatTheyDeclareBeforeTheyTakeIt) {
+  if (!MAPPROOF_HAS_ANIMATION) GTEST_SKIP() << "built without mapproof-animation";
+  const TemporaryFolder folder;
+  const fs::path file = folder / "film.webp";
+  std::string film = read_file(kFormats / "before/film.webp");
+  ASSERT_EQ(film.substr(12, 4), "VP8X");
+  film.replace(24, 3, std::string("\0\0\x30", 3));  // The width of the canvas, less one.
+  write_file(file, film);
+  const nlohmann::json item = compared(kFormats / "before/film.webp", file);
+  EXPECT_EQ(item.at("verdict"), "unreadable");
+  EXPECT_NE(item.dump().find("3145729 x "), std::string::npos) << item;
+  EXPECT_NE(item.dump().find("more than the 65535 a side"), std::string::npos) << item;
+}
+
 TEST(LargeImages, AreComparedInStrips) {
   const nlohmann::json item = compared(kFormats / "before/large.png", kFormats / "after/large.png");
   EXPECT_EQ(item.at("verdict"), "changed") << item;

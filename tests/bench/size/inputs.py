@@ -3,6 +3,8 @@
 inputs.py study FOLDER COUNT   results.csv, study.json and maps/*.csv of a study whose report has
                                     COUNT figures: a curve of each of COUNT / 10 sites, the rest maps
 inputs.py sites FOLDER COUNT   the same, all of them curves: a section and a table a figure
+inputs.py drives FOLDER COUNT  drives.json and a log of ranges, data/log, for an experiment whose report
+                                    has COUNT 3-D figures, one per drive, and three times as many others
 inputs.py images FOLDER COUNT  a/*.png and b/*.png of one name each, 240 x 180: of every hundred
                                     one is changed and half of the rest are compressed in another way
 inputs.py changed FOLDER COUNT the same, all of them changed
@@ -13,6 +15,7 @@ inputs.py copies FOLDER LAST   fills the history in FOLDER up to nightly run LAS
 """
 
 import json
+import math
 import os
 import pathlib
 import random
@@ -46,6 +49,39 @@ def study(folder, count, sites):
             lines.append(f"l{landmark},{x + numbers.gauss(0, 0.1):.4f},"
                          f"{y + numbers.gauss(0, 0.1):.4f},{x:.4f},{y:.4f}")
         (folder / "maps" / f"room-{room}.csv").write_text("\n".join(lines) + "\n")
+
+
+def drives(folder, count):
+    numbers = random.Random(1)
+    log = folder / "data" / "log"
+    log.mkdir(parents=True)
+    beacons = {f"B{i + 1}": (25 * math.cos(i), 18 * math.sin(i)) for i in range(6)}
+    (log / "landmarks.csv").write_text(
+        "id,x,y\n" + "".join(f"{name},{x:.3f},{y:.3f}\n" for name, (x, y) in beacons.items()))
+    x, y, heading = 15.0, 0.0, math.pi / 2
+    (log / "odometry_start.csv").write_text(f"t,x,y,heading\n0.0,{x},{y},{heading:.4f}\n")
+    poses, odometry, ranges = ["t,x,y,heading"], ["t,ddist,dheading"], ["t,beacon,range"]
+    for step in range(160):
+        t = 0.2 * step
+        if step > 0:
+            heading += 0.017
+            x, y = x + 0.25 * math.cos(heading), y + 0.25 * math.sin(heading)
+            odometry.append(f"{t:.1f},{0.25 + numbers.gauss(0, 0.003):.4f},"
+                            f"{0.017 + numbers.gauss(0, 0.001):.5f}")
+        poses.append(f"{t:.1f},{x:.3f},{y:.3f},{heading:.4f}")
+        name, beacon = list(beacons.items())[step % 6]
+        distance = math.dist((x, y), beacon) + numbers.gauss(0, 0.05)
+        ranges.append(f"{t:.1f},{name},{distance:.3f}")
+    for file, lines in (("groundtruth", poses), ("odometry", odometry), ("ranges", ranges)):
+        (log / f"{file}.csv").write_text("\n".join(lines) + "\n")
+    (folder / "drives.json").write_text(json.dumps(
+        {"schema": {"name": "mapproof.slam_experiment", "version": 1}, "name": "drives",
+         "title": "Drives", "seed": 1,
+         "world": {"landmarks": 6, "known": 4, "half_width_m": 10, "step_m": 1,
+                   "heading_change_sigma_rad": 0.5},
+         "data": [{"id": f"drive-{i}", "title": f"Drive {i}", "figure": f"fig-{i}",
+                   "files": ["log"], "source": "simulated"} for i in range(count)],
+         "methods": ["dead-reckoning", "spectral-known"]}))
 
 
 WIDTH, HEIGHT = 240, 180
@@ -159,6 +195,8 @@ def main():
         study(folder, count, max(1, count // 10))
     elif what == "sites":
         study(folder, count, count)
+    elif what == "drives":
+        drives(folder, count)
     elif what in ("images", "changed"):
         images(folder, count, what == "changed")
     elif what == "metrics":

@@ -63,23 +63,26 @@ RC_GTEST_PROP(ValuesByRun, AreWhatAMapOfNamesHas, ()) {
   RC_ASSERT(values.size() == expected.size());
 }
 
-TEST(GroupsByRun, CountEachRunOnceAndGiveMeansByGroup) {
+TEST(GroupsByRun, CountEachRunOnce) {
   GroupsByRun groups;
   for (const char* run : {"b2", "a1", "b1", "a1"}) groups.set(run, std::string(run, 1));
   EXPECT_EQ(groups.size(), 3U);
   EXPECT_EQ(groups.runs(), (std::vector<Name>{"a1", "b1", "b2"}));
   EXPECT_EQ(*groups.find("b2"), "b");
-  EXPECT_EQ(groups.find("no such run"), nullptr);
-  ValuesByRun values;
-  values["a1"] = 1.0;
-  values["b1"] = 2.0;
-  values["b2"] = 4.0;
-  const ValuesByRun means = means_by_group(values, groups);
-  EXPECT_EQ(means.size(), 2U);
-  EXPECT_EQ(*means.find("a"), 1.0);
-  EXPECT_EQ(*means.find("b"), 3.0);
-  values["no such run"] = 5.0;
-  EXPECT_EQ(*means_by_group(values, groups).find("no such run"), 5.0);
+  EXPECT_EQ(groups.find("no such run"), std::nullopt);
+}
+
+TEST(GroupsByRun, KnowRunsThatAreTheirOwnGroupBesideOthers) {
+  GroupsByRun groups;
+  for (const char* run : {"alone", "other", "again"}) groups.set(run, run);
+  groups.set("other", "group");
+  groups.set("nameless", "");
+  groups.set("again", "group");
+  groups.set("again", "again");
+  EXPECT_EQ(*groups.find("alone"), "alone");
+  EXPECT_EQ(*groups.find("other"), "group");
+  EXPECT_EQ(*groups.find("nameless"), "");
+  EXPECT_EQ(*groups.find("again"), "again");
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/json/text_input.hpp"
 #include "core/records/detections/mrclam.hpp"
 #include "core/records/observations/observations.hpp"
 #include "core/records/ranges/range_companions.hpp"
@@ -41,7 +42,9 @@ const Added kNpy({.name = "npy",
 void read_time(std::string_view bytes) {
   const std::optional<double> time = time_in(bytes), date = date_in(bytes);
   if (time && !std::isfinite(*time)) found("a time is finite", fmt::format("{}", *time));
-  if (date && time && *date != *time) found("a date is a time", fmt::format("{} {}", *date, *time));
+  // Digits alone are a number in a column of times, a date in one of dates.
+  if (date && time && !number_in(bytes) && *date != *time)
+    found("a date is a time", fmt::format("{} {}", *date, *time));
   if (!time && time_problem(bytes).find('\n') != std::string::npos)
     found("a problem is one line", time_problem(bytes));
 }

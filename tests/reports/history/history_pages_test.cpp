@@ -52,10 +52,10 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
                                     .change = i});
   const std::vector<FindingGroup> groups = grouped(nightly_run.findings, {}, {});
   const Standing stands = study_standing(nightly_run.facts, groups, "mine", true);
-  EXPECT_EQ(stands.title, "Nightly run 5: 7 things got worse");
+  EXPECT_EQ(stands.title, "Nightly run 5: accuracy got worse: 7 findings");
   ASSERT_EQ(stands.sentences.size(), 4U);
   EXPECT_EQ(stands.sentences[2], "method 3: mpe_m +3.0\u00a0%, since nightly run 5.");
-  EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more"));
+  EXPECT_TRUE(stands.sentences[3].starts_with("And 4 more findings"));
 
   const Report index = index_page({.nightly_runs = {nightly_run.facts},
                                    .findings = {{5, nightly_run.findings}},
@@ -110,13 +110,78 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   trend.medians[{"size", "isomap-K5 level=30", 0, "found_percent"}] = {90, 91, 92, 93};
   trend.medians[{"size", "isomap-K5 level=50", 0, "found_percent"}] = {80, 81, 82, 83};
   const std::vector<Figure> figures = trend_figures(trend, {});
-  ASSERT_EQ(figures.size(), 3U);  // MPE, what is declared, memory.
+  ASSERT_EQ(figures.size(), 2U);  // MPE and what is declared; memory did not change.
   EXPECT_EQ(figures[1].id, "trend-found-percent-size");
   EXPECT_EQ(figures[1].panels.front().y.label, "change of Landmarks found [points]");
   EXPECT_EQ(curves(figures[1]), std::vector<std::string>{"ISOMAP, K = 5, level=30"})
       << "the better level stands for the method";
   const Table table = accuracy_table(trend);
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
+}
+
+TEST(HistoryPages, SayWhatTheFirstNightlyRunMeasuredInsteadOfDrawingATrend) {
+  StudyTrend trend{.name = "mine", .nightly_runs = {{.number = 3}}, .peak_memory_mib = {80}};
+  trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.3};
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.0612};
+  EXPECT_TRUE(trend_figures(trend, {}).empty());
+  EXPECT_EQ(trend_sentences(trend, {}),
+            (std::vector<std::string>{"Bearing: MPE from 0.0612\u00a0m (ISOMAP, K = 6) to "
+                                      "0.300\u00a0m (LPCA), 2 methods in nightly run 3.",
+                                      "Peak memory 80.0\u00a0MiB in nightly run 3."}));
+  const HistoryPage index = index_page({.nightly_runs = {{.number = 3}}, .trends = {trend}}, {});
+  EXPECT_TRUE(index.report.opening.main_figure.empty());
+  EXPECT_TRUE(index.report.opening.figure_ids.empty());
+  EXPECT_EQ(index.report.opening.findings.at(2).phrases.front().text, "Measured");
+  const HistoryPage page = trend_page(trend, {}, false, {});
+  EXPECT_NO_THROW(check(page.report));
+  EXPECT_TRUE(page.report.opening.main_figure.empty());
+}
+
+TEST(HistoryPages, DrawNoTrendOfWhatDidNotChangeUnlessItHasAFinding) {
+  StudyTrend trend{.name = "mine", .nightly_runs = {{.number = 1}, {.number = 2}}};
+  trend.peak_memory_mib = {80, 81};
+  const SeriesId series{"bearing", "lpca", 150, "mpe_m"};
+  trend.medians[series] = {0.3, 0.3 * (1.0 + 1e-12)};
+  ASSERT_EQ(trend_figures(trend, {}).size(), 1U);
+  EXPECT_EQ(trend_figures(trend, {}).front().id, "trend-memory");
+  EXPECT_EQ(trend_sentences(trend, {}),
+            (std::vector<std::string>{
+                "Bearing: MPE 0.300\u00a0m (LPCA); change 0\u00a0% in 2 nightly runs."}));
+  const NightlyFindings findings = {
+      {2, {{.study = "mine", .subject = "bearing, lpca, 150 steps", .quantity = "mpe_m"}}}};
+  EXPECT_EQ(trend_figures(trend, findings).front().id, "trend-mpe-m-bearing");
+  EXPECT_TRUE(trend_sentences(trend, findings).empty());
+  trend.medians[series] = {0.3, 0.301};
+  const Figure moved = trend_figures(trend, {}).front();
+  EXPECT_EQ(moved.title, "Bearing: MPE has not got worse");
+  trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.5};
+  trend.medians[{"bearing", "isomap-K6", 150, "seconds"}] = {2.0, 1.8};
+  EXPECT_EQ(trend_figures(trend, {})[1].title, "Bearing: seconds changed by −10 to +50\u00a0%");
+  trend.medians[series] = {0.3, NAN};
+  EXPECT_EQ(trend_figures(trend, {}).front().id, "trend-seconds-bearing")
+      << "one value is not a course";
+}
+
+TEST(HistoryPages, GiveTheHourWhereAllNightlyRunsAreOfOneDay) {
+  StudyTrend trend = best_got_worse();
+  const auto ticks = [&] { return trend_figures(trend, {}).front().panels.front().x; };
+  for (NightlyFacts& nightly_run : trend.nightly_runs)
+    nightly_run.started_utc = fmt::format("2026-11-22T0{}:30:07Z", nightly_run.number);
+  EXPECT_EQ(ticks().label, "nightly run: time on 2026-11-22");
+  EXPECT_EQ(ticks().names.front(), "1: 01:30");
+  trend.nightly_runs.back().started_utc = "2026-11-23T04:30:07Z";
+  EXPECT_EQ(ticks().label, "nightly run: date");
+  EXPECT_EQ(ticks().names.front(), "1: 11-22");
+}
+
+TEST(HistoryPages, LinkTheCommitsSinceTheReferenceRun) {
+  const NightlyFacts before{.number = 3, .commit = "abc1"};
+  const NightlyFacts last{
+      .number = 4, .commit = "abd2", .repository = "https://host/a/b", .reference = 3};
+  const HistoryPage index =
+      index_page({.nightly_runs = {before, last}, .trends = {best_got_worse()}}, {});
+  EXPECT_EQ(index.link_words.at("https://host/a/b/compare/abc1...abd2"), "abc1..abd2");
+  EXPECT_EQ(index.report.opening.findings[1].phrases[3].emphasis, Emphasis::kUrl);
 }
 
 TEST(HistoryRules, JudgeOneOfTheTwoOrientationErrors) {
@@ -136,8 +201,8 @@ TEST(HistoryPages, SayOfANightlyRunThatWasNotComparedThatItWasNot) {
   const NightlyFacts nightly_run{.number = 4};
   EXPECT_EQ(verdict_word(nightly_run), "not compared");
   EXPECT_EQ(verdict_word({.number = 4, .reference = 2}), "passed");
-  EXPECT_TRUE(nightly_standing({.facts = nightly_run})
-                  .title.starts_with("Nightly run 4: not compared"));
+  EXPECT_TRUE(
+      nightly_standing({.facts = nightly_run}).title.starts_with("Nightly run 4: not compared"));
 }
 
 /// The links of a paragraph, by what they say.

@@ -61,7 +61,7 @@ std::vector<Scenario> scenarios() {
        }),
        "bearing, lpca"},
       {"all seconds +30 %", with([](test::Plant& plant, int) { plant.all_seconds = 1.3; }),
-       "all methods"},
+       kAllMethods},
       {"memory +10 %", with([](test::Plant& plant, int) { plant.memory = 1.1; }),
        "the whole study"},
   };

@@ -7,6 +7,7 @@
 
 #include "reports/history/history_pages.hpp"
 #include "reports/history/nightly_standing.hpp"
+#include "reports/history/study_course.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -72,6 +73,22 @@ TEST(FindingGroups, AreOfOneMethodAndSayWhatChangedByHowMuchAndSinceWhichCommits
             "git bisect start bbbbbbbbb aaaaaaaaa && git bisect run sh -c '(make -j4) || exit 125; "
             "mapproof nightly mine --store '\\''my history'\\'' --bisect 2'");
   EXPECT_EQ(summary.short_verdict(), "MPE +17.6\u00a0%");
+  EXPECT_EQ(group.count_text(), "2 findings");
+}
+
+TEST(FindingGroups, SearchWithACommandThatNamesNoCommitAndWritesNothing) {
+  CommitRange range{
+      .before = {.number = 1, .commit = std::string(40, 'a')},
+      .since = {.number = 2,
+                .command = "mapproof nightly 'a b.json' --build 'make -j4' --commit " +
+                           std::string(40, 'b') +
+                           " --store h --reference=1 --on-worse 'echo \"it'\\''s\"' "
+                           "-o pages --markdown n.md --junit n.xml --jobs 2",
+                .commit = std::string(40, 'b'),
+                .build = "make -j4"}};
+  EXPECT_EQ(range.bisect(),
+            "git bisect start bbbbbbbbb aaaaaaaaa && git bisect run sh -c '(make -j4) || exit 125; "
+            "mapproof nightly '\\''a b.json'\\'' --store h --jobs 2 --bisect 2'");
 }
 
 TEST(FindingGroups, SayTheTimeByTheClockOfThePlace) {
@@ -159,24 +176,151 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
       index_page({.nightly_runs = trend.nightly_runs,
                   .findings = {{3, two_findings()}},
                   .trends = {trend},
-                  .notes = {{.nightly_run = 3, .text = "a note"}},
+                  .notes = {{.nightly_run = 3, .text = "a note"},
+                            {.nightly_run = 3, .finding = 2, .text = "of K = 8"}},
                   .comparisons = {comparison_file(1, 2, "mine")}},
                  {});
   EXPECT_NO_THROW(check(index.report));
   EXPECT_EQ(index.report.opening.standing->sentences.front(),
-            "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8), since nightly run 2, commits "
-            "aaaaaaaaa..bbbbbbbbb.");
+            "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8), 2 findings, since nightly run "
+            "2, commits aaaaaaaaa..bbbbbbbbb.");
+  EXPECT_EQ(index.report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
   ASSERT_EQ(index.report.sections.front().id, "worse");
   const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());
   EXPECT_EQ(found.keys, "3.1 3.2");
   EXPECT_EQ(found.details.size(), 2U) << "statistics are behind a click";
+  EXPECT_EQ(std::prev(found.text.phrases.end(), 2)->text, " Note on 3.2: ");
+  EXPECT_EQ(found.text.phrases.back().text, "of K = 8");
+  const auto callouts = std::ranges::count_if(
+      index.report.sections.at(1).blocks,
+      [](const Block& block) { return std::holds_alternative<Callout>(block); });
+  EXPECT_EQ(callouts, 1) << "a note on a finding stands with it";
   EXPECT_TRUE(index.link_words.contains("compare/0001-0002/mine.html"));
   const Table* studies = tables(index.report).front();
   ASSERT_EQ(studies->id, "studies");
   ASSERT_EQ(studies->rows.size(), 1U);
-  EXPECT_NEAR(studies->rows[0].curve.back(), 100.0 * (std::sqrt(1.2) - 1.0), 1e-9);
-  EXPECT_EQ(std::get<TextCell>(studies->rows[0].cells[2]).text,
-            "bearing, ISOMAP, K = 6: MPE +20.0\u00a0%");
+  EXPECT_EQ(std::get<TextCell>(studies->rows[0].cells[1]).text,
+            "bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(std::get<TextCell>(studies->rows[0].cells[2]).text, "none");
+  ASSERT_EQ(studies->rows[0].curves.size(), 1U);
+  const ChangeCurve& curve = studies->rows[0].curves[0];
+  EXPECT_EQ(curve.cell, 1U);
+  EXPECT_NEAR(curve.changes.back(), 20.0, 1e-9);
+  EXPECT_EQ(curve.is_found, (std::vector<bool>{false, false, true}));
+}
+
+TEST(StudyCourse, ShowsAnImprovementBesideAFindingThatItOutweighs) {
+  StudyTrend trend = two_settings();
+  for (const char* method : {"lem-K7", "lle-K8"})
+    trend.levels[{"bearing", method, 150, "mpe_m"}] = {0.0, std::log(0.7), std::log(0.7)};
+  const NightlyFindings findings = {{3, two_findings()}};
+  const auto worst = worst_course(trend, findings, {}), best = best_course(trend, findings);
+  ASSERT_TRUE(worst && best);
+  EXPECT_TRUE(worst->curve.is_found.back());
+  EXPECT_GT(worst->curve.changes.back(), 0.0);
+  EXPECT_TRUE(best->words.starts_with("bearing, LEM, K = 7: MPE −30.0") ||
+              best->words.starts_with("bearing, LLE, K = 8: MPE −30.0"))
+      << best->words;
+  EXPECT_NEAR(best->curve.changes.back(), -30.0, 1e-9);
+}
+
+TEST(StudyCourse, IsThatOfTheFindingWhateverItIsAbout) {
+  StudyTrend trend = two_settings();
+  trend.peak_memory_mib = {100.0, 100.0, 112.0};
+  trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
+  trend.levels[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
+  const NightlyFinding memory{.study = "mine",
+                              .rule = HistoryRule::kMemory,
+                              .subject = kAllMethods,
+                              .quantity = "memory",
+                              .since = 3,
+                              .change = 12.0};
+  const auto of_memory = worst_course(trend, {{3, {memory}}}, {});
+  ASSERT_TRUE(of_memory);
+  EXPECT_NEAR(of_memory->curve.changes.back(), 12.0, 1e-9);
+  EXPECT_TRUE(of_memory->curve.is_found.back());
+  NightlyFinding seconds = memory;
+  seconds.rule = HistoryRule::kSeconds;
+  seconds.subject = "bearing, lpca";
+  seconds.quantity = "seconds";
+  seconds.change = 50.0;
+  const auto of_seconds = worst_course(trend, {{3, {memory, seconds}}}, {});
+  ASSERT_TRUE(of_seconds);
+  EXPECT_TRUE(of_seconds->words.ends_with("and 1 more finding")) << of_seconds->words;
+  EXPECT_NEAR(of_seconds->curve.changes.back(), 50.0, 1e-9);
+  NightlyFinding lost = seconds;
+  lost.rule = HistoryRule::kLostResults;
+  lost.change.reset();
+  EXPECT_TRUE(worst_course(trend, {{3, {lost}}}, {})->words.find("results are lost") !=
+              std::string::npos);
+}
+
+TEST(StudyCourse, OfAChangeThatIsNoFindingIsNotRed) {
+  const auto course = worst_course(two_settings(), {}, {});
+  ASSERT_TRUE(course);
+  EXPECT_EQ(course->words, "bearing, ISOMAP, K = 6: MPE +20.0\u00a0%");
+  EXPECT_EQ(course->curve.is_found, (std::vector<bool>{false, false, false}));
+  EXPECT_FALSE(best_course(two_settings(), {}));
+}
+
+/// A trend of orientation errors, which are judged by points.
+StudyTrend in_points(double last) {
+  StudyTrend trend = two_settings();
+  const SeriesId id{"bearing", "isomap-K6", 150, "moe_percent"};
+  trend.medians = {{id, {10.0, 10.0, last}}};
+  trend.levels = trend.medians;
+  return trend;
+}
+
+TEST(StudyCourse, InPointsIsShownFromTheFirstDigitOn) {
+  const auto course = worst_course(in_points(10.06), {}, {});
+  ASSERT_TRUE(course);
+  EXPECT_EQ(course->words, "bearing, ISOMAP, K = 6: MOE +0.1\u00a0points");
+  EXPECT_FALSE(worst_course(in_points(10.04), {}, {})) << "+0.0 points is not a change";
+  EXPECT_TRUE(best_course(in_points(9.5), {}));
+  EXPECT_FALSE(best_course(in_points(9.6), {}));
+}
+
+TEST(StudyCourse, ComparesPointsWithPercentByWhatARuleFindsOfEach) {
+  StudyTrend trend = in_points(14.0);
+  const StudyTrend errors = two_settings();
+  trend.medians.insert(errors.medians.begin(), errors.medians.end());
+  trend.levels.insert(errors.levels.begin(), errors.levels.end());
+  NightlyFinding percent = two_findings()[0], points = percent;
+  percent.change = 6.0;  // Six times the least that is found.
+  points.quantity = "moe_percent";
+  points.change = 4.0;  // Eight times.
+  const auto course = worst_course(trend, {{3, {percent, points}}}, {});
+  ASSERT_TRUE(course);
+  EXPECT_TRUE(course->words.starts_with("bearing, ISOMAP: MOE +4.0\u00a0points")) << course->words;
+}
+
+TEST(RegressionMarks, ComeFirstInTheReportOfANightlyRun) {
+  const NightlySummary summary = summary_of();
+  Table table{.id = "t", .caption = "Bearing: MPE", .columns = {{"Method", "", "", ""}}};
+  table.rows = {{{TextCell{"ISOMAP, K = 6"}}, ""}};
+  table.secondary = true;
+  Report report{.sections = {{"summary", "Summary", {}}, {"errors", "Errors", {table}}}};
+  const NightlyRun nightly_run{.facts = summary.facts};
+  NightlyLinks links({});
+  add_nightly_run(report,
+                  {.nightly_run = nightly_run,
+                   .name = "mine",
+                   .is_compared = true,
+                   .lost = LostNightlyRuns{},
+                   .groups = summary.groups,
+                   .comparisons = {comparison_file(1, 2, "mine")}},
+                  links);
+  ASSERT_EQ(report.sections.size(), 3U);
+  EXPECT_EQ(report.sections[0].id, "worse");
+  EXPECT_EQ(report.sections[1].id, "errors");
+  EXPECT_FALSE(std::get<Table>(report.sections[1].blocks[0]).secondary) << "it is not folded";
+  const auto& found = std::get<FindingBlock>(report.sections[0].blocks[0]);
+  EXPECT_EQ(found.title, "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_NE(found.command.find("git bisect start"), std::string::npos);
+  EXPECT_TRUE(found.keys.empty()) << "decisions are made on the index";
+  EXPECT_TRUE(links.words().contains("compare/0001-0002/mine.html"));
+  EXPECT_EQ(report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
 }
 
 TEST(RegressionMarks, AreOnTheRowsOfTablesWhoseColumnsAreLevels) {
@@ -218,21 +362,147 @@ TEST(RegressionMarks, AreOnTheRowsAndFiguresOfWhatGotWorse) {
   Table other_sensor = table;
   other_sensor.id = "u";
   other_sensor.caption = "Range: MPE";
-  Report report{.sections = {{"s", "S", {table, FigureBlock{.id = "f"}, FigureBlock{.id = "g"},
-                                     other_sensor}}}};
-  Figure figure{.id = "f", .title = "MPE over steps"};
+  Report report{
+      .sections = {
+          {"s", "S", {table, FigureBlock{.id = "f"}, FigureBlock{.id = "g"}, other_sensor}}}};
+  Figure figure{.id = "f", .title = "Bearing: MPE over steps"};
   figure.panels.push_back({});
   figure.panels[0].layers.emplace_back(Polyline{.label = "ISOMAP, K = 8"});
   Figure other = figure;
   other.id = "g";
-  other.title = "MOE over steps";
+  other.title = "Bearing: MOE over steps";
   mark_regressed(report, std::vector{figure, other}, summary.groups, "mine");
   const auto& blocks = report.sections[0].blocks;
   EXPECT_EQ(std::get<Table>(blocks[0]).rows[0].regressed, "MPE +17.6\u00a0%");
   EXPECT_EQ(std::get<Table>(blocks[0]).rows[1].regressed, "");
   EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed, "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed_curves,
+            (std::vector<RegressedCurve>{{.label = "ISOMAP, K = 8"}}));
   EXPECT_EQ(std::get<FigureBlock>(blocks[2]).regressed, "");
   EXPECT_EQ(std::get<Table>(blocks[3]).rows[0].regressed, "");
+}
+
+/// The curves that are marked in a figure for a finding.
+std::vector<RegressedCurve> marked_curves(Figure figure, const FindingGroup& group) {
+  figure.id = "f";
+  Report report{.sections = {{"s", "S", {FigureBlock{.id = "f"}}}}};
+  mark_regressed(report, std::vector{figure}, std::vector{group}, "mine");
+  const auto& block = std::get<FigureBlock>(report.sections[0].blocks[0]);
+  EXPECT_EQ(block.regressed.empty(), block.regressed_curves.empty());
+  return block.regressed_curves;
+}
+
+Panel panel_of(const std::string& title, const std::string& x, const std::string& y,
+               const std::string& curve) {
+  return {
+      .title = title, .x = {.label = x}, .y = {.label = y}, .layers = {Polyline{.label = curve}}};
+}
+
+TEST(RegressionMarks, AreInThePanelsOfTheSetupAndTheQuantityOfTheFinding) {
+  const FindingGroup group = summary_of().groups[0];
+  const std::string curve = "ISOMAP, K = 6";
+  const auto panels = [&](const std::string& title, const std::string& record,
+                          const std::vector<std::string>& titles, const std::string& y) {
+    Figure figure{.title = title, .record_ids = {record}};
+    for (const std::string& one : titles)
+      figure.panels.push_back(panel_of(one, "observations", y, curve));
+    std::vector<std::size_t> marked;
+    for (const RegressedCurve& one : marked_curves(figure, group)) marked.push_back(one.panel);
+    return marked;
+  };
+  using Marked = std::vector<std::size_t>;
+  EXPECT_EQ(panels("Visibility: MPE", "visibility", {""}, "MPE [m]"), Marked{});
+  EXPECT_EQ(panels("Bearings of two rooms: MPE", "", {""}, "MPE [m]"), Marked{}) << "another one";
+  EXPECT_EQ(panels("Bearing: MPE", "", {"", "K fixed"}, "MPE [m]"), (Marked{0, 1}));
+  EXPECT_EQ(panels("My study: MPE", "bearing", {""}, "MPE [m]"), Marked{0}) << "one setup alone";
+  EXPECT_EQ(panels("MPE by sensor", "bearing/lpca", {"Visibility", "Bearing"}, "MPE [m]"),
+            Marked{1});
+  EXPECT_EQ(panels("Bearing: lowest errors", "", {""}, "MOE [%]"), Marked{});
+  Figure both{.title = "Bearing: MPE and MOE"};
+  both.panels = {panel_of("", "observations", "MPE [m]", curve),
+                 panel_of("", "observations", "MOE [%]", curve)};
+  EXPECT_EQ(marked_curves(both, group), (std::vector<RegressedCurve>{{.label = curve}}));
+}
+
+TEST(RegressionMarks, AreWhereTheXAxisIsTheParameterOfTheSettings) {
+  FindingGroup group = summary_of().groups[0];
+  const auto marked = [&](const std::string& title, const std::string& x) {
+    Figure figure{.title = "Bearing: MPE"};
+    figure.panels = {panel_of(title, x, "MPE [m]", group.method)};
+    return marked_curves(figure, group);
+  };
+  const auto at = [&](const std::vector<double>& points) {
+    return std::vector<RegressedCurve>{{.label = group.method, .at = points}};
+  };
+  EXPECT_EQ(marked("", "K"), at({6.0, 8.0}));
+  EXPECT_TRUE(marked("", "observations (steps)").empty());
+  group.settings = {"noise=0.1 pace=2", "noise=1e-5 pace=2"};
+  EXPECT_EQ(marked("pace 2", "noise [m]"), at({0.1, 1e-5}));
+  EXPECT_EQ(marked("pace 2", "laser noise [m]"), at({0.1, 1e-5}));
+  EXPECT_TRUE(marked("pace 3", "noise [m]").empty());
+  EXPECT_TRUE(marked("pace 2", "noise floor").empty());
+  group.settings = {"K = 6, noise=0.1"};
+  EXPECT_EQ(marked("noise 0.1", "K"), at({6.0}));
+  group.settings = {"fast"};
+  EXPECT_TRUE(marked("", "K").empty()) << "it is not on the axis";
+  group.settings = {};
+  EXPECT_EQ(marked("", "K"), at({})) << "all points are of the method";
+}
+
+/// So many findings, each of its own method.
+std::vector<NightlyFinding> many_findings(int count) {
+  std::vector<NightlyFinding> findings;
+  for (int i = 1; i <= count; ++i)
+    findings.push_back({.study = "mine",
+                        .subject = "method " + std::to_string(i),
+                        .quantity = "mpe_m",
+                        .since = 3,
+                        .change = 10.0});
+  return findings;
+}
+
+std::string last_words(const Section& section) {
+  const auto* last = std::get_if<Paragraph>(&section.blocks.back());
+  return last == nullptr ? "" : last->phrases.front().text;
+}
+
+TEST(HistoryPages, ShowTheFirstFindingsOfManyAndEveryNote) {
+  const StudyTrend trend = two_settings();
+  const HistoryPage index =
+      index_page({.nightly_runs = trend.nightly_runs,
+                  .findings = {{3, many_findings(40)}},
+                  .trends = {trend},
+                  .notes = {{.nightly_run = 3, .finding = 2, .text = "with its finding"},
+                            {.nightly_run = 3, .finding = 40, .text = "of the last"}}},
+                 {});
+  const Section& worse = index.report.sections.at(0);
+  EXPECT_EQ(worse.blocks.size(), 31U);
+  EXPECT_EQ(last_words(worse), "And 10 more, among the findings of the trends.");
+  std::vector<std::string> notes;
+  for (const Block& block : index.report.sections.at(1).blocks)
+    if (const auto* note = std::get_if<Callout>(&block))
+      notes.push_back(note->title + ": " + note->text.phrases.front().text);
+  EXPECT_EQ(notes, std::vector<std::string>{"Note on 3.40: of the last"});
+}
+
+TEST(NightlyReports, BeginWithTheFirstFindingsOfMany) {
+  const StudyTrend trend = two_settings();
+  const auto summary = last_summary({.nightly_runs = trend.nightly_runs,
+                                     .findings = {{3, many_findings(500)}},
+                                     .trends = {trend}});
+  ASSERT_EQ(summary.groups.size(), 500U);
+  Report report{.sections = {{"summary", "Summary", {}}}};
+  const NightlyRun nightly_run{.facts = summary.facts};
+  NightlyLinks links({});
+  add_nightly_run(report,
+                  {.nightly_run = nightly_run,
+                   .name = "mine",
+                   .is_compared = true,
+                   .lost = LostNightlyRuns{},
+                   .groups = summary.groups},
+                  links);
+  EXPECT_EQ(report.sections.at(0).blocks.size(), 31U);
+  EXPECT_EQ(last_words(report.sections[0]), "And 470 more, among the findings of the trends.");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <regex>
+#include <set>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -16,10 +17,11 @@
 namespace mapproof::test {
 namespace {
 
-constexpr std::size_t kFewestLabels = 2, kFewestLogLabels = 3;
+constexpr std::size_t kFewestLabels = 2, kFewestWithRoom = 3;
 constexpr double kRoomOfThree = 12.0;    // For three labels of numbers side by side, em.
 constexpr double kUppermost = 0.7;       // Of an axis from 0: lines above it alone.
 constexpr double kLeastOfPaper = 0.65;   // Of the height, for the frame of a narrow paper figure.
+constexpr double kLeastOfWidth = 0.4;    // Of the page, for the only frame.
 constexpr double kLeastOfReport = 0.5;   // Of the height below the title, on a screen.
 constexpr std::size_t kMostLabels = 12;  // Of numbers on an axis.
 constexpr double kLeastOfPanels = 0.2;   // Of the page below its title, for all frames.
@@ -27,6 +29,7 @@ constexpr double kLeastOfPanels = 0.2;   // Of the page below its title, for all
 // profiles.
 constexpr double kLeastOfData = 0.02;
 constexpr double kLeastDifference = 0.1;  // Of two colours side by side, in OKLab.
+constexpr double kWide = 0.75;            // Of the page: a frame that leaves room for labels alone.
 
 std::string style_of(const Polyline& line) {
   return fmt::format("{}/{}/{}", static_cast<int>(line.colour), static_cast<int>(line.dash),
@@ -37,6 +40,17 @@ std::string style_of(const Polyline& line) {
 /// panel without data.
 bool has_scale(const Axis& axis, Range limits) {
   return axis.names.empty() && !(axis.whole && limits.high - limits.low < 2.5);
+}
+
+/// Whether a label is a power of ten: "10⁵", "2×10⁻³".
+bool is_power(const std::string& label) {
+  static const std::regex kPower("10(⁰|¹|²|³|⁴|⁵|⁶|⁷|⁸|⁹|⁻)");
+  return std::regex_search(label, kPower);
+}
+
+std::size_t decimals_in(const std::string& label) {
+  const std::size_t point = label.find('.');
+  return point == std::string::npos ? 0 : label.size() - point - 1;
 }
 
 bool is_coloured(const Image& image, int x, int y, Colour background) {
@@ -89,9 +103,12 @@ class Rules {
       if (panel.bare || std::ranges::all_of(panel.layers, is_empty)) continue;
       check_labels(i);
       check_start(panel);
+      check_cut_data(panel);
       check_styles(panel);
       check_colours(i);
     }
+    check_cut_text();
+    check_title();
     check_share();
     check_panels();
     check_data_share();
@@ -104,11 +121,12 @@ class Rules {
   void check_labels(std::size_t index) {
     const Panel& panel = figure_.panels[index];
     const Box& frame = drawing_.frames[index];
-    std::size_t of_x = 0, of_y = 0;
+    std::vector<std::string> of_x, of_y;
     for (const Item& item : drawing_.items) {
       if (item.panel != index || item.item_class != ItemClass::kTickLabel) continue;
       const TextLine& text = std::get<TextLine>(item.what);
-      ++(text.at.x + text.shaped.advance * text.size <= frame.x0 ? of_y : of_x);
+      const bool is_left = text.at.x + text.shaped.advance * text.size <= frame.x0;
+      (is_left ? of_y : of_x).push_back(text.shaped.text);
     }
     const PanelLimits limits = panel_limits(panel);
     check_axis("x", panel.x, limits.x, of_x, frame.width());
@@ -116,14 +134,62 @@ class Rules {
   }
 
   /// Axes that share their labels with a panel's beside or below have none.
-  void check_axis(const char* name, const Axis& axis, Range limits, std::size_t labels,
-                  double length) {
+  void check_axis(const char* name, const Axis& axis, Range limits,
+                  const std::vector<std::string>& labels, double length) {
     const bool has_room = length >= kRoomOfThree * theme_.font_pt;
-    const std::size_t fewest =
-        axis.scale == Scale::kLog && has_room ? kFewestLogLabels : kFewestLabels;
-    const bool too_many = axis.names.empty() && labels > kMostLabels;
-    if (too_many || (labels > 0 && labels < fewest && has_scale(axis, limits)))
-      add(fmt::format("{} labels on the {} axis '{}'", labels, name, axis.label));
+    const std::size_t fewest = has_room ? kFewestWithRoom : kFewestLabels;
+    const bool too_many = axis.names.empty() && labels.size() > kMostLabels;
+    if (too_many || (!labels.empty() && labels.size() < fewest && has_scale(axis, limits)))
+      add(fmt::format("{} labels on the {} axis '{}'", labels.size(), name, axis.label));
+    if (!axis.names.empty()) return;
+    if (const auto powers = std::ranges::count_if(labels, is_power);
+        powers > 0 && powers < std::ssize(labels))
+      add(fmt::format("plain numbers beside powers of ten on the {} axis '{}'", name, axis.label));
+    if (std::set<std::string>(labels.begin(), labels.end()).size() < labels.size())
+      add(fmt::format("one label twice on the {} axis '{}'", name, axis.label));
+    if (axis.scale == Scale::kLinear && !std::ranges::all_of(labels, [&](const std::string& label) {
+          return decimals_in(label) == decimals_in(labels.front());
+        }))
+      add(fmt::format("labels of several precisions on the {} axis '{}'", name, axis.label));
+  }
+
+  /// Texts of which a part is left out, in a figure whose names are ours.
+  void check_cut_text() {
+    constexpr std::string_view kDots = "\u2026";
+    for (const Item& item : drawing_.items)
+      if (const auto* text = std::get_if<TextLine>(&item.what);
+          text != nullptr && text->shaped.text.find(kDots) != std::string::npos &&
+          text->whole.find(kDots) == std::string::npos)
+        add(fmt::format("the {} '{}' is cut", name(item.item_class), text->shaped.text));
+  }
+
+  /// A title counts nothing that it could name.
+  void check_title() {
+    static const std::regex kAndMore(" and [0-9]+ more");
+    if (figure_.title.empty() || std::regex_search(figure_.title, kAndMore))
+      add(fmt::format("the title '{}'", figure_.title));
+  }
+
+  /// Bars that end outside the frame without an arrow, and points at the foot of a logarithmic
+  /// axis, where they may be anything below.
+  void check_cut_data(const Panel& panel) {
+    const PanelLimits limits = panel_limits(panel);
+    const auto holds = [](Range range, double value) {
+      const double rounding = 1e-9 * (std::abs(range.low) + std::abs(range.high));
+      return std::isnan(value) || (value >= range.low - rounding && value <= range.high + rounding);
+    };
+    for (const Layer& layer : panel.layers) {
+      if (const auto* bars = std::get_if<Segments>(&layer); bars != nullptr && !bars->arrow)
+        for (std::size_t i = 0; i < bars->x0.size(); ++i)
+          if (holds(limits.y, bars->y0[i]) != holds(limits.y, bars->y1[i])) {
+            add(fmt::format("a bar of '{}' is cut by the frame", bars->label));
+            break;
+          }
+      if (const auto* points = std::get_if<Scatter>(&layer);
+          points != nullptr && panel.y.scale == Scale::kLog &&
+          std::ranges::any_of(points->y, [&](double y) { return y <= limits.y.low; }))
+        add(fmt::format("a point of '{}' is at the foot of its axis", points->label));
+    }
   }
 
   void check_start(const Panel& panel) {
@@ -152,13 +218,37 @@ class Rules {
   }
 
   void check_share() {
-    if (figure_.panels.size() != 1 || figure_.panels[0].bare || figure_.panels[0].equal_aspect)
-      return;
-    const bool paper = theme_.name != report_theme().name;
-    const Box& frame = drawing_.frames[0];
-    const double share = frame.height() / (drawing_.height - (paper ? 0.0 : frame.y0));
+    const bool paper = theme_.draws_title != report_theme().draws_title;
+    const bool is_map = std::ranges::any_of(figure_.panels, &Panel::equal_aspect);
+    const bool is_bare = std::ranges::any_of(figure_.panels, &Panel::bare);
+    if (is_bare || (!paper && (is_map || figure_.panels.size() > 1))) return;
+    // Of maps the width decides where they are as wide as the page, and of rows of maps anyway.
+    if (is_map && (figure_.panels.size() > 1 || is_wide(drawing_.frames[0]))) return;
+    if (const double width = drawing_.frames[0].width() / drawing_.width;
+        figure_.panels.size() == 1 && !is_map && width < kLeastOfWidth)
+      add(fmt::format("the frame takes {:.0f} % of the width", 100.0 * width));
+    double top = drawing_.height;
+    for (const Box& frame : drawing_.frames) top = std::min(top, frame.y0);
+    const double share = height_of_rows() / (drawing_.height - (paper ? 0.0 : top));
     if (share < (paper ? kLeastOfPaper : kLeastOfReport))
-      add(fmt::format("the frame takes {:.0f} % of the height", 100.0 * share));
+      add(fmt::format("the frames take {:.0f} % of the height", 100.0 * share));
+  }
+
+  bool is_wide(const Box& frame) const { return frame.width() > kWide * drawing_.width; }
+
+  /// Of the page, what has a frame beside it, or a panel's title if there are several.
+  double height_of_rows() const {
+    std::vector<Box> parts = drawing_.frames;
+    for (const Item& item : drawing_.items)
+      if (item.item_class == ItemClass::kPanelTitle && parts.size() > 1)
+        parts.push_back(text_box(std::get<TextLine>(item.what)).grown(0.3 * theme_.font_pt));
+    std::ranges::sort(parts, {}, &Box::y0);
+    double height = 0.0, end = 0.0;
+    for (const Box& part : parts) {
+      height += std::max(0.0, part.y1 - std::max(part.y0, end));
+      end = std::max(end, part.y1);
+    }
+    return height;
   }
 
   /// What the frames of all panels take of the page below its title.
@@ -244,10 +334,10 @@ class Rules {
 constexpr std::array<std::string_view, 6> kOfOneMethod = {
     "anchors-", "angle-", "factorization-cost", "fig-1b", "noise-", "positions-"};
 
-/// The method that a label names, whatever the value of its parameter.
+/// The method that a label names, whatever the value of its parameter; of several the first.
 std::string method_in(const std::string& label) {
-  static const std::regex kParameter(", [^, ]+ = [^,]+");
-  return std::regex_replace(label, kParameter, "");
+  static const std::regex kParameter(", [^, ]+ = [^,]+"), kOthers(" and .*");
+  return std::regex_replace(std::regex_replace(label, kOthers, ""), kParameter, "");
 }
 
 bool is_same(const std::string& a, const std::string& b) {
@@ -267,7 +357,7 @@ void MethodStyles::see(const Figure& figure) {
   for (const Panel& panel : figure.panels)
     for (const Layer& layer : panel.layers) {
       const auto* line = std::get_if<Polyline>(&layer);
-      if (line == nullptr || line->label.empty() ||
+      if (line == nullptr || line->label.empty() || line->label.ends_with(" methods)") ||
           std::ranges::find(line->mark.data, "curve",
                             &std::pair<std::string, std::string>::first) == line->mark.data.end())
         continue;

@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/console.hpp"
+#include "app/study/study_request.hpp"
+#include "app/study/study_run.hpp"
+#include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "tests/support/program.hpp"
 #include "tests/support/schemas/schema_problem.hpp"
@@ -84,6 +88,30 @@ TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
   EXPECT_EQ(schema_problem("history", exported), "");
 }
 
+TEST(NightlyMetrics, HaveNoLinkToAComparisonThatCouldNotBeMade) {
+  const Project project;
+  for (const double solve_ms : {10.0, 10.0, 10.0, 10.0, 13.0})
+    ASSERT_EQ(project.nightly(solve_ms).exit_code, 0);
+  const std::string page = "compare/0004-0005/speed.html";
+  const fs::path folder = (project.store() / page).parent_path();
+  fs::create_directories(folder.parent_path());
+  write_file(folder, "a file where the folder of the page is to be");
+  const Outcome damaged = project.nightly(13.0);
+  EXPECT_EQ(damaged.exit_code, 1) << "it is judged all the same: " << damaged.error;
+  EXPECT_NE(damaged.error.find("0004-0005"), std::string::npos) << damaged.error;
+  const auto links_to_it = [&](const char* file) {
+    return read_file(project.store() / file).find(page) != std::string::npos;
+  };
+  EXPECT_FALSE(fs::exists(project.store() / page));
+  EXPECT_FALSE(links_to_it("index.html"));
+  EXPECT_FALSE(links_to_it("nightly_runs/0006/speed/report.html"));
+  fs::remove(folder);
+  ASSERT_EQ(project.nightly(13.0).exit_code, 1);
+  EXPECT_TRUE(fs::exists(project.store() / page));
+  EXPECT_TRUE(links_to_it("index.html"));
+  EXPECT_TRUE(links_to_it("nightly_runs/0007/speed/report.html"));
+}
+
 TEST(NightlyMetrics, ThatComeAndGoStayOneStudy) {
   const Project project;
   ASSERT_EQ(project.nightly(10.0).exit_code, 0);
@@ -121,6 +149,44 @@ TEST(NightlyTables, WithoutAStudyJsonAreJudgedByTheGivenDirection) {
   ASSERT_EQ(result["findings"].size(), 1U) << worse.out;
   EXPECT_EQ(result["findings"][0]["quantity"], "duration_ms");
   EXPECT_NE(worse.out.find("bench"), std::string::npos) << "named after its folder";
+}
+
+TEST(NightlyTables, ThatChangeWhileTheyAreReadAreRefused) {
+  const TemporaryFolder folder;
+  const fs::path file = folder / "results.csv";
+  write_file(file, plain_table(10.0));
+  int reads = 0;
+  EXPECT_EQ(read_unchanged(file, [&] { ++reads; }).size(), 64U);
+  EXPECT_EQ(reads, 1);
+  const auto message = [](const auto& what) -> std::string {
+    try {
+      what();
+    } catch (const IoError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message([&] { read_unchanged(file, [&] { write_file(file, plain_table(13.0)); }); }),
+            file.string() + ": " + kChangedWhileRead);
+}
+
+TEST(NightlyStudies, ThatChangeBeforeTheyAreCopiedAreRefused) {
+  const TemporaryFolder folder;
+  const fs::path given = folder / "given";
+  fs::create_directory(given);
+  write_file(given / "study.json",
+             R"({"schema": {"name": "mapproof.results_study", "version": 1}, "title": "T"})");
+  write_file(given / "results.csv", "setup,method,quantity,run,value\n,solve,mpe_m,1,0.1\n");
+  const StudyRequest request = given_study_request(given);
+  const Console console(Verbosity::kQuiet, false, "nightly");
+  EXPECT_NO_THROW(make_study(request, folder / "copy", 1, {}, console));
+  write_file(given / "results.csv", "setup,method,quantity,run,value\n,solve,mpe_m,1,0.2\n");
+  try {
+    make_study(request, folder / "other", 1, {}, console);
+    ADD_FAILURE() << "the copy is of another table";
+  } catch (const IoError& error) {
+    EXPECT_EQ(std::string(error.what()), given.string() + ": " + kChangedWhileRead);
+  }
 }
 
 TEST(NightlyTables, ThatCannotBeUsedAreRefusedInALine) {

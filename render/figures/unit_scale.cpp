@@ -1,0 +1,31 @@
+#include "render/figures/unit_scale.hpp"
+
+#include <cmath>
+
+#include "render/theme/ticks.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr double kGreatestInMm_m = 0.05;  // "49 mm", but "0.05 m".
+constexpr double kLeastPpm = 1e-3;
+constexpr double kPartsPerMillion = 1e-6;
+
+/// "10⁻¹⁵" of a greatest value of some 10⁻¹⁵: powers of 10³.
+ScaledUnit power_unit(double greatest_ppm) {
+  const double exponent = 3.0 * std::floor(std::log10(greatest_ppm * kPartsPerMillion) / 3.0);
+  return {ten_to_the(static_cast<int>(exponent)), kPartsPerMillion * std::pow(10.0, -exponent)};
+}
+
+}  // namespace
+
+ScaledUnit scaled_unit(const std::string& unit, double greatest) {
+  if (!(greatest > 0.0) || std::isinf(greatest)) return {unit};
+  if (unit == "m" && greatest < kGreatestInMm_m) return {"mm", 1e3};
+  if (unit == "s" && greatest < 1e-3) return {"µs", 1e6};
+  if (unit == "s" && greatest < 1.0) return {"ms", 1e3};
+  if (unit == "ppm" && greatest < kLeastPpm) return power_unit(greatest);
+  return {unit};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace mapproof {
+
+/// The unit in which values of a figure are written, such as "mm" for "m".
+struct ScaledUnit {
+  std::string unit;
+  double factor = 1.0;  ///< From the values' own unit.
+};
+
+/// The unit in which the greatest of some values is written without a power of ten and with few
+/// zeros: below 0.05 m it is "mm", below 1 s "ms", below 1 ms "µs", and below 0.001 ppm a power of
+/// ten of the whole, such as "10⁻¹⁵". Any other unit stays.
+ScaledUnit scaled_unit(const std::string& unit, double greatest);
+
+}  // namespace mapproof

@@ -1,0 +1,78 @@
+#include "reports/html/regression_marks.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "render/svg/svg.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The value of an attribute of an element; empty if it has none.
+std::string_view attribute(std::string_view element, std::string_view name) {
+  const std::string begin = fmt::format(" {}=\"", name);
+  const std::size_t at = element.find(begin);
+  if (at == std::string_view::npos) return {};
+  const std::size_t from = at + begin.size();
+  return element.substr(from, element.find('"', from) - from);
+}
+
+/// The x values of "6, 0.14;8, 0.1".
+std::vector<std::string_view> x_values(std::string_view points) {
+  std::vector<std::string_view> values;
+  while (!points.empty()) {
+    const std::size_t end = std::min(points.find(';'), points.size());
+    values.push_back(points.substr(0, std::min(points.find(','), end)));
+    points.remove_prefix(std::min(end + 1, points.size()));
+  }
+  return values;
+}
+
+/// An x value as a drawing's data-points has it.
+std::string marker_x(double x) { return fmt::format("{:.6g}", x); }
+
+/// A ring in the red of findings, which both the light and the dark paper let stand out.
+std::string ring(std::string_view marker) {
+  return fmt::format(
+      "<circle class=\"got-worse\" cx=\"{}\" cy=\"{}\" r=\"7\" fill=\"none\" "
+      "stroke=\"#d3382f\" stroke-width=\"2\"/>\n",
+      attribute(marker, "x"), attribute(marker, "y"));
+}
+
+}  // namespace
+
+std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
+  std::string label, rings;
+  append_xml(label, curve.label);
+  const std::string of_curve = fmt::format(" data-curve=\"{}\"", label);
+  const std::string of_panel = fmt::format("-c{})", curve.panel);  // Its frame cuts the line.
+  std::vector<std::string> wanted;
+  for (const double x : curve.at) wanted.push_back(marker_x(x));
+  std::size_t count = 0;
+  for (std::size_t at = svg.find(of_curve); at != std::string::npos;
+       at = svg.find(of_curve, at + 1)) {
+    const std::size_t begin = svg.rfind('<', at), end = svg.find("</g>", at);
+    if (begin == std::string::npos || end == std::string::npos) break;
+    const std::string_view group = std::string_view(svg).substr(begin, end - begin);
+    const std::string_view tag = group.substr(0, group.find('>'));
+    // Of one item alone, such as a line without a marker, no group is made.
+    if (!tag.starts_with("<g ") || !attribute(group, "clip-path").ends_with(of_panel)) continue;
+    const std::vector<std::string_view> x = x_values(attribute(tag, "data-points"));
+    rings.clear();
+    std::size_t point = 0;
+    constexpr std::string_view kMarker = "<use class=\"marker\"";
+    for (std::size_t use = group.find(kMarker); use != std::string_view::npos && point < x.size();
+         use = group.find(kMarker, use + 1), ++point) {
+      if (!wanted.empty() && std::ranges::find(wanted, x[point]) == wanted.end()) continue;
+      rings += ring(group.substr(use, group.find('>', use) - use));
+      ++count;
+    }
+    svg.insert(end, rings);
+  }
+  return count;
+}
+
+}  // namespace mapproof

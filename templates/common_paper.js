@@ -1,0 +1,113 @@
+// On paper a table that is wider than the page has each interval below the value that it belongs to,
+// in one column, as papers print them.
+
+const kPaper_px = 688;  // Between the margins of A4, see @page.
+const kPaperWords_px = 8 / .75;  // 8 pt.
+const kPaperGaps_px = 8;  // At both sides of a cell.
+const kPaperGap_px = 6;  // Before a group of columns.
+const kPaperNames_px = 91;  // 24 mm, at which names are broken.
+const kPaperShort_px = 60;  // "K = 5": so short a text is not broken.
+let wordMeasure;
+
+function widthOnPaper(text, isBold) {
+  wordMeasure ??= document.createElement("canvas").getContext("2d");
+  const family = getComputedStyle(document.body).fontFamily;
+  wordMeasure.font = `${isBold ? 650 : 400} ${kPaperWords_px}px ${family}`;
+  return wordMeasure.measureText(text).width;
+}
+
+function isShort(cell) {
+  const most = cell.matches("th") ? kPaperNames_px : kPaperShort_px;
+  return widthOnPaper(cell.textContent.trim(), cell.matches(".marked > *")) <= most;
+}
+
+// The least width of a cell: numbers and short texts stand in one line, and names get some room.
+function leastCell(cell) {
+  const text = cell.textContent.trim(), isBold = cell.matches("thead th, .marked > *");
+  if (cell.matches("tbody th:not(.number, .short)")) return kPaperNames_px;
+  const words = cell.matches("tbody .number, tbody .short") ? [text] : text.split(/[ \n]+/);
+  return Math.max(...words.map((word) => widthOnPaper(word, isBold)));
+}
+
+// The least width of a column.
+function leastColumn(table, heading, index) {
+  const cells = [...table.tBodies[0].rows].map((row) => row.cells[index]);
+  const words = Math.max(...[heading, ...cells].map(leastCell));
+  return words + kPaperGaps_px + (heading.matches(".begins") ? kPaperGap_px : 0);
+}
+
+// The headings of the columns in their order, below those of groups.
+function columnHeads(table) {
+  return [...table.tHead.querySelectorAll("th[data-column]")]
+    .sort((a, b) => Number(a.dataset.column) - Number(b.dataset.column));
+}
+
+// Puts what a cell holds below what the cell before it holds. Returns what undoes it.
+function putBelow(cell, above) {
+  const below = document.createElement("span");
+  below.className = "below";
+  below.append(...[...cell.childNodes].map((node) => node.cloneNode(true)));
+  above.append(below);
+  cell.hidden = true;
+  return () => {
+    below.remove();
+    cell.hidden = false;
+  };
+}
+
+// The heading of a group spans one column less. Returns what undoes it.
+function narrowGroup(table, index) {
+  const first = table.tHead.rows[0];
+  let column = 0;
+  for (const head of first.cells) {
+    const { colSpan } = head;
+    if (index >= column && index < column + colSpan) {
+      if (colSpan === 1) return () => {};
+      head.colSpan = colSpan - 1;
+      return () => { head.colSpan = colSpan; };
+    }
+    column += colSpan;
+  }
+  return () => {};
+}
+
+function foldIntervals(table, heads) {
+  const undo = [];
+  // From the last one on, so that the groups before it span what they did.
+  for (let index = heads.length - 1; index > 0; --index) {
+    if (!heads[index].matches(".interval") || heads[index - 1].matches(".interval")) continue;
+    undo.push(narrowGroup(table, index), putBelow(heads[index], heads[index - 1]));
+    for (const row of table.tBodies[0].rows) {
+      undo.push(putBelow(row.cells[index], row.cells[index - 1]));
+    }
+  }
+  return undo;
+}
+
+// The room that the heading of a table needs on a page, so that it is not alone on it: that of a short
+// table, which is not divided, and of the first rows of another one.
+function setRoomAhead(table) {
+  const kRow_px = 21, kHead_px = 60, kMostWhole = 12, kRows = 3;
+  const { length } = table.tBodies[0].rows;
+  const rows = length <= kMostWhole ? length : kRows;
+  table.closest(".table")?.style.setProperty("--ahead", `${kHead_px + kRow_px * rows}px`);
+}
+
+function fitTablesToPaper() {
+  let undo = [];
+  addEventListener("beforeprint", () => {
+    document.querySelectorAll(".table table").forEach(setRoomAhead);
+    for (const cell of document.querySelectorAll("tbody > tr > :not(.number)")) {
+      cell.classList.toggle("short", isShort(cell));
+    }
+    for (const table of document.querySelectorAll("table:has(th.interval)")) {
+      const heads = columnHeads(table);
+      const width = heads.reduce((sum, head, i) => sum + leastColumn(table, head, i), 0);
+      if (width > kPaper_px) undo.push(...foldIntervals(table, heads));
+    }
+  });
+  addEventListener("afterprint", () => {
+    for (const each of undo.reverse()) each();
+    undo = [];
+  });
+}

@@ -1,0 +1,134 @@
+// The legend of a drawing as one block below it, in columns, in the order of its lines: also of lines
+// that are labelled at their ends. A colour bar is horizontal.
+
+const slopes = new WeakMap();  // A stacked <svg> → the samples that were made level, with their data.
+
+// A sample of the legend with its words, or several samples before one text.
+function legendEntries(parts) {
+  const entries = [];
+  let isOpen = false;
+  for (const part of parts.rest.filter((each) => /^legend-(sample|text)$/.test(kindOf(each)))) {
+    const isText = part.classList.contains("legend-text");
+    if (!isOpen) entries.push([]);
+    entries.at(-1).push(part);
+    isOpen = !isText;
+  }
+  return entries;
+}
+
+function boxOfAll(svg, parts) {
+  const boxes = parts.map((part) => boxIn(svg, part));
+  const x = Math.min(...boxes.map((box) => box.x)), y = Math.min(...boxes.map((box) => box.y));
+  return { x, y, width: Math.max(...boxes.map((box) => box.x + box.width)) - x,
+    height: Math.max(...boxes.map((box) => box.y + box.height)) - y };
+}
+
+// Which entries stand in a panel, or beside it in a drawing of one column, and which are of all
+// panels.
+function legendsOf(svg, parts, isSplit) {
+  const frames = widths.get(svg)?.frames ?? parts.frames;  // As drawn, before they got narrower.
+  const isColumn = frames.every((frame) => frame.x < frames[0].right && frames[0].x < frame.right);
+  const own = parts.frames.map(() => []), shared = [];
+  for (const entry of legendEntries(parts)) {
+    const { x, y, width, height } = boxOfAll(svg, entry);
+    const at = { x: x + width / 2, y: y + height / 2 };
+    const panel = frames.findIndex((frame) => at.y > frame.y && at.y < frame.bottom &&
+      at.x > frame.x && (isColumn || at.x < frame.right));
+    (isSplit && panel >= 0 && parts.frames.length > 1 ? own[panel] : shared).push(entry);
+  }
+  return { own, shared };
+}
+
+// The line that leads from the end of a curve to its label becomes level, and slopes again when the
+// drawing is shown as it was drawn.
+function levelSamples(svg, entry) {
+  const pattern = /^m(-?[\d.]+) (-?[\d.]+)l(-?[\d.]+) ?(-?[\d.]+)$/;
+  for (const path of entry.flatMap((part) => [...part.querySelectorAll("path")])) {
+    const data = path.getAttribute("d"), found = pattern.exec(data);
+    if (!found || Number(found[4]) === 0) continue;
+    const [x, y, right, down] = found.slice(1).map(Number);
+    slopes.set(svg, [...slopes.get(svg) ?? [], [path, data]]);
+    path.setAttribute("d", `m${x} ${y + down}l${right} 0`);
+  }
+}
+
+function slopeSamples(svg) {
+  for (const [path, data] of slopes.get(svg) ?? []) path.setAttribute("d", data);
+  slopes.delete(svg);
+}
+
+// The bar of a scale of colours: many samples above each other, the first as high as all.
+function isColourBar(svg, entry) {
+  const kFewestColours = 8, kUpright = 4;
+  if (entry.length < kFewestColours) return false;
+  const { width, height } = boxIn(svg, entry[0]);
+  return height > kUpright * width;
+}
+
+// A horizontal copy of a colour bar, with its numbers below it and its name after them. Returns its
+// foot.
+function layColourBar(svg, entry, width, top, layers) {
+  const bar = boxIn(svg, entry[0]), words = [...entry.at(-1).children];
+  const colours = entry.slice(0, -1).map((part) => part.getAttribute("fill"))
+    .filter((fill) => fill && fill !== "none");
+  const name = words.find(isUpright), numbers = words.filter((each) => each !== name);
+  const kSide = 24, long = width - 2 * kSide;
+  const layer = document.createElementNS(svg.namespaceURI, "g");
+  layer.setAttribute("class", "step-axes");
+  colours.forEach((fill, i) => {
+    const piece = document.createElementNS(svg.namespaceURI, "rect");
+    const box = { x: kSide + i * long / colours.length, y: top, height: bar.width,
+      width: long / colours.length + (i + 1 < colours.length ? .5 : 0), fill };
+    for (const [key, value] of Object.entries(box)) piece.setAttribute(key, value);
+    layer.append(piece);
+  });
+  let foot = top + bar.width, end = -Infinity;
+  const below = foot + 4;
+  const placed = numbers.map((label) => ({ label, box: boxIn(svg, label) })).map((each) => ({ ...each,
+    x: kSide + long * (bar.y + bar.height - each.box.y - each.box.height / 2) / bar.height }))
+    .sort((a, b) => a.x - b.x);
+  for (const { label, box, x } of placed) {
+    const left = x - box.width / 2;
+    if (left < end + 6) continue;
+    end = left + box.width;
+    addCopy(layer, label, left - box.x, below - box.y);
+    foot = Math.max(foot, below + box.height);
+  }
+  if (name) {
+    const copy = addCopy(layer, name, 0, 0);
+    copy.firstChild.setAttribute("transform", /scale\([^)]*\)/.exec(
+      name.getAttribute("transform"))[0]);
+    svg.append(layer);
+    const box = boxIn(svg, copy);
+    copy.setAttribute("transform",
+      `translate(${(width - box.width) / 2 - box.x} ${foot + 3 - box.y})`);
+    foot += box.height + 3;
+  }
+  for (const part of entry) part.classList.add("off");
+  layers.push(layer);
+  return foot + 8;
+}
+
+// Puts entries of a legend in columns from `top` on. Returns their foot.
+function placeEntries(svg, entries, width, top, layers = []) {
+  const kGap = 14, kLine = 4, kLeft = 6;
+  const bars = entries.filter((entry) => isColourBar(svg, entry));
+  const others = entries.filter((entry) => !bars.includes(entry));
+  let foot = top;
+  for (const bar of bars) foot = layColourBar(svg, bar, width, foot, layers);
+  if (others.length === 0) return foot;
+  for (const entry of others) levelSamples(svg, entry);
+  const boxes = others.map((entry) => boxOfAll(svg, entry));
+  // Words begin below each other, however wide the samples before them are.
+  const leads = others.map((entry, i) => boxIn(svg, entry.at(-1)).x - boxes[i].x);
+  const lead = Math.max(...leads);
+  const column = Math.max(...boxes.map((box, i) => box.width + lead - leads[i])) + kGap;
+  const row = Math.max(...boxes.map((box) => box.height)) + kLine;
+  const columns = Math.max(1, Math.floor((width - 2 * kLeft + kGap) / column));
+  others.forEach((entry, i) => {
+    const { x, y, height } = boxes[i], line = Math.floor(i / columns);
+    movePanel(entry, { x: kLeft + (i % columns) * column + lead - leads[i] - x,
+      y: foot + line * row + (row - height) / 2 - y });
+  });
+  return foot + Math.ceil(others.length / columns) * row + 8;
+}
