@@ -12,22 +12,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/retired_names.hpp"
+#include "core/base/text/shell_word.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/base/text/words.hpp"
 #include "core/records/limits.hpp"
 
 namespace mapproof {
 namespace {
-
-std::string quoted(const std::string& word) {
-  if (word.starts_with("~/")) return "~/" + (word.size() > 2 ? quoted(word.substr(2)) : "");
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_./=,:+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 /// @param which  "above 0".
 CLI::Validator number_that(std::function<bool(double)> holds, const std::string& which,
@@ -45,7 +36,7 @@ CLI::Validator number_that(std::function<bool(double)> holds, const std::string&
 
 std::string quoted_command(const std::vector<std::string>& words) {
   std::string command;
-  for (const std::string& word : words) command += (command.empty() ? "" : " ") + quoted(word);
+  for (const std::string& word : words) command += (command.empty() ? "" : " ") + shell_word(word);
   return command;
 }
 

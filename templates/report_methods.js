@@ -150,7 +150,7 @@ function addCurveBoxes(figure, svg) {
   const curves = curvesOf(svg), boxes = new Map();
   for (const [name, parts] of curves) {
     for (const part of parts) {
-      addTitle(part, name);
+      if (part.dataset.landmark === undefined) addTitle(part, name);  // Those have a tip.
       addValues(part, name);
     }
   }

@@ -155,7 +155,10 @@ function narrowFrames(svg, parts, rooms, most, height = Infinity) {
   const room = most - rooms.left - rooms.right;
   parts.frames.forEach((frame, i) => {
     const across = Math.min(1, room / frame.width), panel = parts.panels[i];
-    const lower = () => Math.max(Math.min(1, height / frame.height),
+    const beside = parts.axes.filter(
+      (label) => isUpright(label) && frameOfLabel(label, parts.frames) === frame);
+    const longest = Math.max(0, ...beside.map((label) => boxIn(svg, label).height));
+    const lower = () => Math.max(Math.min(1, Math.max(height, longest) / frame.height),
       leastShare(svg, tickLabelsOf(panel, frame)));
     const down = hasOneScale(panel, frame) ? across : height < frame.height ? lower() : 1;
     const before = { ...frame };

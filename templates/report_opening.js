@@ -168,7 +168,7 @@ function addOpeningImages() {
   const left = innerHeight - link.getBoundingClientRect().top - scrollY - kBelow_px;
   if (clientWidth === 0) return;
   if (narrowPage.matches) {
-    addImage(link, link.dataset.alt, (text) => narrowed(text, clientWidth, left));
+    addImage(link, link.dataset.alt, (text) => narrowed(text, clientWidth - kBorders_px, left));
     return;
   }
   // As high as the first screen has room for, and higher where words could not be read.

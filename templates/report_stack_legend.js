@@ -23,17 +23,25 @@ function boxOfAll(svg, parts) {
     height: Math.max(...boxes.map((box) => box.y + box.height)) - y };
 }
 
-// Which entries stand in a panel, or beside it in a drawing of one column, and which are of all
-// panels.
+// Which entries stand in a panel, or beside or below it in a drawing of one column, and which are of
+// all panels.
 function legendsOf(svg, parts, isSplit) {
   const frames = widths.get(svg)?.frames ?? parts.frames;  // As drawn, before they got narrower.
   const isColumn = frames.every((frame) => frame.x < frames[0].right && frames[0].x < frame.right);
   const own = parts.frames.map(() => []), shared = [];
-  for (const entry of legendEntries(parts)) {
+  const all = legendEntries(parts).map((entry) => {
     const { x, y, width, height } = boxOfAll(svg, entry);
-    const at = { x: x + width / 2, y: y + height / 2 };
-    const panel = frames.findIndex((frame) => at.y > frame.y && at.y < frame.bottom &&
+    return { entry, at: { x: x + width / 2, y: y + height / 2 } };
+  });
+  // Where a legend stands between two panels of a column, each has its own.
+  const isBelow = (at, i) => at.y > frames[i].bottom &&
+    (i + 1 === frames.length || at.y < frames[i + 1].y);
+  const haveOwn = isColumn &&
+    all.some(({ at }) => frames.slice(0, -1).some((frame, i) => isBelow(at, i)));
+  for (const { entry, at } of all) {
+    let panel = frames.findIndex((frame) => at.y > frame.y && at.y < frame.bottom &&
       at.x > frame.x && (isColumn || at.x < frame.right));
+    if (panel < 0 && haveOwn) panel = frames.findIndex((frame, i) => isBelow(at, i));
     (isSplit && panel >= 0 && parts.frames.length > 1 ? own[panel] : shared).push(entry);
   }
   return { own, shared };

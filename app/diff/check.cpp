@@ -332,7 +332,7 @@ int check(CheckArguments arguments, const CLI::App& app, const Invocation& invoc
 
 void add_check_options(CLI::App& app, CheckArguments& arguments) {
   app.add_option("EXPERIMENT", arguments.words,
-                 "The experiment's JSON file, or a name that reproduce takes; behind -- a command "
+                 "The experiment's JSON file, or the name of one; behind -- a command "
                  "that draws figures")
       ->required();
   auto* baseline = app.add_option("--baseline", arguments.baseline,

@@ -112,9 +112,11 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
     runs += part.runs;
     if (!part.incomplete.empty() || !part.missing.empty()) incomplete.push_back(part.report.title);
   }
+  std::vector<std::string> titles;
+  for (const FolderReport& part : parts) titles.push_back(part.report.title);
   const std::string size =
-      fmt::format("{} studies of {}. Each is compared with what it sets against its methods.",
-                  parts.size(), counted(static_cast<long long>(runs), "run"));
+      fmt::format("{} studies of {}: {}. Each result stands beside the one that it has to beat.",
+                  parts.size(), counted(static_cast<long long>(runs), "run"), listed(titles, 3));
   std::string wrong = incomplete.empty()
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
@@ -176,20 +178,38 @@ void add_first_numbers(const std::vector<FolderReport>& parts, Opening& all) {
   all.numbers.items = std::move(numbers);
 }
 
-/// As many of each part's numbers and findings, under its title, as leave room for the others'.
+/// "Yairi 2007" of "Map building without localization (Yairi 2007), section 4".
+std::string short_title(const std::string& title) {
+  const std::size_t from = title.rfind('('), to = title.rfind(')');
+  const bool has_one = from != std::string::npos && to != std::string::npos && from + 1 < to;
+  return has_one ? title.substr(from + 1, to - from - 1) : title;
+}
+
+/// A part's finding where those of others stand, too: the first under its title, others with a
+/// short one after the word that they begin with.
+Paragraph named_finding(const FolderReport& part, std::size_t index) {
+  Paragraph finding = part.report.opening.findings[index];
+  auto& phrases = finding.phrases;
+  const bool is_headed = !phrases.empty() && phrases.front().emphasis == Emphasis::kStrong;
+  if (index == 0 || !is_headed)
+    phrases.insert(phrases.begin(), strong(part.report.title + ". "));
+  else
+    phrases.insert(phrases.begin() + 1, phrase(", " + short_title(part.report.title)));
+  return finding;
+}
+
+/// As many of each part's numbers and findings as leave room for the others'; findings in turns.
 void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
   for (const FolderReport& part : parts) {
     const auto& numbers = part.report.opening.numbers.items;
     const auto taken =
         static_cast<std::ptrdiff_t>(std::min(numbers.size(), share_of(kMostNumbers, parts.size())));
     all.numbers.items.insert(all.numbers.items.end(), numbers.begin(), numbers.begin() + taken);
-    std::size_t left = share_of(kMostFindings, parts.size());
-    for (Paragraph finding : part.report.opening.findings) {
-      if (left-- == 0) break;
-      finding.phrases.insert(finding.phrases.begin(), strong(part.report.title + ". "));
-      all.findings.push_back(std::move(finding));
-    }
   }
+  for (std::size_t turn = 0; turn < share_of(kMostFindings, parts.size()); ++turn)
+    for (const FolderReport& part : parts)
+      if (turn < part.report.opening.findings.size())
+        all.findings.push_back(named_finding(part, turn));
 }
 
 /// What the reader of several papers or studies sees first.
@@ -225,7 +245,8 @@ FolderReport joined_report(const fs::path& folder, std::vector<FolderReport> par
                             ? "Two papers reproduced"
                             : fmt::format("{} studies", parts.size());
   if (parts.size() == 2)  // More would fill the head of the page; they are listed below it.
-    all.report.subtitle += ": " + parts[0].report.subtitle + "; " + parts[1].report.subtitle;
+    all.report.subtitle += fmt::format(": {} and {}", short_title(parts[0].report.title),
+                                       short_title(parts[1].report.title));
   all.report.opening = joined_opening(parts);
   all.report.sections.push_back(contents_section(parts));
   all.report.figure_command = figure_command(folder);

@@ -1,3 +1,5 @@
+#include <map>
+#include <string>
 #include <utility>
 
 #include "app/study/folder_report.hpp"
@@ -48,11 +50,14 @@ FolderReport table_report(const std::filesystem::path& folder, const std::string
   const std::vector<PathErrors> errors = read_path_errors(folder);
   for (FigureGroup& group : path_error_figures(study, errors))
     figures.groups.push_back(std::move(group));
+  std::map<std::string, long long> poses;
+  for (const PathErrors& one : errors) poses[one.method] += one.poses.size();
   const ResultsReportInput input{.view = view,
                                  .comparisons = comparisons,
                                  .figures = figures,
                                  .provenance = given_provenance(view, command),
                                  .remarks = file_remarks(study, folder),
+                                 .poses = std::move(poses),
                                  .date = date_of(read_sessions(folder))};
   FolderReport result{.folder = folder,
                       .origin = StudyOrigin::kTable,

@@ -74,7 +74,7 @@ Action run_command(CLI::App& app) {
       "mapproof reproduce NAME --print prints an experiment to begin with. docs/file-formats.md "
       "says what its file holds.\n");
   app.add_option("EXPERIMENT", arguments->experiment,
-                 "The experiment's JSON file, or a name that reproduce takes")
+                 "The experiment's JSON file, or the name of one")
       ->required();
   add_out_option(app, arguments->out, "Folder for the records")->required();
   app.add_option("--profile", arguments->options.profile,

@@ -10,10 +10,7 @@
 #define MAPPROOF_VECTORISED [[gnu::target_clones("avx2", "default")]]
 /// The same, and AVX-512 too: for loops over eight entries at a time.
 #define MAPPROOF_VECTORISED_WIDE [[gnu::target_clones("avx512f", "avx2", "default")]]
-/// The same with the processor's own instruction that counts bits.
-#define MAPPROOF_POPCOUNT [[gnu::target_clones("popcnt", "default")]]
 #else
 #define MAPPROOF_VECTORISED
 #define MAPPROOF_VECTORISED_WIDE
-#define MAPPROOF_POPCOUNT
 #endif

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/graph/components.hpp"
+#include "core/graph/disjoint_sets.hpp"
 
 namespace mapproof {
 
@@ -28,12 +29,15 @@ std::optional<Status> arbitrary_neighbours(const NeighbourLists& nearest, int ne
 int groups_seen_together(const Eigen::MatrixXd& squared_distances, double apart_squared) {
   if (!std::isfinite(apart_squared) || squared_distances.rows() == 0) return 1;
   const double apart = apart_squared * (1.0 - 1e-12);
-  Graph together(static_cast<std::size_t>(squared_distances.rows()));
-  for (Eigen::Index j = 0; j < squared_distances.cols(); ++j)
-    for (Eigen::Index i = 0; i < squared_distances.rows(); ++i)
-      if (i != j && squared_distances(i, j) < apart)
-        together[static_cast<std::size_t>(j)].push_back({i, 0.0});
-  return std::ranges::max(components(together)) + 1;
+  const Eigen::Index n = squared_distances.rows();
+  DisjointSets sets(static_cast<std::size_t>(n));
+  auto groups = static_cast<int>(n);
+  for (Eigen::Index j = 0; j < n && groups > 1; ++j)
+    for (Eigen::Index i = j + 1; i < n; ++i)
+      if (squared_distances(i, j) < apart &&
+          sets.merge(static_cast<std::size_t>(i), static_cast<std::size_t>(j)))
+        --groups;
+  return groups;
 }
 
 ConnectedGraph connected_neighbour_graph(const Eigen::MatrixXd& distances,

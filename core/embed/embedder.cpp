@@ -14,6 +14,8 @@
 #include "core/embed/pca.hpp"
 #include "core/embed/sde/sde.hpp"
 #include "core/graph/shortest_paths.hpp"
+#include "core/linalg/unset_matrix.hpp"
+#include "core/observe/bit_rows.hpp"
 #include "core/observe/detected_proximities.hpp"
 #include "core/observe/history_distances.hpp"
 #include "core/observe/history_vectors.hpp"
@@ -104,7 +106,10 @@ Embedder::Embedder(Proximities proximities, EmbedderOptions options)
 }
 
 const Eigen::MatrixXd& Embedder::distances() {
-  if (distances_.size() == 0) distances_ = proximities_.squared_distances.cwiseSqrt();
+  if (distances_.size() == 0) {
+    distances_ = unset_matrix(size(), size());
+    distances_ = proximities_.squared_distances.cwiseSqrt();
+  }
   return distances_;
 }
 
@@ -167,9 +172,12 @@ Embedding Embedder::solve(const MethodSetting& setting) {
     case Method::kKpcaGaussian:
       return with_all_distances(
           kernel_pca(complete_squares(), GaussianKernel{.variance = parameter}));
-    case Method::kKpcaPolynomial:
-      return with_all_distances(
-          kernel_pca(complete_inner_products(), PolynomialKernel{.degree = count}));
+    case Method::kKpcaPolynomial: {
+      const PolynomialKernel kernel{.degree = count};
+      return with_all_distances(completed_pairs_ > 0
+                                    ? kernel_pca(completed_inner_products(), kernel)
+                                    : kernel_pca(proximities_.inner_products, kernel));
+    }
     case Method::kIsomap:
     case Method::kLandmarkIsomap:
     case Method::kLaplacianEigenmap:
@@ -257,8 +265,7 @@ const NeighbourLists& Embedder::nearest(int neighbours) {
 }
 
 /// Those of pairs that are never co-visible as their completed distances have them.
-Eigen::MatrixXd Embedder::complete_inner_products() const {
-  if (completed_pairs_ == 0) return proximities_.inner_products;
+Eigen::MatrixXd Embedder::completed_inner_products() const {
   const Eigen::VectorXd squares = proximities_.inner_products.diagonal();
   const Eigen::MatrixXd completed =
       0.5 * (squares.replicate(1, squares.size()) +
@@ -284,10 +291,8 @@ bool maps_by_vectors(Method method, const HistoryExtent& history) {
   if (method != Method::kLpca || history.misses_any || history.steps < kFewestSteps) return false;
   const Eigen::Index columns = history.sensor == Sensor::kBearing ? 2 * history.steps
                                                                   : history.steps;
-  // Distances of visibility are counted, which is faster where their array has room.
-  constexpr Eigen::Index kFewestByLists = 5000;
   return history.sensor == Sensor::kVisibility
-             ? history.is_sparse && history.landmarks >= kFewestByLists
+             ? history.is_list
              : is_faster_by_vectors(history.landmarks, columns);
 }
 
@@ -471,12 +476,28 @@ Embedding embed_detected(const DetectionLog& log, Sensor sensor, MethodSetting& 
   return with_few_steps(embedder.embed(setting));
 }
 
+namespace {
+
+/// LPCA by lists of what was seen takes less than by distances, which are counted, from so many
+/// landmarks on, of which a quarter is seen: 0.017 s either way.
+constexpr Eigen::Index kFewestAsLists = 1000;
+
+bool are_faster_as_lists(const HistoryBlocks& history, Eigen::Index steps) {
+  constexpr Eigen::Index kMostListed = 40'000'000;  // 320 MB; as many as history_vectors() holds.
+  if (history.sensor() != Sensor::kVisibility || history.landmarks() < kFewestAsLists) return false;
+  const HistoryBits bits = history_bits(history, steps);
+  return bits.are_all && !bits.misses_any &&
+         (bits.seen.ones() <= kMostListed || is_sparse_visibility(history, steps));
+}
+
+}  // namespace
+
 HistoryExtent extent_of(const HistoryBlocks& history, Eigen::Index steps) {
   HistoryExtent extent{.sensor = history.sensor(),
                        .landmarks = history.landmarks(),
                        .steps = steps,
                        .misses_any = misses_any(history, steps)};
-  extent.is_sparse = is_sparse_visibility(history, steps);
+  extent.is_list = are_faster_as_lists(history, steps);
   return extent;
 }
 
@@ -488,7 +509,7 @@ HistoryExtent extent_of(const DetectionLog& log, Sensor sensor) {
           .landmarks = std::ssize(log.names),
           .steps = log.steps,
           .misses_any = !is_visibility,
-          .is_sparse = is_visibility};
+          .is_list = is_visibility && std::ssize(log.names) >= kFewestAsLists};
 }
 
 }  // namespace mapproof

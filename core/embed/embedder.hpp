@@ -59,7 +59,7 @@ class Embedder {
   const Eigen::MatrixXd& distances();
   const Eigen::MatrixXd& complete_distances();
   const Eigen::MatrixXd& complete_squares() const;
-  Eigen::MatrixXd complete_inner_products() const;
+  Eigen::MatrixXd completed_inner_products() const;
   const Embedding& linear();
   const Embedding& equal_weights();
 
@@ -101,7 +101,7 @@ struct HistoryExtent {
   Eigen::Index landmarks = 0;
   Eigen::Index steps = 0;
   bool misses_any = false;  ///< Some value is missing.
-  bool is_sparse = false;   ///< Visibility of lists, see is_sparse_visibility().
+  bool is_list = false;     ///< Visibility that is mapped faster by lists of what was seen.
 };
 
 HistoryExtent extent_of(const HistoryBlocks& history, Eigen::Index steps);

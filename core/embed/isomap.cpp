@@ -7,7 +7,11 @@
 
 namespace mapproof {
 
-Embedding isomap(const Graph& graph) { return lpca(shortest_paths(graph).cwiseAbs2()); }
+Embedding isomap(const Graph& graph) {
+  Eigen::MatrixXd paths = shortest_paths(graph);
+  paths = paths.cwiseAbs2();
+  return lpca(paths);
+}
 
 Embedding isomap(const Eigen::MatrixXd& distances, const NeighbourOptions& options) {
   ConnectedGraph neighbours = connected_neighbour_graph(distances, options);

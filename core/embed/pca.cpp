@@ -7,6 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/linalg/centering.hpp"
 #include "core/linalg/symmetric_eigen.hpp"
+#include "core/linalg/unset_matrix.hpp"
 
 namespace mapproof {
 namespace {
@@ -102,8 +103,7 @@ Embedding lpca_of_vectors(const Eigen::MatrixXd& vectors) {
   return lpca_of_vectors(HistoryVectors{
       .landmarks = vectors.rows(),
       .product = [&](const Eigen::MatrixXd& V) { return gram_product(vectors, V); },
-      .largest_square =
-          vectors.rows() > 0 ? vectors.rowwise().squaredNorm().maxCoeff() : 0.0});
+      .largest_square = vectors.rows() > 0 ? vectors.rowwise().squaredNorm().maxCoeff() : 0.0});
 }
 
 Embedding lpca(const Eigen::MatrixXd& squared_distances) {
@@ -116,7 +116,9 @@ Embedding lpca(const Eigen::MatrixXd& squared_distances) {
 Embedding kernel_pca(const Eigen::MatrixXd& squared_distances, const GaussianKernel& kernel) {
   check(squared_distances);
   if (!(kernel.variance > 0.0)) throw InvalidInput("a Gaussian kernel needs a variance above 0");
-  return of_kernel((squared_distances.array() / (-2.0 * kernel.variance)).exp());
+  Eigen::MatrixXd K = unset_matrix(squared_distances.rows(), squared_distances.cols());
+  K = (squared_distances.array() / (-2.0 * kernel.variance)).exp();
+  return of_kernel(std::move(K));
 }
 
 Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKernel& kernel) {
@@ -124,12 +126,15 @@ Embedding kernel_pca(const Eigen::MatrixXd& inner_products, const PolynomialKern
   if (kernel.degree < 1 || kernel.degree > 20)
     throw InvalidInput("a polynomial kernel needs a degree from 1 to 20");
   // Divided by its largest value, so that no power overflows; the map then gets its scale back.
-  const Eigen::ArrayXXd shifted = inner_products.array() + 1.0;
-  const double largest = std::max(shifted.abs().maxCoeff(), 1e-300);
-  const Eigen::ArrayXXd base = shifted / largest;
-  Eigen::ArrayXXd power = base;
-  for (int exponent = 1; exponent < kernel.degree; ++exponent) power *= base;
-  Embedding result = of_kernel(power.matrix());
+  const double largest = std::max((inner_products.array() + 1.0).abs().maxCoeff(), 1e-300);
+  Eigen::MatrixXd K = unset_matrix(inner_products.rows(), inner_products.cols());
+  for (Eigen::Index j = 0; j < K.cols(); ++j) {
+    const Eigen::ArrayXd base = (inner_products.col(j).array() + 1.0) / largest;
+    auto power = K.col(j).array();
+    power = base;
+    for (int exponent = 1; exponent < kernel.degree; ++exponent) power *= base;
+  }
+  Embedding result = of_kernel(std::move(K));
   const double scale = std::pow(largest, kernel.degree);
   if (scale > 0.0 && std::isfinite(scale * result.spectrum.cwiseAbs().maxCoeff())) {
     result.coordinates *= std::sqrt(scale);

@@ -40,7 +40,7 @@ std::vector<Quantity> evaluation_quantities() {
           lower("ate_median_m", "ATE, median", "m"),
           lower("ate_max_m", "ATE, greatest", "m"),
           lower("ate_rotation_rmse_deg", "absolute orientation error, RMSE", "°"),
-          study_quantity("associated_percent", "associated poses", "%", Better::kHigher),
+          study_quantity(kAssociatedPercent, "associated poses", "%", Better::kHigher),
           study_quantity("aligned_scale", "scale of the alignment", "", Better::kNeither),
           lower("rpe_rmse_m", "RPE, RMSE", "m"),
           lower("rpe_mean_m", "RPE, mean", "m"),
@@ -92,7 +92,7 @@ void add_absolute(const std::optional<PathEvaluation>& path, Rows& rows) {
   rows.add(at, {"ate_rmse_m", "ate_mean_m", "ate_median_m", "ate_max_m"}, errors);
   if (path && path->poses.error_deg.size() > 0)
     rows.add(at, "ate_rotation_rmse_deg", rmse(path->poses.error_deg));
-  rows.add(at, "associated_percent", path ? path->associated_percent : kNaN);
+  rows.add(at, kAssociatedPercent, path ? path->associated_percent : kNaN);
   if (path && path->alignment.scale != 1.0) rows.add(at, "aligned_scale", path->alignment.scale);
 }
 

@@ -23,6 +23,7 @@ struct EvaluatedRun {
 
 /// Of the poses that could be: with fewer associated, errors are of a part of the path. Complete
 /// pairs of files have 99.6 % and more, one whose ground truth pauses 75 %.
+inline constexpr const char* kAssociatedPercent = "associated_percent";
 inline constexpr double kFewAssociated_percent = 90.0;
 
 /// The errors as a study of results without name, title and question. Setups: `poses` (absolute

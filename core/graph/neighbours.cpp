@@ -33,35 +33,10 @@ double rounded(double distance) {
 NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
                                   const NeighbourOptions& options) {
   const Eigen::Index n = distances.rows();
-  require_neighbours(options.neighbours, n);
-  NeighbourLists nearest(static_cast<std::size_t>(n));
-  std::vector<double> finite;
-  std::vector<std::pair<double, Eigen::Index>> order;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto row = distances.col(i);
-    const auto usable = [&](Eigen::Index j) {
-      return j != i && row(j) < options.cutoff && std::isfinite(row(j));
-    };
-    finite.clear();
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (usable(j)) finite.push_back(row(j));
-    const auto count = std::min<std::ptrdiff_t>(options.neighbours, std::ssize(finite));
-    if (count == 0) continue;
-    // Rounding is slow: only what may be among the nearest is rounded.
-    std::nth_element(finite.begin(), finite.begin() + (count - 1), finite.end());
-    const double farthest = finite[static_cast<std::size_t>(count - 1)] * kRounding;
-    order.clear();
-    for (Eigen::Index j = 0; j < n; ++j)
-      if (row(j) <= farthest && usable(j)) order.emplace_back(rounded(row(j)), j);
-    std::sort(order.begin(), order.end());
-    std::vector<Edge>& edges = nearest[static_cast<std::size_t>(i)];
-    edges.reserve(static_cast<std::size_t>(count));
-    for (std::ptrdiff_t rank = 0; rank < count; ++rank) {
-      const Eigen::Index j = order[static_cast<std::size_t>(rank)].second;
-      edges.push_back({j, row(j)});
-    }
-  }
-  return nearest;
+  NearestLists lists(n, options);
+  for (Eigen::Index i = 0; i < n; ++i)
+    lists.take(i, {distances.col(i).data(), static_cast<std::size_t>(n)});
+  return std::move(lists).lists();
 }
 
 NearestLists::NearestLists(Eigen::Index n, const NeighbourOptions& options)
@@ -70,11 +45,29 @@ NearestLists::NearestLists(Eigen::Index n, const NeighbourOptions& options)
 }
 
 void NearestLists::take(Eigen::Index i, std::span<const Edge> others) {
+  take_each(i, others.size(), [&](std::size_t k) { return others[k]; });
+}
+
+void NearestLists::take(Eigen::Index i, std::span<const double> lengths) {
+  const auto take_from = [&](Eigen::Index first, std::span<const double> some) {
+    take_each(i, some.size(), [&](std::size_t k) {
+      return Edge{first + static_cast<Eigen::Index>(k), some[k]};
+    });
+  };
+  const auto own = static_cast<std::size_t>(i);
+  take_from(0, lengths.first(own));
+  take_from(i + 1, lengths.subspan(own + 1));
+}
+
+template <typename EdgeAt>
+void NearestLists::take_each(Eigen::Index i, std::size_t count, const EdgeAt& edge_at) {
   std::vector<Candidate>& heap = nearest_[static_cast<std::size_t>(i)];
   const auto most = static_cast<std::size_t>(options_.neighbours);
+  // Rounding is slow: only what may be among the nearest is rounded.
   double bound = heap.size() < most ? kInfinity : heap.front().edge.length * kRounding;
-  for (const Edge& edge : others) {
-    if (edge.length > bound || !(edge.length < options_.cutoff) || !std::isfinite(edge.length))
+  for (std::size_t k = 0; k < count; ++k) {
+    const Edge edge = edge_at(k);
+    if (!(edge.length <= bound) || !(edge.length < options_.cutoff) || !std::isfinite(edge.length))
       continue;
     const Candidate candidate{rounded(edge.length), edge};
     if (heap.size() == most) {

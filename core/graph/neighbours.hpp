@@ -35,7 +35,7 @@ struct NeighbourOptions {
 ///
 /// @param distances  n x n, symmetric, entries >= 0 or infinite, which are not edges.
 /// @throws InvalidInput if K is not in [1, n).
-/// @note O(n^2 + n K log K) time on average, O(n^2 log n) if all distances are alike.
+/// @note O(n^2 + n K log K log n) time on average, O(n^2 log K) at most.
 NeighbourLists nearest_neighbours(const Eigen::MatrixXd& distances,
                                   const NeighbourOptions& options);
 
@@ -49,6 +49,10 @@ class NearestLists {
   /// @param others  None that node i was given before, nor i itself; infinite ones do not count.
   void take(Eigen::Index i, std::span<const Edge> others);
 
+  /// The same of the distances to all nodes in their order, of which that to i itself does not
+  /// count.
+  void take(Eigen::Index i, std::span<const double> lengths);
+
   /// What nearest_neighbours() makes of the same distances.
   NeighbourLists lists() &&;
 
@@ -61,6 +65,9 @@ class NearestLists {
       return rounded != other.rounded ? rounded < other.rounded : edge.to < other.edge.to;
     }
   };
+
+  template <typename EdgeAt>
+  void take_each(Eigen::Index i, std::size_t count, const EdgeAt& edge_at);
 
   NeighbourOptions options_;
   std::vector<std::vector<Candidate>> nearest_;  ///< Of each node a heap, the farthest first.

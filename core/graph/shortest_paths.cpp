@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/linalg/unset_matrix.hpp"
+
 namespace mapproof {
 namespace {
 
@@ -107,14 +109,12 @@ void heap_search(const FlatGraph& graph, std::int32_t source, double* lengths) {
 PathSearch::PathSearch(const Graph& graph) : nodes_(std::ssize(graph)) {
   auto flat = std::make_shared<const FlatGraph>(graph);
   if (flat->shortest > 0.0 && flat->longest <= Buckets::kMost * flat->shortest)
-    search_ = [flat, buckets = Buckets(flat->shortest, flat->longest)](
-                  std::int32_t source, double* lengths) mutable {
+    search_ = [flat, buckets = Buckets(flat->shortest, flat->longest)](std::int32_t source,
+                                                                       double* lengths) mutable {
       buckets.search(*flat, source, lengths);
     };
   else
-    search_ = [flat](std::int32_t source, double* lengths) {
-      heap_search(*flat, source, lengths);
-    };
+    search_ = [flat](std::int32_t source, double* lengths) { heap_search(*flat, source, lengths); };
 }
 
 void PathSearch::from(Eigen::Index source, double* lengths) {
@@ -124,7 +124,7 @@ void PathSearch::from(Eigen::Index source, double* lengths) {
 
 Eigen::MatrixXd shortest_paths(const Graph& graph) {
   const Eigen::Index n = std::ssize(graph);
-  Eigen::MatrixXd lengths(n, n);
+  Eigen::MatrixXd lengths = unset_matrix(n, n);
   PathSearch search(graph);
   for (Eigen::Index source = 0; source < n; ++source)
     search.from(source, lengths.col(source).data());

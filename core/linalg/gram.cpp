@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/linalg/packed_product.hpp"
+#include "core/linalg/unset_matrix.hpp"
 
 namespace mapproof {
 
@@ -20,7 +21,8 @@ void mirror_lower(Eigen::MatrixXd& matrix) {
 
 Eigen::MatrixXd gram(const Eigen::MatrixXd& X) {
   const Index n = X.rows();
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXd G = unset_matrix(n, n);
+  G.setZero();
   add_gram(X, 1.0, G);
   mirror_lower(G);
   return G;

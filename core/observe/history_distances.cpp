@@ -149,8 +149,10 @@ BlockedDistances::BlockedDistances(const HistoryBlocks& history, Index steps, In
                                        (history.sensor() == Sensor::kBearing ? 2 : 1) *
                                            (multiplies_observed() ? 3 : 1) * steps,
                                        multiplies_observed() ? 3 : 1)) {
-  if (are_missing_) observed_ = observed_bits(history, steps);
-  if (mapproof::are_bits(history, steps)) seen_ = seen_bits(history, steps);
+  if (!are_missing_ && history.sensor() != Sensor::kVisibility) return;
+  HistoryBits bits = history_bits(history, steps);
+  if (are_missing_) observed_ = std::move(bits.observed);
+  if (bits.are_all) seen_ = std::move(bits.seen);
 }
 
 BlockedDistances::Rows BlockedDistances::rows(Index first) const {

@@ -8,6 +8,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/linalg/gram.hpp"
 #include "core/linalg/packed_product.hpp"
+#include "core/linalg/unset_matrix.hpp"
 #include "core/observe/bit_rows.hpp"
 
 namespace mapproof {
@@ -16,17 +17,24 @@ namespace {
 /// |a|^2 + |b|^2 - 2 a'b, where every entry was observed.
 Eigen::MatrixXd squared_distances(const Eigen::MatrixXd& G) {
   const Eigen::ArrayXd squares = G.diagonal();
-  Eigen::MatrixXd D(G.rows(), G.cols());
+  Eigen::MatrixXd D = unset_matrix(G.rows(), G.cols());
   for (Eigen::Index j = 0; j < G.cols(); ++j)
     D.col(j) = ((squares + squares(j)) - 2.0 * G.col(j).array()).max(0.0);
   return D;
 }
 
 /// Visibility: G becomes the cosines, distances 2 - 2 cos.
-void normalise(Proximities& result, const Eigen::MatrixXd& Q) {
-  const Eigen::ArrayXXd scale = (Q.array() * Q.transpose().array()).sqrt();
-  result.inner_products = (scale > 0.0).select(result.inner_products.array() / scale, 0.0);
-  result.squared_distances = (2.0 - 2.0 * result.inner_products.array()).max(0.0);
+/// @param squared_scale  Of column j: the product of the squared lengths of each pair's vectors.
+template <typename SquaredScale>
+void normalise(Proximities& result, const SquaredScale& squared_scale) {
+  Eigen::MatrixXd& G = result.inner_products;
+  result.squared_distances = unset_matrix(G.rows(), G.cols());
+  for (Eigen::Index j = 0; j < G.cols(); ++j) {
+    const Eigen::ArrayXd scale = squared_scale(j).sqrt();
+    auto cosines = G.col(j).array();
+    cosines = (scale > 0.0).select(cosines / scale, 0.0);
+    result.squared_distances.col(j) = (2.0 - 2.0 * cosines).max(0.0);
+  }
   result.apart_squared = 2.0;
 }
 
@@ -43,7 +51,8 @@ Proximities of_common(CommonSums sums, Sensor sensor) {
   const Eigen::MatrixXd& Q = sums.squares;
   const auto common = sums.steps.array();
   if (sensor == Sensor::kVisibility) {
-    normalise(result, Q);
+    normalise(result,
+              [&](Eigen::Index j) { return Q.col(j).array() * Q.row(j).transpose().array(); });
   } else {
     const Eigen::ArrayXXd scale = sums.all / common.max(1.0);
     result.squared_distances =
@@ -56,15 +65,11 @@ Proximities of_common(CommonSums sums, Sensor sensor) {
 }
 
 /// Of rows of 0 and 1 alone, which are counted.
-Proximities of_bits(const HistoryBlocks& history, Eigen::Index steps) {
-  const BitRows seen = seen_bits(history, steps);
-  Eigen::MatrixXd products = seen.in_common(seen);
-  if (!misses_any(history, steps))
-    return proximities_of_products(std::move(products), Sensor::kVisibility);
-  const BitRows observed = observed_bits(history, steps);
-  return of_common({.products = std::move(products),
-                    .squares = seen.in_common(observed),
-                    .steps = observed.in_common(observed),
+Proximities of_bits(const HistoryBits& bits, Eigen::Index steps) {
+  if (!bits.misses_any) return proximities_of_products(bits.seen.in_common(), Sensor::kVisibility);
+  return of_common({.products = bits.seen.in_common(),
+                    .squares = bits.seen.in_common(bits.observed),
+                    .steps = bits.observed.in_common(),
                     .all = static_cast<double>(steps)},
                    Sensor::kVisibility);
 }
@@ -75,7 +80,8 @@ Proximities of_vectors(const HistoryBlocks& history, Eigen::Index steps) {
   const bool are_missing = misses_any(history, steps);
   Eigen::VectorXd means;
   if (history.sensor() == Sensor::kRange) means = mean_squared_ranges(history, steps);
-  CommonSums sums{.products = Eigen::MatrixXd::Zero(n, n), .squares = {}, .steps = {}};
+  CommonSums sums{.products = unset_matrix(n, n), .squares = {}, .steps = {}};
+  sums.products.setZero();
   if (are_missing) sums.squares = sums.steps = sums.products;
   // Of longer histories than any study's, whose records keep libm's last bits.
   const bool is_fast =
@@ -99,7 +105,10 @@ Proximities of_vectors(const HistoryBlocks& history, Eigen::Index steps) {
 
 Proximities proximities(const HistoryBlocks& history, Eigen::Index steps) {
   require_steps(history, steps);
-  return are_bits(history, steps) ? of_bits(history, steps) : of_vectors(history, steps);
+  if (history.sensor() == Sensor::kVisibility)
+    if (const HistoryBits bits = history_bits(history, steps); bits.are_all)
+      return of_bits(bits, steps);
+  return of_vectors(history, steps);
 }
 
 Eigen::MatrixXd steps_observed_together(const HistoryBlocks& history, Eigen::Index steps) {
@@ -107,15 +116,13 @@ Eigen::MatrixXd steps_observed_together(const HistoryBlocks& history, Eigen::Ind
   if (history.is_complete())
     return Eigen::MatrixXd::Constant(history.landmarks(), history.landmarks(),
                                      static_cast<double>(steps));
-  const BitRows observed = observed_bits(history, steps);
-  return observed.in_common(observed);
+  return history_bits(history, steps).observed.in_common();
 }
 
 Eigen::MatrixXd steps_seen_together(const HistoryBlocks& history, Eigen::Index steps) {
   if (history.sensor() != Sensor::kVisibility) return steps_observed_together(history, steps);
   require_steps(history, steps);
-  const BitRows seen = seen_bits(history, steps);
-  return seen.in_common(seen);
+  return history_bits(history, steps).seen.in_common();
 }
 
 Proximities proximities(const Features& rows, Sensor sensor) {
@@ -129,8 +136,9 @@ Proximities proximities(const Features& rows, Sensor sensor) {
 
 Proximities proximities_of_products(Eigen::MatrixXd inner_products, Sensor sensor) {
   Proximities result{.inner_products = std::move(inner_products), .squared_distances = {}};
+  const Eigen::ArrayXd squares = result.inner_products.diagonal();
   if (sensor == Sensor::kVisibility)
-    normalise(result, result.inner_products.diagonal().replicate(1, result.inner_products.cols()));
+    normalise(result, [&](Eigen::Index j) { return squares * squares(j); });
   else
     result.squared_distances = squared_distances(result.inner_products);
   result.squared_distances.diagonal().setZero();

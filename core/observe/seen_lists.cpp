@@ -5,7 +5,6 @@
 #include "core/base/errors.hpp"
 #include "core/graph/disjoint_sets.hpp"
 #include "core/observe/bit_rows.hpp"
-#include "core/observe/proximities.hpp"
 
 namespace mapproof {
 
@@ -28,18 +27,14 @@ void SeenLists::fill(Index landmarks, Index steps, const ForEachSeen& for_each_s
   std::vector<std::size_t> next_step = steps_.first, next_landmark = landmarks_.first;
   for_each_seen([&](Index i, Index t) {
     steps_.members[next_step[static_cast<std::size_t>(i)]++] = static_cast<std::int32_t>(t);
-    landmarks_.members[next_landmark[static_cast<std::size_t>(t)]++] =
-        static_cast<std::int32_t>(i);
+    landmarks_.members[next_landmark[static_cast<std::size_t>(t)]++] = static_cast<std::int32_t>(i);
   });
 }
 
 SeenLists::SeenLists(const HistoryBlocks& history, Index steps) {
+  const BitRows seen = history_bits(history, steps).seen;
   fill(history.landmarks(), steps, [&](const auto& take) {
-    for_blocks(history, steps, [&](Index first, const Eigen::MatrixXd& values) {
-      for (Index t = 0; t < values.cols(); ++t)
-        for (Index i = 0; i < values.rows(); ++i)
-          if (values(i, t) > 0.0) take(i, first + t);
-    });
+    for (Index i = 0; i < seen.rows(); ++i) seen.for_each_one(i, [&](Index t) { take(i, t); });
   });
 }
 
@@ -54,7 +49,9 @@ SeenLists::SeenLists(const DetectionLog& log) {
 }
 
 bool is_sparse_visibility(const HistoryBlocks& history, Index steps) {
-  if (!are_bits(history, steps) || misses_any(history, steps)) return false;
+  if (history.sensor() != Sensor::kVisibility) return false;
+  if (const HistoryBits bits = history_bits(history, steps); !bits.are_all || bits.misses_any)
+    return false;
   double products = 0.0;
   for_blocks(history, steps, [&](Index, const Eigen::MatrixXd& values) {
     for (Index t = 0; t < values.cols(); ++t) {

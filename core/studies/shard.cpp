@@ -15,6 +15,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/text/shell_word.hpp"
 #include "core/records/limits.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
@@ -270,9 +271,11 @@ class Reader {
         result_.shards, shard, [](const ShardFolder& folder) { return folder.session.shard; });
     if (there != result_.shards.end())
       return fmt::format(
-          "{}: {} of the {} tasks of shard {} are missing or damaged; run it again: {}",
+          "{}: {} of the {} tasks of shard {} are missing or damaged; run it again: {} --shard {} "
+          "--out {}",
           there->folder.string(), lost, share_size(shard, result_.tasks), text_of(shard),
-          there->session.command);
+          command_of_one_run(there->session), text_of(shard),
+          shell_word(there->folder.string()));
     const ShardSession& one = result_.shards.front().session;
     return fmt::format("shard {} is missing: {} {}; run it: {} --shard {} --out DIR",
                        text_of(shard), lost, lost == 1 ? "task" : "tasks", command_of_one_run(one),

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/huge_pages.hpp"
 #include "render/cairo/cairo_painter.hpp"
 #include "render/cairo/library_versions.hpp"
 #include "render/image/png.hpp"
@@ -91,8 +92,10 @@ Image to_image(const Drawing& drawing) {
     throw InvalidInput("figure " + drawing.id + ": no image is " + std::to_string(image.width) +
                        " x " + std::to_string(image.height) + " pixels");
   const Colour paper = drawing.background;
-  image.pixels.assign(static_cast<std::size_t>(image.width) * image.height,
-                      paper.red << 16 | paper.green << 8 | paper.blue);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
+  image.pixels.reserve(pixels);
+  prefer_huge_pages(image.pixels.data(), pixels * sizeof(image.pixels.front()));
+  image.pixels.assign(pixels, paper.red << 16 | paper.green << 8 | paper.blue);
   const SurfaceHandle surface(cairo_image_surface_create_for_data(
       reinterpret_cast<unsigned char*>(image.pixels.data()), CAIRO_FORMAT_RGB24, image.width,
       image.height, 4 * image.width));
@@ -137,9 +140,9 @@ std::string page_of(const Drawing& drawing, decltype(&cairo_pdf_surface_create_f
     // Nor does it report every piece of memory that it did not get.
     if (errno == ENOMEM) throw std::bad_alloc();
   } catch (...) {
-    // Cairo goes on with what failed when such a surface is closed, up to an abort. Of an image that
-    // the surface refers to Cairo 1.16 makes a copy before it destroys it, and dies where it has no
-    // memory for that. So all of them stay.
+    // Cairo goes on with what failed when such a surface is closed, up to an abort. Of an image
+    // that the surface refers to Cairo 1.16 makes a copy before it destroys it, and dies where it
+    // has no memory for that. So all of them stay.
     static_cast<void>(surface.release());
     for (SurfaceHandle& image : images) static_cast<void>(image.release());
     throw;

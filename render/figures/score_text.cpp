@@ -38,10 +38,10 @@ std::string score_text(const Score& score) {
 std::string title_with_error(const std::string& subject, const std::optional<Score>& score) {
   if (!score) return subject;
   if (std::isfinite(score->mpe_m))
-    return fmt::format("{}: {} off in the mean", subject, error_text(score->mpe_m, 2));
+    return fmt::format("{}: {} off in the mean", subject, error_text(score->mpe_m));
   if (std::isfinite(score->mpe_all_fitted_m))
     return fmt::format("{}: {} off after the best affine fit", subject,
-                       error_text(score->mpe_all_fitted_m, 2));
+                       error_text(score->mpe_all_fitted_m));
   return subject;
 }
 
@@ -49,7 +49,7 @@ std::string title_with_error(const std::string& subject, const MapRecord& record
   std::string title = title_with_error(subject, record.score);
   if (title != subject) return title;
   if (const auto worst = worst_anchor(record))
-    return fmt::format("{}: up to {} off at {} ({})", subject, error_text(worst->error_m, 2),
+    return fmt::format("{}: up to {} off at {} ({})", subject, error_text(worst->error_m),
                        counted(std::ssize(record.anchors), "anchor"), printable(worst->name, 40));
   return subject;
 }

@@ -7,7 +7,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kGreatestInMm_m = 0.05;  // "49 mm", but "0.05 m".
+constexpr double kGreatestInMm_m = 1e-3;  // Above, the numbers beside a figure are in metres, too.
 constexpr double kLeastPpm = 1e-3;
 constexpr double kPartsPerMillion = 1e-6;
 
@@ -18,6 +18,13 @@ ScaledUnit power_unit(double greatest_ppm) {
 }
 
 }  // namespace
+
+std::optional<int> power_of(const std::string& unit) {
+  constexpr int kLeast = -324, kStep = 3;
+  for (int power = kLeast; power < 0; power += kStep)
+    if (unit == ten_to_the(power)) return power;
+  return std::nullopt;
+}
 
 ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   if (!(greatest > 0.0) || std::isinf(greatest)) return {unit};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace mapproof {
@@ -11,8 +12,11 @@ struct ScaledUnit {
 };
 
 /// The unit in which the greatest of some values is written without a power of ten and with few
-/// zeros: below 0.05 m it is "mm", below 1 s "ms", below 1 ms "µs", and below 0.001 ppm a power of
+/// zeros: below 1 mm it is "mm", below 1 s "ms", below 1 ms "µs", and below 0.001 ppm a power of
 /// ten of the whole, such as "10⁻¹⁵". Any other unit stays.
 ScaledUnit scaled_unit(const std::string& unit, double greatest);
+
+/// −15 of "10⁻¹⁵", where that is the unit of a scaled_unit().
+std::optional<int> power_of(const std::string& unit);
 
 }  // namespace mapproof

@@ -60,15 +60,11 @@ struct Run {
 constexpr std::int32_t kSameAsAbove = -1;  ///< As a length: the row repeats the one above.
 
 int run_end(const std::uint32_t* row, int begin, int width) {
-  const std::uint32_t colour = row[begin];
   int end = begin + 1;
-  constexpr int kBlock = 16;  // Compared at once; the compiler makes that a few instructions.
-  for (; end + kBlock <= width; end += kBlock) {
-    std::uint32_t differs = 0;
-    for (int i = 0; i < kBlock; ++i) differs |= row[end + i] ^ colour;
-    if (differs != 0) break;
-  }
-  while (end < width && row[end] == colour) ++end;
+  constexpr int kBlock = 16;  // Equal to those one to the left: compared at once.
+  while (end + kBlock <= width && std::memcmp(row + end - 1, row + end, kBlock * sizeof(*row)) == 0)
+    end += kBlock;
+  while (end < width && row[end] == row[begin]) ++end;
   return end;
 }
 

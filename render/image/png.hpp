@@ -13,8 +13,6 @@ namespace mapproof {
 
 struct PngOptions {
   double dpi = 72.0;
-  int level = 1;  ///< Of libdeflate's compression; for figures the ones above take longer for a few
-                  ///< per cent.
   std::vector<std::pair<std::string, std::string>>
       texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
 };

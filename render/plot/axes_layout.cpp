@@ -334,7 +334,7 @@ bool AxesLayout::labels_touch(const Axes& axes, double gap_em) const {
 
 Margins AxesLayout::margins(const Axes& axes) const {
   Margins m = overhang(axes.frame);
-  m.right = std::max(m.right, colour_bar_room(panel_, axes.frame.height(), theme_));
+  m.right += colour_bar_room(panel_, axes.frame.height(), theme_);
   if (panel_.bare) return m;
   const double em = theme_.tick_font_pt;
   const double y_label =

@@ -78,6 +78,9 @@ class AxesLayout {
   /// Around those axes; texts at points that reach over the frame's sides count as labels.
   Margins margins(const Axes& axes) const;
   PanelMap map(const Box& frame) const;
+  /// How far texts at points reach over the right side of a frame: a colour bar stands right of
+  /// them.
+  double right_of(const Box& frame) const { return overhang(frame).right; }
   /// What the labels of those axes count.
   FrameNumbers numbers(const Axes& axes) const;
 

@@ -12,8 +12,8 @@ namespace mapproof {
 // there.
 
 inline EnumNames enum_names(ThemeColour) {
-  static constexpr std::array<std::string_view, 10> kNames = {
-      "text",    "muted",   "warning", "series1", "series2",
+  static constexpr std::array<std::string_view, 11> kNames = {
+      "text",    "muted",   "faint",   "warning", "series1", "series2",
       "series3", "series4", "series5", "series6", "series7"};
   return {"colour", kNames};
 }

@@ -267,7 +267,9 @@ double lowest_drawn(const Drawing& drawing, std::size_t first) {
 
 constexpr double kLeastWidth = 14.0;        // Of a cell, in em;
 constexpr double kLeastWidthOfAxes = 15.0;  // with curves, whose panels else become too narrow.
-constexpr double kLowInColumn = 0.7;        // Height of panels below each other, of the theme's.
+constexpr double kInGrid = 1.1;             // Height of panels at most, of the theme's;
+constexpr double kLowInColumn = 0.7;        // below each other;
+constexpr double kLowBelowMap = 0.5;        // below a map, so that a printed page holds both.
 constexpr double kLeastWidthShared = 8.5;   // Where labels stand outside the grid.
 constexpr double kArrowWidth = 5.0;         // Of an arrow and its word between cells, em.
 constexpr int kMostHeights = 3;
@@ -318,10 +320,15 @@ class CellGrid {
   }
 
   double cell_height(const Panel& panel, double width) const {
+    return std::min(width * 0.86 + 4.0 * theme_.font_pt, most_of_page(panel) * theme_.height_pt);
+  }
+
+  /// The height of a panel at most, of the theme's.
+  double most_of_page(const Panel& panel) const {
     // A map above other panels is what the figure is about.
-    const bool low = columns_ == 1 && !(figure_.columns == 1 && panel.equal_aspect);
-    const double most = low ? kLowInColumn : 1.1;
-    return std::min(width * 0.86 + 4.0 * theme_.font_pt, most * theme_.height_pt);
+    if (figure_.columns == 1 && figure_.panels.front().equal_aspect)
+      return panel.equal_aspect ? kInGrid : kLowBelowMap;
+    return columns_ == 1 ? kLowInColumn : kInGrid;
   }
 
   static bool has_fixed_shape(const Panel& panel) { return panel.equal_aspect || panel.bare; }

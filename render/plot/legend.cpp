@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "render/plot/layers.hpp"
 #include "render/plot/line_ends.hpp"
@@ -12,7 +13,7 @@
 namespace mapproof {
 namespace {
 
-constexpr double kSampleWidth = 2.4;  // All in em.
+constexpr double kLeastSample = 2.4;  // All in em.
 constexpr double kSampleGap = 0.6;
 constexpr double kColumnGap = 1.4;
 constexpr double kRowHeight = 1.45;
@@ -25,6 +26,22 @@ const std::string& label_of(const Layer& layer) {
         return none;
       },
       layer);
+}
+
+/// In points, what a sample needs to show two periods of each dash of the panel, with a dash at
+/// either end: a marker in the middle then hides none of the two gaps.
+double longest_dashes(const Panel& panel, const Theme& theme) {
+  constexpr double kPeriods = 2.0;
+  double longest = 0.0;
+  for (const Layer& layer : panel.layers) {
+    const auto* line = std::get_if<Polyline>(&layer);
+    if (line == nullptr || line->label.empty()) continue;
+    const std::vector<double> dashes = dash_lengths(line->dash, line->width * theme.line_pt);
+    if (dashes.empty()) continue;
+    const double period = std::accumulate(dashes.begin(), dashes.end(), 0.0);
+    longest = std::max(longest, kPeriods * period + dashes.front());
+  }
+  return longest;
 }
 
 /// Draws what stands for a layer into the sample's box.
@@ -141,7 +158,9 @@ class SamplePainter {
 Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars)
     : theme_(theme), as_bars_(as_bars) {
   const double em = theme.font_pt;
-  const double most_text = std::max(most_width_pt / em - kSampleWidth - kSampleGap, 2.0);
+  sample_width_ = std::max(kLeastSample * em, longest_dashes(panel, theme));
+  const double lead = sample_width_ / em + kSampleGap;
+  const double most_text = std::max(most_width_pt / em - lead, 2.0);
   for (const Layer& layer : panel.layers) {
     const std::string& label = label_of(layer);
     if (label.empty()) continue;
@@ -156,7 +175,7 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
         {shape_text_within(label_in(theme, label), most_text, Elide::kMiddle, theme.font.get()),
          label,
          {&layer}});
-    const double width = (kSampleWidth + kSampleGap + entries_.back().text.advance) * em;
+    const double width = (lead + entries_.back().text.advance) * em;
     entry_width_ = std::max(entry_width_, width);
   }
   // What stands for points comes before what stands for lines between them.
@@ -231,11 +250,10 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
     const double y = at.y + static_cast<double>(row) * row_height_;
     const double half = (row_height_ - 0.25 * em) / 2.0;
     const double middle = y + row_height_ / 2.0;
-    draw_sample(entry, {x, middle - half, x + kSampleWidth * em, middle + half}, panel_index,
-                drawing);
+    draw_sample(entry, {x, middle - half, x + sample_width_, middle + half}, panel_index, drawing);
     TextLine line{.shaped = entry.text,
                   .whole = entry.text.text == entry.whole ? "" : entry.whole,
-                  .at = {x + (kSampleWidth + kSampleGap) * em,
+                  .at = {x + sample_width_ + kSampleGap * em,
                          middle + FontFacts::kXHeight / 2.0 * em + 0.06 * em},
                   .size = em,
                   .colour = theme_.text};
@@ -245,8 +263,13 @@ void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawin
 
 void Legend::draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                          Drawing& drawing) const {
-  for (const Layer* layer : entry.layers)
+  const auto is_line = [](const Layer* layer) { return std::holds_alternative<Polyline>(*layer); };
+  const bool has_line = std::ranges::any_of(entry.layers, is_line);
+  for (const Layer* layer : entry.layers) {
+    // A bar across the line would be taken for a part of its marker.
+    if (as_bars_ && has_line && std::holds_alternative<Band>(*layer)) continue;
     std::visit(SamplePainter(theme_, position, as_bars_, panel_index, drawing), *layer);
+  }
 }
 
 }  // namespace mapproof

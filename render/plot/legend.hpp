@@ -45,6 +45,7 @@ class Legend {
   const Theme& theme_;
   bool as_bars_;
   std::vector<LegendEntry> entries_;
+  double sample_width_ = 0.0;
   double entry_width_ = 0.0;
   double row_height_ = 0.0;
 };

@@ -196,9 +196,10 @@ class Arranger {
     if (found.legend_at) found.legend_at->x += shift;
   }
 
-  /// What a colour bar takes, right of the frame.
+  /// What a colour bar takes, right of the frame and of texts that reach over it.
   double bar_room(const Box& frame) const {
-    return colour_bar_room(panel_, frame.height(), theme_);
+    const double room = colour_bar_room(panel_, frame.height(), theme_);
+    return room > 0.0 ? room + layout_.right_of(frame) : 0.0;
   }
 
   static double area(const Arrangement& arrangement) {
@@ -280,7 +281,9 @@ void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& a
   if (!panel.bare) painter.draw_grid();
   draw_layers(panel, panel_index, layout.map(axes.frame), theme, drawing);
   if (!panel.bare) painter.draw_axes();
-  draw_colour_bar(panel, panel_index, axes.frame, theme, drawing);
+  Box beside = axes.frame;
+  beside.x1 += layout.right_of(axes.frame);
+  draw_colour_bar(panel, panel_index, beside, theme, drawing);
 }
 
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,

@@ -2,6 +2,7 @@
 
 #include "core/base/errors.hpp"
 #include "render/scene/projection.hpp"
+#include "render/scene/room.hpp"
 
 namespace mapproof {
 namespace {
@@ -28,6 +29,12 @@ std::array<Point3, 8> CloudBox::corners() const {
   for (std::size_t i = 0; i < found.size(); ++i)
     found[i] = {i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z()};
   return found;
+}
+
+Surface CloudBox::floor() const {
+  Surface floor = floor_of(Ground{{low.x(), low.y()}, {high.x(), high.y()}});
+  for (Point3& point : floor.points) point.z() = low.z();
+  return floor;
 }
 
 Rods CloudBox::edges() const {
@@ -62,14 +69,23 @@ std::vector<Rule> CloudBox::rules(const std::array<std::string, 3>& labels) cons
            .away = -Point3::UnitX()}};
 }
 
-Camera CloudBox::camera(const Point3& direction, double aspect) const {
+std::vector<Point3> CloudBox::shown() const {
   const double room = kBoxLabelRoom * size();
-  std::vector<Point3> shown;
-  for (const Point3& corner : corners()) shown.push_back(corner);
+  const std::array<Point3, 8> all = corners();
+  std::vector<Point3> shown(all.begin(), all.end());
   shown.emplace_back(low.x() - room, low.y() - room, low.z() - 0.5 * room);
   shown.emplace_back(high.x() + room, low.y() - room, low.z() - 0.5 * room);
   shown.emplace_back(high.x() + room, high.y(), low.z());
-  return fitted_camera(shown, direction, false, aspect);
+  return shown;
+}
+
+Camera CloudBox::camera(const Point3& direction, double aspect) const {
+  return fitted_camera(shown(), direction, false, aspect);
+}
+
+Camera CloudBox::camera(const Point3& direction) const {
+  constexpr double kUsualAspect = 1.6;
+  return tight_camera(shown(), direction, false, kUsualAspect);
 }
 
 }  // namespace mapproof

@@ -19,13 +19,22 @@ struct CloudBox {
 
   double size() const { return (high - low).norm(); }
   std::array<Point3, 8> corners() const;
+  /// Its lower side.
+  Surface floor() const;
   /// The twelve edges as thin rods.
   Rods edges() const;
   /// Axes along the three edges that a camera to the south-east of the box, above it, sees first.
   std::vector<Rule> rules(const std::array<std::string, 3>& labels) const;
   /// Such a camera, with room for the labels of the axes.
   /// @param direction  To the camera.
+  /// @param aspect     Of the image: that of boxes side by side.
   Camera camera(const Point3& direction, double aspect) const;
+  /// As above, with an image of the proportions of the box.
+  Camera camera(const Point3& direction) const;
+
+ private:
+  /// What an image shows: the box, and what the labels of its axes need.
+  std::vector<Point3> shown() const;
 };
 
 }  // namespace mapproof

@@ -25,7 +25,7 @@ using Eigen::Index;
 
 // Shares of the longer side of the ground.
 constexpr double kPathStep = 0.004;  // Between neighbouring points of a path that are drawn.
-constexpr double kTrueWidth = 0.013, kPathWidth = 0.0065, kPlainWidth = 0.0035;
+constexpr double kTruePathWidth = 0.013, kPathWidth = 0.0065, kPlainWidth = 0.0035;
 constexpr double kKerb = 0.012;
 constexpr double kPillarRadius = 0.009, kPillarHeight = 0.1, kBallRadius = 0.016;
 constexpr double kGridWidth = 0.0015;
@@ -134,8 +134,7 @@ class DriveScene {
     scene_.lights = usual_lights();
     scene_.parts = {floor_of(ground_), walls_of(ground_, kKerb * side_), grid()};
     if (run_.log.ground_truth)
-      add(plain(*run_.log.ground_truth, kTrueWidth, 2, "true path",
-                {.colour = kTrueColour, .share = 0.45}));
+      add(plain(*run_.log.ground_truth, kTruePathWidth, 2, "true path", {.colour = kTrueColour}));
     if (const SlamRecord* unaided = record_of(run_, SlamMethod::kDeadReckoning);
         unaided != nullptr && spec_.method != SlamMethod::kDeadReckoning)
       add(plain(unaided->estimate.path, kPlainWidth, 3, std::string(info(unaided->method).label),
@@ -161,10 +160,7 @@ class DriveScene {
     scene_.parts.push_back(std::move(part));
   }
 
-  bool is_shown(const Eigen::RowVector2d& at) const {
-    const auto& [x, y] = view_.limits;
-    return x.low <= at.x() && at.x() <= x.high && y.low <= at.y() && at.y() <= y.high;  // Not NaN.
-  }
+  bool is_shown(const Eigen::RowVector2d& at) const { return view_.shows(at); }
 
   Ribbon ribbon(double width, int layer) const {
     return {width * side_, rounded(kFlatLayer * layer * side_, kFlatLayer * side_), side_};
@@ -203,7 +199,9 @@ class DriveScene {
       before = at;
       greatest = kNaN;
     }
-    return line.make(label, {.colour = path_style(record_.method).colour}, limits);
+    Surface surface = line.make(label, {.colour = path_style(record_.method).colour}, limits);
+    if (has_errors_) surface.tones.bar_label = "error of the path [m]";
+    return surface;
   }
 
   void add_path() {
@@ -214,7 +212,7 @@ class DriveScene {
     has_errors_ = std::ranges::any_of(values, [](double v) { return std::isfinite(v); });
     if (has_errors_) {
       limits.high = end_of_error_ramp(values);
-      label = "path, its error from " + error_ramp_text(limits.high);
+      label = "path";
     } else {
       values.assign(static_cast<std::size_t>(path.size()), 0.0);
       for (Index i = 0; i < path.size(); ++i) values[static_cast<std::size_t>(i)] = path.time_s(i);
@@ -279,7 +277,7 @@ class DriveScene {
         has_errors_ ? fmt::format("coloured by its error up to {} m, the 95th percentile",
                                   significant(limits_.high, 2))
                     : "coloured by time",
-        run_.log.ground_truth ? " The true path, under it, is wide and grey." : "",
+        run_.log.ground_truth ? " The true path, under it, is wide and light grey." : "",
         run_.log.true_landmarks ? "true" : "estimated",
         run_.log.true_landmarks ? "; a ball is where the map has each" : "");
     scene_.alt = fmt::format("The ground of {} with {} and the {} path", run_.log.name,

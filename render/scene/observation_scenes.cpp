@@ -19,7 +19,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kManifoldAspect = 1.25;  // Two views share a page.
 const Point3 kToManifoldCamera{0.55, -1.0, 0.62};
 
 void require_usable(const ManifoldSceneSpec& spec) {
@@ -313,7 +312,7 @@ Scene manifold_scene(const ManifoldSceneSpec& spec) {
   scene.notes = {
       {fmt::format("The three coordinates hold {:.0f}, {:.0f} and {:.0f} % of all spread.",
                    100.0 * shares[0], 100.0 * shares[1], 100.0 * shares[2])}};
-  const Shot view{.camera = box.camera(kToManifoldCamera, kManifoldAspect),
+  const Shot view{.camera = box.camera(kToManifoldCamera),
                   .rules = box.rules({"1st", "2nd", "3rd"})};
   scene.views = {view, view};
   scene.views[0].title = "By true x";

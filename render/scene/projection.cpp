@@ -1,5 +1,6 @@
 #include "render/scene/projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/errors.hpp"
@@ -102,6 +103,16 @@ Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool pa
     camera.eye = camera.target + back * distance_for(points, camera, share);
   }
   return camera;
+}
+
+Camera tight_camera(std::span<const Point3> points, const Point3& from, bool parallel,
+                    double aspect) {
+  constexpr double kNarrowest = 0.9, kWidest = 2.6;
+  const Projection project(fitted_camera(points, from, parallel, aspect));
+  const Extent extent = extent_of(project, points);
+  const double tight =
+      (extent.x.high - extent.x.low) / std::max(extent.y.high - extent.y.low, 1e-9);
+  return fitted_camera(points, from, parallel, std::clamp(tight, kNarrowest, kWidest));
 }
 
 }  // namespace mapproof

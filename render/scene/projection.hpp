@@ -38,4 +38,10 @@ class Projection {
 Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool parallel,
                      double aspect = 1.6, double margin = 0.06);
 
+/// As fitted_camera(), with an image of the proportions of what it shows, from 0.9 to 2.6: no side
+/// of it is empty.
+/// @param aspect  Of the image from which the proportions are taken.
+Camera tight_camera(std::span<const Point3> points, const Point3& from, bool parallel,
+                    double aspect);
+
 }  // namespace mapproof

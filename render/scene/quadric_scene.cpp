@@ -216,9 +216,7 @@ class QuadricScene {
   /// @param height  Of the states over the plane, after the upgrade.
   void describe(double height) {
     const UpgradeClouds& clouds = spec_.clouds;
-    const SpacePoints& b = clouds.before.points;
-    const double extent = (b.colwise().maxCoeff() - b.colwise().minCoeff()).norm();
-    const double before = root_mean_square(quadric_distances(clouds.before)) / extent;
+    const double before = quadric_deviation(clouds.before);
     const SpacePoints& p = clouds.after.points;
     const Eigen::VectorXd lifted = 0.5 * p.leftCols<2>().rowwise().squaredNorm();
     const double after = root_mean_square(p.col(2) - lifted);
@@ -271,6 +269,12 @@ Eigen::VectorXd quadric_distances(const QuadricPoints& cloud) {
   const Eigen::ArrayXd values = half_gradient.cwiseProduct(lifted).rowwise().sum().array();
   const Eigen::ArrayXd slopes = 2.0 * half_gradient.leftCols<3>().rowwise().norm().array();
   return (slopes > 0.0).select(values.abs() / slopes, 0.0);
+}
+
+double quadric_deviation(const QuadricPoints& cloud) {
+  const SpacePoints& at = cloud.points;
+  const double extent = (at.colwise().maxCoeff() - at.colwise().minCoeff()).norm();
+  return root_mean_square(quadric_distances(cloud)) / extent;
 }
 
 bool has_quadric_scene(const UpgradeClouds& clouds) {

@@ -24,6 +24,9 @@ QuadricSurface quadric_surface(const QuadricPoints& cloud);
 /// Distances of the points from the quadric, to first order: |f| over the length of its gradient.
 Eigen::VectorXd quadric_distances(const QuadricPoints& cloud);
 
+/// The root mean square of these distances, as a share of the cloud's extent.
+double quadric_deviation(const QuadricPoints& cloud);
+
 struct QuadricSceneSpec {
   std::string id;
   std::string title;

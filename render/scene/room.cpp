@@ -38,31 +38,20 @@ std::vector<Rule> floor_rules(const Ground& ground) {
            .away = Point3::UnitX()}};
 }
 
-/// Corners of the ground and of the strips that the axes' labels need, which do not meet.
+/// Corners of the ground, and of the strips that the axes' labels need: no label stands far in
+/// front of the nearest corner, where a strip would leave the image empty. Labels that reach
+/// further than the strips have their room outside the image.
 std::vector<Point3> corners(const Ground& ground, double height_m, std::span<const Point3> also) {
   const double strip = kLabelRoom * ground.side();
   const auto& [low, high] = ground;
   std::vector<Point3> points(also.begin(), also.end());
-  for (const double x : {low.x, high.x}) points.emplace_back(x, low.y - strip, 0.0);
-  for (const double y : {low.y, high.y}) points.emplace_back(high.x + strip, y, 0.0);
+  for (const double x : {low.x, (low.x + high.x) / 2.0}) points.emplace_back(x, low.y - strip, 0.0);
+  for (const double y : {(low.y + high.y) / 2.0, high.y})
+    points.emplace_back(high.x + strip, y, 0.0);
   for (const double x : {low.x, high.x})
-    for (const double y : {low.y, high.y}) points.emplace_back(x, y, height_m);
+    for (const double y : {low.y, high.y})
+      for (const double z : {0.0, height_m}) points.emplace_back(x, y, z);
   return points;
-}
-
-/// A camera whose image has the proportions of what it shows, so that no side of it is empty.
-Camera tight_camera(std::span<const Point3> points, const Point3& from, bool parallel,
-                    double aspect) {
-  constexpr double kNarrowest = 0.9, kWidest = 2.6;
-  const Projection project(fitted_camera(points, from, parallel, aspect));
-  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
-  for (const Point3& point : points) {
-    const Point at = project(point);
-    low = {std::min(low.x, at.x), std::min(low.y, at.y)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y)};
-  }
-  const double tight = (high.x - low.x) / std::max(high.y - low.y, 1e-9);
-  return fitted_camera(points, from, parallel, std::clamp(tight, kNarrowest, kWidest));
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ struct Style {
 struct Tones {
   std::vector<double> values = {};  ///< One a point, rod or sphere; NaN takes the colour.
   Range limits = {};                ///< The values at the ends of the ramp; beyond: the ends.
+  /// Of a colour bar beside each view of the part, with its unit; empty: the legend has the ramp.
+  std::string bar_label = {};
 
   bool operator==(const Tones&) const = default;
 };

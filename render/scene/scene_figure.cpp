@@ -163,12 +163,25 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
   return {std::move(line), std::move(marks), std::move(texts)};
 }
 
-constexpr int kMostClear = 12;    // Squares along a rod.
-constexpr int kMostOnEdge = 30;   // Along an edge of a wall.
-constexpr double kMostEm = 0.22;  // Of an image's half height.
+constexpr int kMostClear = 12;       // Squares along a rod.
+constexpr double kRoomOfBall = 1.5;  // Of its radius: no label touches it.
+constexpr int kMostOnEdge = 30;      // Along an edge of a wall.
+constexpr double kMostEm = 0.22;     // Of an image's half height.
 
 Fill fill_of(const Style& style) {
   return style.share * style.opacity > 0.6 ? Fill::kSolid : Fill::kTint;
+}
+
+constexpr Range kOutside = {90.0, 91.0};  // Of the image: there a layer is in nobody's way.
+
+/// A layer of one empty cell, which has the colour bar of the tones.
+Layer bar(const Tones& tones) {
+  return Cells{.x = kOutside,
+               .y = kOutside,
+               .columns = 1,
+               .values = {kNaN},
+               .colour_scale = {
+                   .limits = tones.limits, .ramp = Ramp::kViridis, .bar_label = tones.bar_label}};
 }
 
 /// What stands for a part in the legend; its layer is empty.
@@ -205,9 +218,7 @@ class LegendLayer {
                 .width = 0.6};
   }
 
-  /// Outside the image, so that it is in nobody's way.
   static Layer ramp(const std::string& label) {
-    constexpr Range kOutside = {90.0, 91.0};
     return Cells{
         .label = label, .x = kOutside, .y = kOutside, .colour_scale = {.ramp = Ramp::kViridis}};
   }
@@ -239,12 +250,17 @@ class ViewPanel {
  private:
   void add_part(const Part& part) {
     std::visit([this](const auto& one) { keep_clear(one); }, part);
+    const Tones& tones =
+        std::visit([](const auto& one) -> const Tones& { return one.tones; }, part);
     const bool named = std::visit([](const auto& one) { return !one.label.empty(); }, part);
-    if (named) panel_.layers.push_back(std::visit(LegendLayer(), part));
+    if (!tones.values.empty() && !tones.bar_label.empty())
+      panel_.layers.push_back(bar(tones));
+    else if (named)
+      panel_.layers.push_back(std::visit(LegendLayer(), part));
   }
 
   void keep_clear(const Spheres& spheres) {
-    for (const Point3& at : spheres.at) add_clear(at, spheres.radius);
+    for (const Point3& at : spheres.at) add_clear(at, kRoomOfBall * spheres.radius);
   }
   void keep_clear(const Rods& rods) {
     for (std::size_t i = 0; i < rods.from.size(); ++i) {

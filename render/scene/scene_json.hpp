@@ -33,6 +33,10 @@ void fields(Visitor& v, Tones& tones) {
           {.description = "One per point, rod or sphere, or none; null: the style's colour.",
            .nullable = true});
   v.field("limits", tones.limits);
+  v.field("bar_label", tones.bar_label,
+          {.description = "Of a colour bar beside each view of the part. Missing: there is none.",
+           .max_bytes = figure_rules::kLongestText,
+           .key = Key::kIfAny});
 }
 
 template <typename Visitor>

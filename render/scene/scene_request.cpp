@@ -59,7 +59,8 @@ SceneRequest request_from_line(std::string_view text, const std::string& path) {
   request.samples = json.at("samples").integer32(0, kMostSamples);
   request.background = read_colour(json.at("background"));
   std::size_t i = 0;
-  for (const JsonCursor& colour : json.at("colours").elements(10, 10))
+  constexpr std::size_t kColours = std::tuple_size_v<decltype(request.colours)>;
+  for (const JsonCursor& colour : json.at("colours").elements(kColours, kColours))
     request.colours[i++] = read_colour(colour);
   return request;
 }

@@ -16,7 +16,8 @@ struct SceneRequest {
   int height = 0;   ///< 1 to 8192.
   int samples = 0;  ///< A pixel, up to 16, next square of it; 0: no antialiasing.
   Colour background = {};
-  std::array<Colour, 10> colours = {};  ///< In the order of ThemeColour.
+  /// In the order of ThemeColour, whose last one is kSeries7.
+  std::array<Colour, static_cast<std::size_t>(ThemeColour::kSeries7) + 1> colours = {};
 
   bool operator==(const SceneRequest&) const = default;
 };

@@ -17,7 +17,6 @@
 namespace mapproof {
 namespace {
 
-constexpr double kSpaceAspect = 1.7;  // One view under the other.
 const Point3 kToSpaceCamera{0.55, -1.0, 0.62};
 constexpr double kSeen = 0.035;  // A rod this long is seen, of the box.
 
@@ -81,6 +80,7 @@ class SpaceScene {
 
  private:
   void add_ground_truth() {
+    scene_.parts.emplace_back(box_.floor());
     scene_.parts.emplace_back(box_.edges());
     Rods stalks{.radius = 0.0018 * box_.size(),
                 .style = {.colour = ThemeColour::kMuted, .share = 0.6}};
@@ -118,7 +118,7 @@ class SpaceScene {
                      ? fmt::format("{} known",
                                    counted(static_cast<long long>(run_.known.size()), "landmark"))
                      : "No landmark known",
-        .camera = box_.camera(kToSpaceCamera, kSpaceAspect),
+        .camera = box_.camera(kToSpaceCamera),
         .rules = box_.rules({"x [m]", "y [m]", "z [m]"})};
     for (std::size_t i = 0; i < shared; ++i) view.parts.push_back(i);
     const auto add = [&](Part part) {

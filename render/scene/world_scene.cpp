@@ -132,18 +132,23 @@ class WorldScene {
     scene_.parts.emplace_back(std::move(arrows));
   }
 
-  Rods landmarks(bool anchors) const {
+  std::vector<Eigen::Index> rows_of(bool anchors) const {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index i = 0; i < world_.landmarks_m.rows(); ++i)
       if (is_anchor(i) == anchors) rows.push_back(i);
+    return rows;
+  }
+
+  Rods landmarks(bool anchors) const {
+    const std::vector<Eigen::Index> rows = rows_of(anchors);
     Rods rods = pillars(world_.landmarks_m, rows, pillar_radius_m(world_), landmark_height(side_));
     rods.style.colour = anchors ? ThemeColour::kText : ThemeColour::kMuted;
     if (anchors) {
       rods.label = "anchor";
     } else {
       rods.tones = tones(rows);
-      rods.label = fmt::format("landmark, its error from 0 to {} m or more",
-                               significant(rods.tones.limits.high, 2));
+      rods.tones.bar_label = "error of the landmark [m]";
+      rods.label = "landmark";
     }
     if (rods.from.empty()) rods.label.clear();
     return rods;
@@ -193,11 +198,14 @@ class WorldScene {
     const auto landmarks = static_cast<std::size_t>(world_.landmarks_m.rows());
     scene_.caption = fmt::format(
         "Layout {}, pose {}: {} of {} mm in diameter{}, the robot's path "
-        "over the last {} steps, and where {} of {} steps puts each landmark.",
+        "over the last {} steps, and where {} of {} steps puts each landmark. Errors above {} m "
+        "have "
+        "the last colour.",
         spec_.run.layout, spec_.run.pose, counted(landmarks, "landmark"),
         significant(1000.0 * world_.landmark_diameter_m),
         scene_.views[0].camera.parallel ? "" : " (heights are the drawing's)",
-        std::min(spec_.path_m.rows(), kShownSteps + 1), method_label(spec_.map), spec_.map.step);
+        std::min(spec_.path_m.rows(), kShownSteps + 1), method_label(spec_.map), spec_.map.step,
+        significant(tones(rows_of(false)).limits.high, 2));
     scene_.alt =
         fmt::format("A room of {} m by {} m with {}, {} of them anchors", significant(side_),
                     significant(side_), counted(landmarks, "landmark"), spec_.map.anchors.size());

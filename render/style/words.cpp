@@ -149,7 +149,8 @@ void for_each_text(Figure& figure, const Use& use) {
 void for_each_text(Scene& scene, const Use& use) {
   for (std::string* text : {&scene.title, &scene.caption, &scene.alt}) use(*text);
   for_each_text(scene.notes, use);
-  for (Part& part : scene.parts) std::visit([&](auto& one) { use(one.label); }, part);
+  for (Part& part : scene.parts)
+    std::visit([&](auto& one) { use(one.label), use(one.tones.bar_label); }, part);
   for (Shot& view : scene.views) {
     use(view.title);
     for (Rule& rule : view.rules) use(rule.label);

@@ -29,6 +29,8 @@ Colour Theme::of(ThemeColour colour) const {
       return text;
     case ThemeColour::kMuted:
       return muted;
+    case ThemeColour::kFaint:
+      return mix(muted, background, 0.5);
     case ThemeColour::kWarning:
       return warning;
     default:

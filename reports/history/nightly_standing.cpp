@@ -17,13 +17,23 @@
 namespace mapproof {
 namespace {
 
-/// What, by how much, since when, and in which commits.
-std::string sentence_of(const FindingGroup& group) {
+/// "both findings", "2 of the 3 findings": how many of all that are new a group has; empty for one.
+std::string share_words(std::size_t own, std::size_t all) {
+  if (own < 2) return "";
+  if (own < all) return fmt::format("{} of the {} findings", own, all);
+  return own == 2 ? "both findings" : fmt::format("all {} findings", own);
+}
+
+/// What, by how much, since when, and how to list the commits.
+/// @param all  New findings in all.
+std::string sentence_of(const FindingGroup& group, std::size_t all) {
   std::string text = group.setup.empty() ? "" : group.setup + ", ";
   text += group.headline();
-  if (const std::string count = group.count_text(); !count.empty()) text += ", " + count;
+  const std::string count =
+      group.known ? group.count_text() : share_words(group.numbers.size(), all);
+  if (!count.empty()) text += " (" + count + ")";
   text += fmt::format(", since nightly run {}", group.commits.since.number);
-  if (group.commits.has_commits()) text += ", commits " + group.commits.text();
+  if (group.commits.has_commits()) text += ": git log " + group.commits.text();
   return text + (group.known ? "; known: " + group.known->text : ".");
 }
 
@@ -31,10 +41,11 @@ std::string sentence_of(const FindingGroup& group) {
 void add_findings(std::span<const FindingGroup> groups, const std::string& study,
                   const std::string& before, Standing& standing) {
   std::size_t count = 0, more = 0;
+  const std::size_t all = count_findings(groups, false);
   for (const FindingGroup& group : groups) {
     if (group.study != study) continue;
     if (++count <= kMostReported)
-      standing.sentences.push_back(before + sentence_of(group));
+      standing.sentences.push_back(before + sentence_of(group, all));
     else
       more += group.numbers.size();
   }
@@ -57,10 +68,10 @@ std::vector<std::string> studies_of(std::span<const FindingGroup> groups) {
 Standing study_standing(const NightlyFacts& nightly_run, std::span<const FindingGroup> groups,
                         const std::string& study, bool is_compared) {
   Standing result;
-  add_findings(groups, study, "", result);
   std::vector<FindingGroup> of_study;
   std::ranges::copy_if(groups, std::back_inserter(of_study),
                        [&](const FindingGroup& group) { return group.study == study; });
+  add_findings(of_study, study, "", result);
   result.worse = count_findings(of_study, false) > 0;
   NightlyFacts facts = nightly_run;
   if (!is_compared) facts.reference.reset();

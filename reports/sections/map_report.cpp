@@ -299,10 +299,7 @@ Opening opening_of(const MapReportInput& input) {
   if (!wrong.empty())
     opening.findings.push_back({{strong("Warnings"), phrase(": " + listed(wrong, 3) + ".")}});
   opening.main_figure = input.figure.id;
-  if (input.fit)
-    for (const Block& block : input.fit->blocks)
-      if (const auto* figure = std::get_if<FigureBlock>(&block))
-        opening.figure_ids.push_back(figure->id);
+  // The tests of the fit are a tile; small, their figure would be a few thin lines.
   for (const FigureBlock& figure : input.more_figures)
     if (opening.figure_ids.size() < kMostCandidates) opening.figure_ids.push_back(figure.id);
   return opening;

@@ -1,7 +1,7 @@
-"""Times scikit-learn on what embed_bench times: embed_sklearn.py FOLDER M WHAT [ITERATIONS].
+"""Times scikit-learn on what embed_bench times: embed_sklearn.py FOLDER SENSOR M WHAT [ITERATIONS].
 
-Prints processor seconds: "M WHAT scikit-learn SECONDS PEAK_MIB". Both begin with the same matrix of vectors and include
-the products and distances. SMACOF is given its start, and as many iterations as ours took.
+Prints processor seconds: "M WHAT scikit-learn SECONDS PEAK_MIB". Both begin with the same matrix, of vectors or of
+visibility, and include the products and distances. SMACOF is given its start, and as many iterations as ours took.
 """
 import os
 import resource
@@ -18,7 +18,8 @@ from sklearn.manifold import Isomap, LocallyLinearEmbedding, SpectralEmbedding, 
 from sklearn.metrics import euclidean_distances
 from sklearn.neighbors import kneighbors_graph
 
-STEPS, K, VARIANCE = 2000, 8, 4000.0
+K = 8
+VARIANCE = {"bearing": 4000.0, "visibility": 0.5}
 warnings.simplefilter("ignore")
 
 
@@ -35,7 +36,11 @@ def laplacian(X):
     return SpectralEmbedding(affinity="precomputed", random_state=0).fit_transform(affinity)
 
 
-def work_of(what, X, iterations):
+def of_unit_length(X):
+    return X / numpy.sqrt((X * X).sum(1, keepdims=True))
+
+
+def work_of(what, X, iterations, variance):
     if what == "smacof":
         start = classical_start(X)
         return lambda: smacof(euclidean_distances(X), n_components=2, init=start, n_init=1,
@@ -43,7 +48,7 @@ def work_of(what, X, iterations):
     return {
         "gram": lambda: euclidean_distances(X),
         "lpca": lambda: PCA(2, svd_solver="arpack").fit_transform(X),
-        "kpca-gaussian": lambda: KernelPCA(2, kernel="rbf", gamma=0.5 / VARIANCE).fit_transform(X),
+        "kpca-gaussian": lambda: KernelPCA(2, kernel="rbf", gamma=0.5 / variance).fit_transform(X),
         "kpca-polynomial": lambda: KernelPCA(2, kernel="poly", gamma=1.0, coef0=1.0,
                                              degree=2).fit_transform(X),
         "isomap": lambda: Isomap(n_neighbors=K).fit_transform(X),
@@ -55,11 +60,13 @@ def work_of(what, X, iterations):
 
 
 def main():
-    folder, landmarks, what = sys.argv[1], int(sys.argv[2]), sys.argv[3]
-    iterations = int(sys.argv[4]) if len(sys.argv) > 4 else 300
-    vectors = numpy.fromfile(f"{folder}/vectors-{landmarks}.f64")
-    X = numpy.ascontiguousarray(vectors.reshape(2 * STEPS, landmarks).T)
-    work = work_of(what, X, iterations)
+    folder, sensor, landmarks, what = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4]
+    iterations = int(sys.argv[5]) if len(sys.argv) > 5 else 300
+    values = numpy.fromfile(f"{folder}/{sensor}-{landmarks}.f64")
+    X = numpy.ascontiguousarray(values.reshape(-1, landmarks).T)
+    if sensor == "visibility":
+        X = of_unit_length(X)
+    work = work_of(what, X, iterations, VARIANCE[sensor])
     best, total, rounds = float("inf"), 0.0, 0
     while rounds < 2 or (total < 0.3 and rounds < 100):
         start = time.process_time()

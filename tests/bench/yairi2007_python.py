@@ -1,12 +1,13 @@
 """The protocol of Yairi 2007 as numpy, scikit-learn, CSDP and matplotlib do it, timed by the item.
 
-    yairi2007_python.py STUDY HISTORIES LAYOUT-POSE...
+    yairi2007_python.py STUDY HISTORIES [--whole] LAYOUT-POSE...
 
 STUDY is a study that mapproof made of the experiment: its settings, layouts, SMACOF's iterations
 and the scores to compare with are read from there. HISTORIES holds what
 mapproof_yairi2007_histories wrote, so that both map the same observations. Of each run two
 checkpoints are mapped with every method and parameter; semidefinite programs on the first run
-alone, three parameters a checkpoint.
+alone, three parameters a checkpoint. With --whole all checkpoints of all runs are, and nothing is
+left out.
 
 Prints one line per item: "map LAYOUT POSE SENSOR STEP METHOD PARAMETER SECONDS MPE MOE" (PARAMETER is
 - for methods without), "part NAME SECONDS COUNT", and "note TEXT".
@@ -64,10 +65,10 @@ def settings_of(methods):
                 yield method, value
 
 
-def checkpoints_of(study):
+def checkpoints_of(study, whole):
     """One half way, and the last."""
     steps = study["checkpoints"]
-    return sorted({steps[(len(steps) - 1) // 2], steps[-1]})
+    return steps if whole else sorted({steps[(len(steps) - 1) // 2], steps[-1]})
 
 
 def key_of(record):
@@ -96,7 +97,11 @@ def map_checkpoint(clock, data, run, sensor, step, methods, with_sde):
         except (RuntimeError, ValueError, numpy.linalg.LinAlgError) as error:
             print(f"note no map of {sensor} {step} {method} {value}: {error}")
             continue
-        found, _ = clock.time("scores", lambda: yairi2007_scores.score(points, ground_truth, anchors))
+        try:
+            found, _ = clock.time("scores", lambda: yairi2007_scores.score(points, ground_truth, anchors))
+        except numpy.linalg.LinAlgError as error:
+            print(f"note no score of {sensor} {step} {method} {value}: {error}")
+            found = {"mpe_m": numpy.nan, "moe_percent": numpy.nan, "estimate": points}
         parameter = "-" if value is None else f"{value:g}"
         print(f"map {run['run']['layout']} {run['run']['pose']} {sensor} {step} {method} "
               f"{parameter} {seconds:.7f} {found['mpe_m']:.6g} {found['moe_percent']:.6g}",
@@ -106,7 +111,7 @@ def map_checkpoint(clock, data, run, sensor, step, methods, with_sde):
                "estimate": found["estimate"].tolist()}
 
 
-def do_run(clock, experiment, run, histories, with_sde):
+def do_run(clock, experiment, run, histories, with_sde, whole):
     layout, pose = run["run"]["layout"], run["run"]["pose"]
     world = run["world"]
     random = numpy.random.default_rng(1000 * layout + pose)
@@ -120,8 +125,9 @@ def do_run(clock, experiment, run, histories, with_sde):
         values = numpy.fromfile(f"{histories}/layout-{layout}-pose-{pose}.{sensor}.f64")
         history = values.reshape(steps, -1).T
         grid = study["methods"].get("sde", {}).get("K", [])
-        chosen = {grid[0], grid[len(grid) // 2], grid[-1]} if grid and with_sde else set()
-        for step in checkpoints_of(study):
+        some = {grid[0], grid[len(grid) // 2], grid[-1]} if grid and with_sde else set()
+        chosen = set(grid) if whole else some
+        for step in checkpoints_of(study, whole):
             data = numpy.ascontiguousarray(history[:, :step])
             maps += map_checkpoint(clock, data, run, sensor, step, study["methods"], chosen)
     with tempfile.TemporaryFile("w", encoding="utf-8") as out:
@@ -140,7 +146,7 @@ def print_agreement(run, maps):
         if score:
             difference = abs(record["score"]["moe_percent"] - score["moe_percent"])
             apart.setdefault(record["method"], []).append(difference)
-    words = [f"{method} {numpy.median(values):.2g}" for method, values in apart.items()]
+    words = [f"{method} {numpy.nanmedian(values):.2g}" for method, values in apart.items()]
     print(f"note median distance from mapproof's MOE, %, run {run['run']['layout']}-"
           f"{run['run']['pose']}: {', '.join(words)}")
 
@@ -158,13 +164,15 @@ def draw_figures(clock, run, maps):
 
 def main():
     study, histories, runs = sys.argv[1], sys.argv[2], sys.argv[3:]
+    whole = "--whole" in runs
+    runs = [run for run in runs if run != "--whole"]
     experiment = read_json(f"{study}/study.json")["experiment"]
     clock = Clock()
     print(f"note BLAS of numpy and CSDP: {blas_in_use()}")
     for number, name in enumerate(runs):
         layout, pose = name.split("-")
         run = read_json(f"{study}/runs/layout-{layout}-pose-{pose}.json")
-        maps = do_run(clock, experiment, run, histories, with_sde=number == 0)
+        maps = do_run(clock, experiment, run, histories, number == 0, whole)
         print_agreement(run, maps)
         if number == 0:
             draw_figures(clock, run, maps)

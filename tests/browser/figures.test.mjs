@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { figure, open, study, textOf } from "./support.mjs";
+import { figure, kinds, open, study, textOf } from "./support.mjs";
 
 const kMap = "map-bearing-isomap";
 const kFilm = "forming-bearing";
@@ -311,6 +311,22 @@ test("curves are hidden and shown by a list and by the legend", async () => {
   await page.mouse.click(words.x + words.width / 2, words.y + words.height / 2);
   assert.ok(await parts.first().isVisible());
   assert.ok(await shown.getByRole("checkbox", { name: "LPCA" }).isChecked());
+  await close();
+});
+
+const slam = kinds.find(([name]) => name === "slam")?.[1];
+
+test("the legend of paths hides a method's path with its landmarks", { skip: !slam }, async () => {
+  const { page, close } = await open({}, slam);
+  const shown = await figure(page, "path-own");
+  const parts = shown.locator('[data-curve="dead reckoning"]');
+  assert.ok(await parts.count() > 1, "the path and landmarks");
+  const words = await shown.locator('.legend-text [data-words="dead reckoning"]').first()
+    .boundingBox();
+  await page.mouse.click(words.x + words.width / 2, words.y + words.height / 2);
+  for (const part of await parts.all()) assert.equal(await part.isVisible(), false);
+  await page.mouse.click(words.x + words.width / 2, words.y + words.height / 2);
+  assert.ok(await parts.first().isVisible());
   await close();
 });
 

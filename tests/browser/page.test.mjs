@@ -77,6 +77,28 @@ for (const [name, folder] of kinds) {
       });
   }
 
+  test(`${name}: on a phone the main figure has words of 10 px at least, none of them cut`,
+    async () => {
+      const { page, close } = await open({ viewport: { width: 390, height: 844 } }, folder);
+      const found = await page.evaluate(() => {
+        const image = document.querySelector(".main-figure img");
+        if (!image) return null;
+        const box = document.createElement("div");
+        box.className = "measured";
+        box.append(drawingOf(decodeURIComponent(image.src.slice(image.src.indexOf(",") + 1))));
+        document.body.append(box);
+        const svg = box.firstChild, { width, height } = viewBoxOf(svg);
+        const shown = image.getBoundingClientRect(), whole = svg.getBoundingClientRect();
+        const words = [...svg.querySelectorAll('g[transform*="scale("]')]
+          .map((one) => one.getBoundingClientRect()).filter((one) => one.width > 0);
+        return { least: leastWords(svg) * Math.min(shown.width / width, shown.height / height),
+          cut: words.filter((one) => one.top < whole.top - 1 || one.bottom > whole.bottom + 1 ||
+            one.left < whole.left - 1 || one.right > whole.right + 1).length };
+      });
+      if (found) assert.ok(found.least >= 9.99 && found.cut === 0, JSON.stringify(found));
+      await close();
+    });
+
   test(`${name}: the first screen has a figure that can be read, and the page 15.5 screens at most`,
     async () => {
       const { page, errors, close } = await open({ viewport: { width: 1280, height: 800 } }, folder);

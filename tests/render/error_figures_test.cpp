@@ -251,13 +251,19 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
     const ScaledUnit scaled = scaled_unit(unit, greatest);
     return fmt::format("{:.3g} {}", scaled.factor * greatest, scaled.unit);
   };
-  EXPECT_EQ(words("m", 0.0098), "9.8 mm");
+  EXPECT_EQ(words("m", 0.0098), "0.0098 m") << "as tables and texts have it";
+  EXPECT_EQ(words("m", 0.00098), "0.98 mm");
   EXPECT_EQ(words("m", 0.5), "0.5 m");
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
   EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
   EXPECT_EQ(words("ppm", 12.0), "12 ppm");
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");
+}
+
+TEST(ScaledUnit, ThatIsAPowerIsKnownAsOne) {
+  EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -15);
+  EXPECT_EQ(power_of("mm"), std::nullopt);
 }
 
 TEST(ShortNames, LeaveParametersOut) {

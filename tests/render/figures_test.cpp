@@ -224,9 +224,9 @@ TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
   EXPECT_EQ(score_text({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
   EXPECT_EQ(score_text({NAN, NAN, NAN, NAN}), "");
   EXPECT_EQ(title_with_error("A map", Score{0.219, 4.7, 0.2, 4.7}),
-            "A map: 0.22 m off in the mean");
+            "A map: 0.219 m off in the mean");
   EXPECT_EQ(title_with_error("A map", Score{NAN, 95.0, 0.31, 5.0}),
-            "A map: 0.31 m off after the best affine fit");
+            "A map: 0.310 m off after the best affine fit");
   EXPECT_EQ(title_with_error("A map", Score{NAN, NAN, NAN, 4.2}), "A map");
   EXPECT_EQ(title_with_error("A map", std::nullopt), "A map");
 }
@@ -245,11 +245,11 @@ TEST(ScoreWords, NameTheAnchorThatAMapMissesMost) {
   EXPECT_EQ(worst_anchor(record)->name, "b");
   EXPECT_NEAR(worst_anchor(record)->share_percent, 7.5, 1e-9);  // 0.3 m of 4 m.
   EXPECT_FALSE(worst_anchor(record)->is_contradicted);
-  EXPECT_EQ(title_with_error("A map", record), "A map: up to 0.30 m off at 2 anchors (b)");
+  EXPECT_EQ(title_with_error("A map", record), "A map: up to 0.300 m off at 2 anchors (b)");
   (*record.ground_truth_m)(1, 1) += 0.2;
   EXPECT_TRUE(worst_anchor(record)->is_contradicted);
   record.score = Score{0.219, 4.7, 0.2, 4.7};
-  EXPECT_EQ(title_with_error("A map", record), "A map: 0.22 m off in the mean");
+  EXPECT_EQ(title_with_error("A map", record), "A map: 0.219 m off in the mean");
   record.frame = Frame::kSimilarity;  // No metres.
   EXPECT_FALSE(worst_anchor(record));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include "render/cairo/cairo_backend.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/plot/axis_map.hpp"
+#include "render/plot/layers.hpp"
 #include "tests/support/images/figure_checks.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
@@ -346,6 +348,29 @@ TEST(Legend, ListsLinesInTheOrderOfTheirEnds) {
 TEST(LineEnds, HaveShortNamesWhereLongOnesAreTooLong) {
   const Figure figure = with_lines({1.0, 3.0}, "SMACOF, kNN weights, K = ");
   EXPECT_EQ(legend_words(lay_out(figure, paper_theme(6.75)))[0], "SMACOF kNN, K = 1");
+}
+
+TEST(Legend, ShowsTwoPeriodsOfTheLongestDashAndNoMarkerOverAGap) {
+  Figure figure = with_lines({1.0, 3.0});
+  std::get<Polyline>(figure.panels[0].layers[0]).x = {0.0, 0.3};  // A legend.
+  auto& line = std::get<Polyline>(figure.panels[0].layers[1]);
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)})
+    for (const Dash dash : {Dash::kDashed, Dash::kDashDot, Dash::kLongDash}) {
+      line.dash = dash;
+      const std::vector<double> lengths = dash_lengths(dash, line.width * theme.line_pt);
+      const double period = std::accumulate(lengths.begin(), lengths.end(), 0.0);
+      bool is_seen = false;
+      for (const Item& item : lay_out(figure, theme).items) {
+        const auto* shape = std::get_if<Shape>(&item.what);
+        if (item.item_class != ItemClass::kLegendSample || shape == nullptr || !shape->stroke ||
+            shape->stroke->dashes != lengths)
+          continue;
+        is_seen = true;
+        const double length = shape->path.points[1].x - shape->path.points[0].x;
+        EXPECT_GE(length, 2.0 * period + lengths[0] - 1e-9) << theme.name;
+      }
+      EXPECT_TRUE(is_seen) << theme.name;
+    }
 }
 
 TEST(Legend, HasShortNamesOfMethodsInAColumn) {

@@ -36,9 +36,11 @@ TEST(PathMap, DrawsTheGroundTruthBelowAndEachMethodInItsOwnColour) {
   ASSERT_EQ(paths.size(), 4u);
   EXPECT_EQ(paths[0].label, "true path");
   EXPECT_GT(paths[0].width, 2.0 * paths[2].width);
+  EXPECT_EQ(paths[0].colour, ThemeColour::kFaint);
   for (std::size_t i = 0; i < kShown.size(); ++i) {
     EXPECT_EQ(paths[i + 1].label, info(kShown[i]).label);
     EXPECT_EQ(paths[i + 1].colour, path_style(kShown[i]).colour);
+    EXPECT_EQ(paths[i + 1].dash, path_style(kShown[i]).dash) << "as its errors below";
   }
 }
 
@@ -75,8 +77,44 @@ TEST(PathMap, EnlargesEllipsesByAFactorThatItTells) {
   const Ellipse own = covariance_ellipse(run.records[5].estimate.landmark_cov_m2[2]);
   EXPECT_NEAR(ellipses.a[2], 5.0 * own.a, 1e-12);
   EXPECT_NEAR(ellipses.b[2], 5.0 * own.b, 1e-12);
-  EXPECT_TRUE(notes_contain(figure, "enlarged 5 times"));
+  EXPECT_TRUE(labelled<Ellipses>(figure.panels[0], "95 % ellipse, 5 × as large")) << "the legend";
   EXPECT_TRUE(contains(figure.caption, "enlarged 5 times"));
+}
+
+TEST(PathMap, CutsNoEllipseOfALandmarkAtTheFrame) {
+  SlamRun run = sample_drive("plaza-1", 2000, 1);
+  const Panel usual = figure_of(run).panels[0];
+  run.records[5].estimate.landmarks_m.row(0) << usual.x.limits->low, usual.y.limits->high;
+  const Panel map = figure_of(run).panels[0];
+  const auto ellipses = labelled<Ellipses>(map, "refined, scale free").value();
+  ASSERT_EQ(ellipses.x[0], usual.x.limits->low);
+  for (std::size_t i = 0; i < ellipses.x.size(); ++i)
+    for (double angle = 0.0; angle < 6.3; angle += 0.1) {
+      const double a = ellipses.a[i] * std::cos(angle), b = ellipses.b[i] * std::sin(angle);
+      const double cos = std::cos(ellipses.rotation_rad[i]),
+                   sin = std::sin(ellipses.rotation_rad[i]);
+      const double x = ellipses.x[i] + a * cos - b * sin, y = ellipses.y[i] + a * sin + b * cos;
+      EXPECT_TRUE(map.x.limits->low < x && x < map.x.limits->high) << i;
+      EXPECT_TRUE(map.y.limits->low < y && y < map.y.limits->high) << i;
+    }
+}
+
+/// What pages hide with an entry of the legend.
+std::string curve_of(const Mark& mark) {
+  for (const auto& [key, value] : mark.data)
+    if (key == "curve") return value;
+  return "";
+}
+
+TEST(PathMap, TellsPagesWhichEntryOfTheLegendEachMarkBelongsTo) {
+  const Figure figure = figure_of(sample_drive("plaza-1", 2000, 1));
+  for (const Panel& panel : figure.panels) {
+    for (const auto& line : layers_of<Polyline>(panel)) EXPECT_EQ(curve_of(line.mark), line.label);
+    for (const auto& points : layers_of<Scatter>(panel))
+      for (const Mark& mark : points.marks) EXPECT_EQ(curve_of(mark), points.label);
+    for (const auto& ellipses : layers_of<Ellipses>(panel))
+      for (const Mark& mark : ellipses.marks) EXPECT_EQ(curve_of(mark), ellipses.label);
+  }
 }
 
 TEST(PathMap, MarksLandmarksAsKnownOnlyWhereAMethodWasGivenThem) {

@@ -1,12 +1,16 @@
 #include "render/scene/scene.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
 #include "render/plot/layout.hpp"
 #include "render/scene/projection.hpp"
+#include "render/scene/room.hpp"
 #include "render/scene/scene_figure.hpp"
 #include "render/scene/scene_json.hpp"
 #include "render/scene/scene_request.hpp"
@@ -161,6 +165,33 @@ TEST(SceneFigure, HasNothingThatAReaderWouldHoldAgainstIt) {
       const auto found = flaws(lay_out(scene_figure(scene, theme), theme));
       EXPECT_TRUE(found.empty()) << scene.id << ", " << theme.name << ": " << found.front();
     }
+}
+
+TEST(SceneFigure, HasAColourBarWithTicksInPlaceOfAnEntryInTheLegend) {
+  Scene scene = small_scene();
+  Tones tones{.limits = {0.0, 0.48}, .bar_label = "error of the path [m]"};
+  Tube tube{.label = "path", .points = {{0.1, 0.1, 0.1}, {0.9, 0.9, 0.1}}, .radius = 0.01};
+  tones.values = {0.1, 0.4};
+  tube.tones = tones;
+  scene.parts = {tube};
+  scene.views.resize(1);
+  scene.views[0].parts.clear();
+  std::vector<std::string> words;
+  const Theme theme = report_theme();
+  const Drawing drawing = lay_out(scene_figure(scene, theme), theme);
+  for (const Item& item : drawing.items)
+    if (const auto* line = std::get_if<TextLine>(&item.what);
+        line != nullptr && item.item_class == ItemClass::kLegendText)
+      words.push_back(line->shaped.text);
+  const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
+  EXPECT_TRUE(has("error of the path [m]"));
+  EXPECT_TRUE(has("0.2") && has("0.4")) << "ticks";
+  EXPECT_FALSE(has("path"));
+}
+
+TEST(Rooms, EndShortlyBelowTheirNearestCorner) {
+  const Shot room = room_view(2.5, landmark_height(2.5));
+  EXPECT_LT(Projection(room.camera)({2.5, 0.0, 0.0}).y, -0.85) << "the image ends at -1";
 }
 
 TEST(SceneFigure, LabelsStandInTheImageAndOffTheSolids) {

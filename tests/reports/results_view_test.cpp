@@ -449,6 +449,55 @@ TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
   EXPECT_EQ(first.detail, "even, over 3 data sets");
 }
 
+TEST(ResultsFigures, OfDataSetsShowEachMethodInEachOfThem) {
+  ResultsStudy study = Rows()
+                           .add("even", "a1", 0.2)
+                           .add("even", "b1", 0.1)
+                           .add("uneven", "a1", 0.05)
+                           .add("uneven", "b1", 0.9)
+                           .add("uneven", "c1", 0.8)
+                           .study(false);
+  study.runs = {{"a1", "a1"}, {"b1", "b1"}, {"c1", "c1"}};
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, compare_methods(view));
+  const Figure& figure = figures.groups.at(0).figures.at(0);
+  EXPECT_EQ(figure.id, data_sets_figure_id(view.blocks()[0], mpe()));
+  EXPECT_TRUE(figure.title.ends_with("uneven has the lowest MPE on 2 of 3 data sets"))
+      << figure.title;
+  const Panel& panel = figure.panels.at(0);
+  EXPECT_EQ(panel.x.names, (std::vector<std::string>{"a1", "b1", "c1"}));
+  ASSERT_EQ(panel.layers.size(), 2U);
+  const auto& even = std::get<Scatter>(panel.layers[0]);
+  EXPECT_EQ(even.label, "even");
+  EXPECT_EQ(even.y, (std::vector<double>{0.2, 0.1}));
+  const auto& uneven = std::get<Scatter>(panel.layers[1]);
+  for (std::size_t i = 0; i < uneven.x.size(); ++i)
+    EXPECT_EQ(std::lround(uneven.x[i]), static_cast<long>(i)) << "beside its data set's tick";
+  EXPECT_LT(even.x[0], uneven.x[0]);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = figures, .provenance = {}});
+  EXPECT_EQ(report.opening.main_figure, figure.id);
+}
+
+TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
+  Rows rows;
+  rows.add("few", "a1", 0.024).add("many", "a1", 0.0135);
+  ResultsStudy study = rows.study();
+  const Quantity associated =
+      study_quantity("associated_percent", "associated poses", "%", Better::kHigher);
+  EXPECT_FALSE(is_crowned(associated));
+  EXPECT_TRUE(is_crowned(mpe()));
+  const ResultsView view(study);
+  const Report report = results_report({.view = view,
+                                        .comparisons = compare_methods(view),
+                                        .figures = {},
+                                        .provenance = {},
+                                        .poses = {{"few", 32}, {"many", 785}}});
+  const Highlights::Item& best = report.opening.numbers.items.at(0);
+  EXPECT_TRUE(best.label.starts_with("best MPE, ")) << best.label;
+  EXPECT_EQ(best.detail, "many (785 poses); few (32 poses) 0.0240\u00a0m");
+}
+
 TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   const auto warns = [](double percent) {
     Rows rows("associated_percent");

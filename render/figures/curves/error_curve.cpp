@@ -73,7 +73,7 @@ Polyline error_line(const SlamRecord& record, const ErrorAxis& axis, double star
           .width = 1.2,
           .marker = marker,
           .mark = {fmt::format("error-{}", info(record.method).name),
-                   {{"path", std::string(info(record.method).label)}}}};
+                   {{"curve", label_with_error(record)}}}};
 }
 
 /// The root of the trace of a position's covariance: the RMS error that it makes one expect.
@@ -83,7 +83,8 @@ Polyline expected_line(const SlamRecord& record, const ErrorAxis& axis, double s
                 .colour = style.colour,
                 .dash = Dash::kDotted,
                 .width = 0.9,
-                .mark = {fmt::format("expected-{}", info(record.method).name), {}}};
+                .mark = {fmt::format("expected-{}", info(record.method).name),
+                         {{"curve", "expected by the covariance"}}}};
   const SlamEstimate& estimate = record.estimate;
   for (std::size_t i = 0; i < estimate.position_cov_m2.size(); ++i) {
     const double variance_m2 = estimate.position_cov_m2[i].trace();

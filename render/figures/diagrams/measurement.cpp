@@ -308,6 +308,8 @@ Figure idea_figure(const IdeaSpec& spec) {
   Figure figure;
   figure.id = spec.id;
   figure.title = "From what was observed to a map, without any pose";
+  if (spec.map.score && std::isfinite(spec.map.score->mpe_m))
+    figure.title += fmt::format(": {} off", error_text(spec.map.score->mpe_m, 2));
   figure.record_ids = {spec.map.id};
   figure.panels = {room_of(spec), history_of(spec), map_of(spec)};
   for (Panel& panel : figure.panels) std::erase_if(panel.layers, is_empty);

@@ -52,8 +52,8 @@ double greatest_of(const PathErrorsSpec& spec) {
 /// The unit of all errors of a figure.
 ScaledUnit unit_of(const PathErrorsSpec& spec) { return scaled_unit("m", greatest_of(spec)); }
 
-std::string in_unit(double error_m, const ScaledUnit& unit, int digits = 3) {
-  return with_unit(significant(unit.factor * error_m, digits), unit.unit);
+std::string in_unit(double error_m, const ScaledUnit& unit) {
+  return with_unit(significant(unit.factor * error_m), unit.unit);
 }
 
 std::string numbers_of(const PathErrorsSpec& spec) {
@@ -279,8 +279,8 @@ std::string path_error_finding(const PathErrorsSpec& spec, std::size_t shown) {
   const ScaledUnit unit = unit_of(spec);
   const PathErrorLine& line = spec.lines.at(shown);
   return fmt::format("{} errs by {} (RMSE), {} at most", line.label,
-                     in_unit(root_mean_square(line.poses->error_m), unit, 2),
-                     in_unit(line.poses->error_m.maxCoeff(), unit, 2));
+                     in_unit(root_mean_square(line.poses->error_m), unit),
+                     in_unit(line.poses->error_m.maxCoeff(), unit));
 }
 
 std::string path_errors_finding(const PathErrorsSpec& spec) {
@@ -291,7 +291,7 @@ std::string path_errors_finding(const PathErrorsSpec& spec) {
   const auto best = std::ranges::min_element(spec.lines, {}, rmse_of);
   if (spec.lines.size() == 1) return path_error_finding(spec, 0);
   return fmt::format("{} errs least, by {} (RMSE)", best->label,
-                     in_unit(rmse_of(*best), unit_of(spec), 2));
+                     in_unit(rmse_of(*best), unit_of(spec)));
 }
 
 std::string path_medians_finding(const PathErrorsSpec& spec) {
@@ -306,11 +306,11 @@ std::string path_medians_finding(const PathErrorsSpec& spec) {
   std::ranges::stable_sort(lines, {}, median_error);
   if (lines.size() > kMostNamed)
     return fmt::format("half of the poses err by less than {} with {}, {} with {}",
-                       in_unit(median_error(lines.front()), unit, 2), lines.front()->label,
-                       in_unit(median_error(lines.back()), unit, 2), lines.back()->label);
+                       in_unit(median_error(lines.front()), unit), lines.front()->label,
+                       in_unit(median_error(lines.back()), unit), lines.back()->label);
   std::vector<std::string> words;
   for (const PathErrorLine* line : lines)
-    words.push_back(fmt::format("{} with {}", in_unit(median_error(line), unit, 2), line->label));
+    words.push_back(fmt::format("{} with {}", in_unit(median_error(line), unit), line->label));
   return "half of the poses err by less than " + listed(words, kMostNamed);
 }
 

@@ -26,6 +26,7 @@ using Eigen::Index;
 constexpr double kPathReach = 0.5;  // Sides about the core that paths may take up.
 constexpr double kMargin = 0.05;    // Of the image's side.
 constexpr double kVisible = 0.06;   // Half axis of the largest ellipse, of the side, at most.
+constexpr double kRim = 0.1;        // Between an ellipse and the frame, of its half axes.
 constexpr double kTolerance = 1.0 / 3600.0;  // Of the side.
 
 void require_consistent(const PathMapSpec& spec) {
@@ -135,6 +136,26 @@ double enlargement(const PathView& view) {
   return 1.0;
 }
 
+/// Of landmarks within the limits: none is cut by the frame.
+void make_room_for_ellipses(PathView& view) {
+  const PathView before = view;
+  for (const SlamRecord* record : view.shown) {
+    const auto& covariances = record->estimate.landmark_cov_m2;
+    for (Index i = 0; i < std::ssize(covariances); ++i) {
+      const Eigen::RowVector2d at = record->estimate.landmarks_m.row(i);
+      if (!covariances[i].allFinite() || !before.shows(at)) continue;
+      const Ellipse ellipse = covariance_ellipse(covariances[i]);
+      const double cos = std::cos(ellipse.rotation_rad), sin = std::sin(ellipse.rotation_rad);
+      const double rim = 1.0 + kRim;
+      const double across = rim * view.enlarged * std::hypot(ellipse.a * cos, ellipse.b * sin);
+      const double up = rim * view.enlarged * std::hypot(ellipse.a * sin, ellipse.b * cos);
+      auto& [x, y] = view.limits;
+      x = {std::min(x.low, at.x() - across), std::max(x.high, at.x() + across)};
+      y = {std::min(y.low, at.y() - up), std::max(y.high, at.y() + up)};
+    }
+  }
+}
+
 bool any_finite(const Points& points) { return points.array().isFinite().any(); }
 
 constexpr std::size_t kMostNamedLandmarks = 12;  // Landmarks with a name next to them.
@@ -167,12 +188,11 @@ class PathMap {
     panel.x = {.label = "x [m]", .limits = view_.limits.x};
     panel.y = {.label = "y [m]", .limits = view_.limits.y};
     if (spec_.run.log.ground_truth)
-      panel.layers.push_back(
-          path(*spec_.run.log.ground_truth, "true path", "ground-truth", kTrueColour, 2.4));
+      panel.layers.push_back(path(*spec_.run.log.ground_truth, "true path", "ground-truth",
+                                  {.colour = kTrueColour, .width = kTrueWidth}));
     for (const SlamRecord* record : view_.shown) {
-      const PathStyle style = path_style(record->method);
       panel.layers.push_back(
-          path(record->estimate.path, label_of(*record), key(*record), style.colour, style.width));
+          path(record->estimate.path, label_of(*record), key(*record), path_style(record->method)));
     }
     panel.layers.push_back(true_landmarks(false));
     panel.layers.push_back(true_landmarks(true));
@@ -182,28 +202,30 @@ class PathMap {
     }
     panel.layers.push_back(names());
     std::erase_if(panel.layers, is_empty);
+    if (any_ellipse()) panel.layers.emplace_back(ellipses_in_legend());
     return panel;
   }
 
   static std::string key(const SlamRecord& record) { return std::string(info(record.method).name); }
 
   Polyline path(const Trajectory& path, const std::string& label, const std::string& key,
-                ThemeColour colour, double width) const {
+                const PathStyle& style) const {
     ThinLine thin = thin_path(path, view_.tolerance_m);
     const Marker marker = thin.x.size() == 1 ? Marker::kCircle : Marker::kNone;
     return {.label = label,
             .x = std::move(thin.x),
             .y = std::move(thin.y),
-            .colour = colour,
-            .width = width,
+            // Faint a marker would not be seen.
+            .colour = marker != Marker::kNone && style.colour == ThemeColour::kFaint
+                          ? ThemeColour::kMuted
+                          : style.colour,
+            .dash = style.dash,
+            .width = style.width,
             .marker = marker,
-            .mark = {"path-" + key, {{"path", label}}}};
+            .mark = {"path-" + key, {{"curve", label}}}};
   }
 
-  bool in_image(const Eigen::RowVector2d& at) const {
-    const auto& [x, y] = view_.limits;
-    return x.low <= at.x() && at.x() <= x.high && y.low <= at.y() && at.y() <= y.high;
-  }
+  bool in_image(const Eigen::RowVector2d& at) const { return view_.shows(at); }
 
   bool is_known(Index row) const {
     return std::ranges::find(spec_.run.known, row) != spec_.run.known.end();
@@ -215,9 +237,12 @@ class PathMap {
         view_.shown, [](const SlamRecord* record) { return info(record->method).knows_landmarks; });
   }
 
-  Mark mark(const std::string& kind, Index row, const Eigen::RowVector2d& at) const {
+  /// @param curve  The entry of the legend that it belongs to.
+  Mark mark(const std::string& kind, const std::string& curve, Index row,
+            const Eigen::RowVector2d& at) const {
     return {fmt::format("{}-{}", kind, row + 1),
             {{"landmark", spec_.run.log.landmarks[row]},
+             {"curve", curve},
              {"kind", kind},
              {"x", data_number(at.x())},
              {"y", data_number(at.y())}}};
@@ -234,7 +259,7 @@ class PathMap {
     for (Index i = 0; i < positions.rows(); ++i) {
       if ((is_known(i) && uses_known()) != known || !in_image(positions.row(i))) continue;
       add_point(points, point_of(positions.row(i)));
-      points.marks.push_back(mark(known ? "known" : "true", i, positions.row(i)));
+      points.marks.push_back(mark(known ? "known" : "true", points.label, i, positions.row(i)));
     }
     return points;
   }
@@ -247,7 +272,7 @@ class PathMap {
     for (Index i = 0; i < positions.rows(); ++i) {
       if (!in_image(positions.row(i))) continue;
       add_point(points, point_of(positions.row(i)));
-      points.marks.push_back(mark(key(record), i, positions.row(i)));
+      points.marks.push_back(mark(key(record), points.label, i, positions.row(i)));
     }
     return points;
   }
@@ -266,6 +291,7 @@ class PathMap {
       ellipses.rotation_rad.push_back(ellipse.rotation_rad);
       ellipses.marks.push_back({fmt::format("ellipse-{}-{}", key(record), i + 1),
                                 {{"landmark", spec_.run.log.landmarks[i]},
+                                 {"curve", ellipses.label},
                                  {"a", data_number(ellipse.a)},
                                  {"b", data_number(ellipse.b)}}});
     }
@@ -297,6 +323,14 @@ class PathMap {
         view_.shown, [this](const SlamRecord* record) { return !ellipses(*record).x.empty(); });
   }
 
+  /// An entry of the legend, which stands wherever a part of the figure is shown, for the ellipses
+  /// of all methods.
+  Ellipses ellipses_in_legend() const {
+    std::string label = "95 % ellipse";
+    if (view_.enlarged != 1.0) label += fmt::format(", {:g} \u00D7 as large", view_.enlarged);
+    return {.label = label, .colour = ThemeColour::kMuted, .width = 0.8};
+  }
+
   std::string ellipse_words() const {
     if (view_.enlarged == 1.0) return "ellipses: 95 % of each landmark";
     return fmt::format("ellipses: 95 % of each landmark, enlarged {:g} times", view_.enlarged);
@@ -305,9 +339,6 @@ class PathMap {
   std::vector<Note> notes() const {
     std::vector<Note> notes;
     if (view_.shown.empty()) notes.push_back({"No method gave a path.", ThemeColour::kWarning});
-    if (any_ellipse() && view_.enlarged != 1.0)
-      notes.push_back(
-          {fmt::format("Ellipses hold 95 % and are enlarged {:g} times.", view_.enlarged)});
     if (!view_.leaving.empty())
       notes.push_back(
           {"Outside the image: " + listed(view_.leaving, 4) + ".", ThemeColour::kWarning});
@@ -327,7 +358,7 @@ class PathMap {
   std::string caption(bool with_errors) const {
     std::string text = fmt::format("{}: ", spec_.run.log.name);
     std::vector<std::string> parts;
-    if (spec_.run.log.ground_truth) parts.emplace_back("the true path (wide, grey)");
+    if (spec_.run.log.ground_truth) parts.emplace_back("the true path (wide, light grey)");
     for (const SlamRecord* record : view_.shown) parts.push_back(label_of(*record));
     text += listed(parts, 12) + ".";
     if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";
@@ -368,6 +399,11 @@ class PathMap {
 
 Figure path_map_figure(const PathMapSpec& spec) { return PathMap(spec).make(); }
 
+bool PathView::shows(const Eigen::RowVector2d& at) const {
+  const auto& [x, y] = limits;
+  return x.low <= at.x() && at.x() <= x.high && y.low <= at.y() && at.y() <= y.high;  // Not NaN.
+}
+
 PathView path_view(const PathMapSpec& spec) {
   require_consistent(spec);
   PathView view;
@@ -381,6 +417,7 @@ PathView path_view(const PathMapSpec& spec) {
   find_limits(spec.run, view);
   view.tolerance_m = kTolerance * view.side_m;
   view.enlarged = enlargement(view);
+  make_room_for_ellipses(view);
   return view;
 }
 

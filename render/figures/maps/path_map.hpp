@@ -34,10 +34,13 @@ struct PathView {
   std::vector<std::string> leaving;       ///< Labels of methods whose path leaves the image.
   double tolerance_m = 0.0;               ///< Of thinning: a third of a pixel at 1200.
   double enlarged = 1.0;                  ///< Factor of the ellipses.
+
+  /// Whether a position is within the limits; a missing one is not.
+  bool shows(const Eigen::RowVector2d& at) const;
 };
 
 /// The image is where the ground truth is, or, without one, the bulk of the paths, and what lies
-/// within half its side about it.
+/// within half its side about it, with the ellipses of its landmarks.
 /// @throws InvalidInput if parts of a record disagree in size.
 PathView path_view(const PathMapSpec& spec);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/not_finite.hpp"
 #include "reports/diff/images/filter_fit.hpp"
 
 namespace mapproof {
@@ -39,7 +40,12 @@ constexpr int kOddPixels = 12;
 constexpr double kOddLeft = 0.55;
 constexpr double kOddLeftShare = 0.8;
 constexpr double kOddEnergy = 1000.0;  // Squares of 1 of 255 per pixel beyond noise.
-constexpr double kOddCopied = 0.35;    // Of the pixels beyond noise; more moved by one pixel.
+constexpr double kFaintShare = 0.9;    // Of tiles with less than that.
+// A movement of .3 px has 3500, shapes without anti-aliasing 6000 to 12,000, another digit 22,000.
+constexpr double kStarkEnergy = 6000.0;
+constexpr double kDigitEnergy = 12000.0;
+constexpr int kMostStark = 2;        // Text without anti-aliasing has more such tiles.
+constexpr double kOddCopied = 0.35;  // Of the pixels beyond noise; more moved by one pixel.
 
 constexpr double kMostUnlikeShare = 0.2;
 
@@ -69,6 +75,10 @@ bool is_odd(const TileEvidence& tile) {
          std::ranges::max(tile.copied) < kOddCopied * tile.beyond_noise;
 }
 
+bool has_energy(const TileEvidence& tile, double of_pixel) {
+  return tile.fit.energy > of_pixel * tile.beyond_noise;
+}
+
 /// Axis labels are outermost to the left and below, titles and legends at other sides; different
 /// hinting affects them all.
 bool may_be_hints(const TileBounds& differing, const TileBounds& texture) {
@@ -82,6 +92,7 @@ struct ShapeCounts {
   double allowed_px;
   TileBounds differing;
   int tiles = 0, in_shape = 0, in_place = 0, unlike = 0, odd = 0, very_far = 0, far = 0;
+  int faint = 0, stark = 0;                   ///< Tiles that differ little, and much.
   int right = 0, left = 0, down = 0, up = 0;  ///< Tiles that moved in this direction.
 
   void add(const TileEvidence& tile, int x, int y) {
@@ -93,6 +104,8 @@ struct ShapeCounts {
     in_shape += is_in_place(tile, allowed_px) || is_copy;
     unlike += is_unlike(tile);
     odd += is_odd(tile);
+    faint += !has_energy(tile, kOddEnergy);
+    stark += has_energy(tile, kStarkEnergy);
     very_far += is_moved(tile, allowed_px + kVeryFar);
     far += is_moved(tile, allowed_px + kFar) && !is_copy;
     if (!is_off(tile, allowed_px)) return;
@@ -336,12 +349,16 @@ std::vector<bool> shape_changes(std::span<const int> tiles, std::span<const Tile
   const bool any_unlike = all.in_shape > kInShapeShare * all.tiles && all.unlike <= most_unlike;
   const bool any_odd =
       no_hints && all.in_place > kInPlaceShare * all.tiles && all.odd <= most_unlike;
+  // Where all shapes moved a little, few tiles differ much.
+  const double odd_energy = no_hints && all.faint > kFaintShare * all.tiles ? kOddEnergy
+                            : all.stark <= kMostStark                       ? kDigitEnergy
+                                                                            : kInfinity;
   std::vector<bool> is_changed(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const TileEvidence& tile = evidence[i];
     is_changed[i] = (any_moved && is_moved(tile, allowed_px + kMoved)) ||
                     (any_astray && is_off(tile, allowed_px)) || (any_unlike && is_unlike(tile)) ||
-                    (any_odd && is_odd(tile));
+                    (is_odd(tile) && (any_odd || has_energy(tile, odd_energy)));
   }
   return is_changed;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "render/figures/maps/error_map.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
@@ -123,13 +124,12 @@ std::string where_wrong(const std::vector<TitledMap>& maps, double side_m) {
 
 /// All methods on one run, the best first: the median run of the best method.
 void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
-  std::vector<SettingSummary> methods = source.best(sensor);
+  const std::vector<SettingSummary> methods = source.best(sensor);
   const SettingSummary* best = best_of(methods);
   const auto run = best == nullptr ? std::nullopt : median_run(source.study(), *best);
   if (!run) return;
-  std::ranges::stable_sort(methods, {}, [](const SettingSummary& one) { return one.mpe_m->mean; });
   MapGridSpec spec{.id = fmt::format("maps-{}", name(sensor.sensor.sensor)),
-                   .title = fmt::format("{}: all methods on {}, the best on average first",
+                   .title = fmt::format("{}: all methods on {}, the best first",
                                         title_of(sensor.sensor.sensor), words_of(*run)),
                    .maps = {}};
   for (const SettingSummary& method : methods)
@@ -137,9 +137,13 @@ void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figur
         map != nullptr && map->frame == Frame::kGroundTruth)
       spec.maps.push_back({short_label(method.setting), *map});
   if (spec.maps.size() < 2) return;
+  // By what the panels print.
+  std::ranges::stable_sort(spec.maps, {}, [](const TitledMap& one) {
+    return one.map.score && std::isfinite(one.map.score->mpe_m) ? one.map.score->mpe_m : HUGE_VAL;
+  });
   if (const std::string errors = span_of_errors(spec.maps); !errors.empty())
-    spec.title = fmt::format("{}, {}: MPE {}; the best method on average first",
-                             title_of(sensor.sensor.sensor), words_of(*run), errors);
+    spec.title = fmt::format("{}, {}: MPE {}, the best first", title_of(sensor.sensor.sensor),
+                             words_of(*run), errors);
   Figure figure = map_wall_figure(spec);
   figure.columns = kWallColumns;
   figures.push_back(std::move(figure));
@@ -225,9 +229,15 @@ std::vector<Figure> map_figures(FigureSource& source) {
   for (const SensorStudy& sensor : source.study().experiment.sensors)
     for (const SettingSummary& best : source.best(sensor))
       if (const auto run = median_run(source.study(), best))
-        if (const MapRecord* map = source.map(*run, best.sensor, best.setting, best.step))
+        if (const MapRecord* map = source.map(*run, best.sensor, best.setting, best.step)) {
           figures.push_back(map_figure(
               *map, fmt::format("map-{}-{}", name(best.sensor), info(best.setting.method).name)));
+          const double error_m = map->score ? map->score->mpe_m : kNaN;
+          if (std::isfinite(error_m))
+            figures.back().title =
+                fmt::format("{}, {}: {} off after {} steps", title_of(best.sensor),
+                            short_label(best.setting), error_text(error_m, 2), best.step);
+        }
   return figures;
 }
 

@@ -1,5 +1,7 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "render/figures/number_text.hpp"
@@ -23,6 +25,17 @@ void add_scan(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
                                          fmt::format("scene-scan-{}", name(sensor))));
       return;
     }
+}
+
+/// Whether three dimensions show what the observations of the landmarks hold.
+std::string manifold_title(Sensor sensor, const ObservationManifold& manifold) {
+  double shown = 0.0;
+  for (const double share : manifold.shares) shown += share;
+  const std::string sensor_title = title_of(sensor);
+  return std::isfinite(shown)
+             ? fmt::format("{}: three coordinates hold {:.0f} % of the spread of the observations",
+                           sensor_title, 100.0 * shown)
+             : sensor_title + ": landmarks in the space of their observations";
 }
 
 /// The median run of the best method: its room, and where its landmarks lie in the space of their
@@ -49,8 +62,7 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
   if (!details->manifold || !has_manifold_scene(*details->manifold)) return;
   scenes.push_back(manifold_scene(
       {.id = fmt::format("scene-manifold-{}", name(best.sensor)),
-       .title =
-           fmt::format("{}: landmarks in the space of their observations", title_of(best.sensor)),
+       .title = manifold_title(best.sensor, *details->manifold),
        .caption = "The landmarks of the median run at the first three principal coordinates of "
                   "their observation histories, joined to their neighbours. Where true x and true "
                   "y both run along the surface without folds, a map of two dimensions can come "

@@ -13,6 +13,7 @@
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/evaluate/evaluation_rows.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
 #include "render/figures/number_text.hpp"
@@ -385,17 +386,20 @@ std::string disagreement_of(const MethodComparison& comparison, const ResultsVie
          "group alone and are corrected for all pairs of methods.";
 }
 
+bool is_crowned(const Quantity& quantity) { return quantity.id != kAssociatedPercent; }
+
 std::vector<std::string> headlines_of(const ResultsView& view,
                                       const std::vector<MethodComparison>& comparisons) {
   std::vector<std::string> headlines;
   if (comparisons.size() <= kFewComparisons) {
     for (const MethodComparison& comparison : comparisons)
-      headlines.push_back(sentence_of(comparison, view));
+      if (is_crowned(*comparison.quantity)) headlines.push_back(sentence_of(comparison, view));
   } else {
     for (const std::string& id : view.study().quantities) {
       std::vector<const MethodComparison*> of_quantity;
       for (const MethodComparison& comparison : comparisons)
-        if (comparison.quantity->id == id) of_quantity.push_back(&comparison);
+        if (comparison.quantity->id == id && is_crowned(*comparison.quantity))
+          of_quantity.push_back(&comparison);
       if (of_quantity.size() == 1) headlines.push_back(sentence_of(*of_quantity.front(), view));
       if (of_quantity.size() > 1)
         headlines.push_back(tally_of(view, *of_quantity.front()->quantity, of_quantity));

@@ -69,6 +69,10 @@ inline constexpr std::size_t kFewComparisons = 4;
 /// is lost.
 std::string losses_of(const ResultsView& view);
 
+/// Whether the best method by the quantity is named in the opening. How many poses could be
+/// associated says how much of a path was judged, not how good it is.
+bool is_crowned(const Quantity& quantity);
+
 /// What to know first of all comparisons and of what was lost: each by a sentence while they are
 /// few, else what they come to, quantity by quantity.
 std::vector<std::string> headlines_of(const ResultsView& view,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
+#include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
@@ -356,9 +358,8 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
   if (known.empty()) return "";
   const auto words = [&](double value) {
-    const std::string number = rounded_text(value, decimals_of(known));
-    const bool is_power = unit.starts_with("10");
-    return is_power ? number + "\u00D7" + unit : with_unit(number, unit);
+    if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
+    return with_unit(rounded_text(value, decimals_of(known)), unit);
   };
   if (is_tiny_distance(quantity))
     return fmt::format("{} is at most {}", in_sentence(quantity.label),
@@ -625,6 +626,121 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   return error_lines_figure(spec);
 }
 
+/// The methods' values by data set: of each method a marker beside those of the others.
+class DataSetDots {
+ public:
+  DataSetDots(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity)
+      : view_(view), block_(block), quantity_(quantity) {
+    // Of a method there is a line for each data set.
+    for (const ResultsLine& line : view.lines(block, quantity)) {
+      const std::string& label = view.study().methods[line.index].label;
+      auto same = std::ranges::find(methods_, label, &OfMethod::label);
+      if (same == methods_.end())
+        same = methods_.insert(same, {label, line.series, {}});
+      same->values.merge(view.numbers(block.conditions.front(), line, quantity).values);
+    }
+  }
+
+  std::size_t methods() const { return methods_.size(); }
+
+  Figure make() const {
+    Figure figure;
+    figure.id = data_sets_figure_id(block_, quantity_);
+    figure.title = fmt::format("{}: {}", block_.title, finding());
+    figure.caption = fmt::format(
+        "Markers: {} of each method, by data set. Those of one data set stand side by side.",
+        quantity_.label);
+    figure.alt = figure.caption;
+    figure.record_ids = {record_of(block_)};
+    Panel& panel = figure.panels.emplace_back();
+    std::vector<double> all;
+    for (std::size_t k = 0; k < methods_.size(); ++k) {
+      Scatter dots = dots_of(k);
+      all.insert(all.end(), dots.y.begin(), dots.y.end());
+      if (!dots.x.empty()) panel.layers.emplace_back(std::move(dots));
+    }
+    panel.x.limits = Range{-0.5, static_cast<double>(view_.study().runs.size()) - 0.5};
+    for (const Label& run : view_.study().runs) panel.x.names.push_back(run.label);
+    panel.y = {.label = label_with_unit(quantity_),
+               .scale = spans_widely(all) ? Scale::kLog : Scale::kLinear};
+    require_valid(figure);
+    return figure;
+  }
+
+ private:
+  struct OfMethod {
+    std::string label;
+    std::size_t series = 0;
+    ValuesByRun values;
+  };
+
+  Scatter dots_of(std::size_t k) const {
+    constexpr double kTaken = 0.7;  // Of the distance between two data sets.
+    const SeriesStyle style = series_style(methods_[k].series);
+    const double middle = (static_cast<double>(methods_.size()) - 1.0) / 2.0;
+    const double aside =
+        kTaken * (static_cast<double>(k) - middle) / static_cast<double>(methods_.size());
+    Scatter dots{.label = methods_[k].label, .colour = style.colour, .marker = style.marker};
+    const std::vector<Label>& runs = view_.study().runs;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const double* value = methods_[k].values.find(runs[i].id);
+      if (value == nullptr) continue;
+      dots.x.push_back(static_cast<double>(i) + aside);
+      dots.y.push_back(*value);
+      dots.marks.push_back(
+          {fmt::format("{}-set-{}", key_of(k), i + 1),
+           {{"curve", dots.label},
+            {"points", fmt::format("{}, {}", runs[i].label, data_number(*value))}}});
+    }
+    return dots;
+  }
+
+  /// On how many of the data sets one method is best.
+  std::string finding() const {
+    const double sign = quantity_.better == Better::kLower ? 1.0 : -1.0;
+    std::map<std::size_t, int> wins;
+    int sets = 0;
+    for (const Label& run : view_.study().runs) {
+      double least = HUGE_VAL;
+      std::size_t best = methods_.size();
+      for (std::size_t k = 0; k < methods_.size(); ++k)
+        if (const double* value = methods_[k].values.find(run.id);
+            value != nullptr && sign * *value < least) {
+          least = sign * *value;
+          best = k;
+        }
+      if (best == methods_.size()) continue;
+      ++wins[best];
+      ++sets;
+    }
+    const auto most =
+        std::ranges::max_element(wins, {}, [](const auto& each) { return each.second; });
+    return fmt::format("{} has the {} {} on {} of {}", methods_[most->first].label,
+                       sign > 0.0 ? "lowest" : "highest", in_sentence(quantity_.label),
+                       most->second, counted(sets, "data set"));
+  }
+
+  const ResultsView& view_;
+  const ResultsBlock& block_;
+  const Quantity& quantity_;
+  std::vector<OfMethod> methods_;
+};
+
+/// Of the quantity that the study judges by first, over two data sets or more by two methods or
+/// more.
+std::optional<Figure> data_sets_figure(const ResultsView& view, const ResultsBlock& block) {
+  const ResultsStudy& study = view.study();
+  if (study.results.are_repeats || study.runs.size() < 2 || block.has_axis() ||
+      block.conditions.size() != 1)
+    return std::nullopt;
+  for (const Quantity* quantity : view.quantities(block)) {
+    if (!has_better_side(*quantity)) continue;
+    const DataSetDots dots(view, block, *quantity);
+    return dots.methods() < 2 ? std::nullopt : std::optional(dots.make());
+  }
+  return std::nullopt;
+}
+
 /// Nothing where no two mean ranks can differ by the critical difference, as over few groups of
 /// runs, and of distances from one of the methods itself.
 std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
@@ -805,6 +921,10 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
   return "";
 }
 
+std::string data_sets_figure_id(const ResultsBlock& block, const Quantity& quantity) {
+  return figure_id(block.id, "data-sets-" + quantity.id);
+}
+
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons) {
   StudyFigures figures;
@@ -820,6 +940,7 @@ StudyFigures results_figures(const ResultsView& view,
       figures.groups.push_back(std::move(grid));
   for (const ResultsBlock& block : view.blocks()) {
     FigureGroup group{block.id, block.title, "", {}};
+    if (auto figure = data_sets_figure(view, block)) group.figures.push_back(*std::move(figure));
     for (const Quantity* quantity : view.quantities(block)) {
       auto figure = block.has_axis() ? curve_figure(view, block, *quantity)
                                      : distribution_figure(view, block, *quantity);

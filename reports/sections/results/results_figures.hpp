@@ -15,9 +15,14 @@ namespace mapproof {
 /// The heat maps of setups with two factors of numbers, then one group of figures per overview and
 /// block, by their ids. Of an overview the curves of its blocks beside each other. Of a block of
 /// each quantity a curve over a factor of numbers, else the distribution over runs; of comparisons
-/// of three methods or more, their mean ranks with the critical difference.
+/// of three methods or more, their mean ranks with the critical difference. Where runs are data
+/// sets and no repeats, of a block without an axis the methods' values by data set, of the quantity
+/// that the study judges by first.
 StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
+
+/// The id of the figure of a block's values by data set.
+std::string data_sets_figure_id(const ResultsBlock& block, const Quantity& quantity);
 
 /// The group of heat maps of a setup whose conditions differ in two factors of numbers: one per
 /// quantity and method, the factor with more levels across. Its id is the setup's and "grid"; it is

@@ -312,10 +312,20 @@ namespace {
 
 constexpr std::size_t kMostNumbers = 3;  ///< Comparisons shown by their best value.
 
+/// "ORB (32 poses)": an error of few poses is not that of many.
+std::string name_with_poses(const ResultsReportInput& input, std::size_t method) {
+  const Label& label = input.view.study().methods[method];
+  const auto poses = input.poses.find(label.id);
+  return poses == input.poses.end()
+             ? label.label
+             : fmt::format("{} ({})", label.label, counted(poses->second, "pose"));
+}
+
 /// The best method's mean in the first comparisons, each of another quantity or setup.
 void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
   std::vector<std::string> shown;
   for (const MethodComparison& comparison : input.comparisons) {
+    if (!is_crowned(*comparison.quantity)) continue;
     const std::string label = comparison.quantity->label;
     // "ATE, RMSE", "ATE, mean" and "ATE, median" are one thing.
     const std::string stem = label.substr(0, label.find(','));
@@ -326,15 +336,16 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     const auto worse = std::ranges::count_if(comparison.methods, is_significant);
     const std::string others = counted(std::ssize(comparison.methods) - 1, "other method");
     const ComparedMethod& next = comparison.methods[1];
+    const bool is_one = input.view.runs() < 2;
     numbers.items.push_back(
-        {fmt::format("best mean of {}, {}", label, where_of(comparison)),
+        {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
          with_unit(significant(best.mean, 3), comparison.quantity->unit),
          comparison.groups < 2
-             ? fmt::format("{}; {} {}", input.view.study().methods[best.method].label,
-                           input.view.study().methods[next.method].label,
+             ? fmt::format("{}; {} {}", name_with_poses(input, best.method),
+                           name_with_poses(input, next.method),
                            with_unit(significant(next.mean, 3), comparison.quantity->unit))
              : fmt::format("{}; significantly better than {} of {}",
-                           input.view.study().methods[best.method].label, worse, others),
+                           name_with_poses(input, best.method), worse, others),
          comparison.block->id});
   }
 }
@@ -453,7 +464,7 @@ Highlights numbers_of(const ResultsReportInput& input) {
 std::string few_associated(const ResultsStudy& study) {
   std::vector<std::string> few;
   for (const Result& row : study.results.rows)
-    if (row.quantity == "associated_percent" && row.value < kFewAssociated_percent)
+    if (row.quantity == kAssociatedPercent && row.value < kFewAssociated_percent)
       few.push_back(fmt::format("{:.3g}\u00A0% ({}, {})", row.value,
                                 label_of(study.methods, row.method), row.run));
   constexpr std::size_t kMostNamed = 3;
@@ -492,9 +503,11 @@ std::vector<std::string> spread(const std::vector<Figure>& figures) {
 std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
   const ResultsStudy& study = view.study();
   std::vector<std::string> ids;
-  if (const auto best = best_over_runs(view))
+  if (const auto best = best_over_runs(view)) {
+    ids.push_back(data_sets_figure_id(view.blocks().front(), *best->quantity));
     ids.push_back(fmt::format("{}-map-{}-{}", study.name, slug_of(study.methods[best->method].id),
                               slug_of(best->run)));
+  }
   std::vector<std::vector<std::string>> groups;
   std::ptrdiff_t paths = 0;  // The first of them.
   for (const FigureGroup& group : figures.groups) {

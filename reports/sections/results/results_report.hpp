@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,13 +23,15 @@ struct ResultsReportInput {
   /// place of what the comparisons came to.
   std::vector<std::string> conclusions = {};
   Highlights::Item headline = {};  ///< The first number of the first screen; no value: none.
-  std::string incomplete = {};  ///< What is still missing, a sentence; empty: nothing.
+  std::string incomplete = {};     ///< What is still missing, a sentence; empty: nothing.
   std::vector<std::string> warnings = {};  ///< What is wrong with data or maps, a clause each.
   std::vector<std::string> remarks =
       {};                        ///< On the study's files beside the table, a sentence each.
   std::vector<Table> cost = {};  ///< What it took.
-  std::string footer = {};       ///< What made the records; empty: the page says what made it.
-  std::string date = {};  ///< When the records were made, YYYY-MM-DD; empty: not known.
+  /// Associated poses of each method over all runs, where the results are errors of paths.
+  std::map<std::string, long long> poses = {};
+  std::string footer = {};  ///< What made the records; empty: the page says what made it.
+  std::string date = {};    ///< When the records were made, YYYY-MM-DD; empty: not known.
 };
 
 /// The provenance of results that another program made.

@@ -268,11 +268,14 @@ std::vector<Scene> run_scenes(const SlamRun& run) {
     break;
   }
   if (run.upgrade && has_quadric_scene(*run.upgrade))
-    scenes.push_back(quadric_scene({.id = "scene-quadric-" + run.id,
-                                    .title = "Metric upgrade, " + title_of(run),
-                                    .name = title_of(run),
-                                    .clouds = *run.upgrade,
-                                    .record_ids = {run.id}}));
+    scenes.push_back(quadric_scene(
+        {.id = "scene-quadric-" + run.id,
+         .title = fmt::format(
+             "{}: the states of the path are {} % of their extent off the fitted quadric",
+             title_of(run), significant(100.0 * quadric_deviation(run.upgrade->before), 2)),
+         .name = title_of(run),
+         .clouds = *run.upgrade,
+         .record_ids = {run.id}}));
   return scenes;
 }
 
@@ -306,7 +309,7 @@ std::vector<Figure> fit_figures(const SlamRun& run) {
 
 std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
 
-std::string slam_fit_group(const SlamRun& run) { return "slam-fit-" + run.id; }
+std::string slam_fit_group(const SlamRun& run) { return kSlamFit + run.id; }
 
 StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings) {
   StudyFigures figures;

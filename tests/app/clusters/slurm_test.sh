@@ -139,7 +139,7 @@ expect_same
 [ -f out/study/report.html ] || fail "no report"
 
 # A damaged record: the same command runs that shard alone.
-record=$(find out/shards/3-of-4/runs -name '*.json' | head -n 1)
+record=$(find out/shards/3-of-4/runs -name '*.json' -print -quit)
 echo >>"$record"
 "$root/scripts/slurm" "${experiment[@]}" --tasks 4 --out out -- "${more[@]}" >again.log 2>&1 ||
   fail "scripts/slurm again: $(<again.log)"

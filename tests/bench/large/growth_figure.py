@@ -1,8 +1,9 @@
-"""The figure and the table of scripts/bench growth: growth_figure.py RESULTS FIGURE.json.
+"""The figure and the tables of scripts/bench growth: growth_figure.py LANDMARKS STEPS FIGURE.json.
 
-RESULTS has lines "NAME M CPU_SECONDS PEAK_MIB". The figure is read by mapproof render: time and
-memory over M, both axes logarithmic. The table, on standard output, has the slopes of both over the
-last decade or less: exponents of M.
+LANDMARKS and STEPS have lines "NAME SIZE CPU_SECONDS PEAK_MIB", where the size is M = N, or N of 1000
+landmarks. The figure is read by mapproof render: time and memory over both, all axes logarithmic.
+The tables, on standard output, have the slopes of both over the last decade or less: exponents of
+the size.
 """
 import json
 import math
@@ -28,7 +29,7 @@ def read(path):
 
 
 def slope(rows, column):
-    """Of the last decade of M, or of as much as there is, by its ends."""
+    """Of the last decade of sizes, or of as much as there is, by its ends."""
     last = rows[-1]
     first = next(row for row in rows if row[0] >= 0.099 * last[0])
     if first is last:
@@ -36,11 +37,11 @@ def slope(rows, column):
     return math.log(last[column] / first[column]) / math.log(last[0] / first[0])
 
 
-def panel(results, column, label):
+def panel(results, column, size, label):
     layers = []
     for name, rows in results.items():
         words, colour = NAMES[name]
-        mark = f"{name}-{column}"
+        mark = f"{name}-{column}-{size[0]}"
         is_ours = name.startswith("mapproof")
         layers.append({"kind": "polyline", "label": words, "x": [row[0] for row in rows],
                        "y": [row[column] for row in rows], "colour": colour,
@@ -48,15 +49,14 @@ def panel(results, column, label):
                        "marker": "circle" if is_ours else "square",
                        "mark": {"id": mark, "data": [["curve", words]]}})
     axis = {"scale": "log", "limits": None, "whole": False}
-    return {"title": "", "x": {"label": "landmarks and steps, M = N", **axis},
+    return {"title": "", "x": {"label": size, **axis},
             "y": {"label": label, **axis}, "equal_aspect": False, "bare": False,
             "layers": layers}
 
 
-def main(path, out):
-    results = read(path)
+def print_table(results, size):
     sizes = sorted({row[0] for rows in results.values() for row in rows})
-    print("| M = N | " + " | ".join(NAMES[name][0] for name in results) + " |")
+    print(f"| {size} | " + " | ".join(NAMES[name][0] for name in results) + " |")
     print("|---" * (len(results) + 1) + "|")
     for size in sizes:
         cells = []
@@ -67,18 +67,26 @@ def main(path, out):
     for words, column in (("time", 1), ("memory", 2)):
         cells = [f"{slope(rows, column):.2f}" for rows in results.values()]
         print(f"| slope of the {words} | " + " | ".join(cells) + " |")
-    text = "; ".join(f"{NAMES[name][0]}: {rows[0][1]:.3g} s at {rows[0][0]:.0f}, "
+    print()
+
+
+def main(landmarks, steps, out):
+    kinds = [(read(landmarks), "landmarks and steps, M = N"), (read(steps), "steps N, 1000 landmarks")]
+    for results, size in kinds:
+        print_table(results, size)
+    text = "; ".join(f"{NAMES[name][0]} over {size}: {rows[0][1]:.3g} s at {rows[0][0]:.0f}, "
                      f"{rows[-1][1]:.3g} s at {rows[-1][0]:.0f}"
-                     for name, rows in results.items())
+                     for results, size in kinds for name, rows in results.items())
     figure = {"schema": {"name": "mapproof.figure", "version": 1}, "id": "growth",
-              "title": "Time and memory of a map over the number of landmarks",
+              "title": "Time and memory of a map over the number of landmarks and steps",
               "caption": "Processor seconds and peak memory of the whole command, "
                          "from the text file to the report.",
-              "alt": f"Time and memory over M, logarithmic axes. {text}.", "records": [],
+              "alt": f"Time and memory over M and over N, logarithmic axes. {text}.", "records": [],
               "varies": False, "notes": [],
-              "panels": [panel(results, 1, "time [processor s]"),
-                         panel(results, 2, "peak memory [MiB]")],
-              "columns": 2, "shared_x": True, "shared_y": False, "arrows": []}
+              "panels": [panel(results, column, size, label)
+                         for column, label in ((1, "time [processor s]"), (2, "peak memory [MiB]"))
+                         for results, size in kinds],
+              "columns": 2, "shared_x": False, "shared_y": False, "arrows": []}
     with open(out, "w", encoding="utf-8") as file:
         json.dump(figure, file)
 

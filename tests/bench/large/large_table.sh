@@ -17,8 +17,8 @@ sort -k1,1 -k2,2n "$1" | awk '
   $1 != name { summary(); name = $1; n = 0 }
   {
     ++n; size[n] = $2; seconds[n] = $3; memory[n] = $4
-    printf "%-26s %8d %10.2f %6s %10d %6s\n", $1, $2, $3,
-           n > 1 ? sprintf("%.2f", slope($3, seconds[n - 1], $2, size[n - 1])) : "", $4,
-           n > 1 ? sprintf("%.2f", slope($4, memory[n - 1], $2, size[n - 1])) : ""
+    time_slope = n > 1 ? sprintf("%.2f", slope($3, seconds[n - 1], $2, size[n - 1])) : ""
+    memory_slope = n > 1 ? sprintf("%.2f", slope($4, memory[n - 1], $2, size[n - 1])) : ""
+    printf "%-26s %8d %10.2f %6s %10d %6s\n", $1, $2, $3, time_slope, $4, memory_slope
   }
   END { summary() }'

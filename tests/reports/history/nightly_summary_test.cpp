@@ -181,9 +181,10 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
                   .comparisons = {comparison_file(1, 2, "mine")}},
                  {});
   EXPECT_NO_THROW(check(index.report));
-  EXPECT_EQ(index.report.opening.standing->sentences.front(),
-            "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8), 2 findings, since nightly run "
-            "2, commits aaaaaaaaa..bbbbbbbbb.");
+  EXPECT_EQ(
+      index.report.opening.standing->sentences.front(),
+      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8) (both findings), since nightly run "
+      "2: git log aaaaaaaaa..bbbbbbbbb.");
   EXPECT_EQ(index.report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
   ASSERT_EQ(index.report.sections.front().id, "worse");
   const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());

@@ -154,7 +154,11 @@ class Inspector {
       // Of a line in the colours of its values the rim, which is the first of its strokes.
       const bool is_round = shape->stroke && shape->stroke->is_round;
       if (std::exchange(was_round, is_round) && is_round) continue;
-      if (contrast(shape->stroke ? shape->stroke->colour : *shape->fill, drawing_.background) < 3.0)
+      // Of lines as wide as the true path of a drive less is seen, too: they are areas.
+      constexpr double kWide_pt = 3.0;
+      const bool is_wide = shape->stroke && shape->stroke->width >= kWide_pt;
+      const Colour seen = shape->stroke ? shape->stroke->colour : *shape->fill;
+      if (contrast(seen, drawing_.background) < (is_wide ? 1.5 : 3.0))
         flaws_.push_back(fmt::format("a {} has too little contrast", name(item.item_class)));
     }
   }
