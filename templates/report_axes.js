@@ -64,7 +64,7 @@ function contentOf(panel, frame) {
     .filter((each) => each.hasAttribute("stroke-width"))
     .map((element) => ({ element, width: Number(element.getAttribute("stroke-width")),
       dashes: element.getAttribute("stroke-dasharray") }));
-  const marks = within("use").filter((use) => /-s\d+$/.test(use.getAttribute("href") ?? ""))
+  const marks = within("use").filter((use) => /-(s\d+|ring)$/.test(use.getAttribute("href") ?? ""))
     .map((element) => ({ element, x: Number(element.getAttribute("x")),
       y: Number(element.getAttribute("y")) }));
   const words = within(".mark-label > g, .cell-text > g, g.mark-label[aria-label]")

@@ -155,11 +155,33 @@ async function dropEmpty(link) {
   if (list.childElementCount === 0) list.remove();
 }
 
+// The small images stand beside the figure, below the words. Where the first screen has room for them
+// below both, they are in one row there, and larger.
+function placeThumbnails() {
+  const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
+  if (!list || !beside) return;
+  beside.append(list);
+  list.classList.remove("in-row");
+  if (narrowPage.matches || !beside.previousElementSibling) return;
+  const footOf = (element) => element.getBoundingClientRect().bottom + scrollY;
+  beside.parentElement.after(list);
+  list.classList.add("in-row");
+  if (footOf(list) <= innerHeight) return;
+  beside.append(list);
+  list.classList.remove("in-row");
+}
+
 function addOpeningImages() {
   for (const link of document.querySelectorAll(".thumbnails a")) {
     addImage(link, "", cropped);  // The link has the title.
     dropEmpty(link);
   }
+  addMainFigure();
+  // The figure has its height once it is decoded.
+  document.querySelector(".main-figure img")?.decode().then(placeThumbnails, () => {});
+}
+
+function addMainFigure() {
   const link = document.querySelector(".main-figure a");
   if (!link) return;
   const kBelow_px = 8, kBorders_px = 2, kTitleGap_px = 5;
@@ -183,7 +205,7 @@ function addOpeningImages() {
     const most_px = Math.max(isUntitled ? title_px : height - kBorders_px, shown.least_px);
     link.parentElement.style.setProperty("--most",
       `${Math.min(most_px, kMostHeight_px) + kBorders_px}px`);
-    link.parentElement.style.setProperty("--paper", `${shown.paper_px + kBorders_px}px`);
+    link.parentElement.style.setProperty("--paper-height", `${shown.paper_px + kBorders_px}px`);
     return shown.text;
   });
   link.querySelector("img")?.classList.toggle("untitled", isUntitled);

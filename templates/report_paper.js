@@ -1,14 +1,17 @@
 // On paper the title of a drawing is text above it, as wide as the page: drawn, it would take two
 // lines and more of the height, and two figures would not stand on one page.
 
-// The part of a drawing below its title and its notes; null where they are not at its head.
+// The part of a drawing below its title and its notes, without what is empty at its foot; null where
+// they are not at its head.
 function belowTitle(svg, parts) {
   const heads = parts.rest.filter((part) => /^(title|note)$/.test(kindOf(part)));
   const feet = heads.map((part) => part.getBBox()).map(({ y, height }) => y + height);
-  const top = Math.max(...feet) + 3;
+  const kGap = 3, top = Math.max(...feet) + kGap;
   const { x, y, width, height } = parts.whole;
+  const ends = [...svg.querySelectorAll(":scope > g")].map((part) => part.getBBox());
+  const end = Math.min(y + height, Math.max(...ends.map((box) => box.y + box.height)) + kGap);
   const isHead = heads.length > 0 && top > y && parts.frames.every((frame) => frame.y >= top);
-  return isHead ? { heads, box: { x, y: top, width, height: y + height - top } } : null;
+  return isHead ? { heads, box: { x, y: top, width, height: end - top } } : null;
 }
 
 function setTitleAsText(svg) {
@@ -19,11 +22,14 @@ function setTitleAsText(svg) {
   addDrawnTitle(svg, parts);
   for (const part of below.heads) part.classList.add("off");
   setViewBox(svg, below.box);
-  drawing.style.setProperty("--paper", below.box.width / below.box.height);
+  drawing.style.setProperty("--paper-ratio", below.box.width / below.box.height);
+  // The smallest words have 8 pt: a wider drawing would take the room of a second one.
+  const width_px = kPaperWords_px / leastWords(svg) * below.box.width;
+  if (width_px > 0) drawing.style.setProperty("--paper-width", `${width_px}px`);
   return () => {
     for (const part of below.heads) part.classList.remove("off");
     svg.setAttribute("viewBox", shown);
-    drawing.style.removeProperty("--paper");
+    for (const name of ["--paper-ratio", "--paper-width"]) drawing.style.removeProperty(name);
     drawing.parentElement.querySelector(".drawn-title")?.remove();
   };
 }
@@ -31,6 +37,7 @@ function setTitleAsText(svg) {
 function setTitlesOnPaper() {
   let undo = [];
   addEventListener("beforeprint", () => {
+    for (const each of undo) each();
     undo = [...document.querySelectorAll(".drawing > svg")].map(setTitleAsText);
   });
   addEventListener("afterprint", () => {

@@ -56,6 +56,14 @@ function excerpt(text, words) {
   return [start, text.slice(from, at), hit, text.slice(at + words[0].length, from + kMost)];
 }
 
+// The section that a hit is in, on a line of its own.
+function placeOf({ element }) {
+  const place = document.createElement("small"), heading = element.closest("section")?.querySelector("h2");
+  const titles = [...heading?.childNodes ?? []].filter((node) => node.nodeType === Node.TEXT_NODE);
+  place.textContent = titles.map((node) => node.data).join("").trim();
+  return place;
+}
+
 // The id of an element; one that has none gets one, so that a link can lead to it.
 function idOf(element) {
   if (!element.id) element.id = `text-${document.querySelectorAll("[id^=text-]").length + 1}`;
@@ -82,7 +90,7 @@ function addSearch(parent) {
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
       link.href = entry.href ?? `#${entry.link || idOf(entry.element)}`;
-      link.append(...excerpt(entry.text ?? entry.name, words));
+      link.append(...excerpt(entry.text ?? entry.name, words), placeOf(entry));
       link.title = entry.text ?? entry.name;
       link.addEventListener("click", () => unfold(entry.element));
       item.append(link);

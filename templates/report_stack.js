@@ -2,12 +2,11 @@
 // have words of a readable size; those that are too wide get narrower (see report_narrow.js). The
 // heading is text of the page, and legends are below (see report_stack_legend.js).
 
-const kLeastWords_px = 10;
+const kLeastWords_px = 10, kUnitsOfFont = 2048;
 const narrowPage = matchMedia("(max-width: 36rem)");
 
 // The size of the smallest words of a drawing, in its units.
 function leastWords(svg) {
-  const kUnitsOfFont = 2048;
   const sizes = [...svg.querySelectorAll('g[transform*="scale("]')].map(
     (words) => kUnitsOfFont * Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform"))[1]));
   return Math.min(...sizes.filter((size) => size > 0));
@@ -34,6 +33,7 @@ function arrangementOf(svg, parts, width_px, height_px = Infinity) {
   if (!rooms) return null;
   const greatest = (name) => Math.max(...parts.frames.map((frame) => frame[name]));
   const around = { width: rooms.left + rooms.right, height: rooms.above + rooms.below };
+  if (most <= around.width) return null;  // No room for a frame.
   const width = Math.min(most, greatest("width") + around.width);
   const columns = Math.max(1, Math.min(parts.panels.length, Math.floor(most / width)));
   const rows = Math.ceil(parts.panels.length / columns);
@@ -55,7 +55,7 @@ function fillWidth(svg, box) {
 function unstack(svg, parts) {
   for (const layer of svg.querySelectorAll(":scope > .step-axes")) layer.remove();
   svg.parentElement.parentElement.querySelector(".drawn-title")?.remove();
-  slopeSamples(svg);
+  restoreLegend(svg);
   svg.parentElement.classList.remove("stacked", "stepped");
   for (const panel of [...parts.panels, parts.rest]) movePanel(panel, kNoShift);
 }

@@ -1,7 +1,7 @@
 // The legend of a drawing as one block below it, in columns, in the order of its lines: also of lines
 // that are labelled at their ends. A colour bar is horizontal.
 
-const slopes = new WeakMap();  // A stacked <svg> → the samples that were made level, with their data.
+const drawnValues = new WeakMap();  // A stacked <svg> → [element, attribute, value] of its legend.
 
 // A sample of the legend with its words, or several samples before one text.
 function legendEntries(parts) {
@@ -47,22 +47,65 @@ function legendsOf(svg, parts, isSplit) {
   return { own, shared };
 }
 
-// The line that leads from the end of a curve to its label becomes level, and slopes again when the
-// drawing is shown as it was drawn.
+// Sets an attribute of a legend; restoreLegend() gives it back its value.
+function setForNow(svg, element, name, value) {
+  if (!drawnValues.has(svg)) drawnValues.set(svg, []);
+  drawnValues.get(svg).push([element, name, element.getAttribute(name)]);
+  element.setAttribute(name, value);
+}
+
+function restoreLegend(svg) {
+  for (const [element, name, value] of (drawnValues.get(svg) ?? []).reverse()) {
+    if (value === null) element.removeAttribute(name);
+    else element.setAttribute(name, value);
+  }
+  drawnValues.delete(svg);
+}
+
+// The line that leads from the end of a curve to its label becomes level.
 function levelSamples(svg, entry) {
   const pattern = /^m(-?[\d.]+) (-?[\d.]+)l(-?[\d.]+) ?(-?[\d.]+)$/;
   for (const path of entry.flatMap((part) => [...part.querySelectorAll("path")])) {
     const data = path.getAttribute("d"), found = pattern.exec(data);
     if (!found || Number(found[4]) === 0) continue;
     const [x, y, right, down] = found.slice(1).map(Number);
-    slopes.set(svg, [...slopes.get(svg) ?? [], [path, data]]);
-    path.setAttribute("d", `m${x} ${y + down}l${right} 0`);
+    setForNow(svg, path, "d", `m${x} ${y + down}l${right} 0`);
   }
 }
 
-function slopeSamples(svg) {
-  for (const [path, data] of slopes.get(svg) ?? []) path.setAttribute("d", data);
-  slopes.delete(svg);
+// The glyphs of a text in lines of that width at most, in its units, broken after a space where there
+// is one.
+function brokenLines(glyphs, room) {
+  const lines = [];
+  let left = glyphs;
+  while (left.length > 0) {
+    const over = left.findIndex(({ end }) => end - left[0].at > room);
+    const most = over < 0 ? left.length : Math.max(1, over);
+    const space = over < 0 ? -1 : left.slice(0, most).findLastIndex(({ isSpace }) => isSpace);
+    const count = space < 0 ? most : space + 1;
+    lines.push(left.slice(0, count));
+    left = left.slice(count);
+  }
+  return lines;
+}
+
+// Breaks words that are wider than their room into lines. Returns the height that this adds.
+function breakWords(svg, words, room) {
+  const kLineHeight = 1.2;
+  const scale = Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform") ?? "")?.[1]);
+  if (!(scale > 0) || isUpright(words) || boxIn(svg, words).width <= room) return 0;
+  const glyphs = [...words.querySelectorAll("use")].map((glyph) => {
+    const { x, width } = glyph.getBBox();  // A space has no outline.
+    return { glyph, at: Number(glyph.getAttribute("x") ?? 0), end: x + width, isSpace: width === 0 };
+  });
+  const lines = brokenLines(glyphs, room / scale);
+  lines.slice(1).forEach((line, i) => {
+    for (const { glyph, at } of line) {
+      setForNow(svg, glyph, "x", at - line[0].at + glyphs[0].at);
+      setForNow(svg, glyph, "y", (i + 1) * kLineHeight * kUnitsOfFont);
+    }
+  });
+  return Math.max(0, lines.length - 1) * kLineHeight * kUnitsOfFont * scale;
 }
 
 // The bar of a scale of colours: many samples above each other, the first as high as all.
@@ -126,17 +169,23 @@ function placeEntries(svg, entries, width, top, layers = []) {
   for (const bar of bars) foot = layColourBar(svg, bar, width, foot, layers);
   if (others.length === 0) return foot;
   for (const entry of others) levelSamples(svg, entry);
-  const boxes = others.map((entry) => boxOfAll(svg, entry));
   // Words begin below each other, however wide the samples before them are.
-  const leads = others.map((entry, i) => boxIn(svg, entry.at(-1)).x - boxes[i].x);
-  const lead = Math.max(...leads);
+  const leads = others.map((entry) => boxIn(svg, entry.at(-1)).x - boxOfAll(svg, entry).x);
+  const lead = Math.max(...leads), room = width - 2 * kLeft - lead;
+  const added = others.map((entry) => Math.max(0, ...[...entry.at(-1).children].map(
+    (words) => breakWords(svg, words, room))));
+  const boxes = others.map((entry) => boxOfAll(svg, entry));
   const column = Math.max(...boxes.map((box, i) => box.width + lead - leads[i])) + kGap;
-  const row = Math.max(...boxes.map((box) => box.height)) + kLine;
+  const row = Math.max(...boxes.map((box, i) => box.height - added[i])) + kLine;
   const columns = Math.max(1, Math.floor((width - 2 * kLeft + kGap) / column));
-  others.forEach((entry, i) => {
-    const { x, y, height } = boxes[i], line = Math.floor(i / columns);
-    movePanel(entry, { x: kLeft + (i % columns) * column + lead - leads[i] - x,
-      y: foot + line * row + (row - height) / 2 - y });
-  });
-  return foot + Math.ceil(others.length / columns) * row + 8;
+  for (let first = 0; first < others.length; first += columns) {
+    const last = Math.min(first + columns, others.length);
+    for (let i = first; i < last; ++i) {
+      const { x, y, height } = boxes[i];
+      movePanel(others[i], { x: kLeft + (i - first) * column + lead - leads[i] - x,
+        y: foot + (row - (height - added[i])) / 2 - y });
+    }
+    foot += row + Math.max(...added.slice(first, last));
+  }
+  return foot + 8;
 }

@@ -84,16 +84,19 @@ std::vector<T> in_turns(const std::vector<FolderReport>& parts, std::size_t most
   return all;
 }
 
-/// How many layers a panel of a part's main figure has; 0 if the part has none.
-std::size_t layers_of_main_figure(const FolderReport& part) {
+/// The number of lines in the panel of a part's main figure that has most; 0 if there is none.
+std::ptrdiff_t lines_of_main_figure(const FolderReport& part) {
   const auto figure = std::ranges::find(part.figures, part.report.opening.main_figure, &Figure::id);
   if (figure == part.figures.end()) return 0;
-  std::size_t layers = 0;
-  for (const Panel& panel : figure->panels) layers = std::max(layers, panel.layers.size());
-  return layers;
+  std::ptrdiff_t lines = 0;
+  for (const Panel& panel : figure->panels)
+    lines = std::max(lines, std::ranges::count_if(panel.layers, [](const Layer& layer) {
+                       return std::holds_alternative<Polyline>(layer);
+                     }));
+  return lines;
 }
 
-/// Of papers the first one's; of other studies the one that compares most.
+/// Of papers the first one's; of other studies the one with most lines.
 std::string main_figure_of(const std::vector<FolderReport>& parts) {
   const auto has_one = [](const FolderReport& part) {
     return !part.report.opening.main_figure.empty();
@@ -101,7 +104,7 @@ std::string main_figure_of(const std::vector<FolderReport>& parts) {
   const auto first = std::ranges::find_if(parts, has_one);
   if (first == parts.end()) return "";
   if (is_paper_study(*first)) return first->report.opening.main_figure;
-  return std::ranges::max_element(parts, {}, layers_of_main_figure)->report.opening.main_figure;
+  return std::ranges::max_element(parts, {}, lines_of_main_figure)->report.opening.main_figure;
 }
 
 /// "10 studies of 23 runs", and what is missing of them.

@@ -9,6 +9,7 @@
 #include "app/study/study_request.hpp"
 #include "app/study/study_run.hpp"
 #include "core/base/errors.hpp"
+#include "core/base/text/words.hpp"
 #include "core/studies/shard.hpp"
 
 namespace mapproof {
@@ -52,11 +53,17 @@ int run(const RunArguments& arguments, const Invocation& invocation) {
       invocation.console);
   StudyNumbers numbers = outputs_of_study(arguments.out).numbers(arguments.out);
   numbers.object["study"] = arguments.out;
-  if (request.shard)
+  if (request.shard) {
     numbers.object["shard"] = text_of(request.shard->shard);
-  else
+    invocation.console.info(fmt::format(
+        "shard {} ran {} of {}; the numbers cover these alone, mapproof merge puts all "
+        "shards together",
+        text_of(request.shard->shard), share_size(request.shard->shard, request.shard->tasks),
+        counted(request.shard->tasks, "task")));
+  } else {
     invocation.console.info(fmt::format("next: {} draws its figures and writes the report",
                                         quoted_command({"mapproof", "report", arguments.out})));
+  }
   invocation.console.result(numbers.text + arguments.out + "\n", numbers.object);
   return kDone;
 }

@@ -153,7 +153,9 @@ Notes read_notes(const fs::path& folder) {
     }
   }
   if (processors.empty())
-    throw IoError(folder.string(), "holds no shard; mapproof run --shard I/N makes one");
+    throw IoError(folder.string(),
+                  "holds a study that was run without --shard; leave it out: mapproof merge takes "
+                  "folders of mapproof run --shard I/N");
   notes.shard.processors.assign(processors.begin(), processors.end());
   for (auto& [task, records] : last) notes.records.push_back(std::move(records));
   return notes;

@@ -75,7 +75,7 @@ TopicDesign uncertainty_design(const TopicExperiment& experiment) {
                      Better::kHigher),
       study_quantity("bias_m", "Bias of the mean map", "m", Better::kLower),
       study_quantity("spread_m", "RMS spread of the maps", "m", Better::kLower),
-      study_quantity("predicted_m", "RMS spread by the ellipses", "m", Better::kLower)};
+      study_quantity("predicted_m", "RMS spread by the ellipses", "m", Better::kNeither)};
   return design;
 }
 

@@ -16,6 +16,8 @@ constexpr double kNear = 0.2;                       // Of the floor's side: what
 constexpr double kMargin = 0.12;                    // Of the floor's side, of the shadow around it.
 constexpr double kFloorFloat = 1e-4;  // Of the floor's side: from a surface to its rays.
 constexpr double kGamma = 2.2;
+// Of the radius, from the floor to the axis: what is lower covers most of its shadow.
+constexpr double kLying = 3.0;
 
 struct Bounds {
   Point3 low = Point3::Constant(HUGE_VAL), high = Point3::Constant(-HUGE_VAL);
@@ -30,10 +32,12 @@ Bounds bounds_of(const std::vector<Point3>& points) {
   return all;
 }
 
-bool is_floor(const Surface& surface) {
+bool casts_shadow(const Style& style) { return style.lit && style.opacity >= 1.0; }
+
+bool is_level(const Surface& surface) {
   if (surface.style.lit || surface.style.opacity < 1.0 || surface.points.empty()) return false;
   const Bounds all = bounds_of(surface.points);
-  return all.low.z() == 0.0 && all.high.z() == 0.0;
+  return all.low.z() == all.high.z();
 }
 
 /// Share of the sky that a pillar of that height takes from a point at that distance of its axis.
@@ -55,14 +59,8 @@ double sky_behind_wall(double distance, double height) {
 std::optional<BakedLight> BakedLight::of(const Scene& scene, const Shot& view) {
   BakedLight light;
   for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-    if (!shows(view, i)) continue;
-    if (const auto* rods = std::get_if<Rods>(&scene.parts[i])) light.add(*rods);
     const auto* surface = std::get_if<Surface>(&scene.parts[i]);
-    if (surface == nullptr) continue;
-    if (!is_floor(*surface)) {
-      light.add(*surface);
-      continue;
-    }
+    if (surface == nullptr || !shows(view, i) || !is_level(*surface)) continue;
     const Bounds floor = bounds_of(surface->points);
     const double extent = (floor.high - floor.low).maxCoeff();
     if (extent <= light.extent_) continue;
@@ -71,29 +69,47 @@ std::optional<BakedLight> BakedLight::of(const Scene& scene, const Shot& view) {
     light.extent_ = extent;
   }
   if (light.extent_ <= 0.0 || scene.lights.empty()) return std::nullopt;
+  for (std::size_t i = 0; i < scene.parts.size(); ++i)
+    if (shows(view, i)) std::visit([&light](const auto& part) { light.add(part); }, scene.parts[i]);
   light.aim(scene);
   if (light.key_.empty()) return std::nullopt;
   return light;
 }
 
 void BakedLight::add(const Rods& rods) {
-  if (rods.arrow || !rods.style.lit || rods.style.opacity < 1.0) return;
+  if (rods.arrow || !casts_shadow(rods.style)) return;
   for (std::size_t i = 0; i < rods.from.size(); ++i) {
     const Point3 &from = rods.from[i], &to = rods.to[i];
-    if (from.z() == 0.0 && to.z() > 0.0 && from.x() == to.x() && from.y() == to.y())
+    if (from.z() == floor_z() && to.z() > floor_z() && from.x() == to.x() && from.y() == to.y())
       pillars_.push_back({from.x(), from.y(), rods.radius, to.z()});
   }
 }
 
+void BakedLight::add(const Tube& tube) {
+  if (!casts_shadow(tube.style)) return;
+  for (std::size_t i = 1; i < tube.points.size(); ++i)
+    add(Capsule{tube.points[i - 1], tube.points[i], tube.radius});
+}
+
+void BakedLight::add(const Spheres& spheres) {
+  if (!casts_shadow(spheres.style)) return;
+  for (const Point3& at : spheres.at) add(Capsule{at, at, spheres.radius});
+}
+
+void BakedLight::add(const Capsule& capsule) {
+  const double height = std::min(capsule.from.z(), capsule.to.z()) - floor_z();
+  if (height > kLying * capsule.radius) capsules_.push_back(capsule);
+}
+
 /// Upright rectangles, each of two triangles as add_rectangle() makes them.
 void BakedLight::add(const Surface& surface) {
-  if (!surface.style.lit || surface.style.opacity < 1.0 || surface.smooth) return;
+  if (!casts_shadow(surface.style) || surface.smooth) return;
   for (std::size_t i = 0; i + 3 < surface.points.size(); i += 4) {
     const auto first = surface.points.begin() + static_cast<std::ptrdiff_t>(i);
     const Bounds one = bounds_of(std::vector<Point3>(first, first + 4));
     const Point3 size = one.high - one.low;
     const bool upright = size.z() > 0.0 && std::min(size.x(), size.y()) == 0.0;
-    if (upright && one.low.z() == 0.0)
+    if (upright && one.low.z() == floor_z())
       walls_.push_back({one.low.x(), one.high.x(), one.low.y(), one.high.y(), one.high.z()});
   }
 }
@@ -103,6 +119,7 @@ void BakedLight::aim(const Scene& scene) {
   const Light& key = *std::ranges::max_element(scene.lights, {}, &Light::strength);
   const Point3 towards = key.from.normalized();
   if (towards.z() < 0.1) return;  // Shadows without end.
+  axis_ = towards;
   const Point3 across = towards.unitOrthogonal(), along = towards.cross(across);
   constexpr double kTurn = std::numbers::pi * (3.0 - 2.2360679774997896);  // The golden angle.
   for (std::size_t k = 0; k < kDirections; ++k) {
@@ -164,6 +181,41 @@ bool BakedLight::hits(const Wall& wall, const Point3& from, const Point3& toward
   return enter <= leave && leave > 0.0;
 }
 
+/// The ray hits if its least distance from the axis is below the radius. The closest points of a
+/// ray and a segment have a closed form; the determinant is that of its two equations.
+bool BakedLight::hits(const Capsule& capsule, const Point3& from, const Point3& towards) {
+  constexpr double kParallel = 1e-12;  // Of the squared length: any point of the axis will do.
+  const Point3 axis = capsule.to - capsule.from, offset = from - capsule.from;
+  const double length = axis.squaredNorm(), slope = towards.dot(axis);
+  const double ahead = towards.dot(offset), aside = axis.dot(offset);
+  const double determinant = length - slope * slope;
+  double along_axis = determinant > kParallel * length
+                          ? std::clamp((aside - slope * ahead) / determinant, 0.0, 1.0)
+                          : 0.0;
+  double along_ray = slope * along_axis - ahead;
+  if (along_ray < 0.0) {
+    along_ray = 0.0;
+    if (length > 0.0) along_axis = std::clamp(aside / length, 0.0, 1.0);
+  }
+  const Point3 apart = offset + along_ray * towards - along_axis * axis;
+  return apart.squaredNorm() < capsule.radius * capsule.radius;
+}
+
+/// Those whose ball around reaches into the cone of the light.
+std::vector<BakedLight::Capsule> BakedLight::capsules_near(const Point3& point) const {
+  const double spread = std::tan(kLightRadius_rad), slant = 1.0 / std::cos(kLightRadius_rad);
+  std::vector<Capsule> found;
+  for (const Capsule& capsule : capsules_) {
+    const Point3 middle = (capsule.from + capsule.to) / 2.0 - point;
+    const double reach = (capsule.to - capsule.from).norm() / 2.0 + capsule.radius;
+    const double ahead = middle.dot(axis_);
+    const double aside = (middle - ahead * axis_).norm();
+    if (ahead > -reach && aside <= slant * reach + spread * std::max(ahead, 0.0))
+      found.push_back(capsule);
+  }
+  return found;
+}
+
 std::vector<BakedLight::Pillar> BakedLight::pillars_near(const Point3& point) const {
   const double near = kNear * extent_;
   std::vector<Pillar> found;
@@ -198,19 +250,65 @@ double BakedLight::sky_at(const Point3& point) const {
 double BakedLight::at(const Point3& point, const Point3& normal) const {
   const Point3 from = point + 10.0 * kFloorFloat * extent_ * normal;
   const std::vector<Pillar> near = pillars_near(from);
+  const std::vector<Capsule> capsules = capsules_near(from);
   double key = 0.0;
   for (const Point3& towards : key_) {
     const double facing = normal.dot(towards);
     const auto hides = [&](const auto& thing) { return hits(thing, from, towards); };
-    if (facing > 0.0 && !std::ranges::any_of(near, hides) && !std::ranges::any_of(walls_, hides))
+    if (facing > 0.0 && !std::ranges::any_of(near, hides) && !std::ranges::any_of(walls_, hides) &&
+        !std::ranges::any_of(capsules, hides))
       key += facing / towards.z();
   }
   const double upward = 0.55 + 0.45 * normal.z();
   const double lift = 0.025 * extent_;
   const double bounce =
-      kBounce * (1.0 - upward) * (0.3 + 0.7 * (1.0 - std::exp(-point.z() / lift)));
+      kBounce * (1.0 - upward) * (0.3 + 0.7 * (1.0 - std::exp(-(point.z() - floor_z()) / lift)));
   return kKeyShare * key / kDirections + kSkyShare * sky_at(point) * upward + bounce;
 }
+
+namespace {
+
+/// A square of texels on the floor, and a bit for each direction of the light that is hidden there.
+class ShadowTexels {
+ public:
+  ShadowTexels(const Point3& corner, double side, int size)
+      : corner_(corner),
+        texel_(side / size),
+        size_(size),
+        hidden_(static_cast<std::size_t>(size) * size, 0) {}
+
+  double texel() const { return texel_; }
+
+  Point3 position(int i, int j) const {
+    return corner_ + Point3((i + 0.5) * texel_, (j + 0.5) * texel_, 0.0);
+  }
+
+  /// Sets the bits that `hides(position)` gives, at the texels of a rectangle.
+  template <class Hides>
+  void hide(double x0, double x1, double y0, double y1, const Hides& hides) {
+    for (int j = index_of(y0 - corner_.y()); j <= index_of(y1 - corner_.y()); ++j)
+      for (int i = index_of(x0 - corner_.x()); i <= index_of(x1 - corner_.x()); ++i)
+        hidden_[static_cast<std::size_t>(j) * size_ + i] |= hides(position(i, j));
+  }
+
+  /// The share of the directions that are hidden.
+  double dark(int i, int j) const {
+    return std::popcount(hidden_[static_cast<std::size_t>(j) * size_ + i]) /
+           static_cast<double>(kDirections);
+  }
+
+ private:
+  int index_of(double offset) const {
+    return std::clamp(static_cast<int>(offset / texel_), 0, size_ - 1);
+  }
+
+  Point3 corner_;
+  double texel_;
+  int size_;
+  std::vector<std::uint64_t> hidden_;
+};
+
+}  // namespace
 
 BakedLight::Shadow BakedLight::shadow(int size) const {
   const double margin = kMargin * extent_;
@@ -218,42 +316,42 @@ BakedLight::Shadow BakedLight::shadow(int size) const {
   shadow.corner = floor_low_ - Point3(margin, margin, 0.0);
   shadow.side = extent_ + 2.0 * margin;
   shadow.size = size;
-  const double texel = shadow.side / size;
-  std::vector<std::uint64_t> hidden(static_cast<std::size_t>(size) * size, 0);
-  const auto position = [&](int i, int j) {
-    return Point3(shadow.corner.x() + (i + 0.5) * texel, shadow.corner.y() + (j + 0.5) * texel,
-                  0.0);
-  };
-  const auto index_of = [&](double at, double corner) {
-    return std::clamp(static_cast<int>((at - corner) / texel), 0, size - 1);
-  };
+  ShadowTexels texels(shadow.corner, shadow.side, size);
   // Only texels within the longest shadow of a thing can be hidden by it.
   const auto cast = [&](const auto& thing, double x0, double x1, double y0, double y1) {
     const Point3& key = key_.front();
-    const double length = 1.3 * thing.top / key.z();
+    const double length = 1.3 * (thing.top - floor_z()) / key.z();
     const double dx = -key.x() * length, dy = -key.y() * length;
-    const double soft = 0.3 * length * key.z() + texel;
-    const int i0 = index_of(std::min(x0, x0 + dx) - soft, shadow.corner.x());
-    const int i1 = index_of(std::max(x1, x1 + dx) + soft, shadow.corner.x());
-    const int j0 = index_of(std::min(y0, y0 + dy) - soft, shadow.corner.y());
-    const int j1 = index_of(std::max(y1, y1 + dy) + soft, shadow.corner.y());
-    for (int j = j0; j <= j1; ++j)
-      for (int i = i0; i <= i1; ++i) {
-        if (!may_hit(thing, position(i, j))) continue;
-        for (std::size_t k = 0; k < key_.size(); ++k)
-          if (hits(thing, position(i, j), key_[k]))
-            hidden[static_cast<std::size_t>(j) * size + i] |= std::uint64_t{1} << k;
-      }
+    const double soft = 0.3 * length * key.z() + texels.texel();
+    texels.hide(std::min(x0, x0 + dx) - soft, std::max(x1, x1 + dx) + soft,
+                std::min(y0, y0 + dy) - soft, std::max(y1, y1 + dy) + soft, [&](const Point3& at) {
+                  std::uint64_t bits = 0;
+                  if (!may_hit(thing, at)) return bits;
+                  for (std::size_t k = 0; k < key_.size(); ++k)
+                    if (hits(thing, at, key_[k])) bits |= std::uint64_t{1} << k;
+                  return bits;
+                });
   };
   for (const Pillar& one : pillars_)
     cast(one, one.x - one.radius, one.x + one.radius, one.y - one.radius, one.y + one.radius);
   for (const Wall& one : walls_) cast(one, one.x0, one.x1, one.y0, one.y1);
+  // In one direction the shadow of a capsule is small, and far from those in other directions.
+  for (const Capsule& capsule : capsules_)
+    for (std::size_t k = 0; k < key_.size(); ++k) {
+      const Point3& key = key_[k];
+      const Point3 a = capsule.from - (capsule.from.z() - floor_z()) / key.z() * key;
+      const Point3 b = capsule.to - (capsule.to.z() - floor_z()) / key.z() * key;
+      const double soft = capsule.radius / key.z();
+      texels.hide(std::min(a.x(), b.x()) - soft, std::max(a.x(), b.x()) + soft,
+                  std::min(a.y(), b.y()) - soft, std::max(a.y(), b.y()) + soft,
+                  [&](const Point3& at) {
+                    return hits(capsule, at, key) ? std::uint64_t{1} << k : std::uint64_t{0};
+                  });
+    }
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
-      const Point3 at = position(i, j);
-      const int dark = std::popcount(hidden[static_cast<std::size_t>(j) * size + i]);
-      const double light =
-          kKeyShare * (1.0 - dark / static_cast<double>(kDirections)) + kSkyShare * sky_at(at);
+      const Point3 at = texels.position(i, j);
+      const double light = kKeyShare * (1.0 - texels.dark(i, j)) + kSkyShare * sky_at(at);
       const double outside = std::max({floor_low_.x() - at.x(), at.x() - floor_high_.x(),
                                        floor_low_.y() - at.y(), at.y() - floor_high_.y(), 0.0});
       const double fade = 1.0 - std::clamp(outside / (0.9 * margin), 0.0, 1.0);

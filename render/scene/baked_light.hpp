@@ -14,16 +14,18 @@ namespace mapproof {
 /// The light in a scene that stands on a floor, computed without a graphics library: a key light
 /// with soft shadows, and a sky that what stands around takes away (ambient occlusion).
 ///
-/// Shadows are exact for upright rods and upright rectangles, seen from a disc of light; the sky is
-/// a product of closed forms, which is an approximation. Deterministic.
+/// Shadows are exact for upright rods, upright rectangles, balls and tubes, seen from a disc of
+/// light. A ball or a piece of a tube that lies on the floor hides its own shadow and casts none.
+/// The sky is a product of closed forms of what stands on the floor, which is an approximation.
+/// Deterministic.
 class BakedLight {
  public:
-  /// The light of the parts that the view shows; empty unless they have a floor: a level unlit
-  /// surface at the height 0.
+  /// The light of the parts that the view shows; empty unless they have a floor: the widest level
+  /// unlit surface.
   static std::optional<BakedLight> of(const Scene& scene, const Shot& view);
 
   /// The light at a point of a surface with that normal, in linear light; 1 on an open floor.
-  /// @note O(what stands near the point).
+  /// @note O(pillars + capsules), and O(directions of the light) of those near the point.
   double at(const Point3& point, const Point3& normal) const;
 
   /// The shadow on the floor and around it.
@@ -36,6 +38,8 @@ class BakedLight {
   /// @param size  Texels along a side, > 0.
   Shadow shadow(int size) const;
 
+  double floor_z() const { return floor_low_.z(); }
+
   /// The longer side of the floor.
   double extent() const { return extent_; }
 
@@ -47,22 +51,38 @@ class BakedLight {
     double x0 = 0.0, x1 = 0.0, y0 = 0.0, y1 = 0.0, top = 0.0;
   };
 
+  /// A rod with round ends: all points within the radius of the segment. A ball if the ends are
+  /// one.
+  struct Capsule {
+    Point3 from, to;
+    double radius = 0.0;
+  };
+
   void add(const Rods& rods);
   void add(const Surface& surface);
+  void add(const Tube& tube);
+  void add(const Spheres& spheres);
+  void add(const Field&) {}  ///< Casts no shadow.
+  void add(const Capsule& capsule);
   void aim(const Scene& scene);
   /// The pillars that may hide the light from a point.
   std::vector<Pillar> pillars_near(const Point3& point) const;
+  /// The capsules that may hide the light from a point.
+  std::vector<Capsule> capsules_near(const Point3& point) const;
   /// False if no direction of the key light can hit the pillar: most pairs of a point and a pillar,
   /// for which no direction has to be tried.
   bool may_hit(const Pillar& pillar, const Point3& from) const;
   static bool may_hit(const Wall&, const Point3&) { return true; }
   static bool hits(const Pillar& pillar, const Point3& from, const Point3& towards);
   static bool hits(const Wall& wall, const Point3& from, const Point3& towards);
+  static bool hits(const Capsule& capsule, const Point3& from, const Point3& towards);
   double sky_at(const Point3& point) const;
 
   std::vector<Pillar> pillars_;
   std::vector<Wall> walls_;
-  std::vector<Point3> key_;  ///< Directions towards points of the light.
+  std::vector<Capsule> capsules_;
+  std::vector<Point3> key_;        ///< Directions towards points of the light.
+  Point3 axis_ = Point3::UnitZ();  ///< Direction towards the middle of the light.
   /// The wedge of these directions in the plan: its middle, of length 1, and half its angle; and
   /// the longest way in the plan of a unit of height.
   struct Wedge {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPadding = 0.06;      // Of each side.
 constexpr double kLeastSide = 0.05;    // Of the diagonal.
-constexpr double kBoxLabelRoom = 0.1;  // Of the diagonal.
+constexpr double kBoxLabelRoom = 0.06;  // Of the diagonal: less cuts labels of the samples.
 
 }  // namespace
 
@@ -73,9 +73,8 @@ std::vector<Point3> CloudBox::shown() const {
   const double room = kBoxLabelRoom * size();
   const std::array<Point3, 8> all = corners();
   std::vector<Point3> shown(all.begin(), all.end());
-  shown.emplace_back(low.x() - room, low.y() - room, low.z() - 0.5 * room);
-  shown.emplace_back(high.x() + room, low.y() - room, low.z() - 0.5 * room);
-  shown.emplace_back(high.x() + room, high.y(), low.z());
+  for (const Rule& rule : rules({"", "", ""}))
+    for (const Point3& end : {rule.from, rule.to}) shown.emplace_back(end + room * rule.away);
   return shown;
 }
 

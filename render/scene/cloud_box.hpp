@@ -33,7 +33,7 @@ struct CloudBox {
   Camera camera(const Point3& direction) const;
 
  private:
-  /// What an image shows: the box, and what the labels of its axes need.
+  /// What an image shows: the box, and the ends of its axes moved towards their labels.
   std::vector<Point3> shown() const;
 };
 

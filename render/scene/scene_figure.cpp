@@ -166,7 +166,8 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
 constexpr int kMostClear = 12;       // Squares along a rod.
 constexpr double kRoomOfBall = 1.5;  // Of its radius: no label touches it.
 constexpr int kMostOnEdge = 30;      // Along an edge of a wall.
-constexpr double kMostEm = 0.22;     // Of an image's half height.
+constexpr double kMostEm =
+    0.3;  // Of an image's half height: less puts labels of narrow paper on others.
 
 Fill fill_of(const Style& style) {
   return style.share * style.opacity > 0.6 ? Fill::kSolid : Fill::kTint;

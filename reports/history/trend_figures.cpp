@@ -260,8 +260,8 @@ std::string course_without_finding(const Quantity& quantity, const std::vector<d
   if (is_accuracy(quantity.nightly)) return quantity.label + " has not got worse";
   if (quantity.nightly != NightlyRule::kDuration || changes.empty()) return quantity.label;
   const auto [least, most] = std::ranges::minmax(changes);
-  return fmt::format("{} changed by {} to {}\u00a0%", quantity.label, format_number(least, 0, true),
-                     format_number(most, 0, true));
+  return fmt::format("{} changed by {} to {}\u00a0%, without a finding", quantity.label,
+                     format_number(least, 0, true), format_number(most, 0, true));
 }
 
 /// What got worse of a quantity in the last nightly run, or what else is to be said of it.

@@ -10,6 +10,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/percent.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/html/regression_marks.hpp"
 #include "reports/model/format.hpp"
@@ -366,9 +367,9 @@ list highlight_items(const Highlights& highlights) {
   list items;
   for (const Highlights::Item& item : highlights.items) {
     data out;
-    out.set("label", item.label);
-    out.set("value", item.value);
-    out.set("detail", text_or_false(item.detail));
+    out.set("label", with_units_kept(item.label));
+    out.set("value", with_units_kept(item.value));
+    out.set("detail", text_or_false(with_units_kept(item.detail)));
     out.set("section", text_or_false(item.section));
     out.set("falls_short", data(item.falls_short));
     items.push_back(std::move(out));

@@ -34,18 +34,32 @@ std::vector<std::string_view> x_values(std::string_view points) {
 /// An x value as a drawing's data-points has it.
 std::string marker_x(double x) { return fmt::format("{:.6g}", x); }
 
-/// A ring in the red of findings, which both the light and the dark paper let stand out.
-std::string ring(std::string_view marker) {
+/// The ID of the ring of a drawing: that of the marker's symbol with "ring" for its number.
+std::string ring_id(std::string_view marker) {
+  const std::string_view symbol = attribute(marker, "href");
+  std::string id(symbol.substr(0, symbol.rfind('-')));
+  id.erase(0, 1);  // The #.
+  return id + "-ring";
+}
+
+/// Defines the ring, in the red of findings, which is visible in the light and in the dark theme.
+std::string ring_definition(const std::string& id) {
   return fmt::format(
-      "<circle class=\"got-worse\" cx=\"{}\" cy=\"{}\" r=\"7\" fill=\"none\" "
-      "stroke=\"#d3382f\" stroke-width=\"2\"/>\n",
-      attribute(marker, "x"), attribute(marker, "y"));
+      "<defs><circle id=\"{}\" r=\"7\" fill=\"none\" stroke=\"#d3382f\" "
+      "stroke-width=\"2\"/></defs>\n",
+      id);
+}
+
+/// The ring around a marker. It is a <use> like the marker, so that zooming moves both.
+std::string ring_at(std::string_view marker) {
+  return fmt::format("<use class=\"got-worse\" href=\"#{}\" x=\"{}\" y=\"{}\"/>\n", ring_id(marker),
+                     attribute(marker, "x"), attribute(marker, "y"));
 }
 
 }  // namespace
 
 std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
-  std::string label, rings;
+  std::string label, rings, ring;
   append_xml(label, curve.label);
   const std::string of_curve = fmt::format(" data-curve=\"{}\"", label);
   const std::string of_panel = fmt::format("-c{})", curve.panel);  // Its frame cuts the line.
@@ -67,11 +81,16 @@ std::size_t mark_curve(const RegressedCurve& curve, std::string& svg) {
     for (std::size_t use = group.find(kMarker); use != std::string_view::npos && point < x.size();
          use = group.find(kMarker, use + 1), ++point) {
       if (!wanted.empty() && std::ranges::find(wanted, x[point]) == wanted.end()) continue;
-      rings += ring(group.substr(use, group.find('>', use) - use));
+      const std::string_view marker = group.substr(use, group.find('>', use) - use);
+      ring = ring_id(marker);
+      rings += ring_at(marker);
       ++count;
     }
     svg.insert(end, rings);
   }
+  // Once in a drawing, outside its groups, which a page may leave out.
+  if (!ring.empty() && svg.find(fmt::format(" id=\"{}\"", ring)) == std::string::npos)
+    svg.insert(svg.rfind("</svg>"), ring_definition(ring));
   return count;
 }
 

@@ -35,11 +35,21 @@ KeyValues number_items(const Fit& fit) {
   return items;
 }
 
+std::string tests_title(const std::vector<FitTest>& tests) {
+  const auto exceeded = std::ranges::count_if(tests, &FitTest::exceeds);
+  const std::string all = counted(std::ssize(tests), "test");
+  if (tests.empty()) return "The fit was not tested";
+  if (exceeded == 0 && tests.size() == 1) return "The test of the fit is within its bound";
+  if (exceeded == 0) return fmt::format("All {} of the fit are within their bounds", all);
+  return fmt::format("{} of {} of the fit {}", exceeded, all,
+                     exceeded == 1 ? "exceeds its bound" : "exceed their bounds");
+}
+
 }  // namespace
 
 Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string> record_ids) {
   FitTestsSpec spec{.id = id,
-                    .title = "Tests of the fit",
+                    .title = tests_title(fit.tests),
                     .verdict = verdict_text(fit),
                     .is_alarm = is_alarm(fit.verdict),
                     .rows = {},

@@ -39,12 +39,12 @@ curve_script() {
 }
 
 measure() {  # what script-file ending
-  start=$(date +%s%N)
-  gnuplot "$2"
-  stop=$(date +%s%N)
+  # The second line of `times` has the processor seconds of gnuplot: "0m1.20s 0m0.05s".
+  seconds=$(sh -c 'gnuplot "$1" && times' sh "$2" |
+    awk 'NR == 2 { gsub(/[ms]/, " "); print 60 * $1 + $2 + 60 * $3 + $4 }')
   bytes=$(cat "$out"/$1-*."$3" | wc -c)
-  awk -v what="$1" -v ns=$((stop - start)) -v bytes="$bytes" \
-    'BEGIN { printf "%s gnuplot %.3f %.0f\n", what, ns / 1e9, bytes / 100 }'
+  awk -v what="$1" -v seconds="$seconds" -v bytes="$bytes" \
+    'BEGIN { printf "%s gnuplot %.3f %.0f\n", what, seconds, bytes / 100 }'
 }
 
 map_script pngcairo png 18 > "$out/map-png.gp"

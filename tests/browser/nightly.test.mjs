@@ -123,6 +123,21 @@ test("a nightly run's report begins with what got worse, marked in tables and fi
     await close();
   });
 
+test("on a phone each ring is around the point that it marks", ofRegressed, async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } },
+    join(regressed, "nightly_runs", "0002", study));
+  const figure = page.locator("figure:has(p.regression)").first();
+  await figure.scrollIntoViewIfNeeded();
+  await figure.locator(".drawing.stacked > svg").waitFor();
+  const rings = figure.locator("svg .got-worse");
+  assert.ok(await rings.count() > 0);
+  const misplaced = await rings.evaluateAll((all) => all.filter((ring) =>
+    ![...ring.closest("g").querySelectorAll(".marker")].some((marker) => ["x", "y"].every(
+      (name) => marker.getAttribute(name) === ring.getAttribute(name)))).length);
+  assert.equal(misplaced, 0);
+  await close();
+});
+
 test("decisions that the page saves are taken by the program", ofRegressed, async () => {
   const folder = mkdtempSync(join(tmpdir(), "mapproof-decisions-"));
   const store = join(folder, "history");

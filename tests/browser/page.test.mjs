@@ -515,15 +515,58 @@ test("on a phone a legend is one block below the panel, in the order of the line
   await close();
 });
 
-test("hits of the search are one line each, with the words marked", async () => {
+test("on a phone long names in a legend are broken into lines, and whole again on a wide page",
+  async () => {
+    const { page, close } = await open({ viewport: { width: 1200, height: 900 } });
+    const figure4 = await figure(page, "fig-4");
+    const legend = () => figure4.evaluate((each) =>
+      [...each.querySelectorAll("g.legend-text")].map((text) => text.outerHTML));
+    await figure4.evaluate((each) => {
+      // The first name four times, with spaces, which have no outline, between.
+      const words = each.querySelector("g.legend-text > g"), glyphs = [...words.querySelectorAll("use")];
+      const long = Number(glyphs.at(-1).getAttribute("x")) + 1500;
+      for (let times = 1; times < 4; ++times) {
+        const space = document.createElementNS(words.namespaceURI, "use");
+        space.setAttribute("x", times * long - 600);
+        words.append(space, ...glyphs.map((glyph) => {
+          const copy = glyph.cloneNode();
+          copy.setAttribute("x", Number(glyph.getAttribute("x") ?? 0) + times * long);
+          return copy;
+        }));
+      }
+    });
+    const wide = await legend();
+    await page.setViewportSize({ width: 390, height: 844 });
+    await until(page, () => document.querySelector("#figure-fig-4 .stacked"));
+    const { right, boxes, lines } = await figure4.evaluate((each) => ({
+      right: each.querySelector("svg").getBoundingClientRect().right,
+      boxes: [...each.querySelectorAll("g.legend-text")].map((text) => {
+        const box = text.getBoundingClientRect();
+        return { right: box.right, top: box.top, bottom: box.bottom };
+      }),
+      lines: new Set([...each.querySelector("g.legend-text > g").querySelectorAll("use")].map(
+        (glyph) => glyph.getAttribute("y"))).size }));
+    assert.ok(lines >= 2, `${lines} lines`);
+    assert.ok(boxes.every((box) => box.right <= right + 1), JSON.stringify({ right, boxes }));
+    const below = boxes.filter((box) => box !== boxes[0] && box.top >= boxes[0].top);
+    assert.ok(below.every((box) => box.top >= boxes[0].bottom - 1), JSON.stringify(boxes));
+    await page.setViewportSize({ width: 1200, height: 900 });
+    await until(page, () => !document.querySelector("#figure-fig-4 .stacked"));
+    assert.deepEqual(await legend(), wide);
+    await close();
+  });
+
+test("hits of the search have their section, the words marked, and are whole", async () => {
   const { page, close } = await open();
   await page.getByRole("searchbox", { name: "Search this page" }).fill("orderings");
   const hits = await page.locator(".found a").evaluateAll((all) => all.map((each) => ({
-    height: each.getBoundingClientRect().height, marked: each.querySelector("mark")?.textContent })));
+    marked: each.querySelector("mark")?.textContent, place: each.querySelector("small").textContent,
+    hidden: each.scrollWidth - each.clientWidth })));
   assert.ok(hits.length >= 2);
-  for (const { height, marked } of hits) {
-    assert.ok(height < 36, `${height}`);
+  for (const { marked, place, hidden } of hits) {
     assert.match(marked, /^orderings$/i);
+    assert.match(place, /\w/);
+    assert.ok(hidden <= 0, `${hidden} px`);
   }
   await close();
 });

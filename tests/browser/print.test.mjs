@@ -152,12 +152,15 @@ for (const [name, folder] of kinds) {
       // Headings may be of several lines.
       const isOf = (all, line) => all.some((one) => one.length > 2 &&
         (line.startsWith(one) || (line.length > 8 && one.includes(line))));
-      const kLeastFilled = .6;
+      const kLeastFilled = .6;  // Where the next block can be divided.
+      const kLeastAlways = .5, kHigh = .7;  // Before a figure that needs most of a page.
       pages.slice(0, -1).forEach(({ filled, lines }, i) => {
         const last = lines.at(-1) ?? "";
         // The first pages may end with the contents, which name the headings.
         assert.ok(i < 2 || !headings.some((one) => one !== "" && last.length > 8 && one.endsWith(last)),
           `page ${i + 1} ends with ${last}`);
+        assert.ok(filled >= kLeastAlways || pages[i + 1].filled >= kHigh,
+          `page ${i + 1} is filled to ${filled}`);
         if (filled >= kLeastFilled) return;
         // What follows cannot be divided: a figure, with its heading or alone, or a table's rows.
         const next = pages[i + 1].lines.slice(0, 3);

@@ -13,6 +13,7 @@
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text/csv.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/utf8.hpp"
 #include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
@@ -95,6 +96,15 @@ TEST_F(Files, TroubleNamesTheFile) {
             std::string::npos);
   EXPECT_NE(message([&] { write_file(folder_ / "file" / "below", ""); }).find("file"),
             std::string::npos);
+}
+
+TEST(UnitText, KeepsNumbersAndTheirUnitsOnOneLine) {
+  EXPECT_EQ(with_units_kept("dead reckoning 16 m; over 1.9 km, 12 % in 3 ms"),
+            "dead reckoning 16\u00A0m; over 1.9\u00A0km, 12\u00A0% in 3\u00A0ms");
+  EXPECT_EQ(with_units_kept("2 maps of 5 methods in step 4 should stay"),
+            "2 maps of 5 methods in step 4 should stay");
+  EXPECT_EQ(with_units_kept("MPE 0.086 m"), "MPE 0.086\u00A0m");
+  EXPECT_EQ(with_units_kept(""), "");
 }
 
 TEST(Printable, ShowsWhatCannotBeSeenAndCutsWhatIsLong) {

@@ -88,6 +88,68 @@ TEST(BakedLight, CastsTheShadowThatPointsOfTheFloorHaveAndFadesOut) {
   EXPECT_EQ(light.shadow(100).alpha, shadow.alpha);
 }
 
+/// A floor at a height that is not 0, lit from the left, and a part above it.
+Scene above_floor(const Part& part) {
+  Scene scene = one_pillar();
+  Surface floor = floor_of(kSide);
+  for (Point3& point : floor.points) point.z() = -2.0;
+  scene.parts = {floor, part};
+  return scene;
+}
+
+constexpr double kSkyAlone = 0.4;  // In a full shadow.
+
+/// The light at a point of that floor: 1 in the open, that of the sky in a full shadow.
+double light_below(const Scene& scene, double x, double y) {
+  return BakedLight::of(scene, scene.views[0])->at({x, y, -2.0}, Point3::UnitZ());
+}
+
+TEST(BakedLight, IsThatOfTheSkyWhereABallIsBeforeTheKeyLight) {
+  // The ball is 3 above the floor and the light comes at 45 degrees, so the shadow is 3 to the
+  // right.
+  const Scene scene = above_floor(Spheres{.at = {{3.0, 5.0, 1.0}}, .radius = 0.5});
+  EXPECT_NEAR(light_below(scene, 6.0, 5.0), kSkyAlone, 1e-12);
+  EXPECT_NEAR(light_below(scene, 6.0, 6.5), 1.0, 1e-12);
+  EXPECT_NEAR(light_below(scene, 3.0, 5.0), 1.0, 1e-12);
+  const double edge = light_below(scene, 6.0, 5.5);
+  EXPECT_GT(edge, kSkyAlone + 0.05);
+  EXPECT_LT(edge, 0.95);
+}
+
+TEST(BakedLight, IsThatOfTheSkyBelowATubeAboveTheFloor) {
+  const Scene scene = above_floor(
+      Tube{.points = {{2.0, 3.0, 0.0}, {2.0, 5.0, 0.0}, {2.0, 7.0, 0.0}}, .radius = 0.3});
+  EXPECT_NEAR(light_below(scene, 4.0, 5.0), kSkyAlone, 1e-12);
+  EXPECT_NEAR(light_below(scene, 4.0, 8.0), 1.0, 1e-12);
+}
+
+TEST(BakedLight, IsWholeBesideThePieceOfATubeThatLiesOnTheFloor) {
+  const Scene scene = above_floor(
+      Tube{.points = {{2.0, 3.0, -1.7}, {2.0, 5.0, -1.7}, {2.0, 7.0, 0.0}, {2.0, 9.0, 0.0}},
+           .radius = 0.3});
+  EXPECT_NEAR(light_below(scene, 2.6, 4.0), 1.0, 1e-12);
+  EXPECT_NEAR(light_below(scene, 4.0, 8.5), kSkyAlone, 1e-12);
+}
+
+TEST(BakedLight, HasAShadowImageThatAgreesWithTheLightAtItsTexels) {
+  const Scene scene = above_floor(
+      Tube{.points = {{2.0, 3.0, 0.0}, {3.0, 6.0, 1.5}, {4.0, 8.0, -1.0}}, .radius = 0.2});
+  const BakedLight light = *BakedLight::of(scene, scene.views[0]);
+  const BakedLight::Shadow shadow = light.shadow(100);
+  const double texel = shadow.side / shadow.size;
+  int hidden = 0;
+  for (int j = 0; j < shadow.size; ++j)
+    for (int i = 0; i < shadow.size; ++i) {
+      const Point3 at = shadow.corner + Point3((i + 0.5) * texel, (j + 0.5) * texel, 0.0);
+      if (at.x() < 0.0 || at.x() > kSide || at.y() < 0.0 || at.y() > kSide) continue;
+      const int alpha = shadow.alpha[static_cast<std::size_t>(j) * 100 + i];
+      const double expected = 1.0 - std::pow(light.at(at, Point3::UnitZ()), 1.0 / 2.2);
+      EXPECT_NEAR(alpha / 255.0, expected, 0.05) << at.transpose();
+      hidden += light.at(at, Point3::UnitZ()) < 0.5 ? 1 : 0;
+    }
+  EXPECT_GT(hidden, 20);
+}
+
 TEST(AddPillar, IsClosedWithNormalsOutward) {
   TriangleMesh mesh;
   add_pillar(mesh, {1.0, 2.0, 0.0}, {1.0, 2.0, 3.0}, 0.5, 24);

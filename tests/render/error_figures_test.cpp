@@ -187,6 +187,18 @@ TEST(BestLine, WhereverTheyDifferCountsThePointsAtWhichManyAreBest) {
             "A has the lowest MPE wherever they differ");
 }
 
+TEST(BestLine, IsNotTheBestWhereverTheyDifferWhereItsMeanIsBeaten) {
+  // B is lower at 2 and 3, where the intervals are wide.
+  ErrorLine a = three_points("A", {1, 26, 53}, 0.1), b = three_points("B", {2, 5, 36}, 0.1);
+  a.high = {1.1, 56, 83};
+  a.low = {0.9, -4, 23};
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
+            "A has the lowest MPE at side\u00A0=\u00A01\u00A0m; elsewhere intervals overlap");
+  b.mean = {2, 27, 54};
+  EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
+            "A has the lowest MPE wherever they differ");
+}
+
 TEST(BestLine, IsPluralIfItStandsForSeveralWhateverItsLabel) {
   const ErrorLine a = of_means("Map and scan matching", {1, 1}), b = of_means("B", {2, 2});
   LineQuantity mpe;

@@ -106,6 +106,14 @@ TEST(ReportHtml, GivesEachIdOnce) {
     EXPECT_TRUE(seen.insert(id).second) << id;
 }
 
+// The scripts of a page share one scope, where a second function of a name replaces the first.
+TEST(ReportHtml, DefinesEachFunctionOfItsScriptsOnce) {
+  const std::vector<std::string> names = all_matches(study_page(), "\nfunction ([A-Za-z]+)\\(");
+  std::set<std::string> once;
+  for (const std::string& name : names) EXPECT_TRUE(once.insert(name).second) << name;
+  EXPECT_GT(once.size(), 100U);
+}
+
 TEST(ReportHtml, IsTheSameBytesEachTime) { EXPECT_EQ(study_page(), study_page()); }
 
 TEST(ReportHtml, LetsNoTextBecomeATag) {
@@ -305,19 +313,21 @@ TEST(RegressionMarks, AreRingsAroundThePointsOfTheCurve) {
       "<svg><path data-curve=\"A &amp; B\" d=\"m0 0\"/>"
       "<g id=\"f-mean\" data-curve=\"A &amp; B\" data-points=\"6, 0.1;8, 0.2\">"
       "<path class=\"line\" clip-path=\"url(#f-c0)\" d=\"m0 0\"/>"
-      "<use class=\"marker\" href=\"#s\" x=\"10\" y=\"20\"/>"
-      "<use class=\"marker\" href=\"#s\" x=\"30\" y=\"40\"/></g></svg>";
+      "<use class=\"marker\" href=\"#f-s1\" x=\"10\" y=\"20\"/>"
+      "<use class=\"marker\" href=\"#f-s1\" x=\"30\" y=\"40\"/></g></svg>";
   const auto rings = [&](const RegressedCurve& curve) {
     std::string marked = svg;
     mark_curve(curve, marked);
     std::string centres;
-    for (std::size_t at = marked.find("<circle"); at != std::string::npos;
-         at = marked.find("<circle", at + 1))
-      centres += marked.substr(at + 26, marked.find(" r=", at) - at - 26) + ";";
+    for (const std::string& at :
+         all_matches(marked, "class=\"got-worse\" href=\"#f-ring\" ([^/]*)/"))
+      centres += at + ";";
+    // One ring is drawn, and used at each point.
+    EXPECT_EQ(all_matches(marked, "(<circle id=\"f-ring\")").size(), centres.empty() ? 0U : 1U);
     return centres;
   };
-  EXPECT_EQ(rings({"A & B", {}}), "cx=\"10\" cy=\"20\";cx=\"30\" cy=\"40\";");
-  EXPECT_EQ(rings({"A & B", {8.0}}), "cx=\"30\" cy=\"40\";");
+  EXPECT_EQ(rings({"A & B", {}}), "x=\"10\" y=\"20\";x=\"30\" y=\"40\";");
+  EXPECT_EQ(rings({"A & B", {8.0}}), "x=\"30\" y=\"40\";");
   EXPECT_EQ(rings({"A", {}}), "");
 }
 
@@ -330,7 +340,8 @@ std::string two_panels(const ErrorLine& line) {
 
 std::vector<double> centres(const std::string& svg) {
   std::vector<double> all;
-  for (const std::string& x : all_matches(svg, "class=\"got-worse\" cx=\"([0-9.]+)\""))
+  for (const std::string& x :
+       all_matches(svg, "class=\"got-worse\" href=\"#[^\"]*\" x=\"([0-9.]+)\""))
     all.push_back(std::stod(x));
   return all;
 }

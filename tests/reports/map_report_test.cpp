@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "render/figures/diagrams/fit.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/fit_section.hpp"
 
@@ -82,6 +83,27 @@ TEST(MapReport, JudgesTheMapByItsFitAndItsErrorBesideItsSize) {
   EXPECT_EQ(errors, 2);
   EXPECT_EQ(at - of_both.begin(), errors) << "behind the errors";
   EXPECT_EQ(of_both.size(), of_score.size() + 1);
+}
+
+TEST(FitFigure, TitleCountsTheTestsThatExceedTheirBounds) {
+  const FitTest above{.code = FitCode::kResiduals, .statistic = 9.0, .bound = 4.0},
+      within{.code = FitCode::kOutliers, .statistic = 1.0, .bound = 4.0};
+  const auto title = [](const std::vector<FitTest>& tests) {
+    return fit_figure({.verdict = FitVerdict::kFits, .tests = tests}, "fit", {}).title;
+  };
+  EXPECT_EQ(title({above, within}), "1 of 2 tests of the fit exceeds its bound");
+  EXPECT_EQ(title({above, above}), "2 of 2 tests of the fit exceed their bounds");
+  EXPECT_EQ(title({within, within}), "All 2 tests of the fit are within their bounds");
+  EXPECT_EQ(title({within}), "The test of the fit is within its bound");
+  EXPECT_EQ(title({above}), "1 of 1 test of the fit exceeds its bound");
+}
+
+TEST(FitResiduals, CountTheRangesBeyondThreeSigma) {
+  std::vector<FittedRange> ranges(5);
+  ranges[1].normalised = 3.1;
+  ranges[3].normalised = -4.0;
+  ranges[4].normalised = kNaN;
+  EXPECT_EQ(far_residuals_text(ranges), "2 of 5 ranges beyond 3 sigma");
 }
 
 TEST(MapReport, OpensWithTheFitUnlessErrorsAreKnown) {

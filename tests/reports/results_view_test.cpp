@@ -1,10 +1,12 @@
 #include "reports/sections/results/results_view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/not_finite.hpp"
@@ -514,6 +516,27 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   };
   EXPECT_TRUE(warns(75.14));
   EXPECT_FALSE(warns(90.0));
+}
+
+TEST(ResultsReport, WarnsOfPathsWithFarFewerPosesThanAnother) {
+  const ResultsStudy study = Rows().add("few", "a1", 0.024).add("many", "a1", 0.0135).study();
+  const ResultsView view(study);
+  const auto warns = [&](long long few) {
+    const Report report = results_report({.view = view,
+                                          .comparisons = compare_methods(view),
+                                          .figures = {},
+                                          .provenance = {},
+                                          .poses = {{"few", few}, {"many", 785}}});
+    const std::string warning = fmt::format("few has {} poses, many 785", few);
+    return std::ranges::any_of(report.opening.findings, [&](const Paragraph& finding) {
+      return std::ranges::any_of(finding.phrases, [&](const Phrase& phrase) {
+        return phrase.text.find(warning) != std::string::npos;
+      });
+    });
+  };
+  EXPECT_TRUE(warns(32));
+  EXPECT_TRUE(warns(392));
+  EXPECT_FALSE(warns(393));
 }
 
 TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {

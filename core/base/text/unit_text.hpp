@@ -9,6 +9,10 @@ namespace mapproof {
 /// there; "5°" without one, and the number alone if the unit is empty.
 std::string with_unit(std::string_view number, std::string_view unit);
 
+/// A text with no-break spaces between numbers and the units m, km, mm, s, ms and % behind them.
+/// @note O(size of the text)
+std::string with_units_kept(std::string_view text);
+
 /// A text with plain spaces in place of no-break ones, for files that other programs read.
 std::string with_plain_spaces(std::string text);
 

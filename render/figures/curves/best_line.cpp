@@ -8,6 +8,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -116,6 +117,9 @@ std::string named(const ErrorLine& line, const std::vector<ErrorLine>& lines) {
 std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLine>& lines) {
   std::vector<std::string> names;
   for (const At& at : some) names.push_back(named(*at.line, lines));
+  const auto has_comma = [](const std::string& one) { return one.find(", ") != std::string::npos; };
+  if (names.size() <= kMostNamed && names.size() > 1 && std::ranges::any_of(names, has_comma))
+    return fmt::format("{}", fmt::join(names, "; "));
   return listed(names, kMostNamed);
 }
 
@@ -196,6 +200,31 @@ bool are_alike(const std::vector<At>& a, const std::vector<At>& b) {
          std::ranges::all_of(a, [&](const At& at) { return has_line(b, at.line); });
 }
 
+/// Whether at some x another line is better than all of these, by digits that are shown.
+bool is_beaten(const std::vector<At>& some, const std::vector<ErrorLine>& lines,
+               const std::set<double>& xs, const LineQuantity& quantity) {
+  return std::ranges::any_of(xs, [&](double x) {
+    const Contest contest = contest_of(known_at(lines, x), quantity);
+    std::vector<At> all = contest.equal;
+    const auto ours =
+        std::ranges::find_if(all, [&](const At& at) { return has_line(some, at.line); });
+    if (ours == all.end() || ours == all.begin()) return false;
+    const std::vector<std::string> texts =
+        value_texts({all.front().mean(), ours->mean()}, quantity);
+    return texts[0] != texts[1];
+  });
+}
+
+/// "10°, 20° and 40°"; of many "7 of 9 points".
+std::string places(const LineAxis& axis, const std::vector<double>& some, std::size_t all,
+                   const LineQuantity& quantity) {
+  if (some.size() > kMostNamed) return fmt::format("{} of {} points", some.size(), all);
+  std::vector<std::string> texts = {place(axis, some.front(), quantity)};
+  for (std::size_t i = 1; i < some.size(); ++i)
+    texts.push_back(with_unit(data_number(some[i]), axis.unit));
+  return listed(texts, kMostNamed);
+}
+
 }  // namespace
 
 LineAxis line_axis(const std::string& label) {
@@ -252,6 +281,17 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
         "{} {}", listed_names(some, lines),
         has_the_best(quantity, some.size() > 1 || is_plural(*some.front().line, quantity)));
   };
+  // Lines whose intervals overlap do not differ. Where one of them is drawn below the best, the
+  // points are named at which the best is so alone.
+  const auto wherever_words = [&](const std::vector<At>& some, const std::string& unless_beaten) {
+    if (!is_beaten(some, lines, xs, quantity)) return finding(some) + unless_beaten;
+    std::vector<double> alone;
+    for (const std::vector<At>& one : best)
+      if (are_alike(one, some)) alone.push_back(one.front().x());
+    if (alone.empty()) return std::string();
+    return fmt::format("{} at {}; elsewhere intervals overlap", finding(some),
+                       places(axis, alone, best.size(), quantity));
+  };
   const std::vector<At> throughout = in_all(best);
   if (throughout.size() == lines.size()) return "";
   if (!throughout.empty() && throughout.size() <= kMostNamed) {
@@ -262,8 +302,10 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     });
     if (alone == 0) return "";
     if (alone == std::ssize(best)) return finding(throughout) + " throughout";
-    if (alone + of_all == std::ssize(best)) return finding(throughout) + " wherever they differ";
-    return fmt::format("{}, alone at {} of {} points", finding(throughout), alone, best.size());
+    if (alone + of_all == std::ssize(best))
+      return wherever_words(throughout, " wherever they differ");
+    return wherever_words(throughout,
+                          fmt::format(", alone at {} of {} points", alone, best.size()));
   }
   // Where all lines are equal, as without a disturbance, none is better.
   std::vector<std::vector<At>> differing = best;
@@ -272,7 +314,7 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
   });
   if (differing.empty()) return "";
   if (const std::vector<At> some = in_all(differing); !some.empty() && some.size() <= kMostNamed)
-    return finding(some) + " wherever they differ";
+    return wherever_words(some, " wherever they differ");
   std::erase_if(differing, [](const std::vector<At>& one) { return one.size() > kMostNamed; });
   if (differing.empty()) return "";
   const std::vector<At>&first = differing.front(), &last = differing.back();

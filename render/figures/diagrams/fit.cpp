@@ -52,7 +52,7 @@ Scatter test_marks(const std::vector<FitTestRow>& rows, bool above) {
   return points;
 }
 
-constexpr double kMostSigmas = 6.0;
+constexpr double kMostSigmas = 6.0, kFarSigmas = 3.0;
 constexpr std::size_t kMostRangesDrawn = 2000;
 constexpr std::size_t kMostColours = 6;
 
@@ -89,6 +89,13 @@ Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_
 }
 
 }  // namespace
+
+std::string far_residuals_text(std::span<const FittedRange> ranges) {
+  const auto far = std::ranges::count_if(
+      ranges, [](const FittedRange& range) { return std::abs(range.normalised) > kFarSigmas; });
+  return fmt::format("{} of {} beyond {:g} sigma", far, counted(std::ssize(ranges), "range"),
+                     kFarSigmas);
+}
 
 Figure fit_tests_figure(const FitTestsSpec& spec) {
   std::vector<FitTestRow> rows = drawn_rows(spec);
@@ -146,14 +153,11 @@ Figure fit_residuals_figure(const FitResidualsSpec& spec) {
   figure.panels = {residual_panel(spec, true, start_s), residual_panel(spec, false, start_s)};
   figure.columns = 1;
   figure.shared_y = true;
-  std::size_t far = 0;
-  for (const FittedRange& range : spec.ranges) far += std::abs(range.normalised) > 3.0 ? 1 : 0;
-  const std::string shares =
-      fmt::format("{} of {} beyond 3 sigma", far, counted(std::ssize(spec.ranges), "range"));
+  const std::string shares = far_residuals_text(spec.ranges);
   figure.caption = fmt::format(
       "Prediction less measured range over its standard deviation, over time from the first range "
-      "and over the range; {}. Residuals beyond {:g} stand there.",
-      shares, kMostSigmas);
+      "and over the range. Residuals beyond {:g} stand there.",
+      kMostSigmas);
   figure.alt = fmt::format("Residuals of the ranges of the fit: {}. {}", shares, spec.verdict);
   require_valid(figure);
   return figure;

@@ -39,6 +39,9 @@ struct FitResidualsSpec {
   std::string record_id;
 };
 
+/// The number of ranges whose normalised residual is beyond 3: "12 of 3529 ranges beyond 3 sigma".
+std::string far_residuals_text(std::span<const FittedRange> ranges);
+
 /// What a fit leaves of the ranges, in standard deviations: over time and over the range. Up to six
 /// landmarks have a colour each, more have one. Of many ranges some are drawn, evenly spread;
 /// residuals beyond 6 stand at 6.

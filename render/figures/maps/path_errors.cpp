@@ -290,8 +290,12 @@ std::string path_errors_finding(const PathErrorsSpec& spec) {
   };
   const auto best = std::ranges::min_element(spec.lines, {}, rmse_of);
   if (spec.lines.size() == 1) return path_error_finding(spec, 0);
-  return fmt::format("{} errs least, by {} (RMSE)", best->label,
-                     in_unit(rmse_of(*best), unit_of(spec)));
+  double next = kInfinity;
+  for (const PathErrorLine& line : spec.lines)
+    if (&line != &*best) next = std::min(next, rmse_of(line));
+  return fmt::format("{} has the lowest RMSE, {}; the {} has {}", best->label,
+                     in_unit(rmse_of(*best), unit_of(spec)),
+                     spec.lines.size() == 2 ? "other" : "next", in_unit(next, unit_of(spec)));
 }
 
 std::string path_medians_finding(const PathErrorsSpec& spec) {

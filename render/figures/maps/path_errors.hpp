@@ -43,8 +43,9 @@ Figure path_error_curves_figure(const PathErrorsSpec& spec);
 /// @throws InvalidInput as above.
 Figure path_error_distribution_figure(const PathErrorsSpec& spec);
 
-/// What these figures show, as titles: "ORB errs by 9.8 mm (RMSE), 28 mm at most", "ORB errs least,
-/// by 9.8 mm (RMSE)", and "half of the poses err by less than 7.9 mm with ORB and 11 mm with rgbd".
+/// What these figures show, as titles: "ORB errs by 9.8 mm (RMSE), 28 mm at most", "ORB has the
+/// lowest RMSE, 9.8 mm; the next has 11 mm", and "half of the poses err by less than 7.9 mm with
+/// ORB and 11 mm with rgbd".
 /// @throws InvalidInput as above.
 std::string path_error_finding(const PathErrorsSpec& spec, std::size_t shown);
 std::string path_errors_finding(const PathErrorsSpec& spec);

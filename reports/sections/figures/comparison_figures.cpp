@@ -187,6 +187,23 @@ class SecondsOfMaps {
   std::map<Key, std::vector<double>> seconds_;
 };
 
+/// Who has the lowest MPE whatever its time, or how many there are whose intervals overlap that of
+/// the lowest. Without times, which vary from run to run.
+/// @param intervals  Of the MPE of each setting.
+std::string cost_finding(const std::vector<CostedSetting>& settings,
+                         const std::vector<MeanEstimate>& intervals) {
+  const auto best = std::ranges::min_element(settings, {}, &CostedSetting::mpe_m);
+  const MeanEstimate& lowest = intervals[static_cast<std::size_t>(best - settings.begin())];
+  const auto ties = std::ranges::count_if(intervals, [&](const MeanEstimate& one) {
+    return one.mean - one.half_width.value_or(0.0) <= lowest.mean + lowest.half_width.value_or(0.0);
+  });
+  const std::string name = without_parameters(short_method_name(best->label));
+  const std::string error = error_text(best->mpe_m, 2);
+  if (ties == 1) return fmt::format("whatever the time, {} has the lowest MPE, {}", name, error);
+  return fmt::format("{} of {} methods tie for the lowest MPE, {} with {}", ties, settings.size(),
+                     name, error);
+}
+
 }  // namespace
 
 std::vector<Figure> comparison_figures(FigureSource& source) {
@@ -208,18 +225,17 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     ParetoSpec spec;
     spec.id = fmt::format("cost-{}", name(sensor.sensor.sensor));
+    std::vector<MeanEstimate> intervals;
     for (const SettingSummary& best : source.best(sensor)) {
       const auto cost = seconds.of(best.sensor, best.step, best.setting);
       if (!cost || !best.mpe_m) continue;
       spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
+      intervals.push_back(*best.mpe_m);
       spec.record_ids.push_back(source_of(best));
     }
     if (spec.settings.empty()) continue;
-    const auto best = std::ranges::min_element(spec.settings, {}, &CostedSetting::mpe_m);
-    // Without times, which vary from run to run.
-    spec.title = fmt::format(
-        "{}: whatever the time, {} has the lowest MPE, {}", title_of(sensor.sensor.sensor),
-        without_parameters(short_method_name(best->label)), error_text(best->mpe_m, 2));
+    spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor),
+                             cost_finding(spec.settings, intervals));
     figures.push_back(pareto_figure(spec));
   }
   return figures;

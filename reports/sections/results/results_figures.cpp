@@ -224,6 +224,8 @@ std::string joined_label(const std::vector<std::string>& labels,
 struct Curves {
   std::vector<ErrorLine> lines;
   std::vector<std::string> joined = {};  ///< Labels of those that are several.
+  /// Of those, the label of the first line: what is joined has its values.
+  std::map<std::string, std::string> joined_by_first = {};
   bool lacks_compared_with = false;      ///< What the others are compared with is left out.
   bool has_bands = false;                ///< Else `low` and `high` serve findings alone.
 };
@@ -253,6 +255,7 @@ void join_same(Curves& curves) {
     if (labels.size() == 1) continue;
     apart.back().label = joined_label(labels, others);
     curves.joined.push_back(apart.back().label);
+    curves.joined_by_first[first.label] = apart.back().label;
   }
   curves.lines = std::move(apart);
 }
@@ -381,27 +384,37 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
                      in_sentence(quantity.label), span);
 }
 
+/// The label of the curve that shows a line; empty if none does.
+std::string label_of_curve(const Curves& curves, const std::string& line) {
+  const auto joined = curves.joined_by_first.find(line);
+  const std::string& label = joined == curves.joined_by_first.end() ? line : joined->second;
+  return std::ranges::find(curves.lines, label, &ErrorLine::label) == curves.lines.end() ? ""
+                                                                                         : label;
+}
+
 /// The values of the runs that the curves are means of, if these are too few for intervals; none
-/// of many curves.
+/// of more curves than have styles of their own.
 std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& block,
-                                const Quantity& quantity) {
-  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+                                const Quantity& quantity, const Curves& curves) {
   std::vector<ErrorPoint> points;
-  if (view.groups() >= kFewestGroups || lines.size() > kMostBands) return points;
+  if (view.groups() >= kFewestGroups || curves.lines.size() > kMethodStyles) return points;
   const bool is_log = scale_of(block.levels) == Scale::kLog;
-  for (const ResultsLine& line : lines)
+  for (const ResultsLine& line : view.lines(block, quantity)) {
+    const std::string label = label_of_curve(curves, line.label);
+    if (label.empty()) continue;
     for (std::size_t i = 0; i < block.levels.size(); ++i) {
       const double x = std::get<double>(block.levels[i].value);
       const auto values = view.numbers(block.conditions[i], line, quantity).values;
       if (values.size() < 2 || (is_log && x == 0.0)) continue;
       for (const auto& [run, value] : values)
         points.push_back({.label = kSingleRuns,
-                          .line = line.label,
+                          .line = label,
                           .x = x,
                           .y = value,
                           .marker = Marker::kCircle,
                           .size = 0.6});
     }
+  }
   return points;
 }
 
@@ -443,10 +456,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.record_ids = {record_of(block)};
   Curves curves = curves_of(view, block, quantity);
   if (!distinguishes(curves.lines)) return std::nullopt;
-  spec.points = runs_of(view, block, quantity);
-  std::erase_if(spec.points, [&](const ErrorPoint& point) {
-    return std::ranges::find(curves.lines, point.line, &ErrorLine::label) == curves.lines.end();
-  });
+  spec.points = runs_of(view, block, quantity, curves);
   const Quantity shown = scale_to_unit(quantity, curves, spec.points);
   spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
@@ -498,7 +508,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
     judged.push_back(curves.lines);
     panel.lines = drawn(curves);
     joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
-    panel.points = runs_of(view, block, quantity);
+    panel.points = runs_of(view, block, quantity, curves);
     if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))

@@ -472,12 +472,26 @@ std::string few_associated(const ResultsStudy& study) {
                      : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
 }
 
+/// "ORB has 32 poses, DSO 785", of the methods with fewest and with most; empty if none has less
+/// than half as many as another.
+std::string unequal_poses(const ResultsReportInput& input) {
+  if (input.poses.size() < 2) return "";
+  const auto [fewest, most] = std::ranges::minmax_element(
+      input.poses, {}, &std::pair<const std::string, long long>::second);
+  if (2 * fewest->second >= most->second) return "";
+  const std::vector<Label>& methods = input.view.study().methods;
+  return fmt::format("errors are of different poses: {} has {}, {} {}",
+                     label_of(methods, fewest->first), counted(fewest->second, "pose"),
+                     label_of(methods, most->first), most->second);
+}
+
 /// What is wrong, in one paragraph: what is missing or lost, and what whoever knows the study says.
 Paragraph warnings_paragraph(const ResultsReportInput& input) {
   std::vector<std::string> wrong = input.warnings;
   if (!input.incomplete.empty()) wrong.push_back("incomplete: " + input.incomplete);
   if (std::string losses = losses_of(input.view); !losses.empty()) wrong.push_back(losses);
   if (std::string few = few_associated(input.view.study()); !few.empty()) wrong.push_back(few);
+  if (std::string poses = unequal_poses(input); !poses.empty()) wrong.push_back(poses);
   std::string text = wrong.empty() ? "none; every result has a value." : "";
   for (const std::string& one : wrong) text += (text.empty() ? "" : "; ") + one;
   if (!text.ends_with('.')) text += '.';

@@ -295,13 +295,14 @@ std::vector<Figure> fit_figures(const SlamRun& run) {
   if (!run.fit) return {};
   std::vector<Figure> figures = {fit_figure(*run.fit, "fit-" + run.id, {run.id})};
   if (!run.fitted_ranges.empty())
-    figures.push_back(fit_residuals_figure({.id = "fit-residuals-" + run.id,
-                                            .title = "Residuals, " + title_of(run),
-                                            .ranges = run.fitted_ranges,
-                                            .landmarks = run.log.landmarks,
-                                            .verdict = verdict_text(*run.fit),
-                                            .is_alarm = run.fit->verdict != FitVerdict::kFits,
-                                            .record_id = run.id}));
+    figures.push_back(fit_residuals_figure(
+        {.id = "fit-residuals-" + run.id,
+         .title = fmt::format("{}: {}", title_of(run), far_residuals_text(run.fitted_ranges)),
+         .ranges = run.fitted_ranges,
+         .landmarks = run.log.landmarks,
+         .verdict = verdict_text(*run.fit),
+         .is_alarm = run.fit->verdict != FitVerdict::kFits,
+         .record_id = run.id}));
   return figures;
 }
 

@@ -11,7 +11,7 @@ import sys
 
 NAMES = {
     "mapproof-landmark-isomap": ("mapproof, Landmark ISOMAP", "series5"),
-    "mapproof-landmark-mvu": ("mapproof, landmark MVU", "series1"),
+    "mapproof-landmark-mvu": ("mapproof, Landmark MVU", "series1"),
     "mapproof-lpca": ("mapproof, LPCA", "series4"),
     "mapproof-isomap": ("mapproof, ISOMAP", "series3"),
     "mapproof-lem": ("mapproof, LEM", "series7"),

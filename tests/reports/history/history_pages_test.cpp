@@ -156,7 +156,8 @@ TEST(HistoryPages, DrawNoTrendOfWhatDidNotChangeUnlessItHasAFinding) {
   EXPECT_EQ(moved.title, "Bearing: MPE has not got worse");
   trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.5};
   trend.medians[{"bearing", "isomap-K6", 150, "seconds"}] = {2.0, 1.8};
-  EXPECT_EQ(trend_figures(trend, {})[1].title, "Bearing: seconds changed by −10 to +50\u00a0%");
+  EXPECT_EQ(trend_figures(trend, {})[1].title,
+            "Bearing: seconds changed by −10 to +50\u00a0%, without a finding");
   trend.medians[series] = {0.3, NAN};
   EXPECT_EQ(trend_figures(trend, {}).front().id, "trend-seconds-bearing")
       << "one value is not a course";
