@@ -162,11 +162,10 @@ function placeThumbnails() {
   if (!list || !beside) return;
   beside.append(list);
   list.classList.remove("in-row");
-  if (narrowPage.matches || !beside.previousElementSibling) return;
-  const footOf = (element) => element.getBoundingClientRect().bottom + scrollY;
+  if (narrowPage.matches) return;
   beside.parentElement.after(list);
   list.classList.add("in-row");
-  if (footOf(list) <= innerHeight) return;
+  if (list.getBoundingClientRect().bottom + scrollY <= innerHeight) return;
   beside.append(list);
   list.classList.remove("in-row");
 }

@@ -6,15 +6,19 @@ const kTexts = "main p, main li, main dd";
 const kNoTexts = "figure, .table, .page-links, .thumbnails, .main-figure, .affected, dialog";
 
 function searchable(element, link, name, words) {
-  return { element, link, name, words: `${name} ${words}`.toLocaleLowerCase("en") };
+  const section = element.closest("main > section")?.id;
+  return { element, link, name, section, words: `${name} ${words}`.toLocaleLowerCase("en") };
+}
+
+// The titles of the sections, by their ids.
+function sectionTitles() {
+  return new Map([...document.querySelectorAll(".contents a")].map(
+    (link) => [link.hash.slice(1), link.textContent]));
 }
 
 // All that can be found, in the order of the page.
 function searchables() {
-  const found = [], titles = new Map();
-  for (const link of document.querySelectorAll(".contents a")) {
-    titles.set(link.hash.slice(1), link.textContent);
-  }
+  const found = [], titles = sectionTitles();
   const kinds = `main > section[id^=section-], .table, figure[data-id], .page-links a, ${kTexts}`;
   for (const each of document.querySelectorAll(kinds)) {
     if (each.matches(".page-links a")) {
@@ -56,14 +60,6 @@ function excerpt(text, words) {
   return [start, text.slice(from, at), hit, text.slice(at + words[0].length, from + kMost)];
 }
 
-// The section that a hit is in, on a line of its own.
-function placeOf({ element }) {
-  const place = document.createElement("small"), heading = element.closest("section")?.querySelector("h2");
-  const titles = [...heading?.childNodes ?? []].filter((node) => node.nodeType === Node.TEXT_NODE);
-  place.textContent = titles.map((node) => node.data).join("").trim();
-  return place;
-}
-
 // The id of an element; one that has none gets one, so that a link can lead to it.
 function idOf(element) {
   if (!element.id) element.id = `text-${document.querySelectorAll("[id^=text-]").length + 1}`;
@@ -82,15 +78,18 @@ function addSearch(parent) {
   field.placeholder = "Search this page";
   field.setAttribute("aria-label", "Search this page");
   list.className = "found";
-  let all;
+  let all, titles;
   field.addEventListener("input", () => {
     all ??= searchables();
+    titles ??= sectionTitles();
     const words = field.value.toLocaleLowerCase("en").split(/\s+/).filter(Boolean);
     const found = words.length === 0 ? [] : all.filter((entry) => matches(entry, words));
     list.replaceChildren(...found.slice(0, kMostFound).map((entry) => {
       const item = document.createElement("li"), link = document.createElement("a");
       link.href = entry.href ?? `#${entry.link || idOf(entry.element)}`;
-      link.append(...excerpt(entry.text ?? entry.name, words), placeOf(entry));
+      const place = document.createElement("small");
+      place.textContent = titles.get(entry.section) ?? "";
+      link.append(...excerpt(entry.text ?? entry.name, words), place);
       link.title = entry.text ?? entry.name;
       link.addEventListener("click", () => unfold(entry.element));
       item.append(link);

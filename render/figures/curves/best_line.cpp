@@ -205,12 +205,11 @@ bool is_beaten(const std::vector<At>& some, const std::vector<ErrorLine>& lines,
                const std::set<double>& xs, const LineQuantity& quantity) {
   return std::ranges::any_of(xs, [&](double x) {
     const Contest contest = contest_of(known_at(lines, x), quantity);
-    std::vector<At> all = contest.equal;
     const auto ours =
-        std::ranges::find_if(all, [&](const At& at) { return has_line(some, at.line); });
-    if (ours == all.end() || ours == all.begin()) return false;
+        std::ranges::find_if(contest.equal, [&](const At& at) { return has_line(some, at.line); });
+    if (ours == contest.equal.end() || ours == contest.equal.begin()) return false;
     const std::vector<std::string> texts =
-        value_texts({all.front().mean(), ours->mean()}, quantity);
+        value_texts({contest.equal.front().mean(), ours->mean()}, quantity);
     return texts[0] != texts[1];
   });
 }

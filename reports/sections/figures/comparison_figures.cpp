@@ -191,12 +191,11 @@ class SecondsOfMaps {
 /// the lowest. Without times, which vary from run to run.
 /// @param intervals  Of the MPE of each setting.
 std::string cost_finding(const std::vector<CostedSetting>& settings,
-                         const std::vector<MeanEstimate>& intervals) {
+                         const std::vector<Interval>& intervals) {
   const auto best = std::ranges::min_element(settings, {}, &CostedSetting::mpe_m);
-  const MeanEstimate& lowest = intervals[static_cast<std::size_t>(best - settings.begin())];
-  const auto ties = std::ranges::count_if(intervals, [&](const MeanEstimate& one) {
-    return one.mean - one.half_width.value_or(0.0) <= lowest.mean + lowest.half_width.value_or(0.0);
-  });
+  const Interval& lowest = intervals[static_cast<std::size_t>(best - settings.begin())];
+  const auto ties =
+      std::ranges::count_if(intervals, [&](const Interval& one) { return one.low <= lowest.high; });
   const std::string name = without_parameters(short_method_name(best->label));
   const std::string error = error_text(best->mpe_m, 2);
   if (ties == 1) return fmt::format("whatever the time, {} has the lowest MPE, {}", name, error);
@@ -225,12 +224,13 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
   for (const SensorStudy& sensor : source.study().experiment.sensors) {
     ParetoSpec spec;
     spec.id = fmt::format("cost-{}", name(sensor.sensor.sensor));
-    std::vector<MeanEstimate> intervals;
+    std::vector<Interval> intervals;
     for (const SettingSummary& best : source.best(sensor)) {
       const auto cost = seconds.of(best.sensor, best.step, best.setting);
       if (!cost || !best.mpe_m) continue;
       spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
-      intervals.push_back(*best.mpe_m);
+      const double mean = best.mpe_m->mean;
+      intervals.push_back(interval_of(best.mpe_m).value_or(Interval{mean, mean}));
       spec.record_ids.push_back(source_of(best));
     }
     if (spec.settings.empty()) continue;
