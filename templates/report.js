@@ -51,7 +51,8 @@ function followReading() {
 
 const figures = document.querySelectorAll("figure[data-id]");
 const held = Array.from(figures).filter((figure) => figure.querySelector(".drawing"));
-whenPutIn.push(addTools, addSteps, stackOnNarrowPages, followLandmarks, addCurveBoxes);
+whenPutIn.push(keepValues, addTools, addSteps, stackOnNarrowPages, followLandmarks, addCurveBoxes,
+  followValues);
 for (const table of document.querySelectorAll("main table")) makeSortable(table);
 for (const table of document.querySelectorAll("main .table")) addTableTools(table);
 for (const figure of figures) linkFiles(figure);

@@ -5,7 +5,8 @@ const kDarkColours = {
   "#ffffff": "#15181c", "#1a1a1a": "#e6e9ed", "#000000": "#ffffff",  // Paper, text, lines.
   "#757575": "#9aa3ad", "#bababa": "#5b646e", "#e4e4e4": "#2b3138",  // Muted, faint, grid.
   "#0072b2": "#4ba6e0", "#d55e00": "#f08a3c", "#009e73": "#2cc79a", "#7a3300": "#ffef66",
-  "#332288": "#a37294", "#c66fa1": "#de9cc2", "#a33c00": "#f3ac72",  // The last: warnings.
+  "#332288": "#a37294", "#c66fa1": "#de9cc2", "#cc2244": "#ee4455", "#9977ff": "#8866ff",
+  "#006666": "#55eeff", "#a33c00": "#f3ac72",  // The last: warnings.
 };
 
 function isDarkPage() {

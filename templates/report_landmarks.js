@@ -92,26 +92,31 @@ function addRings(svg, entry) {
   }
 }
 
-function showTip(svg, entry) {
+// A tip beside a place of the window, inside the drawing.
+function putTip(svg, heading, lines, at) {
   const box = svg.parentElement;
   const tip = box.querySelector(".tip") ?? box.appendChild(document.createElement("p"));
   tip.className = "tip";
   const name = document.createElement("bdi");
-  name.textContent = entry.name;
+  name.textContent = heading;
   tip.replaceChildren(name);
-  for (const line of linesOf(entry)) {
+  for (const line of lines) {
     const part = document.createElement("span");
     part.textContent = line;
     tip.append(part);
   }
-  const { x, y } = positionOfMark(entry.marks.at(-1));
-  const at = new DOMPoint(x, y).matrixTransform(svg.getScreenCTM());
   const frame = box.getBoundingClientRect();
   const right = at.x - frame.left > frame.width / 2, low = at.y - frame.top > frame.height / 2;
   tip.style.left = right ? "auto" : `${at.x - frame.left + 12}px`;
   tip.style.right = right ? `${frame.right - at.x + 12}px` : "auto";
   tip.style.top = low ? "auto" : `${at.y - frame.top + 12}px`;
   tip.style.bottom = low ? `${frame.bottom - at.y + 12}px` : "auto";
+  return tip;
+}
+
+function showTip(svg, entry) {
+  const { x, y } = positionOfMark(entry.marks.at(-1));
+  putTip(svg, entry.name, linesOf(entry), new DOMPoint(x, y).matrixTransform(svg.getScreenCTM()));
 }
 
 function lightIn(svg) {

@@ -114,12 +114,6 @@ function followLegend(box, svg, boxes) {
   });
 }
 
-function addTitle(part, text) {
-  const title = document.createElementNS(part.namespaceURI, "title");
-  title.textContent = text;
-  part.append(title);
-}
-
 // "1.3e+15" as "1.3 × 10¹⁵".
 function powerWords(text) {
   const kDigits = "-0123456789", kRaised = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
@@ -128,32 +122,9 @@ function powerWords(text) {
     (all, sign, power) => ` × 10${raised(sign + power).join("")}`);
 }
 
-// But "over 1 km" above the greatest error that is a number.
-function valueWords(text, greatest) {
-  return Number(text) > Number(greatest) ? errorWords(text) : powerWords(text);
-}
-
-// A marker under the pointer says its values, "SDE, K = 7: 500, 0.998".
-function addValues(part, name) {
-  const { points = "", over } = part.dataset;
-  const values = points.split(";").filter(Boolean).map((point) => {
-    const [x, y] = point.split(", ");
-    return `${x}, ${valueWords(y, over)}`;
-  });
-  [...part.querySelectorAll("use.marker")].forEach((marker, i) => {
-    if (values[i]) addTitle(marker, `${name}: ${values[i]}`);
-  });
-}
-
 function addCurveBoxes(figure, svg) {
   highlightIn(svg);
   const curves = curvesOf(svg), boxes = new Map();
-  for (const [name, parts] of curves) {
-    for (const part of parts) {
-      if (part.dataset.landmark === undefined) addTitle(part, name);  // Those have a tip.
-      addValues(part, name);
-    }
-  }
   if (curves.size < 2) return;
   const details = document.createElement("details"), summary = document.createElement("summary");
   details.className = "curves";
@@ -168,9 +139,6 @@ function addCurveBoxes(figure, svg) {
     boxes.set(name, box);
     label.append(box, name);
     details.append(label);
-    for (const part of parts) {
-      part.addEventListener("dblclick", () => chooseMethod(methodOf(name)));
-    }
   }
   figure.querySelector(".tools").after(details);
   followLegend(figure.querySelector(".drawing"), svg, boxes);

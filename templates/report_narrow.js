@@ -129,8 +129,8 @@ function narrowPart(svg, part, { before, after, across, down, at, marks }) {
       const isCentred = Math.abs(middle.x - before.x - before.width / 2) < 3;
       shift = { x: isCentred ? (after.width - before.width) / 2 : 0, y: 0 };
     } else if (kindOf(part) === "tick-label") {
-      const isBelow = middle.y > before.bottom;
-      shift = isBelow ? { x: at(middle).x - middle.x, y: after.bottom - before.bottom }
+      shift = isBelowFrame(words, before)
+        ? { x: at(middle).x - middle.x, y: after.bottom - before.bottom }
         : { x: middle.x > before.right ? after.right - before.right : 0, y: at(middle).y - middle.y };
     } else {
       shift = shiftOfWords(words, box, marks, before, after, at);

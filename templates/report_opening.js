@@ -155,19 +155,30 @@ async function dropEmpty(link) {
   if (list.childElementCount === 0) list.remove();
 }
 
-// The small images stand beside the figure, below the words. Where the first screen has room for them
-// below both, they are in one row there, and larger.
+// The small images stand beside the figure, below the words, as large as the figure's height leaves
+// room for; where that is too little, in a row below both, as far as the first screen shows it.
 function placeThumbnails() {
   const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
+  const figure = document.querySelector(".main-figure");
   if (!list || !beside) return;
+  const put = (parent, columns, end) => {
+    if (parent) beside.append(list);
+    else beside.parentElement.after(list);
+    list.style.setProperty("--columns", columns);
+    return list.getBoundingClientRect().bottom <= end;
+  };
+  list.style.removeProperty("--columns");
   beside.append(list);
-  list.classList.remove("in-row");
   if (narrowPage.matches) return;
-  beside.parentElement.after(list);
-  list.classList.add("in-row");
-  if (list.getBoundingClientRect().bottom + scrollY <= innerHeight) return;
-  beside.append(list);
-  list.classList.remove("in-row");
+  const count = list.childElementCount, kMostColumns = 3, kSlack_px = 4;
+  const foot = figure?.getBoundingClientRect().bottom ?? 0;
+  for (let columns = 1; columns < kMostColumns && columns <= count; ++columns) {
+    if (put(true, columns, foot + kSlack_px)) return;
+  }
+  for (let columns = kMostColumns; columns <= 2 * kMostColumns; ++columns) {
+    if (columns >= count && put(false, columns, innerHeight - scrollY)) return;
+  }
+  put(true, kMostColumns, foot);
 }
 
 function addOpeningImages() {

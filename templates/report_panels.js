@@ -132,11 +132,14 @@ function positionOf(label) {
 
 const isUpright = (label) => /rotate/.test(label.getAttribute("transform"));
 
+// Whether a tick label is one of the x axis: the lowest one of the y axis reaches below the frame.
+const isBelowFrame = (label, frame) => positionOf(label).y > frame.bottom + 8;
+
 // The tick labels of a panel: those left of its frame, and those below it.
 function tickLabelsOf(panel, frame) {
   const all = panel.filter((part) => part.classList.contains("tick-label"))
     .flatMap((part) => [...part.children]);
-  const isBelow = (label) => positionOf(label).y > frame.bottom + 8;
+  const isBelow = (label) => isBelowFrame(label, frame);
   return { left: all.filter((label) => !isBelow(label)), below: all.filter(isBelow) };
 }
 

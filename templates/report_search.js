@@ -5,9 +5,14 @@ const kMostFound = 12;
 const kTexts = "main p, main li, main dd";
 const kNoTexts = "figure, .table, .page-links, .thumbnails, .main-figure, .affected, dialog";
 
+// A text as it is typed: with the blanks and hyphens of a keyboard.
+function typed(text) {
+  return text.replaceAll("\u00a0", " ").replaceAll("\u2011", "-");
+}
+
 function searchable(element, link, name, words) {
   const section = element.closest("main > section")?.id;
-  return { element, link, name, section, words: `${name} ${words}`.toLocaleLowerCase("en") };
+  return { element, link, name, section, words: typed(`${name} ${words}`).toLocaleLowerCase("en") };
 }
 
 // The titles of the sections, by their ids.
@@ -25,7 +30,7 @@ function searchables() {
       found.push({ ...searchable(each, "", each.textContent, ""), href: each.getAttribute("href") });
     } else if (each.matches(kTexts)) {
       if (each.closest(kNoTexts) || each.querySelector(kTexts)) continue;
-      const text = each.textContent.trim().replace(/\s+/g, " ");
+      const text = typed(each.textContent.trim()).replace(/\s+/g, " ");
       found.push({ ...searchable(each, each.id, "", text), text });
     } else if (each.localName === "section") {
       found.push(searchable(each, each.id, titles.get(each.id) ?? each.id, ""));

@@ -22,6 +22,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "core/records/evaluations/pose_errors_csv.hpp"
@@ -29,7 +30,6 @@
 #include "core/records/studies/results_table.hpp"
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -253,7 +253,7 @@ std::string text_of(const std::vector<EvaluatedRun>& runs) {
            (run.landmarks && run.landmarks->error_m.mean() <= kGreatestError_m);
   });
   const auto metres = [&](double error_m) {
-    return has_great_errors ? error_text(error_m, 4) : significant(error_m, 4) + " m";
+    return has_great_errors ? error_text(error_m) : significant(error_m) + " m";
   };
   std::string text;
   for (const EvaluatedRun& run : runs) {

@@ -19,6 +19,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -29,7 +30,6 @@
 #include "core/records/studies/study_folder.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/timings_jsonl.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -187,7 +187,7 @@ std::string text_of(const ResultsStudy& study, const MethodLabels& methods,
       });
       text += fmt::format("{}, {}: MPE {}{}\n", setup.id, method.label,
                           error != errors.end() && std::isfinite(error->second)
-                              ? error_text(error->second, 4)
+                              ? error_text(error->second)
                               : std::string("not known"),
                           lost > 0 ? fmt::format(", {} lost", counted(lost, "map")) : "");
     }

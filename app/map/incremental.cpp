@@ -564,7 +564,8 @@ int write_incremental(const MapJob& job, MakeIncremental make, const MapOutput& 
   add_remarks(draft,
               remarks_of_reference(draft.result.record, job.known_anchors, job.known_ground_truth));
   const MapResult last = finished(std::move(draft), job, before);
-  write_map(folder, location, last);
+  const std::string undrawn = write_map(folder, location, last);
+  if (!undrawn.empty()) console.warning(undrawn);
   for (const auto& sentences : {last.remarks, last.warnings})
     for (const std::string& sentence : sentences) console.warning(sentence);
   return report_map(last, location, invocation);

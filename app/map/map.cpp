@@ -134,8 +134,9 @@ int map_once(MapJob job, const MapOutput& location, const Invocation& invocation
     invocation.console.detail(fmt::format("{}: {}: {}", input_name(job.path), what, value));
   for (const std::string& remark : map.remarks) invocation.console.info(remark);
   for (const std::string& warning : map.warnings) invocation.console.warning(warning);
-  write_map(job.force ? MapFolder(location.out) : MapFolder(location.out, map.record), location,
-            map);
+  const std::string undrawn = write_map(
+      job.force ? MapFolder(location.out) : MapFolder(location.out, map.record), location, map);
+  if (!undrawn.empty()) invocation.console.warning(undrawn);
   return report_map(map, location, invocation);
 }
 
@@ -144,6 +145,7 @@ int run_map(MapJob job, const Invocation& invocation) {
                            .observations = job.path,
                            .command = invocation.command,
                            .page = load_templates(job.templates),
+                           .jobs = job.jobs,
                            .disclosure = invocation.disclosure};
   check_map_folder(job.out);
   std::vector<std::string> inputs = {job.path, job.anchors, job.ground_truth};

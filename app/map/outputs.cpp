@@ -12,21 +12,25 @@
 #include "app/build_facts.hpp"
 #include "app/map/pipeline.hpp"
 #include "app/result_json.hpp"
+#include "app/study/folder_report.hpp"
 #include "app/study/page_content.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
-#include "render/output/write_figure.hpp"
+#include "render/scene/map_scene.hpp"
+#include "render/scene_client/scene_client.hpp"
 #include "reports/html/report_html.hpp"
 #include "reports/html/report_pages.hpp"
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/map_report.hpp"
+#include "reports/sections/opening.hpp"
 #include "reports/sections/study_figures.hpp"
 #include "reports/tables/write_tables.hpp"
 
@@ -34,6 +38,8 @@ namespace mapproof {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kMapScene = "scene-map";  // docs/figures.md
 
 /// "Map of seen.csv", for a report.
 std::string map_title(const std::string& observations) {
@@ -52,12 +58,32 @@ std::vector<Figure> figures_of(const MapResult& map) {
   return figures;
 }
 
+/// The map in space, as far as it can be drawn; none where the program was built without the one
+/// that draws scenes.
+std::vector<Scene> scenes_of(const MapResult& map, const Figure& figure) {
+  std::error_code error;
+  if (!fs::exists(scenes_program(), error) || !has_map_scene(map.record)) return {};
+  const std::size_t finding = figure.title.rfind(": ");
+  MapSceneSpec spec{.id = kMapScene,
+                    .title = finding == std::string::npos
+                                 ? "The map in space"
+                                 : "In space" + figure.title.substr(finding),
+                    .map = map.record};
+  for (Eigen::Index i = 0; map.uncertainty && i < map.record.estimate.rows(); ++i) {
+    const std::optional<Ellipse> ellipse = confidence_ellipse(*map.uncertainty, i);
+    spec.half_axes.push_back(ellipse ? ellipse->a : kNaN);
+  }
+  return {map_scene(spec)};
+}
+
 Report report_of(const MapOutput& location, const MapResult& map,
-                 const std::vector<Figure>& figures) {
+                 const std::vector<Figure>& figures, const std::vector<Scene>& scenes) {
   std::vector<FigureBlock> of_fit;
   std::vector<FigureBlock> more;
   for (std::size_t k = 1; k < figures.size(); ++k)
     (figures[k].id == kFitSection ? of_fit : more).push_back(figure_block(figures[k]));
+  for (const Scene& scene : scenes) more.insert(more.begin(), figure_block(scene));
+  const std::string verdict = with_anchors(verdict_text(map.fit), map.record);
   return map_report({.record = map.record,
                      .title = map_title(location.observations),
                      .facts = map.facts,
@@ -68,13 +94,16 @@ Report report_of(const MapOutput& location, const MapResult& map,
                      .provenance = build_provenance(),
                      .command = location.command,
                      .more = map.sections,
-                     .fit = fit_section(map.fit, of_fit),
-                     .verdict = with_anchors(verdict_text(map.fit), map.record),
+                     .fit = fit_section(map.fit, of_fit, kFitSection, kFitTitle, verdict),
+                     .verdict = verdict,
                      .fit_number = fit_number(map.fit)});
 }
 
 /// Removes what a step gave to an earlier map in this folder and not to this one.
-void remove_stale(const OutputFolder& out, const MapResult& map) {
+void remove_stale(const OutputFolder& out, const MapResult& map, const std::vector<Scene>& scenes) {
+  if (scenes.empty())
+    for (const char* ending : {".svg", ".png", ".pdf", ".scene.json"})
+      (out / "figures").remove(std::string(kMapScene) + ending);
   for (const MapStep* step : map_steps()) {
     const bool is_drawn =
         step->figure == kFitSection
@@ -156,14 +185,11 @@ std::string map_text(const MapResult& map, const fs::path& out) {
 constexpr std::size_t kMostLandmarksOfPage = 5000;
 
 /// What the page carries: the map, unless it is large, and its figures, all of which it shows.
-PageData page_data(const fs::path& folder, const MapRecord& map, const std::vector<Figure>& figures,
+PageData page_data(const fs::path& folder, const MapRecord& map, const Images& images,
                    const Disclosure& disclosure) {
-  Images images;
   std::set<std::string> shown;
-  for (const Figure& figure : figures) {
-    images.figures.push_back(&figure);
-    shown.insert(figure.id);
-  }
+  for (const Figure* figure : images.figures) shown.insert(figure->id);
+  for (const Scene* scene : images.scenes) shown.insert(scene->id);
   const bool is_large = map.names.size() > kMostLandmarksOfPage;
   return FigureData(images, disclosure)
       .content(is_large ? PageData{} : page_records(folder, disclosure), shown)
@@ -172,34 +198,41 @@ PageData page_data(const fs::path& folder, const MapRecord& map, const std::vect
 
 }  // namespace
 
-void write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
-               bool last) {
+std::string write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
+                      bool last) {
   const OutputFolder out(folder.path());
   const std::vector<Figure> figures = figures_of(map);
+  const std::vector<Scene> scenes = last ? scenes_of(map, figures.front()) : std::vector<Scene>();
   // The file that marks the folder as a map's comes first: a killed command can then be repeated.
   out.write(kMapFile, map_json(map.record, map.uncertainty, map.sensors, map.fit));
   out.write("map.csv", map_csv(map.record, map.uncertainty));
-  remove_stale(out, map);
+  remove_stale(out, map, scenes);
   for (const auto& [name, text] : map.files) out.write(name, text);
-  std::map<std::string, std::string> drawn;
-  for (const Figure& figure : figures)
-    drawn[figure.id] = write_figure(figure, report_theme(), out / "figures");
-  if (!last) return;
-  const Report report = report_of(location, map, figures);
+  Images images;
+  for (const Figure& figure : figures) images.figures.push_back(&figure);
+  for (const Scene& scene : scenes) images.scenes.push_back(&scene);
+  SceneClient client;
+  const Drawn drawn = write_images(images,
+                                   {.folder = out / "figures",
+                                    .theme = report_theme(),
+                                    .dark = dark_theme(),
+                                    .jobs = location.jobs},
+                                   client);
+  if (!last) return "";
+  Report report = report_of(location, map, figures, scenes);
+  report.date = today_utc();
   write_tables(report, out / "tables");
-  const auto drawing = [&](const std::string& id) {
-    const auto found = drawn.find(id);
-    return found == drawn.end() ? std::string() : found->second;
-  };
-  const auto bytes_of = [&](const std::string& id) { return drawing(id).size(); };
+  const auto drawing = [&](const std::string& id) { return drawn.svg(id, out.path() / "figures"); };
+  const auto bytes_of = [&](const std::string& id) { return drawn.svg_bytes(id); };
   const std::vector<Report> pages = pages_of(report, bytes_of);
   const auto page = [&](std::size_t number) {
     return location.disclosure.text(report_html(pages[number - 1], location.page, drawing,
                                                 page_options(number, pages.size(), {})));
   };
   write_further_pages(out, pages.size(), page);
-  out.write("report.html", with_page_data(page(1), page_data(out.path(), map.record, figures,
+  out.write("report.html", with_page_data(page(1), page_data(out.path(), map.record, images,
                                                              location.disclosure)));
+  return drawn.scene_error;
 }
 
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation) {

@@ -15,14 +15,16 @@ struct MapOutput {
   std::string observations;
   std::string command;  ///< The one that makes the map again.
   Templates page;
+  int jobs = 1;  ///< Threads.
   const Disclosure& disclosure;
 };
 
 /// The step write: map.json, map.csv, figures, and what else the steps contributed.
 /// @param last  With tables and report; else another map of the same observations comes.
+/// @return Why the map in space could not be drawn; empty if it was, or has none.
 /// @throws IoError.
-void write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
-               bool last = true);
+std::string write_map(const MapFolder& folder, const MapOutput& location, const MapResult& map,
+                      bool last = true);
 
 /// Shows a map's warnings and its result. @return The command's exit code: kNo if there is no map.
 int report_map(const MapResult& map, const MapOutput& location, const Invocation& invocation);

@@ -10,6 +10,7 @@
 #include "core/align/aligned_to.hpp"
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/choice/mixed_quality.hpp"
 #include "core/mixed/mixed_map.hpp"
@@ -250,7 +251,7 @@ std::string verdict(const std::vector<ComparedMap>& maps) {
         "of "
         "{}.",
         comparison(joint.mpe_m(), best->mpe_m(), kMuchMpe * best->mpe_m()),
-        page_metres(joint.mpe_m()), page_metres(best->mpe_m()), best->what);
+        error_text(joint.mpe_m()), error_text(best->mpe_m()), best->what);
   return words;
 }
 

@@ -64,7 +64,7 @@ int list(HistoryStore& history, const Console& console) {
   }
   if (text.empty()) text = "no nightly run yet\n";
   // The result of a command; the exported file names its own schema.
-  nlohmann::ordered_json object = history_json(history, false);
+  nlohmann::ordered_json object = history_json(history);
   object.erase("schema");
   console.result(text, object);
   return kDone;
@@ -227,8 +227,9 @@ int history_of(const HistoryArguments& arguments, const Invocation& invocation) 
     return kDone;
   }
   if (!arguments.format) return list(history, console);
-  std::cout << (*arguments.format == "csv" ? history_csv(history)
-                                           : json_text(history_json(history, true)));
+  const TextSink write = [](std::string_view text) { std::cout << text; };
+  *arguments.format == "csv" ? export_history_csv(history, write)
+                             : export_history_json(history, write);
   std::cout.flush();
   if (!std::cout) throw IoError("standard output", "cannot be written");
   return kDone;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/result_json.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 
@@ -31,9 +32,8 @@ std::string slam_record_text(const SlamRecord& record) {
     return method + fmt::format("  {} poses, no ground truth to compare them with",
                                 record.estimate.path.size());
   const TrajectoryError& error = record.errors.front();
-  return method +
-         fmt::format("  mean error {}, alignment {}", page_metres(error.mean_m),
-                     name(error.alignment));
+  return method + fmt::format("  mean error {}, alignment {}", error_text(error.mean_m),
+                              name(error.alignment));
 }
 
 }  // namespace mapproof

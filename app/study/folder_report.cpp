@@ -1,7 +1,6 @@
 #include "app/study/folder_report.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <iterator>
 #include <mutex>
 #include <optional>
@@ -9,7 +8,6 @@
 #include <system_error>
 #include <utility>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "app/command_line.hpp"
@@ -67,21 +65,6 @@ constexpr std::size_t kMostNumbers = 6, kMostFindings = 6;
 /// How many of a part's figures leave room for those of the others.
 std::size_t share_of(std::size_t most, std::size_t parts) {
   return std::max<std::size_t>(1, most / parts);
-}
-
-/// The first ones of all parts, then the second ones, and so on, up to `most`.
-template <typename T, typename Of>
-std::vector<T> in_turns(const std::vector<FolderReport>& parts, std::size_t most, Of of) {
-  std::vector<T> all;
-  for (std::size_t turn = 0; all.size() < most; ++turn) {
-    const std::size_t before = all.size();
-    for (const FolderReport& part : parts)
-      if (const std::vector<T> own = of(part.report.opening);
-          turn < own.size() && all.size() < most)
-        all.push_back(own[turn]);
-    if (all.size() == before) break;
-  }
-  return all;
 }
 
 /// The number of lines in the panel of a part's main figure that has most; 0 if there is none.
@@ -215,6 +198,34 @@ void add_shares(const std::vector<FolderReport>& parts, Opening& all) {
         all.findings.push_back(named_finding(part, turn));
 }
 
+/// The small figures of all parts in turns: the first ones of all, then the second ones, and so on.
+/// Of papers each one's main figure leads. Other studies have it last; those that have a map in
+/// space come first, and one such map before all.
+std::vector<std::string> small_figures_of(const std::vector<FolderReport>& parts,
+                                          const std::string& main_figure) {
+  const bool are_papers = std::ranges::any_of(parts, is_paper_study);
+  std::vector<std::vector<std::string>> in_space, others;
+  std::vector<std::string> ids;
+  for (const FolderReport& part : parts) {
+    const Opening& opening = part.report.opening;
+    std::vector<std::string> own = opening.figure_ids;
+    if (!opening.main_figure.empty() && opening.main_figure != main_figure)
+      own.insert(are_papers ? own.begin() : own.end(), opening.main_figure);
+    const bool has_scene = !are_papers && !part.scenes.empty();
+    if (has_scene && ids.empty()) ids.push_back(part.scenes.front().id);
+    (has_scene ? in_space : others).push_back(std::move(own));
+  }
+  in_space.insert(in_space.end(), others.begin(), others.end());
+  std::size_t turns = 0;
+  for (const std::vector<std::string>& own : in_space) turns = std::max(turns, own.size());
+  for (std::size_t turn = 0; turn < turns; ++turn)
+    for (const std::vector<std::string>& own : in_space)
+      if (turn < own.size() && std::ranges::find(ids, own[turn]) == ids.end())
+        ids.push_back(own[turn]);
+  ids.resize(std::min(ids.size(), kMostCandidates));
+  return ids;
+}
+
 /// What the reader of several papers or studies sees first.
 Opening joined_opening(const std::vector<FolderReport>& parts) {
   Opening all;
@@ -223,12 +234,7 @@ Opening joined_opening(const std::vector<FolderReport>& parts) {
   else
     add_shares(parts, all);
   all.main_figure = main_figure_of(parts);
-  all.figure_ids = in_turns<std::string>(parts, kMostCandidates, [&](const Opening& own) {
-    std::vector<std::string> ids = own.figure_ids;
-    if (!own.main_figure.empty() && own.main_figure != all.main_figure)
-      ids.insert(ids.begin(), own.main_figure);
-    return ids;
-  });
+  all.figure_ids = small_figures_of(parts, all.main_figure);
   return all;
 }
 
@@ -316,6 +322,17 @@ Images images_of(const FolderReport& report) {
   return images;
 }
 
+std::size_t Drawn::svg_bytes(const std::string& id) const {
+  if (const auto scene = scene_svg.find(id); scene != scene_svg.end()) return scene->second.size();
+  const auto figure = figure_bytes.find(id);
+  return figure == figure_bytes.end() ? std::size_t{0} : figure->second;
+}
+
+std::string Drawn::svg(const std::string& id, const fs::path& figures) const {
+  if (const auto scene = scene_svg.find(id); scene != scene_svg.end()) return scene->second;
+  return figure_bytes.contains(id) ? read_file(figures / (id + ".svg")) : std::string();
+}
+
 Drawn write_images(const Images& images, const DrawingJob& job, SceneClient& client) {
   Drawn drawn;
   const std::size_t total = images.figures.size() + images.scenes.size();
@@ -400,20 +417,12 @@ fs::path write_report(const FolderReport& report, const ReportOutputs& outputs,
   if (shown.footer.empty())
     shown.footer = fmt::format("Made by mapproof {} ({}).", version(), source_commit());
   if (shown.date.empty())  // Records that do not say when they were made: the page does of itself.
-    shown.date = fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)));
+    shown.date = today_utc();
   if (!drawn.renderer.empty()) add_renderer(shown, drawn.renderer);
   write_tables(shown, folder / "tables");
-  const auto bytes_of = [&](const std::string& id) {
-    const auto scene = drawn.scene_svg.find(id);
-    if (scene != drawn.scene_svg.end()) return scene->second.size();
-    const auto figure = drawn.figure_bytes.find(id);
-    return figure == drawn.figure_bytes.end() ? std::size_t{0} : figure->second;
-  };
+  const auto bytes_of = [&](const std::string& id) { return drawn.svg_bytes(id); };
   const auto drawing = [&](const std::string& id) {
-    const auto scene = drawn.scene_svg.find(id);
-    if (scene != drawn.scene_svg.end()) return scene->second;
-    return drawn.figure_bytes.contains(id) ? read_file(report.folder / "figures" / (id + ".svg"))
-                                           : std::string();
+    return drawn.svg(id, report.folder / "figures");
   };
   PageLimits limits;
   std::vector<Report> pages = pages_of(shown, bytes_of, limits);

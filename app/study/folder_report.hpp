@@ -59,6 +59,14 @@ struct Drawn {
   std::map<std::string, std::string> scene_svg;
   std::string renderer;     ///< What drew the scenes; empty if there are none.
   std::string scene_error;  ///< Why scenes are missing; empty if none is.
+
+  /// The size of what a page shows under that id; 0 if it was not drawn.
+  std::size_t svg_bytes(const std::string& id) const;
+
+  /// The drawing itself; empty if it was not drawn.
+  /// @param figures  The folder that the files went to.
+  /// @throws IoError.
+  std::string svg(const std::string& id, const std::filesystem::path& figures) const;
 };
 
 /// How images are drawn, and where to.

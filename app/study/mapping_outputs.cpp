@@ -3,6 +3,7 @@
 #include "app/result_json.hpp"
 #include "app/study/folder_report.hpp"
 #include "app/study/study_outputs.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
@@ -75,7 +76,7 @@ std::string mapping_text(const Study& study) {
   for_each_result(study, [&](const SettingSummary& result) {
     text += fmt::format("{:<10}  {:<28}", name(result.sensor), label(result.setting));
     text += result.mpe_m && result.moe_percent
-                ? fmt::format("  MPE {}  MOE {:5.2f} %\n", page_metres(result.mpe_m->mean, 4),
+                ? fmt::format("  MPE {}  MOE {:5.2f} %\n", error_text(result.mpe_m->mean),
                               result.moe_percent->mean)
                 : std::string("  no map\n");
   });

@@ -62,10 +62,12 @@ double angle_deg(const Eigen::Matrix3d& R) {
   return std::atan2(axis.norm(), R.trace() - 1.0) * 180.0 / std::numbers::pi;
 }
 
-/// The poses of both that belong together, as paths of equal length.
+/// The poses of both that belong together, as paths of equal length, and some of the others.
 struct CommonPoses {
-  SpacePath ground_truth, estimate;
+  SpacePath ground_truth, estimate, ground_truth_alone, estimate_alone;
 };
+
+constexpr Eigen::Index kMostAlone = 1000;  ///< Enough for a figure of a path.
 
 SpacePath selected(const SpacePath& path, const std::vector<Eigen::Index>& rows) {
   SpacePath part{.time_s = path.time_s(rows),
@@ -78,6 +80,18 @@ SpacePath selected(const SpacePath& path, const std::vector<Eigen::Index>& rows)
   return part;
 }
 
+/// Those of n rows that are not given, evenly thinned to kMostAlone.
+std::vector<Eigen::Index> rows_without(const std::vector<Eigen::Index>& given, Eigen::Index n) {
+  std::vector<bool> is_given(static_cast<std::size_t>(n), false);
+  for (const Eigen::Index row : given) is_given[static_cast<std::size_t>(row)] = true;
+  std::vector<Eigen::Index> others, some;
+  for (Eigen::Index row = 0; row < n; ++row)
+    if (!is_given[static_cast<std::size_t>(row)]) others.push_back(row);
+  const std::size_t stride = 1 + others.size() / (kMostAlone + 1);
+  for (std::size_t i = 0; i < others.size(); i += stride) some.push_back(others[i]);
+  return some;
+}
+
 CommonPoses common_poses(const SpacePath& ground_truth, const SpacePath& estimate,
                          const TimeAssociation& association) {
   if (!ground_truth.has_times || !estimate.has_times) {
@@ -86,14 +100,18 @@ CommonPoses common_poses(const SpacePath& ground_truth, const SpacePath& estimat
           "without times pose belongs to pose, but the ground truth has {} poses and the estimate "
           "{}",
           ground_truth.size(), estimate.size()));
-    return {ground_truth, estimate};
+    return {ground_truth, estimate, selected(ground_truth, {}), selected(estimate, {})};
   }
   std::vector<Eigen::Index> reference_rows, estimate_rows;
   for (const PosePair& pair : associate_times(ground_truth.time_s, estimate.time_s, association)) {
     reference_rows.push_back(pair.ground_truth);
     estimate_rows.push_back(pair.estimate);
   }
-  return {selected(ground_truth, reference_rows), selected(estimate, estimate_rows)};
+  CommonPoses poses{selected(ground_truth, reference_rows), selected(estimate, estimate_rows),
+                    selected(ground_truth, rows_without(reference_rows, ground_truth.size())),
+                    selected(estimate, rows_without(estimate_rows, estimate.size()))};
+  poses.estimate_alone.time_s.array() += association.offset_s;
+  return poses;
 }
 
 SpaceSimilarity alignment_of(const CommonPoses& poses, FrameAlignment alignment) {
@@ -138,7 +156,9 @@ PoseErrors pose_errors(const CommonPoses& poses) {
       .ground_truth_m = ground_truth.positions_m,
       .error_m = (poses.estimate.positions_m - ground_truth.positions_m).rowwise().norm(),
       .error_deg = {},
-      .has_times = ground_truth.has_times};
+      .has_times = ground_truth.has_times,
+      .ground_truth_alone = {poses.ground_truth_alone.time_s, poses.ground_truth_alone.positions_m},
+      .estimate_alone = {poses.estimate_alone.time_s, poses.estimate_alone.positions_m}};
   if (ground_truth.orientations.empty() || poses.estimate.orientations.empty()) return errors;
   errors.error_deg.resize(errors.size());
   for (Eigen::Index i = 0; i < errors.size(); ++i)
@@ -333,10 +353,12 @@ PathEvaluation evaluate_path(const SpacePath& ground_truth, const SpacePath& est
   result.associated_percent = 100.0 * static_cast<double>(poses.estimate.size()) /
                               static_cast<double>(std::min(ground_truth.size(), estimate.size()));
   result.alignment = alignment_of(poses, options.alignment);
-  poses.estimate = aligned(std::move(poses.estimate), result.alignment);
+  for (SpacePath* path : {&poses.estimate, &poses.estimate_alone})
+    *path = aligned(std::move(*path), result.alignment);
   if (options.plane) {
-    poses.ground_truth = projected(std::move(poses.ground_truth), *options.plane);
-    poses.estimate = projected(std::move(poses.estimate), *options.plane);
+    for (SpacePath* path :
+         {&poses.ground_truth, &poses.estimate, &poses.ground_truth_alone, &poses.estimate_alone})
+      *path = projected(std::move(*path), *options.plane);
   }
   result.poses = pose_errors(poses);
   if (result.poses.error_deg.size() == 0) return result;

@@ -99,6 +99,12 @@ std::string json_text(const OrderedJson& value) {
   return out + '\n';
 }
 
+std::string json_element(const OrderedJson& value, std::size_t indent) {
+  std::string out;
+  append(out, value, indent, indent + 1);
+  return out;
+}
+
 std::string json_line(const OrderedJson& value) {
   std::string out;
   append_inline(out, value, kUnlimited);

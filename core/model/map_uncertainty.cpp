@@ -21,4 +21,15 @@ std::optional<Ellipse> confidence_ellipse(const MapUncertainty& uncertainty,
   return ellipse_of(C, std::sqrt(uncertainty.squared_radius));
 }
 
+bool covers(const MapUncertainty& uncertainty, Eigen::Index landmark,
+            const Eigen::RowVector2d& position, const Eigen::RowVector2d& point) {
+  const Eigen::Matrix2d& C = uncertainty.covariances.at(static_cast<std::size_t>(landmark));
+  const Eigen::RowVector2d off = point - position;
+  const Eigen::Matrix2d adjugate =
+      (Eigen::Matrix2d() << C(1, 1), -C(0, 1), -C(1, 0), C(0, 0)).finished();
+  const double determinant = C(0, 0) * C(1, 1) - C(0, 1) * C(1, 0);
+  return C.allFinite() &&
+         off * adjugate * off.transpose() <= uncertainty.squared_radius * determinant;
+}
+
 }  // namespace mapproof

@@ -35,4 +35,9 @@ Ellipse ellipse_of(const Eigen::Matrix2d& C, double radius);
 /// The confidence ellipse of a landmark; empty where its covariance is not known.
 std::optional<Ellipse> confidence_ellipse(const MapUncertainty& uncertainty, Eigen::Index landmark);
 
+/// Whether a point is in the confidence ellipse of a landmark about a position; not where its
+/// covariance is not known.
+bool covers(const MapUncertainty& uncertainty, Eigen::Index landmark,
+            const Eigen::RowVector2d& position, const Eigen::RowVector2d& point);
+
 }  // namespace mapproof

@@ -19,17 +19,6 @@
 namespace mapproof {
 namespace {
 
-/// Whether a point is in the ellipse about a position.
-bool covers(const MapUncertainty& uncertainty, Eigen::Index i, const Eigen::RowVector2d& position,
-            const Eigen::RowVector2d& point) {
-  const Eigen::Matrix2d& C = uncertainty.covariances[static_cast<std::size_t>(i)];
-  const Eigen::RowVector2d off = point - position;
-  const Eigen::Matrix2d adjugate =
-      (Eigen::Matrix2d() << C(1, 1), -C(0, 1), -C(1, 0), C(0, 0)).finished();
-  return C.allFinite() &&
-         off * adjugate * off.transpose() <= uncertainty.squared_radius * C.determinant();
-}
-
 /// Where a landmark lies on average over the maps that have it; NaN if none has.
 Points mean_map(const std::vector<Points>& maps, Eigen::Index landmarks) {
   Points mean = Points::Zero(landmarks, 2);

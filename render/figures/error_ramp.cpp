@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/number_text.hpp"
+#include "core/base/text/number_text.hpp"
 
 namespace mapproof {
 

@@ -7,8 +7,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 

@@ -2,27 +2,29 @@
 
 #include <cmath>
 
-#include "render/theme/ticks.hpp"
+#include "core/base/text/number_text.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr double kGreatestInMm_m = 1e-3;  // Above, the numbers beside a figure are in metres, too.
 constexpr double kLeastPpm = 1e-3;
-constexpr double kPartsPerMillion = 1e-6;
+constexpr int kStep = 3;
 
-/// "10⁻¹⁵" of a greatest value of some 10⁻¹⁵: powers of 10³.
+std::string ppm_text(int power) { return ten_to_the(power) + " ppm"; }
+
+/// "10⁻⁹ ppm" of a greatest value of some 10⁻⁹ ppm: powers of 10³.
 ScaledUnit power_unit(double greatest_ppm) {
-  const double exponent = 3.0 * std::floor(std::log10(greatest_ppm * kPartsPerMillion) / 3.0);
-  return {ten_to_the(static_cast<int>(exponent)), kPartsPerMillion * std::pow(10.0, -exponent)};
+  const int exponent = kStep * static_cast<int>(std::floor(std::log10(greatest_ppm) / kStep));
+  return {ppm_text(exponent), std::pow(10.0, -exponent)};
 }
 
 }  // namespace
 
 std::optional<int> power_of(const std::string& unit) {
-  constexpr int kLeast = -324, kStep = 3;
+  constexpr int kLeast = -324;
   for (int power = kLeast; power < 0; power += kStep)
-    if (unit == ten_to_the(power)) return power;
+    if (unit == ppm_text(power)) return power;
   return std::nullopt;
 }
 

@@ -244,7 +244,8 @@ class Inspector {
 }  // namespace
 
 ThemeColour series_colour(std::size_t i) {
-  return static_cast<ThemeColour>(static_cast<std::size_t>(ThemeColour::kSeries1) + i % 7);
+  return static_cast<ThemeColour>(static_cast<std::size_t>(ThemeColour::kSeries1) +
+                                  i % kSeriesCount);
 }
 
 bool is_figure_id(std::string_view id) { return is_slug(id) && id[0] >= 'a' && id.size() <= 120; }

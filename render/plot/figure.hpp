@@ -11,7 +11,7 @@
 
 namespace mapproof {
 
-/// The colour of the i-th curve of a figure, counted from 0; repeats after seven.
+/// The colour of the i-th curve of a figure, counted from 0; repeats after kSeriesCount.
 ThemeColour series_colour(std::size_t i);
 
 enum class Dash { kSolid, kDashed, kDotted, kDashDot, kLongDash };

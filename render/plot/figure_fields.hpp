@@ -12,9 +12,9 @@ namespace mapproof {
 // there.
 
 inline EnumNames enum_names(ThemeColour) {
-  static constexpr std::array<std::string_view, 11> kNames = {
-      "text",    "muted",   "faint",   "warning", "series1", "series2",
-      "series3", "series4", "series5", "series6", "series7"};
+  static constexpr std::array<std::string_view, 14> kNames = {
+      "text",    "muted",   "faint",   "warning", "series1", "series2", "series3",
+      "series4", "series5", "series6", "series7", "series8", "series9", "series10"};
   return {"colour", kNames};
 }
 

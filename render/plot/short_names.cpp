@@ -22,7 +22,7 @@ constexpr std::array<ShortNames, 4> kMethods = {{
 
 /// Clear beside the others of their figure alone. Each is a whole part of a label of a topic or an
 /// experiment of ours, so that labels of others keep their words.
-constexpr std::array<ShortNames, 13> kShort = {{
+constexpr std::array<ShortNames, 14> kShort = {{
     {"Pairwise-complete", "Pairwise"},
     {"PPCA, expected squares", "PPCA squares"},
     {"PCA with missing data", "PCA"},
@@ -36,6 +36,7 @@ constexpr std::array<ShortNames, 13> kShort = {{
     {" % of the range", " %"},
     {", incremental", ", incr."},
     {", from scratch", ", scratch"},
+    {", known landmarks", ", known"},
 }};
 
 /// Where even those are too wide.
@@ -45,12 +46,14 @@ constexpr std::array<ShortNames, 3> kShortest = {{
     {", its order", ", order"},
 }};
 
-/// Whether a name is a whole part of a text: from its start, a comma or an "and" to the next.
+/// Whether a name is a whole part of a text: from its start, a comma or an "and" to the next, or to
+/// a colon.
 bool is_part(std::string_view text, std::size_t at, std::string_view name) {
   const std::string_view before = text.substr(0, at), after = text.substr(at + name.size());
   const bool begins = before.empty() || name.starts_with(',') || name.starts_with(' ') ||
                       before.ends_with(", ") || before.ends_with(" and ");
-  return begins && (after.empty() || after.starts_with(", ") || after.starts_with(" and "));
+  return begins && (after.empty() || after.starts_with(", ") || after.starts_with(" and ") ||
+                    after.starts_with(": "));
 }
 
 template <std::size_t kCount>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
-#include "render/scene/room.hpp"
 
 namespace mapproof {
 namespace {
@@ -14,7 +13,9 @@ constexpr double kRadiusShare = 0.0035;
 
 }  // namespace
 
-Displacements displacements(const Points& ground_truth_m, const Points& estimate_m, double side_m) {
+Displacements displacements(const Points& ground_truth_m, const Points& estimate_m,
+                            const Ground& ground) {
+  const double side_m = ground.side();
   Displacements found;
   found.arrows.radius = kRadiusShare * side_m;
   found.arrows.arrow = true;
@@ -25,8 +26,10 @@ Displacements displacements(const Points& ground_truth_m, const Points& estimate
       ++found.missing;
       continue;
     }
-    const Eigen::Array2d offset = (estimate_m.row(i).array() - side_m / 2.0).abs();
-    if (offset.maxCoeff() > (0.5 + kFarShare) * side_m) {
+    const double reach = kFarShare * side_m;
+    const double x = estimate_m(i, 0), y = estimate_m(i, 1);
+    if (x < ground.low.x - reach || x > ground.high.x + reach || y < ground.low.y - reach ||
+        y > ground.high.y + reach) {
       ++found.far;
       continue;
     }
@@ -38,12 +41,12 @@ Displacements displacements(const Points& ground_truth_m, const Points& estimate
   return found;
 }
 
-std::string words_of_missing(const Displacements& found) {
+std::string words_of_missing(const Displacements& found, const std::string& of) {
   std::string text;
   if (found.far > 0)
-    text =
-        fmt::format("{} far outside the room",
-                    found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far));
+    text = fmt::format(
+        "{} far outside the {}",
+        found.far == 1 ? "1 estimate is" : fmt::format("{} estimates are", found.far), of);
   if (found.missing > 0)
     text += fmt::format(
         "{}{} no position", text.empty() ? "" : " and ",

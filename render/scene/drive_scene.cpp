@@ -8,13 +8,13 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/error_ramp.hpp"
 #include "render/figures/maps/path_map.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/scene/room.hpp"
 #include "render/theme/ticks.hpp"
 
@@ -26,7 +26,6 @@ using Eigen::Index;
 // Shares of the longer side of the ground.
 constexpr double kPathStep = 0.004;  // Between neighbouring points of a path that are drawn.
 constexpr double kTruePathWidth = 0.013, kPathWidth = 0.0065, kPlainWidth = 0.0035;
-constexpr double kKerb = 0.012;
 constexpr double kPillarRadius = 0.009, kPillarHeight = 0.1, kBallRadius = 0.016;
 constexpr double kGridWidth = 0.0015;
 constexpr double kFlatLayer =
@@ -132,7 +131,7 @@ class DriveScene {
     scene_.title = spec_.title;
     scene_.record_ids = spec_.record_ids;
     scene_.lights = usual_lights();
-    scene_.parts = {floor_of(ground_), walls_of(ground_, kKerb * side_), grid()};
+    scene_.parts = {floor_of(ground_), walls_of(ground_, kKerbShare * side_), grid()};
     if (run_.log.ground_truth)
       add(plain(*run_.log.ground_truth, kTruePathWidth, 2, "true path", {.colour = kTrueColour}));
     if (const SlamRecord* unaided = record_of(run_, SlamMethod::kDeadReckoning);
@@ -144,7 +143,7 @@ class DriveScene {
     std::vector<Point3> tops;
     for (const SceneLabels& labels : labels_)
       tops.insert(tops.end(), labels.at.begin(), labels.at.end());
-    Shot view = ground_view(ground_, kKerb * side_, tops);
+    Shot view = ground_view(ground_, kKerbShare * side_, tops);
     view.labels = std::move(labels_);
     scene_.views.push_back(std::move(view));
     describe();

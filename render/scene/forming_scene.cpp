@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/error_ramp.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/scene/displacements.hpp"
 #include "render/scene/room.hpp"
 
@@ -45,7 +45,7 @@ class Forming {
   explicit Forming(const FormingSceneSpec& spec) : spec_(spec), side_(spec.world.side_m) {
     std::vector<double> errors;
     for (const MapRecord& map : spec.maps) {
-      found_.push_back(displacements(spec.world.landmarks_m, map.estimate, side_));
+      found_.push_back(displacements(spec.world.landmarks_m, map.estimate, room_ground(side_)));
       const Displacements& found = found_.back();
       errors.insert(errors.end(), found.errors_m.begin(), found.errors_m.end());
       ends_.insert(ends_.end(), found.arrows.to.begin(), found.arrows.to.end());

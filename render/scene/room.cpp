@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/number_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/scene/projection.hpp"
 
 namespace mapproof {
@@ -21,8 +21,6 @@ constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels
 constexpr double kPathRadius = 0.0035;  // Of the room's side.
 constexpr int kPathPieces = 10;
 constexpr double kMostCovered = 0.2;  // Of the floor, by the path.
-
-Ground room_ground(double side_m) { return {{0.0, 0.0}, {side_m, side_m}}; }
 
 std::vector<Rule> floor_rules(const Ground& ground) {
   const auto& [low, high] = ground;
@@ -55,6 +53,8 @@ std::vector<Point3> corners(const Ground& ground, double height_m, std::span<con
 }
 
 }  // namespace
+
+Ground room_ground(double side_m) { return {{0.0, 0.0}, {side_m, side_m}}; }
 
 bool is_room_side(double side_m) { return side_m > 0.0 && side_m <= kLongestSide_m; }
 
@@ -190,15 +190,6 @@ Shot ground_view(const Ground& ground, double height_m, std::span<const Point3> 
 
 Shot room_view(double side_m, double height_m, std::span<const Point3> also, double aspect) {
   return ground_view(room_ground(side_m), height_m, also, aspect);
-}
-
-Shot room_plan(double side_m, std::span<const Point3> also) {
-  Shot view;
-  const Ground ground = room_ground(side_m);
-  view.camera =
-      tight_camera(corners(ground, landmark_height(side_m), also), Point3::UnitZ(), true, 1.6);
-  view.rules = floor_rules(ground);
-  return view;
 }
 
 }  // namespace mapproof

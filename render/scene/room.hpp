@@ -15,6 +15,9 @@ namespace mapproof {
 /// The share of a colour in a legend's tint: what is not drawn in the full colour has this one.
 inline constexpr double kTintShare = 0.2;
 
+/// The height of the edge of open ground, of its side.
+inline constexpr double kKerbShare = 0.012;
+
 /// The longest side of a room that is drawn.
 inline constexpr double kLongestSide_m = 1e6;
 
@@ -33,6 +36,9 @@ struct Ground {
 
   double side() const { return std::max(high.x - low.x, high.y - low.y); }
 };
+
+/// The floor of a room: [0, side] x [0, side].
+Ground room_ground(double side_m);
 
 /// Two triangles per rectangle of corners a, b, c, d in turn.
 void add_rectangle(Surface& surface, const Point3& a, const Point3& b, const Point3& c,
@@ -87,8 +93,5 @@ Shot ground_view(const Ground& ground, double height_m, std::span<const Point3> 
 /// The same of a room: sees the whole room up to a height, and what else is said.
 Shot room_view(double side_m, double height_m, std::span<const Point3> also = {},
                double aspect = 1.6);
-
-/// The same from straight above, x to the right, y upward.
-Shot room_plan(double side_m, std::span<const Point3> also = {});
 
 }  // namespace mapproof

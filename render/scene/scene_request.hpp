@@ -16,8 +16,8 @@ struct SceneRequest {
   int height = 0;   ///< 1 to 8192.
   int samples = 0;  ///< A pixel, up to 16, next square of it; 0: no antialiasing.
   Colour background = {};
-  /// In the order of ThemeColour, whose last one is kSeries7.
-  std::array<Colour, static_cast<std::size_t>(ThemeColour::kSeries7) + 1> colours = {};
+  /// In the order of ThemeColour, whose last one is kSeries10.
+  std::array<Colour, static_cast<std::size_t>(ThemeColour::kSeries10) + 1> colours = {};
 
   bool operator==(const SceneRequest&) const = default;
 };

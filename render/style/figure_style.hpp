@@ -16,7 +16,7 @@ enum class BaseTheme { kReport, kDark, kPaper };
 /// Colours that replace those of the theme, as "#rrggbb"; empty: the theme's.
 struct StyleColours {
   std::string background = {}, text = {}, muted = {}, grid = {}, warning = {};
-  std::vector<std::string> series = {};  ///< The first ones of seven.
+  std::vector<std::string> series = {};  ///< The first ones of ten.
 };
 
 /// How a person wants figures drawn; what is left out is the theme's. Lengths in inches or points.

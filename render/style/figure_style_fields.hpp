@@ -55,8 +55,8 @@ void fields(Visitor& v, StyleColours& colours) {
   v.field("grid", colours.grid, colour_rule("Of grid lines."));
   v.field("warning", colours.warning, colour_rule("Of texts about warnings."));
   v.field("series", colours.series,
-          {.description = "Of curves and points, in their order: the first ones of seven.",
-           .max_items = 7,
+          {.description = "Of curves and points, in their order: the first ones of ten.",
+           .max_items = kSeriesCount,
            .form = &style_rules::kColour,
            .key = Key::kIfAny});
 }

@@ -28,7 +28,7 @@ struct Theme {
   double space_pt = 0.0;     ///< The unit of all gaps.
 
   Colour background, text, muted, grid, warning;
-  std::array<Colour, 7> series;
+  std::array<Colour, kSeriesCount> series;
 
   Colour of(ThemeColour colour) const;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace mapproof {
 
 /// The meaning of a colour; a theme defines the colour itself.
@@ -15,6 +17,12 @@ enum class ThemeColour {
   kSeries5,
   kSeries6,
   kSeries7,
+  kSeries8,
+  kSeries9,
+  kSeries10,
 };
+
+/// How many colours curves have: kSeries1 to kSeries10.
+inline constexpr std::size_t kSeriesCount = 10;
 
 }  // namespace mapproof

@@ -6,9 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "core/base/text/raised.hpp"
+#include "core/base/text/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -100,18 +98,6 @@ double least_distance(const Ticks& three, double low, double high) {
 }
 
 }  // namespace
-
-std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
-
-std::string power_of_ten(int exponent) { return "×" + ten_to_the(exponent); }
-
-std::string number_text(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text[0] != '-') return text;
-  text.erase(0, 1);
-  if (text.find_first_not_of("0.") == std::string::npos) return text;
-  return "−" + text;
-}
 
 double tick_step(double low, double high, int most) {
   const double least = (high - low) / std::max(most, 2);

@@ -30,13 +30,4 @@ Ticks log_ticks(double low, double high, int most);
 /// there are no three.
 Ticks three_log_ticks(double low, double high);
 
-/// "10⁶".
-std::string ten_to_the(int exponent);
-
-/// "×10⁶".
-std::string power_of_ten(int exponent);
-
-/// `value` with `decimals` digits behind the point, U+2212 for minus, no minus before zero.
-std::string number_text(double value, int decimals);
-
 }  // namespace mapproof

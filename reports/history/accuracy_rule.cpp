@@ -12,11 +12,11 @@
 #include <fmt/format.h>
 #include <boost/math/distributions/binomial.hpp>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/paired_change.hpp"
 #include "core/statistics/signed_rank.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -284,14 +284,14 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           .subject = comparison.subject,
           .quantity = quantity.id,
           .since = evidence.trend.nightly_runs.back().number,
-          .sentence = fmt::format(
-              "{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {} → "
-              "{}{}; {}, {} corrected for {}",
-              comparison.shown, quantity.label, worse_words(quantity, change.shift),
-              evidence.reference->nightly_run, interval, significant(comparison.before, 4),
-              with_unit(significant(comparison.after, 4), quantity.unit),
-              comparison.has_steps ? " at the last step" : "", units, small_p_words(p),
-              counted(static_cast<long long>(tests), "test")),
+          .sentence =
+              fmt::format("{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {} → "
+                          "{}{}; {}, {} corrected for {}",
+                          comparison.shown, quantity.label, worse_words(quantity, change.shift),
+                          evidence.reference->nightly_run, interval, significant(comparison.before),
+                          quantity_text(comparison.after, quantity.unit),
+                          comparison.has_steps ? " at the last step" : "", units, small_p_words(p),
+                          counted(static_cast<long long>(tests), "test")),
           .change = change_of(quantity, change.shift)};
 }
 

@@ -1,6 +1,7 @@
 #include "reports/history/finding_groups.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
 #include <cmath>
@@ -41,6 +42,11 @@ std::string shown_subject_of(const NightlyFinding& finding, const StudyTrend* tr
   return trend == nullptr ? finding.subject : shown_setup(trend->labels, finding.subject);
 }
 
+bool is_time_unit(const std::string& unit) {
+  constexpr std::array kUnits = {"s", "ms", "us", "µs", "ns", "min", "h"};
+  return std::ranges::find(kUnits, unit) != kUnits.end();
+}
+
 /// One finding as a group.
 FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   FindingGroup group{.study = finding.study,
@@ -55,6 +61,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   if (const Quantity* quantity = trend->quantities.find(finding.quantity)) {
     group.quantity = quantity->label;
     group.in_points = quantity->nightly == NightlyRule::kPoints;
+    group.is_time = is_time_unit(quantity->unit);
   }
   const SeriesId* series = series_of(finding, *trend);
   if (series == nullptr) return group;
@@ -256,6 +263,7 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
     append(same->sentences, group.sentences);
     append(same->lines, group.lines);
   }
+  std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.is_time; });
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
   return groups;
 }

@@ -49,6 +49,7 @@ struct FindingGroup {
   std::string quantity_id = {};
   std::vector<double> changes = {};  ///< NightlyFinding::change, those that are known.
   bool in_points = false;            ///< The changes are in points rather than in percent.
+  bool is_time = false;              ///< The quantity is a time, which a study declares itself.
   std::vector<int> numbers = {};     ///< Index of each finding in its nightly run, from 1.
   std::vector<std::string> sentences = {};
   std::vector<std::string> lines =
@@ -66,7 +67,8 @@ struct FindingGroup {
   std::string count_text() const;
 };
 
-/// The findings of a nightly run in groups: those that are new first, else in their order.
+/// The findings of a nightly run in groups: those that are new first, times behind what else a
+/// study measures, else in their order.
 /// @param trends  Of the studies; findings of a study without one have no method and no commits.
 std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/csv.hpp"
+#include "core/json/json_text.hpp"
 #include "core/json/record_reader.hpp"
 #include "core/json/record_writer.hpp"
 #include "reports/history/shown_names.hpp"
@@ -48,14 +49,25 @@ ExportedStudy exported(HistoryStore& history, int nightly_run, NightlyStudy stud
   return whole;
 }
 
+/// A nightly run among others.
+ordered_json nightly_run_json(HistoryStore& history, const NightlyFacts& facts, bool with_scores) {
+  ExportedNightlyRun one{.nightly_run = file_of(facts, history.findings(facts.number))};
+  for (NightlyStudy& study : history.studies(facts.number))
+    one.studies.push_back(exported(history, facts.number, std::move(study), with_scores));
+  ordered_json value = to_json_value(one);
+  put_provenance(value, facts.provenance);
+  return value;
+}
+
 }  // namespace
 
-std::string history_csv(HistoryStore& history) {
-  std::string text =
+void export_history_csv(HistoryStore& history, const TextSink& write) {
+  write(
       "nightly_run,started_utc,study,sensor,method,step,quantity,run,value,sensor_label,method_"
-      "label\r\n";
+      "label\r\n");
   for (const NightlyFacts& nightly_run : history.nightly_runs())
-    for (const NightlyStudy& study : history.studies(nightly_run.number))
+    for (const NightlyStudy& study : history.studies(nightly_run.number)) {
+      std::string text;
       for (const auto& [series, values] : history.scores(nightly_run.number, study.name)) {
         const std::string head = fmt::format(
             "{},{},{},{},{},{},{},", nightly_run.number, csv_field(nightly_run.started_utc),
@@ -68,7 +80,8 @@ std::string history_csv(HistoryStore& history) {
           text += fmt::format("{}{},{}{}", head, csv_field(run.run),
                               std::isfinite(run.value) ? fmt::format("{}", run.value) : "", labels);
       }
-  return text;
+      write(text);
+    }
 }
 
 std::string nightly_json(const NightlyRun& nightly_run) {
@@ -82,18 +95,27 @@ ordered_json nightly_value(const NightlyFacts& facts, const std::vector<NightlyF
   return value;
 }
 
-ordered_json history_json(HistoryStore& history, bool with_scores) {
-  ExportedHistory whole;
-  for (const NightlyFacts& nightly_run : history.nightly_runs()) {
-    ExportedNightlyRun& one = whole.nightly_runs.emplace_back();
-    one.nightly_run = file_of(nightly_run, history.findings(nightly_run.number));
-    for (NightlyStudy& study : history.studies(nightly_run.number))
-      one.studies.push_back(exported(history, nightly_run.number, std::move(study), with_scores));
+void export_history_json(HistoryStore& history, const TextSink& write) {
+  const std::string frame = json_text(to_json_value(ExportedHistory{.notes = history.notes()}));
+  const std::string_view empty = "\"nightly_runs\": [";
+  const std::size_t begin = frame.find(empty) + empty.size();
+  write(std::string_view(frame).substr(0, begin));
+  constexpr std::size_t kIndent = 4;
+  std::string_view before = "\n", after;
+  for (const NightlyFacts& facts : history.nightly_runs()) {
+    const ordered_json one = nightly_run_json(history, facts, true);
+    write(fmt::format("{}{:{}}{}", before, "", kIndent, json_element(one, kIndent)));
+    before = ",\n";
+    after = "\n  ";
   }
-  whole.notes = history.notes();
-  ordered_json value = to_json_value(whole);
-  for (std::size_t i = 0; i < whole.nightly_runs.size(); ++i)
-    put_provenance(value["nightly_runs"][i], whole.nightly_runs[i].nightly_run.facts.provenance);
+  write(after);
+  write(std::string_view(frame).substr(begin));
+}
+
+ordered_json history_json(HistoryStore& history) {
+  ordered_json value = to_json_value(ExportedHistory{.notes = history.notes()});
+  for (const NightlyFacts& facts : history.nightly_runs())
+    value["nightly_runs"].push_back(nightly_run_json(history, facts, false));
   return value;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -194,14 +195,21 @@ void fields(Visitor& v, ExportedHistory& history) {
   v.field("notes", history.notes, {.description = "What people said of them, oldest first."});
 }
 
+/// Takes a text in pieces.
+using TextSink = std::function<void(std::string_view)>;
+
 /// Every value of every nightly run as CSV [rfc4180]: nightly run, started_utc, study, sensor,
 /// method, step, quantity, run, value, and what setup and method are called; a value that is
-/// missing is an empty cell. @throws IoError.
-std::string history_csv(HistoryStore& history);
+/// missing is an empty cell. Takes the memory of one study of a nightly run. @throws IoError.
+void export_history_csv(HistoryStore& history, const TextSink& write);
 
-/// Nightly runs with their facts, findings and studies (docs/schemas/history.schema.json), without
-/// the values of runs; with them if asked. @throws IoError.
-nlohmann::ordered_json history_json(HistoryStore& history, bool with_scores);
+/// The same with facts, findings and studies as JSON (docs/schemas/history.schema.json). Takes the
+/// memory of one nightly run. @throws IoError.
+void export_history_json(HistoryStore& history, const TextSink& write);
+
+/// Nightly runs with their facts, findings and studies, without the values of runs. @throws
+/// IoError.
+nlohmann::ordered_json history_json(HistoryStore& history);
 
 /// The text of nightly_run.json (docs/schemas/nightly_run.schema.json).
 std::string nightly_json(const NightlyRun& nightly_run);

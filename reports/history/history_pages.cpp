@@ -526,8 +526,35 @@ void show_first(const std::vector<Figure>& figures, Opening& opening) {
     opening.figure_ids.push_back(figures[i].id);
 }
 
+/// Of what is new and got worse: the diffs of the nightly runs between which it did, and the search
+/// for the first of their commits; nothing if there are none.
+std::optional<Paragraph> ways_to_cause(const IndexFacts& facts, const NightlySummary& summary,
+                                       NightlyLinks& links) {
+  Paragraph paragraph{{strong("What changed"), phrase(": ")}};
+  std::set<std::string> files;
+  std::string bisect;
+  for (const FindingGroup& group : shown_groups(summary.groups)) {
+    if (group.known) continue;
+    if (bisect.empty()) bisect = group.commits.bisect();
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    const std::string file = comparison_file(before, since, group.study);
+    if (!facts.comparisons.contains(file) || files.size() == kMostLinked ||
+        !files.insert(file).second)
+      continue;
+    if (files.size() > 1) paragraph.phrases.push_back(phrase(", "));
+    paragraph.phrases.push_back(links.comparison(before, since, group.study));
+  }
+  if (!bisect.empty()) {
+    paragraph.phrases.push_back(
+        phrase(files.empty() ? "search for the commit: " : "; search for the commit: "));
+    paragraph.phrases.push_back({bisect, Emphasis::kCode});
+  }
+  return paragraph.phrases.size() > 2 ? std::optional(std::move(paragraph)) : std::nullopt;
+}
+
 /// What the last nightly run ran, and what it was compared with.
-std::vector<Paragraph> last_findings(const IndexFacts& facts, NightlyLinks& links) {
+std::vector<Paragraph> last_findings(const IndexFacts& facts, const NightlySummary& summary,
+                                     NightlyLinks& links) {
   const NightlyFacts& this_run = facts.nightly_runs.back();
   std::vector<std::string> studies;
   std::vector<Phrase> to;
@@ -553,6 +580,7 @@ std::vector<Paragraph> last_findings(const IndexFacts& facts, NightlyLinks& link
       findings.back().phrases.push_back(links.commits(range));
       findings.back().phrases.push_back(phrase("."));
     }
+  if (auto cause = ways_to_cause(facts, summary, links)) findings.push_back(std::move(*cause));
   if (const std::string values = measured(facts); !values.empty())
     findings.push_back({{strong("Measured"), phrase(":" + values)}});
   if (!to.empty() && to.size() <= kMostLinked)
@@ -614,7 +642,7 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
     report.sections.push_back(std::move(*worse));
   report.sections.push_back(last_section(facts, summary, links));
   page.figures = course(facts);
-  report.opening.findings = last_findings(facts, links);
+  report.opening.findings = last_findings(facts, summary, links);
   show_first(page.figures, report.opening);
   if (!page.figures.empty()) {
     report.sections.push_back(
@@ -660,11 +688,19 @@ void put_regressed_first(Report& report, Section worse) {
   if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
 }
 
-/// Makes a figure of what got worse the one of the first screen; the one that was is a small one.
-void show_regressed(Report& report) {
+/// Makes a figure of what got worse, of the first finding if one shows it, the one of the first
+/// screen; the one that was is a small one.
+void show_regressed(Report& report, std::span<const FindingGroup> groups) {
   Opening& opening = report.opening;
   const auto all = figures(report);
-  const auto is_worse = [](const FigureBlock* figure) { return !figure->regressed.empty(); };
+  const std::string first = groups.empty() ? "" : groups.front().headline();
+  const bool any_of_first = std::ranges::any_of(all, [&](const FigureBlock* figure) {
+    return !first.empty() && figure->regressed.find(first) != std::string::npos;
+  });
+  const auto is_worse = [&](const FigureBlock* figure) {
+    return any_of_first ? figure->regressed.find(first) != std::string::npos
+                        : !figure->regressed.empty();
+  };
   const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
   const auto worse = std::ranges::find_if(all, is_worse);
   if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;
@@ -685,7 +721,7 @@ void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLink
       fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
   opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
   mark_regressed(report, study.figures, study.groups, study.name);
-  show_regressed(report);
+  show_regressed(report, study.groups);
   put_regressed_first(report, worse_of_study(study, links));
   std::optional<Phrase> reference;
   if (study.is_compared && nightly_run.facts.reference)

@@ -132,21 +132,26 @@ std::string NightlySummary::short_verdict() const {
 
 std::string verdict_sentence(const NightlyFacts& nightly_run,
                              std::span<const FindingGroup> groups) {
-  bool is_less_accurate = false, is_lost = false;
+  bool is_less_accurate = false, is_lost = false, takes_longer = false;
   for (const FindingGroup& group : groups)
     if (!group.known) {
-      is_lost |= group.rule == HistoryRule::kLostResults;
-      is_less_accurate |= group.rule != HistoryRule::kLostResults &&
-                          verdict_of(group.rule) == NightlyVerdict::kAccuracy;
+      const bool has_lost = group.rule == HistoryRule::kLostResults;
+      is_lost |= has_lost;
+      takes_longer |= group.is_time && !has_lost;
+      is_less_accurate |=
+          !group.is_time && !has_lost && verdict_of(group.rule) == NightlyVerdict::kAccuracy;
     }
   const std::size_t findings = count_findings(groups, false);
   const std::string count = ": " + counted(static_cast<long long>(findings), "finding") + ".";
   if (is_less_accurate && is_lost) return "Accuracy got worse and results are lost" + count;
+  if (is_less_accurate && takes_longer) return "Accuracy got worse and time grew" + count;
   if (is_less_accurate) return "Accuracy got worse" + count;
   if (is_lost) return "Results are lost" + count;
   if (findings > 0) return "Accuracy is unchanged; seconds or memory grew" + count;
   if (!nightly_run.reference)
-    return "Not compared: no nightly run to compare with has the same settings.";
+    return nightly_run.number == 1
+               ? "Not compared: it is the first nightly run."
+               : "Not compared: no nightly run to compare with has the same settings.";
   return fmt::format("Nothing {}got worse than in nightly run {}.",
                      count_findings(groups, true) > 0 ? "new " : "", *nightly_run.reference);
 }

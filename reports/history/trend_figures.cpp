@@ -14,13 +14,13 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "core/model/method.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -254,20 +254,26 @@ std::string first_setup(const StudyLabels& labels, const std::string& sensor) {
 }
 
 /// Of what has no finding: that an error has not got worse; of seconds, which may not be judged
-/// yet, by how much they changed; of what is never judged its name.
-/// @param changes  Of the lines in the last nightly run, in percent if of seconds.
-std::string course_without_finding(const Quantity& quantity, const std::vector<double>& changes) {
+/// yet, by how much they changed; of what is never judged between which values it is.
+/// @param last  Of the lines in the last nightly run: changes in percent of seconds, else values.
+std::string course_without_finding(const Quantity& quantity, const std::vector<double>& last) {
   if (is_accuracy(quantity.nightly)) return quantity.label + " has not got worse";
-  if (quantity.nightly != NightlyRule::kDuration || changes.empty()) return quantity.label;
-  const auto [least, most] = std::ranges::minmax(changes);
+  if (last.empty()) return quantity.label;
+  const auto [least, most] = std::ranges::minmax(last);
+  if (quantity.nightly != NightlyRule::kDuration) {
+    const std::string from = quantity_text(least, quantity.unit);
+    const std::string to = quantity_text(most, quantity.unit);
+    return fmt::format("{} is {} in the last nightly run", quantity.label,
+                       from == to ? from : from + " to " + to);
+  }
   return fmt::format("{} changed by {} to {}\u00a0%, without a finding", quantity.label,
                      format_number(least, 0, true), format_number(most, 0, true));
 }
 
 /// What got worse of a quantity in the last nightly run, or what else is to be said of it.
-/// @param changes  As for course_without_finding().
+/// @param last  As for course_without_finding().
 std::string course_of(const Reported& reported, const std::string& sensor, const Quantity& quantity,
-                      const std::vector<double>& changes) {
+                      const std::vector<double>& last) {
   std::vector<NightlyFinding> worse;
   for (const auto& [nightly_run, finding] : reported.findings)
     if (nightly_run + 1 == reported.trend.nightly_runs.size() && finding->quantity == quantity.id)
@@ -279,7 +285,7 @@ std::string course_of(const Reported& reported, const std::string& sensor, const
       words.push_back(group.method + ": " + group.change_text());
   constexpr std::size_t kMostNamed = 2;
   const std::string text =
-      words.empty() ? course_without_finding(quantity, changes) : listed(words, kMostNamed);
+      words.empty() ? course_without_finding(quantity, last) : listed(words, kMostNamed);
   return setup.empty() ? text : first_setup(reported.trend.labels, sensor) + ": " + text;
 }
 
@@ -314,11 +320,6 @@ bool has_course(const Reported& reported, const std::vector<Line>& lines,
   });
 }
 
-/// "0.061\u00a0m".
-std::string value_text(double value, const std::string& unit) {
-  return significant(value) + (unit.empty() ? "" : "\u00a0" + unit);
-}
-
 /// "; change 0 % in 2 nightly runs." of what did not change; of one nightly run which it is.
 std::string without_change(const StudyTrend& trend, const std::vector<double>& values) {
   const std::ptrdiff_t known = count_known(values);
@@ -338,7 +339,8 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
                            [](const Line& line) { return level_over_nightly_runs(*line.values); });
   if (quantity.better == Better::kHigher) std::ranges::reverse(lines);
   const auto value_of = [&](const Line& line) {
-    return fmt::format("{} ({})", value_text(level_over_nightly_runs(*line.values), quantity.unit),
+    return fmt::format("{} ({})",
+                       quantity_text(level_over_nightly_runs(*line.values), quantity.unit),
                        shown_method(reported.trend.labels, line.id.method));
   };
   const std::string setup = first_setup(reported.trend.labels, sensor);
@@ -412,14 +414,25 @@ std::optional<std::string> memory_sentence(const Reported& reported) {
   const std::vector<double>& known = reported.trend.peak_memory_mib;
   const double level = level_over_nightly_runs(known);
   if (!std::isfinite(level) || has_memory_course(reported)) return std::nullopt;
-  return "Peak memory " + value_text(level, "MiB") + without_change(reported.trend, known);
+  return "Peak memory " + quantity_text(level, "MiB") + without_change(reported.trend, known);
+}
+
+/// By how much it changed up to the last nightly run that it is known of.
+/// @param changes  In percent, since base_of().
+std::string memory_title(const Reported& reported, const std::vector<double>& changes) {
+  const auto known = [](double change) { return std::isfinite(change); };
+  const auto last = std::ranges::find_if(changes.rbegin(), changes.rend(), known);
+  if (last == changes.rend()) return "Peak memory over the nightly runs";
+  constexpr double kLeastWhole = 10.0;
+  const std::string change = format_number(*last, std::abs(*last) < kLeastWhole ? 1 : 0, true);
+  return fmt::format("Peak memory changed by {}\u00a0% since {}", change, base_words(reported));
 }
 
 std::optional<Figure> memory_figure(const Reported& reported) {
   if (!has_memory_course(reported)) return std::nullopt;
   const std::vector<double>& known = reported.trend.peak_memory_mib;
   const std::vector<double> mib = changes_of(known, base_of(reported), true);
-  ErrorLinesSpec spec = named_spec(reported, "memory", "Peak memory over the nightly runs");
+  ErrorLinesSpec spec = named_spec(reported, "memory", memory_title(reported, mib));
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;
   spec.quantity = "change of peak memory";

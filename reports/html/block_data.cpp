@@ -276,6 +276,16 @@ std::vector<std::string> distinct(const std::vector<StatusList::Item>& items, Ge
   return found;
 }
 
+/// "26 more figures: errors over the floor and …", on one line: titles alone where they are short.
+std::string fold_words(const std::vector<std::string>& titles, bool more,
+                       const std::string& folded) {
+  constexpr std::size_t kLongest = 80;  // Characters of a line on a narrow page.
+  const std::string count = counted(std::ssize(titles), more ? "more figure" : "figure");
+  const std::string words = folded.empty() ? listed(titles, 3) : folded;
+  const bool are_too_long = folded.empty() && titles.size() > 1 && words.size() > kLongest;
+  return are_too_long ? count : count + ": " + words;
+}
+
 std::vector<std::string> titles_of(const PageLinks& links) {
   std::vector<std::string> titles;
   for (const PageLinks::Item& item : links.items) titles.push_back(item.title);
@@ -289,7 +299,10 @@ data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   data out;
   const std::string link = link_of(phrase.emphasis, phrase.text, options);
   const bool is_file = !link.empty();
-  out.set("text", is_file ? link_words(phrase.text, options) : phrase.text);
+  const bool is_prose = phrase.emphasis == Emphasis::kPlain || phrase.emphasis == Emphasis::kStrong;
+  out.set("text", is_file    ? link_words(phrase.text, options)
+                  : is_prose ? with_quantities_kept(phrase.text)
+                             : phrase.text);
   out.set("plain",
           phrase.emphasis == Emphasis::kPlain || (phrase.emphasis == Emphasis::kUrl && !is_file));
   out.set("strong", phrase.emphasis == Emphasis::kStrong);
@@ -318,7 +331,7 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   data out;
   out.set("id", figure.id);
   out.set("title", figure.title);
-  out.set("caption", figure.caption);
+  out.set("caption", with_quantities_kept(figure.caption));
   out.set("alt", figure.alt);
   out.set("value", figure.value);
   out.set("wide", data(figure.wide));
@@ -367,9 +380,9 @@ list highlight_items(const Highlights& highlights) {
   list items;
   for (const Highlights::Item& item : highlights.items) {
     data out;
-    out.set("label", with_units_kept(item.label));
-    out.set("value", with_units_kept(item.value));
-    out.set("detail", text_or_false(with_units_kept(item.detail)));
+    out.set("label", with_quantities_kept(item.label));
+    out.set("value", with_quantities_kept(item.value));
+    out.set("detail", text_or_false(with_quantities_kept(item.detail)));
     out.set("section", text_or_false(item.section));
     out.set("falls_short", data(item.falls_short));
     items.push_back(std::move(out));
@@ -447,8 +460,7 @@ class BlockVisitor {
     out.set("figures", shown);
     out.set("any_more", data(!more.empty()));
     out.set("more", more);
-    out.set("more_words", fmt::format("{}{}: {}", counted(std::ssize(titles), "figure"),
-                                      shown.empty() ? "" : " more", listed(titles, 3)));
+    out.set("more_words", fold_words(titles, !shown.empty(), gallery.folded));
     block_.set("gallery", out);
   }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_folds.hpp"
@@ -74,7 +75,7 @@ data standing_data(const Standing& standing) {
   out.set("title", standing.title);
   list sentences;
   for (const std::string& sentence : standing.sentences)
-    sentences.push_back(data("sentence", sentence));
+    sentences.push_back(data("sentence", with_quantities_kept(sentence)));
   out.set("sentences", sentences);
   return out;
 }
@@ -102,15 +103,20 @@ data main_figure_link(const FigureBlock& figure, const FigureContext& drawn) {
   return out;
 }
 
-/// What a small image is called: a long title as far as what its figure shows.
+/// What a small image is called: a long title without what was found, or only as far as what its
+/// figure shows.
 std::string short_title(const std::string& title) {
-  constexpr std::size_t kMost = 40;
-  if (title.size() <= kMost) return title;
+  constexpr std::size_t kMost = 42;
+  const std::string subject =
+      title.substr(0, title.size() <= kMost ? title.npos : title.rfind(": "));
+  if (subject.size() <= kMost) return subject;
   return title.substr(0, std::min({title.find(": "), title.find(" ("), title.find(" · ")}));
 }
 
-/// The gallery that a figure stands in, or the figure itself: figures of one kind are a family.
+/// The gallery that a figure stands in, or the figure itself: figures of one kind are a family, 3-D
+/// ones each their own.
 const void* family_of(const Report& report, const FigureBlock& figure) {
+  if (figure.value == "scene") return &figure;
   for (const Section& section : report.sections)
     for (const Block& block : section.blocks)
       if (const auto* gallery = std::get_if<Gallery>(&block))
@@ -211,7 +217,7 @@ std::string report_html(const Report& whole, const Templates& templates, const S
       options.folds ? fold_to_screens(report) : std::set<const Section*>{};
   data page;
   page.set("title", report.title);
-  page.set("subtitle", report.subtitle);
+  page.set("subtitle", with_quantities_kept(report.subtitle));
   page.set("footer", report.footer);
   page.set("date", text_or_false(report.date));
   page.set("provenance", text_or_false(provenance_of(report)));

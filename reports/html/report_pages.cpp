@@ -238,6 +238,7 @@ class Division {
 
   void divide_gallery(Gallery gallery, std::vector<Block>& kept) {
     Gallery here;
+    here.folded = gallery.folded;
     std::size_t open = 0;
     for (std::size_t i = 0; i < gallery.figures.size(); ++i)
       if (!figures_.contains(gallery.figures[i].id)) {

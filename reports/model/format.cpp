@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/markup.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/raised.hpp"
 #include "core/base/text/utf8.hpp"
 
@@ -74,11 +75,6 @@ std::string page_number(double value, int decimals, bool with_sign) {
   return with_power(format_number(value, decimals, with_sign));
 }
 
-std::string page_metres(double error_m, int decimals) {
-  const std::string great = great_error(error_m);
-  return great.empty() ? page_number(error_m, decimals) + " m" : great;
-}
-
 NumberCell p_cell(double p) { return {.value = p, .decimals = kDecimalsOfP, .least = kLeastP}; }
 
 std::string p_words(double p) {
@@ -120,8 +116,7 @@ std::string full_heading(const Column& column) {
 
 std::string format_duration(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return kMissingText;
-  if (seconds < 0.9995) return fmt::format("{:.3g} ms", seconds * 1e3);
-  if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 59.95) return seconds_text(seconds);
   if (seconds >= 1e9) return fmt::format("{:.2e} s", seconds);
   const long whole = std::lround(seconds);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);

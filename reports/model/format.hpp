@@ -21,10 +21,6 @@ std::string format_cell(const Cell& cell);
 /// As a page shows it in prose: as format_number(), with powers of ten set as such, "2.8 × 10¹⁴".
 std::string page_number(double value, int decimals, bool with_sign = false);
 
-/// An error with its unit in prose: "0.123 m"; of a map that diverged "over 1 km" (see
-/// kGreatestError_m).
-std::string page_metres(double error_m, int decimals = 3);
-
 /// As a page shows it in that column: powers of ten are set as such, and errors of maps that
 /// diverged are "over 1 km".
 std::string page_cell(const Cell& cell, const Column& column);
@@ -44,7 +40,7 @@ std::string small_p_words(double p);
 /// "MPE: Mean [m]": group, title and unit of a column.
 std::string full_heading(const Column& column);
 
-/// "340 ms", "12.3 s", "4 min 10 s", "2 h 5 min".
+/// As seconds_text() below a minute; "4 min 10 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
 /// `text` as valid UTF-8 that can be shown: bytes that are no UTF-8 and the controls

@@ -152,6 +152,7 @@ struct Gallery {
   std::vector<FigureBlock> figures;
   /// A page shows so many of them and folds the rest.
   std::size_t open = std::numeric_limits<std::size_t>::max();
+  std::string folded = {};  ///< What the rest shows, in a few words; empty: its titles say it.
 };
 
 /// Figures and tables that another page of the report holds.

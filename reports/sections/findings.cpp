@@ -10,6 +10,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
@@ -30,13 +31,17 @@ std::string method_label(Method method) { return std::string(info(method).label)
 
 std::string with_interval(const MeanEstimate& mpe) {
   const auto interval = interval_of(mpe);
-  if (!interval) return metres(mpe.mean);
-  const int decimals = mpe.mean < 0.1 ? 4 : 3;
-  const std::string high = page_metres(interval->high, decimals);
+  if (!interval) return error_text(mpe.mean);
   const bool is_great = interval->high > kGreatestError_m;
+  // The ends have the decimals of the mean.
+  const std::string mean = significant(mpe.mean);
+  const std::size_t point = mean.find('.');
+  const int decimals = point == std::string::npos ? 0 : static_cast<int>(mean.size() - point - 1);
+  const std::string low = number_text(interval->low, decimals);
   return fmt::format(
-      "{} (95 % interval {} to {})", metres(mpe.mean),
-      is_great ? page_metres(interval->low, decimals) : page_number(interval->low, decimals), high);
+      "{} (95 % interval {} to {})", error_text(mpe.mean),
+      is_great ? error_text(interval->low) : low,
+      is_great ? error_text(interval->high) : number_text(interval->high, decimals) + " m");
 }
 
 /// "Bearing: SMACOF, kNN weights, K = 7 is best, …"
@@ -52,13 +57,13 @@ Paragraph best_finding(std::span<const SettingSummary> methods) {
   if (best.published)
     text.phrases.push_back(
         phrase(fmt::format(" The paper printed {} and {} for this method: ours differs by {}.",
-                           metres(best.published->mpe_m), percent(best.published->moe_percent),
+                           error_text(best.published->mpe_m), percent(best.published->moe_percent),
                            relative(best.mpe_m->mean, best.published->mpe_m))));
   const SettingSummary* paper_best = best_published(methods);
   if (paper_best != nullptr && paper_best->setting.method != best.setting.method)
     text.phrases.push_back(phrase(fmt::format(" The paper\u2019s best of these methods is {}, {}.",
                                               label(paper_best->published->setting),
-                                              metres(paper_best->published->mpe_m))));
+                                              error_text(paper_best->published->mpe_m))));
   return text;
 }
 
@@ -95,7 +100,7 @@ Paragraph order_finding(Sensor sensor, std::vector<SettingSummary> methods) {
   std::string order;
   for (const SettingSummary& s : methods)
     order += fmt::format("{}{} ({})", order.empty() ? "" : " < ", method_label(s.setting.method),
-                         metres(s.mpe_m->mean));
+                         error_text(s.mpe_m->mean));
   Paragraph text{{strong(title_of(sensor)), phrase(", by MPE: " + order + ".")}};
   std::erase_if(methods,
                 [](const SettingSummary& s) { return !s.published || !s.published->note.empty(); });
@@ -125,8 +130,8 @@ Paragraph agreement_finding(Sensor sensor, std::span<const SettingSummary> metho
     text += fmt::format("the largest difference{} is {} for {} ({}, printed {}).",
                         agreement.apart > 0 ? " of the others" : "",
                         relative(farthest->mpe_m->mean, farthest->published->mpe_m),
-                        label(farthest->setting), metres(farthest->mpe_m->mean),
-                        metres(farthest->published->mpe_m));
+                        label(farthest->setting), error_text(farthest->mpe_m->mean),
+                        error_text(farthest->published->mpe_m));
   if (text.ends_with("; ")) text.replace(text.size() - 2, 2, ".");
   return {{strong(title_of(sensor)), phrase(text)}};
 }
@@ -157,8 +162,8 @@ std::string other_parameter_words(std::span<const SettingSummary> methods) {
   for (const SettingSummary& one : methods) {
     if (!one.published || !one.mpe_m || one.published->note.empty()) continue;
     if (one.published->setting == one.setting) continue;
-    pairs.push_back(fmt::format("{} at {} here, {} at {} in the paper", metres(one.mpe_m->mean),
-                                label(one.setting), metres(one.published->mpe_m),
+    pairs.push_back(fmt::format("{} at {} here, {} at {} in the paper", error_text(one.mpe_m->mean),
+                                label(one.setting), error_text(one.published->mpe_m),
                                 label(one.published->setting)));
   }
   if (pairs.empty()) return "";
@@ -167,8 +172,6 @@ std::string other_parameter_words(std::span<const SettingSummary> methods) {
 }
 
 }  // namespace
-
-std::string metres(double value) { return page_metres(value, value < 0.1 ? 4 : 3); }
 
 const SettingSummary* best_published(std::span<const SettingSummary> methods) {
   const SettingSummary* best = nullptr;

@@ -10,9 +10,6 @@
 
 namespace mapproof {
 
-/// "0.219 m", small errors with a place more.
-std::string metres(double value);
-
 /// The least published error among the methods that were tried; null if none was published.
 const SettingSummary* best_published(std::span<const SettingSummary> methods);
 

@@ -75,11 +75,12 @@ Highlights::Item fit_number(const Fit& fit) {
 }
 
 Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures, const std::string& id,
-                    const std::string& title) {
+                    const std::string& title, const std::string& verdict) {
   Section section{id, title, {}};
   section.blocks.emplace_back(
       Callout{is_alarm(fit.verdict) ? Callout::Tone::kWarning : Callout::Tone::kNote,
-              "Verdict: " + verdict_words(fit.verdict), plain(verdict_text(fit))});
+              "Verdict: " + verdict_words(fit.verdict),
+              plain(verdict.empty() ? verdict_text(fit) : verdict)});
   BulletList items;
   for (const FitCause& cause : fit.causes) items.items.push_back(plain(cause_text(cause)));
   if (const std::string parts = parts_text(fit); !parts.empty())

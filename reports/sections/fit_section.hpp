@@ -10,6 +10,7 @@
 namespace mapproof {
 
 inline constexpr const char* kFitSection = "fit";
+inline constexpr const char* kFitTitle = "Do the data fit the map?";  ///< Of that section.
 
 /// The figure of all tests of a fit; its verdict stands under the title.
 Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string> record_ids);
@@ -22,8 +23,9 @@ Highlights::Item fit_number(const Fit& fit);
 /// missing, the figures, and the least effects that would have been seen.
 /// @param figures  That show the fit, the one of its tests first.
 /// @param id       Of the section, and a prefix of its table's.
+/// @param verdict  In words, with what the fit does not show; empty: verdict_text() of the fit.
 Section fit_section(const Fit& fit, const std::vector<FigureBlock>& figures,
-                    const std::string& id = kFitSection,
-                    const std::string& title = "Do the data fit the map?");
+                    const std::string& id = kFitSection, const std::string& title = kFitTitle,
+                    const std::string& verdict = {});
 
 }  // namespace mapproof

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -312,7 +312,8 @@ std::string why_text(FitMissing missing) {
     case FitMissing::kMetric:
       return "the observations have no unit in which they could be compared with the map.";
     case FitMissing::kSize:
-      return "the tests take maps of at most 5000 landmarks and lists of at most 20 million entries.";
+      return "the tests take maps of at most 5000 landmarks and lists of at most 20 million "
+             "entries.";
   }
   return "";
 }

@@ -12,10 +12,10 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
@@ -210,11 +210,25 @@ std::optional<Highlights::Item> anchor_number(const MapRecord& record, bool is_f
   const std::optional<WorstAnchor> worst = worst_anchor(record);
   if (!worst) return std::nullopt;
   return Highlights::Item{
-      "greatest distance of an anchor from its given position", page_metres(worst->error_m),
+      "greatest distance of an anchor from its given position", error_text(worst->error_m),
       with_extent(
           fmt::format("{}, of {}", worst->name, counted(std::ssize(record.anchors), "anchor")),
           is_first_error, record),
       kPositions, worst->is_contradicted};
+}
+
+/// How many warnings the first screen has: those of the command and of the map, and the anchor that
+/// the map contradicts.
+Highlights::Item warning_number(const MapReportInput& input,
+                                const std::optional<WorstAnchor>& contradicted) {
+  const std::size_t listed = input.warnings.size() + input.record.statuses.size();
+  std::vector<std::string> details;
+  if (contradicted)
+    details.push_back("anchor " + printable(contradicted->name, 40) + " is not where it was given");
+  if (listed > 0) details.emplace_back("listed with their reasons");
+  return {"warnings and failures", fmt::format("{}", listed + (contradicted ? 1 : 0)),
+          details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")),
+          contradicted && listed == 0 ? kPositions : kWarnings};
 }
 
 /// How good the map is comes first: its errors, or else whether the data fit it.
@@ -241,8 +255,7 @@ Highlights numbers_of(const MapReportInput& input) {
                          : record.anchors.empty() ? "map in metres, in a frame of its own"
                                                   : "map in metres, in their frame",
                          kPositions});
-  out.items.push_back({"warnings and failures", fmt::format("{}", record.statuses.size()),
-                       record.statuses.empty() ? "none" : "listed with their reasons", kWarnings});
+  out.items.push_back(warning_number(input, is_contradicted ? worst_anchor(record) : std::nullopt));
   return out;
 }
 
@@ -260,7 +273,7 @@ Paragraph worst_finding(const MapRecord& record) {
   if (worst < 0) return {};
   return {{{"Farthest from its true position is ", Emphasis::kPlain},
            {record.names[static_cast<std::size_t>(worst)], Emphasis::kData},
-           {fmt::format(", by {}.", page_metres(largest)), Emphasis::kPlain}}};
+           {fmt::format(", by {}.", error_text(largest)), Emphasis::kPlain}}};
 }
 
 /// Why a map has a shape alone, and what that leaves undetermined.
@@ -284,6 +297,20 @@ Paragraph what_was_done(const MapRecord& record) {
           : fmt::format("{}, {}, of {}.", method_label(record), sensor_label(record), landmarks));
 }
 
+/// What the map is compared with: ground truth, else the anchors as they were given.
+std::string compared_words(const MapRecord& record) {
+  Index known = 0;
+  for (Index i = 0; record.ground_truth_m && i < record.ground_truth_m->rows(); ++i)
+    if (placed(*record.ground_truth_m, i) && !is_anchor(record, i)) ++known;
+  if (known > 0)
+    return "the true positions of " + counted(known, "landmark") +
+           (record.anchors.empty() ? "" : " that are not anchors");
+  if (worst_anchor(record))
+    return fmt::format("the given positions of {}; no ground truth was given",
+                       counted(std::ssize(record.anchors), "anchor"));
+  return "nothing; no ground truth was given";
+}
+
 /// The map, how well it fits its data, and what needs attention.
 Opening opening_of(const MapReportInput& input) {
   const MapRecord& record = input.record;
@@ -292,8 +319,8 @@ Opening opening_of(const MapReportInput& input) {
   opening.findings.push_back(what_was_done(record));
   if (!input.verdict.empty())
     opening.findings.push_back({{strong("Fit"), phrase(": " + input.verdict)}});
-  if (!any_ground_truth(record))
-    opening.findings.push_back(plain("No ground truth was given to compare the map with."));
+  opening.findings.push_back(
+      {{strong("Compared with"), phrase(": " + compared_words(record) + ".")}});
   std::vector<std::string> wrong = input.warnings;
   for (const Status& status : record.statuses) wrong.push_back(status_text(status));
   if (!wrong.empty())
@@ -444,7 +471,7 @@ std::string with_anchors(const std::string& verdict, const MapRecord& record) {
   return fmt::format(
       "{} But the map misses the given position of anchor {} by {}, {:.0f}\u00a0% of its longer "
       "side.",
-      verdict, printable(worst->name, 40), page_metres(worst->error_m), worst->share_percent);
+      verdict, printable(worst->name, 40), error_text(worst->error_m), worst->share_percent);
 }
 
 std::string scored_landmarks_text(const MapRecord& record) {

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <iterator>
 #include <map>
 #include <set>
 #include <string_view>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
@@ -24,7 +26,7 @@ constexpr std::string_view kNoBreak = "\u00a0";
 
 /// With no break between number and unit.
 std::string whole_metres(double value) {
-  std::string text = metres(value);
+  std::string text = error_text(value);
   const std::size_t space = text.find(' ');
   return space == std::string::npos ? text : text.replace(space, 1, kNoBreak);
 }
@@ -223,6 +225,8 @@ void choose_figures(const std::vector<std::string>& ids, const StudyFigures& fig
   opening.main_figure = opening.figure_ids.front();
   opening.figure_ids.erase(opening.figure_ids.begin());
 }
+
+std::string today_utc() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }
 
 std::string date_of(std::span<const Session> sessions) {
   constexpr std::size_t kDateSize = 10;  // "2026-11-26"

@@ -30,6 +30,9 @@ std::vector<std::string> present_ids(const std::vector<std::string>& ids,
 void choose_figures(const std::vector<std::string>& ids, const StudyFigures& figures,
                     Opening& opening);
 
+/// The day that it is, YYYY-MM-DD in UTC.
+std::string today_utc();
+
 /// The day of the last session, YYYY-MM-DD in UTC; empty without sessions.
 std::string date_of(std::span<const Session> sessions);
 

@@ -83,6 +83,9 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
       "it is shown with the median run. The last figures show each method on its own median run: "
       "neither its best map nor its worst.",
       std::move(maps), compared, Interest::kMost);
+  if (!figures.groups.empty() && figures.groups.back().id == "maps")
+    figures.groups.back().folded =
+        "errors over the floor, maps as the paper shows them, and each method on its median run";
   add("forming", "How maps form and scatter",
       "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
       "scatter over the runs of that layout.",
@@ -150,6 +153,7 @@ Gallery gallery_of(const FigureGroup& group, std::size_t first) {
   gallery.figures.erase(gallery.figures.begin(),
                         gallery.figures.begin() + static_cast<std::ptrdiff_t>(first));
   gallery.open = group.open - std::min(group.open, first);
+  gallery.folded = group.folded;
   return gallery;
 }
 

@@ -25,6 +25,7 @@ struct FigureGroup {
   std::vector<Film> films = {};     ///< Of scenes of the same ids, drawn when they are asked for.
   std::size_t open = kFiguresOpen;  ///< A page shows so many of them and folds the rest.
   Interest interest = Interest::kSome;  ///< Of its section.
+  std::string folded = {};              ///< As of Gallery.
 
   bool empty() const { return figures.empty() && scenes.empty(); }
 };

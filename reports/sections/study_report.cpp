@@ -121,12 +121,15 @@ void add_ends(const Study& study, BulletList& findings) {
   const StudyCounts counts = count(study);
   if (counts.maps == 0) return;
   const std::string maps = counted(counts.maps, "map");
-  const std::string text = counts.with_status + counts.unscored == 0
-                               ? fmt::format(": none in {}.", maps)
-                               : fmt::format(
-                                     ": of {}, {} without a score and {} with warnings, all listed "
-                                     "below with the reason.",
-                                     maps, counts.unscored, counts.with_status);
+  const std::string text =
+      counts.with_status + counts.unscored == 0
+          ? fmt::format(": none in {}.", maps)
+          : fmt::format(
+                ": of {}, {}{} with warnings, all listed below with the "
+                "reason.",
+                maps,
+                counts.unscored == 0 ? "" : fmt::format("{} without a score and ", counts.unscored),
+                counts.with_status);
   findings.items.push_back({{strong("Failures"), phrase(text)}});
 }
 
@@ -213,10 +216,18 @@ Section statuses_section(const Study& study) {
                                : fmt::format("None in {}.", counted(counts.maps, "map"))));
     return section;
   }
+  std::vector<std::string> parts;
+  if (counts.with_status > 0)
+    parts.push_back(
+        fmt::format("{} ha{} warnings", counts.with_status, counts.with_status == 1 ? "s" : "ve"));
+  if (counts.unscored > 0)
+    parts.push_back(
+        fmt::format("{} ha{} no score", counts.unscored, counts.unscored == 1 ? "s" : "ve"));
+  if (counts.failed > 0) parts.push_back(fmt::format("{} could not be made", counts.failed));
   section.blocks.emplace_back(plain(fmt::format(
-      "Of {}, {} with warnings, {} without a score, and {} of these with no map at all. The "
-      "numbers above include every map that could be scored, with or without warnings.",
-      counted(counts.maps, "map"), counts.with_status, counts.unscored, counts.failed)));
+      "Of {}, {}. The numbers above include every map that could be scored, with or without "
+      "warnings.",
+      counted(counts.maps, "map"), listed(parts, parts.size() + 1))));
   section.blocks.emplace_back(std::move(list));
   return section;
 }

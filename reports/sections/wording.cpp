@@ -63,12 +63,6 @@ void fold(Table table, Section& section) {
   section.blocks.emplace_back(std::move(table));
 }
 
-std::string unbroken(std::string_view text) {
-  std::string whole;
-  for (const char c : text) whole += c == '-' ? std::string("\u2011") : std::string(1, c);
-  return whole;
-}
-
 Paragraph plain(std::string text) { return {{{std::move(text), Emphasis::kPlain}}}; }
 
 namespace {

@@ -23,9 +23,6 @@ std::string paper_number(std::string_view id);
 /// Adds a table that a page folds.
 void fold(Table table, Section& section);
 
-/// The text with hyphens at which no line ends: "spectral, 4-D".
-std::string unbroken(std::string_view text);
-
 /// A paragraph of plain text.
 Paragraph plain(std::string text);
 

@@ -65,7 +65,7 @@ TEST_F(StudyOfAnotherProgram, IsComparedValueByValueWithItsTest) {
   const Outcome outcome = mapproof({"diff", folder_ / "baseline", folder_ / "mine"});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(
-      outcome.out.find("absolute trajectory error 0.135 → 0.5 m in run 17 alone of 40, p = 1 of "
+      outcome.out.find("absolute trajectory error 0.135 → 0.500 m in run 17 alone of 40, p = 1 of "
                        "indoors/ekf/noise-0.05"),
       std::string::npos)
       << outcome.out;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <regex>
 
 #include <gtest/gtest.h>
@@ -134,6 +135,44 @@ TEST_F(ScenesOfAStudy, OfARoomThatCannotBeDrawnAreLeftOut) {
       {"render", copy.string(), "--figure", "map-bearing-isomap", "--figure", "errors-bearing"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.error;
   EXPECT_EQ(mapproof({"render", copy.string(), "--figure", "scene-world-bearing"}).exit_code, 2);
+}
+
+/// What `map` writes with that program to draw scenes.
+Outcome map_of_hall(const TemporaryFolder& folder, const std::string& scenes) {
+  const Environment drawn{{"MAPPROOF_SCENES", scenes.c_str()}};
+  EXPECT_EQ(mapproof({"example", "hall", "--out", folder / "hall"}).exit_code, 0);
+  const std::string hall = folder / "hall/hall";
+  return mapproof({"map", hall + "/bearings.csv", "--sensor", "bearing", "--method", "isomap",
+                   "--anchors", hall + "/anchors.csv", "--out", folder / "map", "--force"});
+}
+
+std::string scenes_beside_program() {
+  return fs::path(program()).parent_path() / "mapproof-scenes";
+}
+
+TEST(SceneOfAMap, StandsInItsPageAndAmongItsSmallImages) {
+  const TemporaryFolder folder;
+  const Outcome outcome = map_of_hall(folder, scenes_beside_program());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.error;
+  for (const char* ending : {".png", ".svg", ".pdf", ".scene.json"})
+    EXPECT_TRUE(fs::exists(folder / ("map/figures/scene-map" + std::string(ending)))) << ending;
+  const std::string page = read_file(folder / "map/report.html");
+  EXPECT_NE(page.find("id=\"figure-scene-map\""), std::string::npos);
+  EXPECT_NE(page.find("<li><a href=\"#figure-scene-map\">"), std::string::npos);
+  const std::string scene = read_file(folder / "map/figures/scene-map.scene.json");
+  EXPECT_NE(scene.find("\"anchor\""), std::string::npos);
+}
+
+TEST(SceneOfAMap, IsNoneWithoutTheProgramAndAWarningWhereThatFails) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(map_of_hall(folder, "/nowhere/mapproof-scenes").exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "map/figures/scene-map.svg"));
+  EXPECT_EQ(read_file(folder / "map/report.html").find("scene-map"), std::string::npos);
+  const Outcome failed = map_of_hall(folder, "/bin/false");
+  EXPECT_EQ(failed.exit_code, 0) << failed.error;
+  EXPECT_NE(failed.error.find("\nwarning: scenes cannot be drawn: "), std::string::npos)
+      << failed.error;
+  EXPECT_NE(read_file(folder / "map/report.html").find("figure-map"), std::string::npos);
 }
 
 TEST_F(ScenesOfAStudy, AreNoConcernOfWhatDrawsNone) {

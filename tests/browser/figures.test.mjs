@@ -345,12 +345,17 @@ test("Play goes through the steps of a map forming and stops at the last", async
   await close();
 });
 
-test("a marker tells errors of maps that diverged in words, and powers of ten", async () => {
+test("a point tells errors of maps that diverged in words, and powers of ten", async () => {
   const { page, close } = await open();
-  const words = await page.evaluate(() => [valueWords("1.3e+15", "1000"), valueWords("1.3e+15"),
-    valueWords("0.998", "1000"), errorWords("1000.5"), errorWords("0.0123")]);
-  assert.deepEqual(words,
-    ["over 1\u00a0km", "1.3 × 10¹⁵", "0.998", "over 1\u00a0km", "0.0123 m"]);
+  const shown = await figure(page, "fig-4");
+  const words = await shown.locator("svg").evaluate((svg) => {
+    const [first] = valuesOf(svg);
+    const said = (y, over) => wordsOfValue(svg, { ...first, interval: undefined, y, over })[1];
+    return [said("1.3e+15", "1000"), said("1.3e+15"), said("0.9978", "1000"),
+      errorWords("1000.5"), errorWords("0.0123")];
+  });
+  assert.deepEqual(words, ["MPE over 1\u00a0km", "MPE 1.30 × 10¹⁵\u00a0m", "MPE 0.998\u00a0m",
+    "over 1\u00a0km", "0.0123 m"]);
   await close();
 });
 

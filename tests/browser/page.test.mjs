@@ -379,6 +379,21 @@ test("a figure that got narrower on a phone keeps its data where its axes count 
   wide.forEach((share, i) => assert.ok(Math.abs(share - narrow[i]) < .01, `${share} ${narrow[i]}`));
 });
 
+test("on a phone the tick labels of a y axis end at one line, the lowest one, too", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  const shown = await figure(page, "fig-4");
+  const ends = await shown.locator(".drawing > svg").evaluate((svg) => {
+    const { panels, frames } = partsOf(svg);
+    return panels.map((panel, i) => tickLabelsOf(panel, frames[i]).left.map(
+      (label) => label.getBoundingClientRect().right));
+  });
+  assert.ok(ends.some((labels) => labels.length > 1));
+  for (const labels of ends) {
+    assert.ok(Math.max(...labels) - Math.min(...labels) < 1.5, labels.join(" "));
+  }
+  await close();
+});
+
 test("a phone that is turned arranges its figures again", async () => {
   const { page, close } = await open({ viewport: { width: 360, height: 640 } });
   const ids = ["fig-4", "forming-bearing", "scene-world-bearing"];

@@ -13,6 +13,7 @@
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
 #include "core/base/text/csv.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/utf8.hpp"
 #include "core/base/text/words.hpp"
@@ -99,12 +100,73 @@ TEST_F(Files, TroubleNamesTheFile) {
 }
 
 TEST(UnitText, KeepsNumbersAndTheirUnitsOnOneLine) {
-  EXPECT_EQ(with_units_kept("dead reckoning 16 m; over 1.9 km, 12 % in 3 ms"),
+  EXPECT_EQ(with_quantities_kept("dead reckoning 16 m; over 1.9 km, 12 % in 3 ms"),
             "dead reckoning 16\u00A0m; over 1.9\u00A0km, 12\u00A0% in 3\u00A0ms");
-  EXPECT_EQ(with_units_kept("2 maps of 5 methods in step 4 should stay"),
+  EXPECT_EQ(with_quantities_kept("2 maps of 5 methods in step 4 should stay"),
             "2 maps of 5 methods in step 4 should stay");
-  EXPECT_EQ(with_units_kept("MPE 0.086 m"), "MPE 0.086\u00A0m");
-  EXPECT_EQ(with_units_kept(""), "");
+  EXPECT_EQ(with_quantities_kept("ISOMAP, K = 7, and p = 0.001; a = b"),
+            "ISOMAP, K\u00A0=\u00A07, and p\u00A0=\u00A00.001; a = b");
+  EXPECT_EQ(with_quantities_kept("MPE 0.086 m"), "MPE 0.086\u00A0m");
+  EXPECT_EQ(with_quantities_kept(""), "");
+}
+
+TEST(UnitText, KeepsDimensionsAndDatesOnOneLine) {
+  EXPECT_EQ(with_quantities_kept("spectral, 4-D 0.41 m; made 2026-11-27."),
+            "spectral, 4\u2011D 0.41\u00A0m; made 2026\u201111\u201127.");
+  EXPECT_EQ(with_quantities_kept("in 3-D, 210 µs, 12 MiB"),
+            "in 3\u2011D, 210\u00A0µs, 12\u00A0MiB");
+  for (const char* other : {"layout-1-pose-2", "out/2026-11-27", "1-2-3", "2026-11-270", "-D", "-",
+                            "7-Day", "2026-1-27"})
+    EXPECT_EQ(with_quantities_kept(other), other);
+}
+
+TEST(NumberText, HasNoMinusZero) {
+  EXPECT_EQ(number_text(-0.001, 2), "0.00");
+  EXPECT_EQ(number_text(-0.2, 1), "−0.2");
+}
+
+TEST(NumberText, HasThreeSignificantDigitsWithTheirZeros) {
+  EXPECT_EQ(significant(0.2194), "0.219");
+  EXPECT_EQ(significant(0.012), "0.0120");
+  EXPECT_EQ(significant(0.1), "0.100");
+  EXPECT_EQ(significant(141.4), "141");
+  EXPECT_EQ(significant(1859.4), "1859");
+  EXPECT_EQ(significant(-2.1), "−2.10");
+  EXPECT_EQ(significant(2.98e9), "2.98×10⁹");
+  EXPECT_EQ(significant(0.0), "0");
+  EXPECT_EQ(significant(std::nan("")), "unknown");
+}
+
+TEST(NumberText, CountsDigitsAfterRounding) {
+  EXPECT_EQ(significant(0.09996), "0.100");
+  EXPECT_EQ(significant(9.996), "10.0");
+  EXPECT_EQ(significant(999999.9), "1.00×10⁶");
+  EXPECT_EQ(significant(9.99e-7), "9.99×10⁻⁷");
+}
+
+TEST(NumberText, OfAnErrorSaysThatAMapDiverged) {
+  EXPECT_EQ(error_text(0.12345), "0.123 m");
+  EXPECT_EQ(error_text(1000.0), "1000 m");
+  EXPECT_EQ(error_text(1001.0), "over 1\u00A0km");
+  EXPECT_EQ(error_text(-1001.0), "below −1\u00A0km");
+  EXPECT_EQ(error_text(std::nan("")), "unknown");
+}
+
+TEST(NumberText, ScalesTimesAndLengthsOfPaths) {
+  EXPECT_EQ(seconds_text(2.1e-3), "2.10 ms");
+  EXPECT_EQ(seconds_text(421.4e-6), "421 µs");
+  EXPECT_EQ(seconds_text(0.99951), "1.00 s");
+  EXPECT_EQ(seconds_text(12.0), "12.0 s");
+  EXPECT_EQ(length_text(1859.0), "1.86 km");
+  EXPECT_EQ(length_text(999.6), "1.00 km");
+  EXPECT_EQ(length_text(86.0), "86.0 m");
+}
+
+TEST(NumberText, OfACountHasNoDecimals) {
+  EXPECT_EQ(quantity_text(20.0, ""), "20");
+  EXPECT_EQ(quantity_text(20.5, ""), "20.5");
+  EXPECT_EQ(quantity_text(20.0, "m"), "20.0\u00A0m");
+  EXPECT_EQ(quantity_text(2.064, "\u00B0"), "2.06\u00B0");
 }
 
 TEST(Printable, ShowsWhatCannotBeSeenAndCutsWhatIsLong) {

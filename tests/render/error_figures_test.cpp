@@ -16,10 +16,10 @@
 namespace mapproof::test {
 namespace {
 
-TEST(SeriesStyle, NoTwoOfTheFirstTwentyOneAreAlike) {
+TEST(SeriesStyle, NoTwoOfTheFirst350AreAlikeAndAnyTenDifferInColour) {
   std::set<std::tuple<ThemeColour, Dash, Marker>> styles;
   std::set<std::pair<Dash, Marker>> grey;
-  for (std::size_t i = 0; i < 21; ++i) {
+  for (std::size_t i = 0; i < 350; ++i) {
     const SeriesStyle style = series_style(i);
     EXPECT_TRUE(styles.insert({style.colour, style.dash, style.marker}).second) << i;
     grey.insert({style.dash, style.marker});
@@ -69,6 +69,37 @@ TEST(SeriesOfMethods, OfOneStudyDoNotDependOnItsOtherMethods) {
   EXPECT_GE(fixed, kMethodStyles);
 }
 
+std::size_t colours_of(const std::vector<std::size_t>& series) {
+  std::set<ThemeColour> colours;
+  for (const std::size_t one : series) colours.insert(series_style(one).colour);
+  return colours.size();
+}
+
+TEST(SeriesOfMethods, OfTheFirstTenOfAStudyHaveTenColours) {
+  EXPECT_EQ(
+      colours_of(series_of_methods({"visibility", "visibility-order", "bearing", "bearing-order",
+                                    "range", "range-order", "equal", "reliable", "joint"})),
+      9U);
+  std::vector<std::string> ids = {"isomap", "kpca-polynomial-d2", "lpca"};
+  for (int i = 0; i < 7; ++i) ids.push_back("mine-" + std::to_string(i));
+  EXPECT_EQ(colours_of(series_of_methods(ids)), 10U);
+  std::vector<std::size_t> mapping;
+  for (const MethodInfo& method : all_methods())
+    if (!method.approximates) mapping.push_back(method_series(method.method));
+  EXPECT_EQ(colours_of(mapping), 10U);
+}
+
+TEST(SeriesOfMethods, OfMoreThanTenComeAgainWithOtherDashesAndMarkers) {
+  std::vector<std::string> ids;
+  for (int i = 0; i < 25; ++i) ids.push_back("mine-" + std::to_string(i));
+  std::set<std::tuple<ThemeColour, Dash, Marker>> styles;
+  for (const std::size_t one : series_of_methods(ids)) {
+    const SeriesStyle style = series_style(one);
+    styles.insert({style.colour, style.dash, style.marker});
+  }
+  EXPECT_EQ(styles.size(), 25U);
+}
+
 TEST(SeriesOfMethods, OfUnknownMethodsAreTheFirst) {
   EXPECT_EQ(series_of_methods({"ekf", "fastslam"}), (std::vector<std::size_t>{0, 1}));
 }
@@ -92,9 +123,9 @@ TEST(BestLine, IsNamedWithItsValueAtTheEnd) {
   const std::vector<ErrorLine> lines = {three_points("A", {3, 2, 0.25}, 0.01),
                                         three_points("B", {1, 1, 1}, 0.01)};
   EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
-            "A has the lowest MPE after 3 steps, 0.25\u00A0m");
+            "A has the lowest MPE after 3 steps, 0.250\u00A0m");
   EXPECT_EQ(best_at_end(lines, {"share", "%", false}, "at {}"),
-            "B has the highest share at 3, 1.0\u00A0%");
+            "B has the highest share at 3, 1.00\u00A0%");
 }
 
 TEST(BestLine, IsNamedWithThoseWhoseIntervalsOverlapItsOwn) {
@@ -102,7 +133,7 @@ TEST(BestLine, IsNamedWithThoseWhoseIntervalsOverlapItsOwn) {
                                         three_points("B", {1, 1, 0.3}, 0.1),
                                         three_points("C", {1, 1, 0.9}, 0.1)};
   EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
-            "A and B have the lowest MPE after 3 steps, 0.25\u00A0m and 0.30\u00A0m");
+            "A and B have the lowest MPE after 3 steps, 0.250\u00A0m and 0.300\u00A0m");
 }
 
 TEST(BestLine, OfManyThatAreEqualIsTheSpanOfTheirValues) {
@@ -111,13 +142,13 @@ TEST(BestLine, OfManyThatAreEqualIsTheSpanOfTheirValues) {
     lines.push_back(
         three_points(label, {1, 1, 0.19 + 0.01 * static_cast<double>(lines.size())}, 0.1));
   EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
-            "after 3 steps, all 4 methods have an MPE of 0.19\u00A0m to 0.22\u00A0m");
+            "after 3 steps, all 4 methods have an MPE of 0.190\u00A0m to 0.220\u00A0m");
   EXPECT_EQ(best_at_end({lines[0], lines[1]}, {}, "after {} steps"),
-            "after 3 steps, both methods have an MPE of 0.19\u00A0m to 0.20\u00A0m");
+            "after 3 steps, both methods have an MPE of 0.190\u00A0m to 0.200\u00A0m");
   lines.push_back(three_points("LEM, K = 6", {1, 1, 0.9}, 0.1));
-  EXPECT_EQ(
-      best_at_end(lines, {}, "after {} steps"),
-      "after 3 steps, 4 of 5 methods have an MPE of 0.19\u00A0m to 0.22\u00A0m, LEM 0.90\u00A0m");
+  EXPECT_EQ(best_at_end(lines, {}, "after {} steps"),
+            "after 3 steps, 4 of 5 methods have an MPE of 0.190\u00A0m to 0.220\u00A0m, LEM "
+            "0.900\u00A0m");
 }
 
 TEST(BestLine, OfAFamilyIsCalledSo) {
@@ -126,12 +157,12 @@ TEST(BestLine, OfAFamilyIsCalledSo) {
   LineQuantity mpe;
   mpe.family = "these 2";
   EXPECT_EQ(best_at_end(lines, mpe, "after {} steps"),
-            "of these 2, A has the lowest MPE after 3 steps, 0.25\u00A0m");
+            "of these 2, A has the lowest MPE after 3 steps, 0.250\u00A0m");
   mpe.family = "the 2 on a neighbour graph";
   for (ErrorLine& line : lines) line.mean.back() = 0.25;
   lines.push_back(three_points("C", {1, 1, 0.25}, 0.01));
   EXPECT_EQ(best_at_end(lines, mpe, "after {} steps"),
-            "after 3 steps, all of the 2 on a neighbour graph have an MPE of 0.25\u00A0m");
+            "after 3 steps, all of the 2 on a neighbour graph have an MPE of 0.250\u00A0m");
 }
 
 TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
@@ -163,9 +194,9 @@ TEST(BestLine, OverAnAxisIsOneOrChanges) {
   EXPECT_EQ(best_over({a, a}, {}, {"noise"}), "");  // Neither is better.
   EXPECT_EQ(best_over({}, {}, {"noise"}), "");
   EXPECT_EQ(best_of_all({a, three_points("C", {4, 4, 4}, 0.1)}, {}, {"K"}),
-            "A has the lowest MPE, 1.0\u00A0m at K\u00A0=\u00A01");
+            "A has the lowest MPE, 1.00\u00A0m at K\u00A0=\u00A01");
   EXPECT_EQ(best_of_all({a, b}, {}, {"K"}), "");  // B's best is as good.
-  EXPECT_EQ(best_of_all({a}, {}, {"K"}), "the lowest MPE of A is 1.0\u00A0m at K\u00A0=\u00A01");
+  EXPECT_EQ(best_of_all({a}, {}, {"K"}), "the lowest MPE of A is 1.00\u00A0m at K\u00A0=\u00A01");
 }
 
 TEST(BestLine, AtBothEndsIsNotDeniedTheBestBetween) {
@@ -193,10 +224,31 @@ TEST(BestLine, IsNotTheBestWhereverTheyDifferWhereItsMeanIsBeaten) {
   a.high = {1.1, 56, 83};
   a.low = {0.9, -4, 23};
   EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
-            "A has the lowest MPE at side\u00A0=\u00A01\u00A0m; elsewhere intervals overlap");
+            "A has the lowest MPE at side\u00A0=\u00A01\u00A0m; elsewhere it ties with others");
   b.mean = {2, 27, 54};
   EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
             "A has the lowest MPE wherever they differ");
+}
+
+TEST(BestLine, TiesWithWhoeverTiesWithTheBest) {
+  const ErrorLine a = three_points("A", {1, 1, 1}, 0.1),
+                  b = three_points("B", {1.15, 1.15, 1.15}, 0.1);
+  const ErrorLine c = three_points("C", {1.3, 1.3, 1.3}, 0.1),
+                  d = three_points("D", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_over({a, c, d}, {}, {"noise"}), "A has the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, b, c, d}, {}, {"noise"}), "A, B and C have the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "");
+}
+
+TEST(BestLine, IsNobodyWhereAllTieEvenIfFewAreKnownThere) {
+  const ErrorLine a = three_points("A", {1, 1, 1}, 0.1), b = three_points("B", {1, 1, 1}, 0.1);
+  ErrorLine c = three_points("C", {1, 1, kNaN}, 0.1), d = three_points("D", {1.1, 1.1, kNaN}, 0.1);
+  EXPECT_EQ(best_over({a, b, c, d}, {}, {"noise"}), "");
+}
+
+TEST(BestLine, EndsTieWhereTheirIntervalsOverlap) {
+  EXPECT_TRUE(ends_tie(three_points("A", {1, 5, 1.15}, 0.1)));
+  EXPECT_FALSE(ends_tie(three_points("A", {1, 1, 1.25}, 0.1)));
 }
 
 TEST(BestLine, IsPluralIfItStandsForSeveralWhateverItsLabel) {
@@ -251,6 +303,16 @@ TEST(BestLine, HasNoParameterThatTellsNoTwoApart) {
   EXPECT_EQ(best_over({a, c}, {}, {"noise"}), "SMACOF kNN, K = 7 has the lowest MPE throughout");
 }
 
+TEST(BestLine, NamesWithCommasAreInQuotesWhereThereAreSeveral) {
+  const ErrorLine a = three_points("PPCA, kNN-SMACOF", {1, 1, 1}, 0.1);
+  const ErrorLine b = three_points("PCA, kNN-SMACOF", {1.01, 1.01, 1.01}, 0.1);
+  const ErrorLine c = three_points("C", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}),
+            "\u201cPPCA, kNN-SMACOF\u201d and \u201cPCA, kNN-SMACOF\u201d have the lowest MPE "
+            "throughout");
+  EXPECT_EQ(best_over({a, c}, {}, {"noise"}), "PPCA, kNN-SMACOF has the lowest MPE throughout");
+}
+
 TEST(BestLine, OfSeveralPanelsIsBestAtMostPoints) {
   const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {2, 3, 1}, 0.1);
   EXPECT_EQ(best_of_points({{a, b}, {a, b}}, {}), "A has the lowest MPE at 4 of 6 points");
@@ -268,13 +330,13 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("m", 0.5), "0.5 m");
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
-  EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
+  EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻⁹ ppm");
   EXPECT_EQ(words("ppm", 12.0), "12 ppm");
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");
 }
 
 TEST(ScaledUnit, ThatIsAPowerIsKnownAsOne) {
-  EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -15);
+  EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -9);
   EXPECT_EQ(power_of("mm"), std::nullopt);
 }
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
 #include "render/figures/maps/pair_distances.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 
@@ -252,14 +252,6 @@ TEST(ScoreWords, NameTheAnchorThatAMapMissesMost) {
   EXPECT_EQ(title_with_error("A map", record), "A map: 0.219 m off in the mean");
   record.frame = Frame::kSimilarity;  // No metres.
   EXPECT_FALSE(worst_anchor(record));
-}
-
-TEST(Words, NumbersAreReadable) {
-  EXPECT_EQ(significant(0.2194), "0.219");
-  EXPECT_EQ(significant(141.4), "141");
-  EXPECT_EQ(significant(2.98e9), "2.98×10⁹");
-  EXPECT_EQ(significant(0.0), "0");
-  EXPECT_EQ(significant(NAN), "unknown");
 }
 
 }  // namespace

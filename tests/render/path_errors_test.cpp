@@ -118,6 +118,58 @@ TEST(PathErrorMap, IsBrokenByAGap) {
   EXPECT_TRUE(std::isnan(estimate.values[20]));
 }
 
+/// Of both halves of a drive, 20 poses each, 500 s and 500 m apart.
+PoseErrors with_a_gap() {
+  PoseErrors poses = straight(std::vector<double>(40, 0.1));
+  poses.time_s.tail(20).array() += 500.0;
+  poses.distance_m.tail(20).array() += 500.0;
+  poses.ground_truth_m.col(0) = poses.estimate_m.col(0) = poses.distance_m;
+  return poses;
+}
+
+/// One every second, along x.
+LonePoses lone_poses(double from_s, Eigen::Index n) {
+  LonePoses alone{Eigen::VectorXd::LinSpaced(n, from_s, from_s + static_cast<double>(n - 1)),
+                  SpacePoints::Zero(n, 3)};
+  alone.positions_m.col(0) = alone.time_s;
+  return alone;
+}
+
+TEST(PathErrorMap, HasTheWholeGroundTruthAlsoWhereTheEstimateHasAGap) {
+  PoseErrors poses = with_a_gap();
+  poses.ground_truth_alone = lone_poses(20.0, 500);
+  const Figure figure = path_error_map_figure({"errors", "Errors", {{"gap", &poses}}, {}}, 0);
+  ASSERT_EQ(figure.panels[0].layers.size(), 2U);
+  const auto& ground_truth = std::get<Polyline>(figure.panels[0].layers[0]);
+  ASSERT_EQ(ground_truth.x.size(), 540U);
+  for (std::size_t i = 0; i < 540; ++i)
+    EXPECT_NEAR(ground_truth.x[i], static_cast<double>(i), 1e-9);
+  const auto& estimate = std::get<Polyline>(figure.panels[0].layers[1]);
+  EXPECT_TRUE(std::isnan(estimate.x[20]));
+}
+
+TEST(PathErrorMap, HasTheEstimateAlsoWhereTheGroundTruthHasAGap) {
+  PoseErrors poses = with_a_gap();
+  poses.estimate_alone = lone_poses(20.0, 500);
+  poses.ground_truth_alone = lone_poses(540.0, 9);
+  const Figure figure = path_error_map_figure({"errors", "Errors", {{"gap", &poses}}, {}}, 0);
+  ASSERT_EQ(figure.panels[0].layers.size(), 3U);
+  const auto& ground_truth = std::get<Polyline>(figure.panels[0].layers[0]);
+  EXPECT_TRUE(std::isnan(ground_truth.x[20])) << "it has no pose there";
+  const auto& alone = std::get<Polyline>(figure.panels[0].layers[1]);
+  EXPECT_EQ(alone.label, "without ground truth");
+  ASSERT_EQ(alone.x.size(), 502U) << "with an associated pose at either end";
+  EXPECT_NEAR(alone.x.front(), 19.0, 1e-9);
+  EXPECT_NEAR(alone.x.back(), 520.0, 1e-9);
+}
+
+TEST(PathErrorMap, HasNoLineOfPosesBetweenAssociatedOnes) {
+  PoseErrors poses = straight(std::vector<double>(40, 0.1));
+  poses.estimate_alone = lone_poses(0.5, 39);
+  const Figure figure = path_error_map_figure({"errors", "Errors", {{"gap", &poses}}, {}}, 0);
+  EXPECT_EQ(figure.panels[0].layers.size(), 2U);
+}
+
 TEST(PathErrorCurves, AreBrokenByAPause) {
   PoseErrors poses = straight(std::vector<double>(40, 0.1));
   poses.has_times = true;
@@ -137,6 +189,26 @@ TEST(PathErrorCurves, AreBrokenByAPause) {
   EXPECT_EQ(breaks(), (std::vector<std::ptrdiff_t>{1, 1, 1}));
   poses.has_times = false;
   EXPECT_EQ(breaks(), (std::vector<std::ptrdiff_t>{0, 0, 0}));
+}
+
+TEST(PathErrorCurves, OfManyPosesAreMediansOverTheErrorsOfEach) {
+  std::vector<double> errors_m(800, 0.1);
+  for (std::size_t i = 0; i < errors_m.size(); i += 5) errors_m[i] = 0.9;  // Never in the majority.
+  const PoseErrors many = straight(errors_m), few = straight(std::vector<double>(159, 0.4));
+  const Figure figure =
+      path_error_curves_figure({"errors", "Errors", {{"many", &many}, {"few", &few}}, {}});
+  for (const Panel& panel : figure.panels) {
+    ASSERT_EQ(panel.layers.size(), 3U);
+    const auto& behind = std::get<Polyline>(panel.layers[0]);
+    EXPECT_EQ(behind.colour, ThemeColour::kMuted);
+    EXPECT_LT(behind.width, 0.5);
+    EXPECT_EQ(std::ranges::max(behind.y), 0.9) << "no peak is lost";
+    const auto& medians = std::get<Polyline>(panel.layers[1]);
+    EXPECT_EQ(medians.y, std::vector<double>(80, 0.1));
+    EXPECT_GT(std::get<Polyline>(panel.layers[2]).y.size(), 100U) << "too few for medians";
+  }
+  EXPECT_NE(figure.caption.find("the median in each of 80 equal pieces"), std::string::npos);
+  EXPECT_NE(figure.caption.find("fewer than 160 poses"), std::string::npos);
 }
 
 TEST(Layout, APageEndsBelowAMapThatIsWiderThanHigh) {

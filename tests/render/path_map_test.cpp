@@ -57,7 +57,7 @@ TEST(PathMap, ThinsTenThousandPosesToWhatTheEyeCanSee) {
 TEST(PathMap, ShowsTheErrorsOfEachMethodWithMeanAndAlignment) {
   const SlamRun run = sample_drive("plaza-1", 2000, 1);
   const Panel errors = figure_of(run).panels[1];
-  const auto line = labelled<Polyline>(errors, "dead reckoning: 9.8 m, unaligned");
+  const auto line = labelled<Polyline>(errors, "dead reckoning: 9.83 m, unaligned");
   ASSERT_TRUE(line);
   // The median of each of 80 pieces of the drive, which lasts 1000 s.
   ASSERT_EQ(line->x.size(), 80U);
@@ -65,7 +65,7 @@ TEST(PathMap, ShowsTheErrorsOfEachMethodWithMeanAndAlignment) {
   std::vector<double> last(run.records[0].error_m.end() - 25, run.records[0].error_m.end());
   std::ranges::sort(last);
   EXPECT_NEAR(line->y.back(), last[12], 0.02 * last[12]);
-  EXPECT_TRUE(labelled<Polyline>(errors, "refined, scale free: 0.12 m, rigid"));
+  EXPECT_TRUE(labelled<Polyline>(errors, "refined, scale free: 0.123 m, rigid"));
   const auto expected = labelled<Polyline>(errors, "expected by the covariance").value();
   EXPECT_NEAR(expected.y[0], 2.0 * 0.15 * std::sqrt(2.0), 1e-12);
 }

@@ -87,6 +87,21 @@ TEST(NoiseModelsFigure, HasALineForEachModelInBothPanels) {
   EXPECT_EQ(figure.record_ids, (std::vector<std::string>{"convergence/white", "convergence/c"}));
 }
 
+TEST(NoiseModelsFigure, ComparesNoiseOfOneAmplitude) {
+  const auto curve = [](const char* id, const char* title, double error_m) {
+    ConvergenceCurve one = sample_convergence(id, title, 1.0);
+    for (ConvergencePoint& point : one.points) point.landmarks_m.mean = error_m;
+    return one;
+  };
+  const ConvergenceCurve strong = curve("a", "correlated noise, 1 % of the range, 0.9", 0.4),
+                         even = curve("b", "white noise, 1 % of the range", 0.1),
+                         other = curve("c", "white noise, 0.1 m", 0.05);
+  EXPECT_EQ(noise_models_figure("noise", std::vector{strong, even, other}).title,
+            "Correlated noise makes landmarks err 4.0 times as much as white noise");
+  EXPECT_EQ(noise_models_figure("noise", std::vector{strong, other}).title,
+            "Convergence under other noise");
+}
+
 TEST(FactorizationCostFigure, GroupsByLandmarksAndByStepsAndVaries) {
   const Figure figure = factorization_cost_figure("factorization-cost", sample_factorization());
   EXPECT_TRUE(figure.varies);

@@ -227,6 +227,32 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return count;
 }
 
+TEST(ReportHtml, SaysInOneLineWhatAFoldOfFiguresHolds) {
+  const auto fold_of = [](Gallery gallery) {
+    Report report = large_report(1, 1);
+    report.sections[0].blocks = {std::move(gallery)};
+    const std::string page = report_html(report, load_templates(), {});
+    const std::size_t from = page.find("<summary><bdi>") + 14;
+    return page.substr(from, page.find("</bdi>", from) - from);
+  };
+  Gallery gallery{{{.id = "a-1", .title = "First map"}, {.id = "a-2", .title = "Second map"}}, 1};
+  EXPECT_EQ(fold_of(gallery), "1 more figure: Second map");
+  gallery.open = 0;
+  gallery.figures[0].title = std::string(70, 'm');
+  EXPECT_EQ(fold_of(gallery), "2 figures");
+  gallery.folded = "errors over the floor";
+  EXPECT_EQ(fold_of(gallery), "2 figures: errors over the floor");
+}
+
+TEST(ReportHtml, KeepsQuantitiesOnOneLine) {
+  Report report = large_report(1, 1);
+  report.sections[0].blocks = {
+      Paragraph{{{"By 4-D it is 0.12 m; ", Emphasis::kPlain}, {"a 12 m", Emphasis::kCode}}}};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_NE(page.find("By 4\u2011D it is 0.12\u00A0m; "), std::string::npos);
+  EXPECT_NE(page.find("a 12 m"), std::string::npos) << "a command stays as it is typed";
+}
+
 TEST(ReportHtml, OfManyStudiesFoldsSectionsButTheFirstOfEachAndWhatGotWorse) {
   const std::string small = report_html(large_report(1, 2), load_templates(), {});
   EXPECT_EQ(small.find("class=\"fold\""), std::string::npos) << "a short page is open";
@@ -288,7 +314,7 @@ TEST(ReportHtml, SaysHowItStandsOnlyWhereThatIsKnown) {
       Standing{true, "Nightly run 5: 1 thing got worse", {"LLE is 5 % less accurate."}};
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("class=\"standing worse\""), std::string::npos);
-  EXPECT_NE(page.find("LLE is 5 % less accurate."), std::string::npos);
+  EXPECT_NE(page.find("LLE is 5\u00a0% less accurate."), std::string::npos);
 }
 
 TEST(ReportHtml, DrawsAChangeInTheColourOfItsFindings) {

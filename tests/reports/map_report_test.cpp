@@ -151,6 +151,44 @@ TEST(MapReport, SaysThatAnAnchorIsFarOffThoughTheDataFit) {
             "12\u00a0% of its longer side.");
   const Report report = report_of(record);
   EXPECT_EQ(report.opening.numbers.items.front().label, anchor_item().label);
+  record.statuses.clear();
+  const Highlights::Item warnings = report_of(record).opening.numbers.items.back();
+  EXPECT_EQ(warnings.value, "1");
+  EXPECT_EQ(warnings.detail, "anchor b is not where it was given");
+}
+
+TEST(MapReport, CountsTheWarningsOfItsFirstScreen) {
+  MapReportInput input{.record = triangle(),
+                       .title = "Map",
+                       .facts = {},
+                       .remarks = {},
+                       .warnings = {"one", "two"},
+                       .figure = {"map", "t", "c", "a", {}},
+                       .more_figures = {},
+                       .provenance = {"0.1.0", "abc", "d", {}},
+                       .command = "mapproof map"};
+  const Highlights::Item warnings = map_report(input).opening.numbers.items.back();
+  EXPECT_EQ(warnings.value, "3") << "two of the command, one of the map";
+  EXPECT_EQ(warnings.detail, "listed with their reasons");
+}
+
+TEST(MapReport, SaysWhatTheMapIsComparedWith) {
+  MapRecord record = triangle();
+  const auto compared = [&] {
+    for (const Paragraph& finding : report_of(record).opening.findings)
+      if (finding.phrases[0].text == "Compared with") return finding.phrases[1].text;
+    return std::string();
+  };
+  EXPECT_EQ(compared(), ": the true positions of 2 landmarks that are not anchors.");
+  record.anchors.clear();
+  EXPECT_EQ(compared(), ": the true positions of 3 landmarks.");
+  record.ground_truth_m->bottomRows(1).setConstant(kNaN);
+  record.anchors = {0, 1};
+  EXPECT_EQ(compared(), ": the given positions of 2 anchors; no ground truth was given.");
+  record.ground_truth_m.reset();
+  record.anchors.clear();
+  record.frame = Frame::kSimilarity;
+  EXPECT_EQ(compared(), ": nothing; no ground truth was given.");
 }
 
 TEST(MapReport, ListsTheLargestErrorsOfManyLandmarks) {

@@ -194,8 +194,8 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
   ASSERT_TRUE(found.ranks);
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[0], 1.1);  // One tie with m2.
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
-  EXPECT_EQ(sentence_of(found, view).substr(0, 54),
-            "s: m1 has the lowest mean MPE, 1.1\u00A0m; m2 follows with");
+  EXPECT_EQ(sentence_of(found, view).substr(0, 55),
+            "s: m1 has the lowest mean MPE, 1.10\u00A0m; m2 follows with");
 }
 
 TEST(ResultsComparison, PairsAreOfTheRunsThatAllComparedMethodsHave) {
@@ -446,7 +446,7 @@ TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
   const Report report = results_report(
       {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
   const Highlights::Item& first = report.opening.numbers.items.at(0);
-  EXPECT_EQ(first.value, "0.20\u00a0m");
+  EXPECT_EQ(first.value, "0.200\u00a0m");
   EXPECT_EQ(first.label, "median MPE of the best method");
   EXPECT_EQ(first.detail, "even, over 3 data sets");
 }
@@ -479,6 +479,56 @@ TEST(ResultsFigures, OfDataSetsShowEachMethodInEachOfThem) {
   const Report report = results_report(
       {.view = view, .comparisons = compare_methods(view), .figures = figures, .provenance = {}});
   EXPECT_EQ(report.opening.main_figure, figure.id);
+}
+
+/// Two sensors by two methods, on two data sets.
+Rows crossed_rows() {
+  Rows rows;
+  double value = 0.1;
+  for (const char* run : {"a1", "b1"})
+    for (const char* method : {"Near, A", "Near, B", "Far, A", "Far, B"})
+      rows.add(method, run, value += 0.1);
+  return rows;
+}
+
+TEST(ResultsFigures, OfDataSetsHaveAColourPerFirstPartOfANameAndAFormPerSecondOne) {
+  ResultsStudy study = crossed_rows().study(false);
+  study.runs = {{"a1", "a1"}, {"b1", "b1"}};
+  const ResultsView view(study);
+  const Figure figure = results_figures(view, compare_methods(view)).groups.at(0).figures.at(0);
+  const std::vector<Layer>& layers = figure.panels.at(0).layers;
+  ASSERT_EQ(layers.size(), 8U) << "four methods, two forms and two colours of the legend";
+  std::map<std::string, const Scatter*> dots;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& one = std::get<Scatter>(layers[i]);
+    EXPECT_EQ(one.label, "") << "not in the legend";
+    dots[one.marks.at(0).data.at(0).second] = &one;
+  }
+  EXPECT_EQ(dots.at("Near, A")->colour, dots.at("Near, B")->colour);
+  EXPECT_NE(dots.at("Near, A")->colour, dots.at("Far, A")->colour);
+  EXPECT_EQ(dots.at("Near, A")->marker, dots.at("Far, A")->marker);
+  EXPECT_NE(dots.at("Near, A")->marker, dots.at("Near, B")->marker);
+  EXPECT_EQ(std::get<Scatter>(layers[4]).marker, dots.at("Near, A")->marker);
+  EXPECT_EQ(std::get<Segments>(layers[7]).label, "Near");
+  EXPECT_EQ(std::get<Segments>(layers[7]).colour, dots.at("Near, A")->colour);
+}
+
+TEST(ResultsFigures, OfDataSetsKeepTheStylesOfMethodsThatHaveCurvesOrNoCrossedNames) {
+  const auto labelled = [](Rows rows) {
+    ResultsStudy study = rows.study(false);
+    study.runs = {{"a1", "a1"}, {"b1", "b1"}};
+    const ResultsView view(study);
+    std::size_t count = 0;
+    for (const FigureGroup& group : results_figures(view, compare_methods(view)).groups)
+      for (const Figure& figure : group.figures)
+        if (figure.id.find("-data-sets-") != std::string::npos)
+          for (const Layer& layer : figure.panels.at(0).layers)
+            if (const auto* dots = std::get_if<Scatter>(&layer)) count += !dots->label.empty();
+    return count;
+  };
+  Rows rows = crossed_rows();
+  EXPECT_EQ(labelled(rows), 2U) << "the forms";
+  EXPECT_EQ(labelled(rows.add("Near", "a1", 0.1).add("Near", "b1", 0.1)), 5U);
 }
 
 TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
@@ -516,6 +566,46 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   };
   EXPECT_TRUE(warns(75.14));
   EXPECT_FALSE(warns(90.0));
+}
+
+TEST(ResultsReport, MarksTheTileOfFewAssociatedPoses) {
+  const auto falls_short = [](double percent) {
+    Rows rows("associated_percent");
+    rows.declare(study_quantity("associated_percent", "associated poses", "%", Better::kHigher));
+    const ResultsStudy study = rows.add("m", "a1", percent).study();
+    const ResultsView view(study);
+    const Report report =
+        results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
+    return report.opening.numbers.items.at(0).falls_short;
+  };
+  EXPECT_TRUE(falls_short(75.1));
+  EXPECT_FALSE(falls_short(99.0));
+}
+
+TEST(ResultsReport, OfOneRunHasNoMeansAndNoTests) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2, 0.3, 0.4})
+    rows.add("few", "a1", 0.024 + noise, {{"noise", noise}})
+        .add("many", "a1", 0.0135 + noise * noise, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const std::vector<MethodComparison> comparisons = compare_methods(view);
+  ASSERT_FALSE(comparisons.empty());
+  EXPECT_EQ(sentence_of(comparisons[0], view).find("mean"), std::string::npos);
+  std::vector<Table> all = results_tables(view, view.blocks()[0]);
+  all.push_back(comparison_table(view, comparisons[0]));
+  for (const Table& table : all) {
+    EXPECT_TRUE(table.notes.empty() || table.notes[0].find("group") == std::string::npos)
+        << table.notes[0];
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      EXPECT_TRUE(std::ranges::any_of(
+          table.rows,
+          [&](const Row& row) { return !std::holds_alternative<MissingCell>(row.cells[i]); }))
+          << table.id << ": " << table.columns[i].title;
+  }
+  EXPECT_EQ(all.back().columns.size(), 2U);
+  const StudyFigures figures = results_figures(view, comparisons);
+  EXPECT_EQ(figures.groups.at(0).figures.at(0).caption.find("mean over runs"), std::string::npos);
 }
 
 TEST(ResultsReport, WarnsOfPathsWithFarFewerPosesThanAnother) {
@@ -566,7 +656,7 @@ TEST(ResultsReport, OpensWithFiguresOfPathsInTheOrderOfTheirRuns) {
   if (!report.opening.main_figure.empty()) shown.insert(shown.begin(), report.opening.main_figure);
   EXPECT_EQ(shown,
             (std::vector<std::string>{"test-errors-first-1", "test-errors-second-1",
-                                      "test-errors-third-1", "test-curves-1", "test-maps-1"}));
+                                      "test-errors-third-1", "test-maps-1", "test-curves-1"}));
 }
 
 TEST(ResultsView, ShowsShortTimesInUnitsThatFitThem) {
@@ -780,7 +870,7 @@ TEST(ResultsFigures, NoMethodStandsOutWithinTheSpreadOfFewRuns) {
       << figure_of_two("share_percent", 1.0).title;
   EXPECT_TRUE(
       figure_of_two("share_percent", 3.0)
-          .title.ends_with("no method stands out, coverage between 10\u00A0% and 25\u00A0%"))
+          .title.ends_with("no method stands out, coverage between 10.0\u00A0% and 25.0\u00A0%"))
       << figure_of_two("share_percent", 3.0).title;
 }
 
@@ -796,8 +886,9 @@ TEST(ResultsFigures, CoverageIsComparedWithItsAim) {
   const auto& aim = std::get<Polyline>(figure.panels[0].layers.at(0));
   EXPECT_EQ(aim.y, (std::vector<double>{95.0, 95.0}));
   EXPECT_GE(figure.panels[0].y.limits->high, 95.0);
-  EXPECT_TRUE(figure_of_two("mean_covered_percent", 1.0)
-                  .title.ends_with("coverage between 10\u00A0% and 25\u00A0%, aimed at 95\u00A0%"))
+  EXPECT_TRUE(
+      figure_of_two("mean_covered_percent", 1.0)
+          .title.ends_with("coverage between 10.0\u00A0% and 25.0\u00A0%, aimed at 95\u00A0%"))
       << figure_of_two("mean_covered_percent", 1.0).title;
 }
 
@@ -824,8 +915,8 @@ TEST(ResultsFigures, ADistributionsMedianIsThatOfItsRuns) {
     return results_figures(view, {}).groups.at(0).figures.at(0).title;
   };
   // Of an even number the mean of both; of very many not the end of a step of several.
-  EXPECT_NE(title_of(6).find("the median MPE is 3.5\u00A0m"), std::string::npos) << title_of(6);
-  EXPECT_NE(title_of(10).find("the median MPE is 5.5\u00A0m"), std::string::npos) << title_of(10);
+  EXPECT_NE(title_of(6).find("the median MPE is 3.50\u00A0m"), std::string::npos) << title_of(6);
+  EXPECT_NE(title_of(10).find("the median MPE is 5.50\u00A0m"), std::string::npos) << title_of(10);
 }
 
 TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {

@@ -166,8 +166,8 @@ TEST(SlamSummary, BeginsWithWhatIsMissingAndHowToGetIt) {
 TEST(SlamSummary, FindsErrorsWithTheirAlignmentScaleAndStarts) {
   const Section section = slam_summary_section(sample_slam_study());
   EXPECT_TRUE(contains_text(section,
-                            "Plaza 1: mean position error 0.12 m for refined, scale free (rigid), "
-                            "0.41 m for spectral, 4-D (rigid)"))
+                            "Plaza 1: mean position error 0.123 m for refined, scale free (rigid), "
+                            "0.411 m for spectral, 4-D (rigid)"))
       << words(section);
   EXPECT_TRUE(contains_text(section, "dead reckoning (unaligned)"));
   EXPECT_TRUE(contains_text(section, "Its ranges are 6.6 % too long"));
@@ -191,8 +191,8 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   const SlamStudy study = sample_slam_study();
   const Opening opening = slam_opening(study, slam_figures(study, {}));
   const std::string all = words(opening);
-  EXPECT_TRUE(all.starts_with("0.12 m mean position error, Plaza 1 (dead reckoning ")) << all;
-  EXPECT_NE(all.find("spectral, 4\u2011D 0.41 m; over "), std::string::npos) << all;
+  EXPECT_TRUE(all.starts_with("0.123 m mean position error, Plaza 1 (dead reckoning ")) << all;
+  EXPECT_NE(all.find("spectral, 4-D 0.411 m; over "), std::string::npos) << all;
   EXPECT_NE(all.find("power of the measurements: the model error falls"), std::string::npos) << all;
   EXPECT_NE(all.find("theory: \u22121/2"), std::string::npos) << all;
   EXPECT_NE(all.find("2 recorded drives"), std::string::npos) << all;

@@ -36,7 +36,7 @@ TEST(TopicWords, SayEqualOrLessThanThePrecisionInPlaceOfNoMetres) {
   EXPECT_EQ(regret_words(0.0).value, "equal");
   EXPECT_EQ(regret_words(0.0).words, "to");
   EXPECT_EQ(regret_words(0.0004).value, "< 0.001\u00a0m");
-  EXPECT_EQ(regret_words(0.0006).value, "0.001 m");
+  EXPECT_EQ(regret_words(0.0012).value, "0.00120 m");
   EXPECT_EQ(regret_words(0.022).words, "worse than");
 }
 

@@ -28,7 +28,9 @@ class Decoder {
 
   /// Decodes the front of `packed`, and removes from it what was used.
   /// @param is_last  No bytes follow those of `packed`.
-  /// @return How many bytes were written to `to`; fewer than its size: all of `packed` was used.
+  /// @return How many bytes were written to `to`; fewer than its size: all of `packed` was used, or
+  ///         what follows is damaged, which the next call throws: so whatever the pieces are, what
+  ///         stands before the damage is decoded first.
   /// @throws IoError.
   virtual std::size_t decode(std::string_view& packed, bool is_last, std::span<char> to) = 0;
 
@@ -52,7 +54,7 @@ class GzipDecoder : public Decoder {
   std::size_t decode(std::string_view& packed, bool, std::span<char> to) override {
     stream_.next_out = reinterpret_cast<Bytef*>(to.data());
     stream_.avail_out = static_cast<uInt>(to.size());
-    while (stream_.avail_out > 0 && begins_member(packed)) {
+    while (damage_.empty() && stream_.avail_out > 0 && begins_member(packed)) {
       stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
       stream_.avail_in =
           static_cast<uInt>(std::min<std::size_t>(packed.size(), std::numeric_limits<uInt>::max()));
@@ -61,13 +63,12 @@ class GzipDecoder : public Decoder {
       packed.remove_prefix(given - stream_.avail_in);
       if (code == Z_MEM_ERROR) throw std::bad_alloc();
       if (code != Z_OK && code != Z_STREAM_END && code != Z_BUF_ERROR)
-        throw IoError(source_, fmt::format("the gzip'ed file is damaged{}{}",
-                                           stream_.msg == nullptr ? "" : ": ",
-                                           stream_.msg == nullptr ? "" : stream_.msg));
+        damage_ = fmt::format("the gzip'ed file is damaged{}{}", stream_.msg == nullptr ? "" : ": ",
+                              stream_.msg == nullptr ? "" : stream_.msg);
       if (code == Z_STREAM_END) is_in_member_ = false;
       if (code == Z_BUF_ERROR) break;
     }
-    return to.size() - stream_.avail_out;
+    return written_before_damage(to.size() - stream_.avail_out);
   }
 
   bool is_whole() const override { return !is_in_member_; }
@@ -83,7 +84,13 @@ class GzipDecoder : public Decoder {
     return true;
   }
 
+  std::size_t written_before_damage(std::size_t written) const {
+    if (written == 0 && !damage_.empty()) throw IoError(source_, damage_);
+    return written;
+  }
+
   const std::string& source_;
+  std::string damage_;  ///< Found behind what was decoded; empty: none.
   z_stream stream_{};
   bool is_in_member_ = true;
 };
@@ -108,7 +115,7 @@ class XzDecoder : public Decoder {
     stream_.avail_in = packed.size();
     lzma_ret code = LZMA_OK;
     // After the last input lzma_code() is called once more, without progress, to find the end.
-    while (code == LZMA_OK && !is_over_ && stream_.avail_out > 0 &&
+    while (code == LZMA_OK && !is_over_ && !is_damaged_ && stream_.avail_out > 0 &&
            (stream_.avail_in > 0 || is_last))
       code = ::lzma_code(&stream_, is_last ? LZMA_FINISH : LZMA_RUN);
     packed.remove_prefix(packed.size() - stream_.avail_in);
@@ -116,9 +123,11 @@ class XzDecoder : public Decoder {
     if (code == LZMA_MEM_ERROR) throw std::bad_alloc();
     if (code == LZMA_MEMLIMIT_ERROR)
       throw IoError(source_, "the xz'ed file takes more than 128 MB of memory to unpack");
-    if (code != LZMA_OK && code != LZMA_STREAM_END && code != LZMA_BUF_ERROR)
-      throw IoError(source_, "the xz'ed file is damaged");
-    return to.size() - stream_.avail_out;
+    is_damaged_ =
+        is_damaged_ || (code != LZMA_OK && code != LZMA_STREAM_END && code != LZMA_BUF_ERROR);
+    const std::size_t written = to.size() - stream_.avail_out;
+    if (is_damaged_ && written == 0) throw IoError(source_, "the xz'ed file is damaged");
+    return written;
   }
 
   bool is_whole() const override { return is_over_; }
@@ -129,6 +138,7 @@ class XzDecoder : public Decoder {
   const std::string& source_;
   lzma_stream stream_ = LZMA_STREAM_INIT;
   bool is_over_ = false;
+  bool is_damaged_ = false;  ///< Behind what was decoded.
 };
 
 /// Text of UTF-16 with a byte order mark, as UTF-8.

@@ -9,7 +9,9 @@ namespace mapproof {
 
 /// Errors of the poses of a path as CSV with the columns `time_s` (or `pose`, without times),
 /// `distance_m`, `x_m`, `y_m`, `z_m`, `true_x_m`, `true_y_m`, `true_z_m`, `error_m` and, if
-/// orientations are known, `error_deg`. Numbers read back as they were.
+/// orientations are known, `error_deg`. A row of the ground truth or of the estimate
+/// alone has its time and position.
+/// Numbers read back as they were.
 std::string pose_errors_csv(const PoseErrors& errors);
 
 /// Reads such a table, whatever the order of its columns. The columns `z_m` and `true_z_m` may both

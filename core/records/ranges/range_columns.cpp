@@ -177,14 +177,16 @@ void require_named(ColumnRole role, const TableRow& header, const std::string& s
 std::vector<ColumnRole> missing_columns(const TableRow& header,
                                         const std::vector<RangeColumn>& columns,
                                         const ColumnNames& names) {
+  std::vector<std::optional<ColumnRole>> roles;
+  for (const std::string_view cell : header.cells)
+    roles.push_back(column_heading(cell, 0, {}).role);
   std::vector<ColumnRole> missing;
   for (const RangeColumn& column : columns) {
-    const auto is_column = [&](std::string_view cell) {
-      return column_factor(cell, column.role, column.words) ||
-             column_heading(cell, 0, {}).role == column.role;
+    const auto has_word = [&](std::string_view cell) {
+      return column_factor(cell, column.role, column.words).has_value();
     };
-    if (column.is_needed && !named_cell(column.role, header, names) &&
-        std::ranges::none_of(header.cells, is_column))
+    if (column.is_needed && std::ranges::find(roles, column.role) == roles.end() &&
+        !named_cell(column.role, header, names) && std::ranges::none_of(header.cells, has_word))
       missing.push_back(column.role);
   }
   return missing;

@@ -330,11 +330,11 @@ void require_columns(HeaderCells header, const ColumnNames& names, const std::st
 
 ColumnHeading column_heading(std::string_view cell, std::size_t number,
                              const ColumnNames& columns) {
-  const std::string text = lower_case(trimmed(cell));
   const auto asked = std::ranges::find_if(
       columns, [&](const NamedColumn& column) { return is_named(column, cell, number); });
   ColumnHeading heading = understood(cell);
   if (asked != columns.end()) {
+    const std::string text = lower_case(trimmed(cell));
     const bool is_length = unit_kind(asked->role) == Kind::kLength;
     const bool is_angle = heading.role == ColumnRole::kBearing;
     heading = {.role = asked->role};

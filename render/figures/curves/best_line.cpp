@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -10,9 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/plot/short_names.hpp"
 
 namespace mapproof {
@@ -76,21 +77,13 @@ std::string place(const LineAxis& axis, double x, const LineQuantity& quantity) 
 }
 
 std::string value_text(double value, const LineQuantity& quantity) {
-  return with_unit(significant(value, 2), quantity.unit);
+  return quantity_text(value, quantity.unit);
 }
 
-/// Values with as many decimals as two significant digits of the least take.
 std::vector<std::string> value_texts(const std::vector<double>& values,
                                      const LineQuantity& quantity) {
-  constexpr int kMostDecimals = 6;
-  double least = HUGE_VAL;
-  for (const double value : values)
-    if (value != 0.0) least = std::min(least, std::abs(value));
-  const int exponent = std::isfinite(least) ? static_cast<int>(std::floor(std::log10(least))) : 0;
-  const int decimals = std::clamp(1 - exponent, 0, kMostDecimals);
   std::vector<std::string> texts;
-  for (const double value : values)
-    texts.push_back(with_unit(rounded_text(value, decimals, 2), quantity.unit));
+  for (const double value : values) texts.push_back(value_text(value, quantity));
   return texts;
 }
 
@@ -118,8 +111,8 @@ std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLin
   std::vector<std::string> names;
   for (const At& at : some) names.push_back(named(*at.line, lines));
   const auto has_comma = [](const std::string& one) { return one.find(", ") != std::string::npos; };
-  if (names.size() <= kMostNamed && names.size() > 1 && std::ranges::any_of(names, has_comma))
-    return fmt::format("{}", fmt::join(names, "; "));
+  if (names.size() > 1 && std::ranges::any_of(names, has_comma))
+    for (std::string& one : names) one = "\u201c" + one + "\u201d";
   return listed(names, kMostNamed);
 }
 
@@ -131,7 +124,8 @@ bool tie(const At& a, const At& b, const LineQuantity& quantity) {
   return texts[0] == texts[1];
 }
 
-/// Those that tie with the best, the best first, and the others, ascending from the best on.
+/// Those that tie with the best, or with one that does, the best first, and the others, ascending
+/// from the best on.
 struct Contest {
   std::vector<At> equal, others;
 };
@@ -141,10 +135,12 @@ Contest contest_of(std::vector<At> known, const LineQuantity& quantity) {
     return quantity.lower_is_better ? a.mean() < b.mean() : a.mean() > b.mean();
   });
   Contest contest;
-  for (const At& at : known)
-    (at.line == known.front().line || tie(at, known.front(), quantity) ? contest.equal
-                                                                       : contest.others)
-        .push_back(at);
+  for (const At& at : known) {
+    const bool is_equal =
+        contest.equal.empty() ||
+        std::ranges::any_of(contest.equal, [&](const At& one) { return tie(at, one, quantity); });
+    (is_equal ? contest.equal : contest.others).push_back(at);
+  }
   return contest;
 }
 
@@ -275,6 +271,9 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
       std::erase_if(some, [&](const At& at) { return !has_line(one, at.line); });
     return some;
   };
+  const auto has_others = [&](const std::vector<At>& one) {
+    return one.size() < known_at(lines, one.front().x()).size();
+  };
   const auto finding = [&](const std::vector<At>& some) {
     return fmt::format(
         "{} {}", listed_names(some, lines),
@@ -286,19 +285,20 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     if (!is_beaten(some, lines, xs, quantity)) return finding(some) + unless_beaten;
     std::vector<double> alone;
     for (const std::vector<At>& one : best)
-      if (are_alike(one, some)) alone.push_back(one.front().x());
+      if (are_alike(one, some) && has_others(one)) alone.push_back(one.front().x());
     if (alone.empty()) return std::string();
-    return fmt::format("{} at {}; elsewhere intervals overlap", finding(some),
-                       places(axis, alone, best.size(), quantity));
+    const bool are_several = some.size() > 1 || is_plural(*some.front().line, quantity);
+    return fmt::format("{} at {}; elsewhere {} with others", finding(some),
+                       places(axis, alone, best.size(), quantity),
+                       are_several ? "they tie" : "it ties");
   };
   const std::vector<At> throughout = in_all(best);
   if (throughout.size() == lines.size()) return "";
   if (!throughout.empty() && throughout.size() <= kMostNamed) {
-    const auto alone = std::ranges::count_if(
-        best, [&](const std::vector<At>& one) { return one.size() == throughout.size(); });
-    const auto of_all = std::ranges::count_if(best, [&](const std::vector<At>& one) {
-      return one.size() == known_at(lines, one.front().x()).size();
+    const auto alone = std::ranges::count_if(best, [&](const std::vector<At>& one) {
+      return one.size() == throughout.size() && has_others(one);
     });
+    const auto of_all = std::ssize(best) - std::ranges::count_if(best, has_others);
     if (alone == 0) return "";
     if (alone == std::ssize(best)) return finding(throughout) + " throughout";
     if (alone + of_all == std::ssize(best))
@@ -308,9 +308,7 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
   }
   // Where all lines are equal, as without a disturbance, none is better.
   std::vector<std::vector<At>> differing = best;
-  std::erase_if(differing, [&](const std::vector<At>& one) {
-    return one.size() == known_at(lines, one.front().x()).size();
-  });
+  std::erase_if(differing, std::not_fn(has_others));
   if (differing.empty()) return "";
   if (const std::vector<At> some = in_all(differing); !some.empty() && some.size() <= kMostNamed)
     return wherever_words(some, " wherever they differ");
@@ -334,6 +332,12 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
   return fmt::format("{} at {}, {} at {}", finding(first), place(axis, first.front().x(), quantity),
                      listed_names(last, lines),
                      with_unit(data_number(last.front().x()), axis.unit));
+}
+
+bool ends_tie(const ErrorLine& line) {
+  const std::vector<ErrorLine> alone = {line};
+  const std::vector<At> known = all_known(alone);
+  return !known.empty() && overlap(known.front(), known.back());
 }
 
 std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,

@@ -29,11 +29,11 @@ LineAxis line_axis(const std::string& label);
 std::string with_article(const std::string& label);
 
 /// Which line is best at the last x, as a title: "SDE has the lowest MPE after 2000 observations,
-/// 0.14 m". Lines that tie with it, by their intervals or by the digits shown, are named with it;
-/// where they are more than three, or all there are, between which values: "after 2000
-/// observations, 4 of 5 methods have an MPE of 0.19 m to 0.23 m, LEM 0.40 m". A family is named:
-/// "of these 5, SDE has the lowest MPE". Names are short, without parameters that tell no two lines
-/// apart. Empty if nothing is known.
+/// 0.14 m". Lines that tie with it, or with one that does, by their intervals or by the digits
+/// shown, are named with it; where they are more than three, or all there are, between which
+/// values: "after 2000 observations, 4 of 5 methods have an MPE of 0.19 m to 0.23 m, LEM 0.40 m". A
+/// family is named: "of these 5, SDE has the lowest MPE". Names are short, without parameters that
+/// tell no two lines apart. Empty if nothing is known.
 ///
 /// @param where  "after {} observations", with {} for x.
 std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
@@ -43,10 +43,13 @@ std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
 /// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where their
 /// intervals overlap or their digits shown are equal: "ISOMAP has the lowest MPE, alone at 3 of 5
 /// points", and where another line's drawn value is better at a tie: "ISOMAP has the lowest MPE at
-/// 10°; elsewhere intervals overlap". Empty if nothing is known, if no line is best alone, or if
+/// 10°; elsewhere it ties with others". Empty if nothing is known, if no line is best alone, or if
 /// more than three lines are best wherever they differ.
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                       const LineAxis& axis);
+
+/// Whether the intervals of a line's first and last known values overlap.
+bool ends_tie(const ErrorLine& line);
 
 /// Which line has the best value of all, and at which x: "SDE has the lowest MPE, 0.14 m at K = 7".
 /// Empty if nothing is known, or another line's best ties with it.

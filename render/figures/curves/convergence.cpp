@@ -9,12 +9,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
@@ -94,8 +94,14 @@ LogLogSpec spec_of(const std::string& id, const char* title, const ConvergenceCu
   return spec;
 }
 
-/// How many times as large the error of the landmarks is with the worst noise as with the least,
-/// after the most measurements.
+/// "1 % of the range" of "white noise, 1 % of the range, plain SVD".
+std::string amplitude_of(const ConvergenceCurve& curve) {
+  const std::size_t begin = std::min(curve.title.find(", "), curve.title.size());
+  return curve.title.substr(begin, curve.title.find(", ", begin + 1) - begin);
+}
+
+/// How many times as large the error of the landmarks is with the worst noise as with the least of
+/// the same amplitude, after the most measurements.
 std::string noise_title(std::span<const ConvergenceCurve> curves) {
   const auto error_of = [](const ConvergenceCurve& curve) {
     const double mean = curve.points.empty() ? kNaN : curve.points.back().landmarks_m.mean;
@@ -104,13 +110,20 @@ std::string noise_title(std::span<const ConvergenceCurve> curves) {
   std::vector<const ConvergenceCurve*> known;
   for (const ConvergenceCurve& curve : curves)
     if (std::isfinite(error_of(curve))) known.push_back(&curve);
-  if (known.size() < 2) return "Convergence under other noise";
-  const auto [least, most] = std::ranges::minmax(
-      known, {}, [&](const ConvergenceCurve* curve) { return error_of(*curve); });
+  constexpr const char* kPlain = "Convergence under other noise";
+  if (known.empty()) return kPlain;
+  const auto by_error = [&](const ConvergenceCurve* curve) { return error_of(*curve); };
+  const ConvergenceCurve* most = *std::ranges::max_element(known, {}, by_error);
+  std::erase_if(known, [&](const ConvergenceCurve* curve) {
+    return curve == most || amplitude_of(*curve) != amplitude_of(*most);
+  });
+  if (known.empty()) return kPlain;
+  const ConvergenceCurve* least = *std::ranges::min_element(known, {}, by_error);
   std::string noise = most->title.substr(0, most->title.find(','));
   noise[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(noise[0])));
   return fmt::format("{} makes landmarks err {} times as much as {}", noise,
-                     significant(error_of(*most) / error_of(*least), 2), least->title);
+                     significant(error_of(*most) / error_of(*least), 2),
+                     least->title.substr(0, least->title.find(',')));
 }
 
 /// How far the sine of the subspace's angle and its bound came from the fewest ranges to the most.

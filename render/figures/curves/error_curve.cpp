@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -56,7 +56,7 @@ std::string label_with_error(const SlamRecord& record) {
   std::string label(info(record.method).label);
   if (record.errors.empty()) return label;
   const TrajectoryError& error = record.errors.front();
-  return fmt::format("{}: {}, {}", label, error_text(error.mean_m, 2),
+  return fmt::format("{}: {}, {}", label, error_text(error.mean_m),
                      alignment_words(error.alignment));
 }
 

@@ -9,17 +9,17 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/plot/layers.hpp"
 
 namespace mapproof {
 namespace {
 
-constexpr std::array kMarkers = {Marker::kCircle,  Marker::kSquare,       Marker::kTriangle,
-                                 Marker::kDiamond, Marker::kTriangleDown, Marker::kPlus,
-                                 Marker::kCross};
+constexpr std::array<Marker, kMarkerCount> kMarkers = {
+    Marker::kCircle,       Marker::kSquare, Marker::kTriangle, Marker::kDiamond,
+    Marker::kTriangleDown, Marker::kPlus,   Marker::kCross};
 constexpr std::array kDashes = {Dash::kSolid, Dash::kDashed, Dash::kDashDot, Dash::kDotted,
                                 Dash::kLongDash};
 
@@ -241,15 +241,31 @@ class Builder {
 }  // namespace
 
 SeriesStyle series_style(std::size_t i) {
-  // After seven the colours come again, with other markers and dashes.
-  return {series_colour(i), kDashes[i % kDashes.size()],
-          kMarkers[(i + 3 * (i / kMarkers.size())) % kMarkers.size()]};
+  // After ten the colours come again, each time with the next dash and marker: both come again
+  // together after 35 times.
+  const std::size_t colour = i % kSeriesCount, round = i / kSeriesCount;
+  return {series_colour(i), kDashes[(colour + round) % kDashes.size()],
+          kMarkers[(colour + 3 * (colour / kMarkers.size()) + round) % kMarkers.size()]};
 }
 
 std::size_t series_of_setting(std::size_t series, std::size_t k) {
-  constexpr std::size_t kColours = 7;  // The least number that brings both again.
-  static_assert(kColours == kMarkers.size() && kDashes.size() == 5);
-  return series + kColours * kDashes.size() * k;
+  return series + kSeriesCount * kDashes.size() * k;
+}
+
+std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std::size_t count,
+                                     std::size_t from) {
+  std::vector<std::size_t> free;
+  std::set<std::size_t> styles(taken.begin(), taken.end()), colours;
+  for (const std::size_t one : taken) colours.insert(one % kSeriesCount);
+  std::size_t next = taken.empty() ? 0 : from;
+  while (free.size() < count) {
+    if (colours.size() == kSeriesCount) colours.clear();
+    while (styles.contains(next) || colours.contains(next % kSeriesCount)) ++next;
+    styles.insert(next);
+    colours.insert(next % kSeriesCount);
+    free.push_back(next);
+  }
+  return free;
 }
 
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked) {
@@ -261,11 +277,9 @@ std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>
       series[i] = *asked[i];
     else
       left.push_back(i);
-  std::size_t next = taken.empty() ? 0 : kMethodStyles;
-  for (const std::size_t i : left) {
-    while (!taken.insert(next).second) ++next;
-    series[i] = next;
-  }
+  const std::vector<std::size_t> free =
+      free_series(std::vector(taken.begin(), taken.end()), left.size(), kMethodStyles);
+  for (std::size_t k = 0; k < left.size(); ++k) series[left[k]] = free[k];
   return series;
 }
 
@@ -325,7 +339,8 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
     figure.panels[0].y.label = spec.y_label;
   }
   figure.caption = spec.caption.empty()
-                       ? fmt::format("Lines: {}{}, mean over runs{}.{}", spec.quantity, spec.over,
+                       ? fmt::format("Lines: {}{}{}{}.{}", spec.quantity, spec.over,
+                                     spec.has_runs ? ", mean over runs" : "",
                                      interval_words(figure.panels), spec.remark)
                        : spec.caption;
   figure.shared_y = figure.panels.size() > 1;

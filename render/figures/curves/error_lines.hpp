@@ -9,14 +9,17 @@
 
 namespace mapproof {
 
-/// The style of the i-th curve of a figure: colour, dash and marker; no two of the first 21 are
-/// alike.
+/// The style of the i-th curve of a figure: colour, dash and marker; no two of the first 350 are
+/// alike, and no two of the first ten, or of any ten, have one colour.
 struct SeriesStyle {
   ThemeColour colour = ThemeColour::kSeries1;
   Dash dash = Dash::kSolid;
   Marker marker = Marker::kCircle;
 };
 SeriesStyle series_style(std::size_t i);
+
+/// How many markers there are: those of the first styles, each once.
+inline constexpr std::size_t kMarkerCount = 7;
 
 /// What series_style() counts the k-th setting of a method as: it has the colour and the dash of
 /// the method, and up to seven settings have a marker each. @param series  The method's, setting
@@ -59,10 +62,11 @@ struct ErrorLinesSpec {
   std::string y_label = "MPE [m]";
   std::string quantity = "mean position error";  ///< In words, for caption and alt text.
   std::vector<ErrorPanel> panels;                ///< Side by side on one y axis.
-  std::string caption;  ///< Empty: one is made of `quantity`, `over`, the intervals and `remark`.
-  std::string over;     ///< " over the number of anchors"; may be empty.
-  std::string remark;   ///< Sentences that end the caption, with a space before; may be empty.
-  std::string alt;      ///< Empty: one is made of the panels' numbers.
+  std::string caption;   ///< Empty: one is made of `quantity`, `over`, the intervals and `remark`.
+  std::string over;      ///< " over the number of anchors"; may be empty.
+  bool has_runs = true;  ///< The lines are means over several runs, which the caption then says.
+  std::string remark;    ///< Sentences that end the caption, with a space before; may be empty.
+  std::string alt;       ///< Empty: one is made of the panels' numbers.
   std::vector<std::string> record_ids;
   std::vector<Note> notes;
   double ceiling = kInfinity;  ///< Means above do not widen the
@@ -76,8 +80,14 @@ struct ErrorLinesSpec {
 /// The styles that mapproof's own methods have, see method_series(): 0 to this, exclusive.
 inline constexpr std::size_t kMethodStyles = 10;
 
-/// The style of each label: what its line asks for if no label before it did; else the first that
-/// is left, behind those of mapproof's methods if some line asks for one.
+/// So many more styles, each with a colour that neither those taken nor the ones before it have,
+/// until all colours are in use; then each colour once more, and so on.
+/// @param from  Where the search begins, unless none is taken: then at 0.
+std::vector<std::size_t> free_series(const std::vector<std::size_t>& taken, std::size_t count,
+                                     std::size_t from);
+
+/// The style of each label: what its line asks for if no label before it did; else one of
+/// free_series(), behind those of mapproof's methods if some line asks for one.
 std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>& asked);
 
 /// Lines with their 95 % intervals in panels that share the y axis. Intervals are bands, or bars

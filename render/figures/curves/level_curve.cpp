@@ -11,6 +11,7 @@ Figure level_curve_figure(const LevelCurveSpec& spec) {
   lines.record_ids = spec.record_ids;
   lines.over = " over " + spec.x_label;
   lines.remark = spec.remark;
+  lines.has_runs = spec.has_runs;
   lines.log_from = spec.log_from;
   lines.great_errors = spec.great_errors;
   ErrorPanel& panel = lines.panels.emplace_back();

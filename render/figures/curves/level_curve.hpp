@@ -17,6 +17,7 @@ struct LevelCurveSpec {
   std::string quantity = "mean position error";
   std::vector<ErrorPoint> points = {};  ///< Such as single runs.
   std::string remark = {};              ///< As of ErrorLinesSpec.
+  bool has_runs = true;                 ///< As of ErrorLinesSpec.
   std::vector<ErrorLine> methods;       ///< `x` holds the level.
   std::vector<std::string> record_ids;
   double log_from = 20.0;    ///< As in ErrorLinesSpec.

@@ -2,38 +2,70 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "render/figures/curves/error_lines.hpp"
 
 namespace mapproof {
 namespace {
 
-/// What studies of mapproof compare besides its mapping methods, those of one study together.
-constexpr std::string_view kCompared[] = {
-    // association
-    "given", "left-out", "estimated",
-    // choice
-    "stress", "residual-variance", "trustworthiness", "continuity", "stability", "anchors",
-    "combined", "fixed", "random",
-    // doubt and moved
-    "slam", "permutations",
-    // incremental
-    "smacof-whole", "smacof-knn-whole", "isomap-whole",
-    // missing
-    "pairwise-complete-smacof-knn", "pairwise-complete-isomap", "ppca-smacof-knn", "ppca-isomap",
-    "pca-smacof-knn", "pca-isomap", "mean-smacof-knn", "ppca-expected", "covisible", "auto",
-    // mixed
-    "visibility", "visibility-order", "bearing", "bearing-order", "range", "range-order", "equal",
-    "reliable", "joint",
-    // submaps
-    "whole-smacof-knn", "whole-isomap", "whole-sde", "parts-smacof-knn", "parts-isomap",
-    "parts-sde", "whole-smacof-knn-filled", "parts-smacof-knn-filled",
-    // mrclam
-    "visibility-cmds", "visibility-isomap", "bearing-cmds", "bearing-isomap", "range-cmds",
-    "range-isomap", "paths", "pairs-once", "pairs", "swapped", "swapped-corrected", "misnamed",
-    "misnamed-corrected"};
+/// What the studies of a topic compare besides mapproof's mapping methods.
+struct Compared {
+  std::size_t first = 0;  ///< The colour of its first id; the others have those behind it.
+  std::vector<std::string_view> ids;  ///< At most as many as there are colours.
+};
+
+/// Each of them has ten styles of its own, behind those of the mapping methods.
+const std::vector<Compared>& all_compared() {
+  static const std::vector<Compared> all = {
+      // association
+      {3, {"given", "left-out", "estimated"}},
+      // choice
+      {6,
+       {"stress", "residual-variance", "trustworthiness", "continuity", "stability", "anchors",
+        "combined", "fixed", "random"}},
+      // doubt and moved
+      {1, {"slam", "permutations"}},
+      // incremental, beside SMACOF, kNN weights and ISOMAP
+      {7, {"smacof-whole", "smacof-knn-whole", "isomap-whole"}},
+      // missing
+      {6,
+       {"pairwise-complete-smacof-knn", "pairwise-complete-isomap", "ppca-smacof-knn",
+        "ppca-isomap", "pca-smacof-knn", "pca-isomap", "mean-smacof-knn", "ppca-expected",
+        "covisible", "auto"}},
+      // mixed
+      {2,
+       {"visibility", "visibility-order", "bearing", "bearing-order", "range", "range-order",
+        "equal", "reliable", "joint"}},
+      // submaps
+      {4,
+       {"whole-smacof-knn", "whole-isomap", "whole-sde", "parts-smacof-knn", "parts-isomap",
+        "parts-sde", "whole-smacof-knn-filled", "parts-smacof-knn-filled"}},
+      // mrclam, a map per sensor and method
+      {5,
+       {"visibility-cmds", "visibility-isomap", "bearing-cmds", "bearing-isomap", "range-cmds",
+        "range-isomap", "paths", "pairs-once", "pairs"}},
+      // mrclam, wrong data association
+      {0, {"swapped", "swapped-corrected", "misnamed", "misnamed-corrected"}}};
+  return all;
+}
+
+/// The first style behind those of the mapping methods and of what topics compare.
+std::size_t first_unknown() { return kMethodStyles + kSeriesCount * all_compared().size(); }
+
+std::optional<std::size_t> series_of_compared(const std::string& id) {
+  for (std::size_t g = 0; g < all_compared().size(); ++g) {
+    const auto& [first, ids] = all_compared()[g];
+    const auto found = std::ranges::find(ids, id);
+    if (found == ids.end()) continue;
+    const auto colour = (first + static_cast<std::size_t>(found - ids.begin())) % kSeriesCount;
+    return kMethodStyles + kSeriesCount * g + colour;
+  }
+  return std::nullopt;
+}
 
 /// "isomap-K6" as "isomap": a method is the same with any value of its parameter.
 std::string without_parameter(const std::string& id) {
@@ -53,21 +85,18 @@ std::string without_parameter(const std::string& id) {
 std::optional<std::size_t> series_of_id(const std::string& id) {
   const std::string method = without_parameter(id);
   if (const auto known = method_named(method)) return method_series(*known);
-  const auto compared = std::ranges::find(kCompared, method);
-  if (compared == std::end(kCompared)) return std::nullopt;
-  return kMethodStyles + static_cast<std::size_t>(compared - std::begin(kCompared));
+  return series_of_compared(method);
 }
 
 }  // namespace
 
 std::size_t method_series(Method method) {
-  // Behind all others, whose styles stay; Landmark ISOMAP has the colour that no other method on the
-  // neighbour graph has, landmark MVU that of HLLE, which it is not compared with.
-  constexpr std::size_t kOfLandmarkIsomap = 4 + 7 * 100, kOfLandmarkMvu = 7 * 100;
-  if (method == Method::kLandmarkIsomap) return kOfLandmarkIsomap;
-  if (method == Method::kLandmarkMvu) return kOfLandmarkMvu;
-  // There are seven colours: the last three methods take those of the first three, with other
-  // dashes and markers. No two methods of one figure of the paper share a colour.
+  // Behind all others, in the 21st round of colours, whose dashes are those of the first: landmark
+  // ISOMAP has the colour that no other method on the neighbour graph has, landmark MVU that of
+  // LPCA, which it is not compared with.
+  constexpr std::size_t kRound = 20 * kSeriesCount;
+  if (method == Method::kLandmarkIsomap) return kRound + 4;
+  if (method == Method::kLandmarkMvu) return kRound;
   constexpr std::array kOrder = {
       Method::kLpca,
       Method::kSde,
@@ -80,17 +109,23 @@ std::size_t method_series(Method method) {
       Method::kKpcaGaussian,
       Method::kKpcaPolynomial,
   };
-  static_assert(kOrder.size() == kMethodStyles);
+  static_assert(kOrder.size() == kMethodStyles && kMethodStyles == kSeriesCount);
   return static_cast<std::size_t>(std::ranges::find(kOrder, method) - kOrder.begin());
 }
 
+bool is_mapping_method(const std::string& id) {
+  return method_named(without_parameter(id)).has_value();
+}
+
 std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids) {
-  std::vector<std::size_t> series;
-  const bool any_known =
-      std::ranges::any_of(ids, [](const std::string& id) { return series_of_id(id).has_value(); });
-  const std::size_t behind = any_known ? kMethodStyles + std::size(kCompared) : 0;
+  std::vector<std::size_t> series(ids.size()), known, left;
   for (std::size_t i = 0; i < ids.size(); ++i)
-    series.push_back(series_of_id(ids[i]).value_or(behind + i));
+    if (const auto style = series_of_id(ids[i]))
+      known.push_back(series[i] = *style);
+    else
+      left.push_back(i);
+  const std::vector<std::size_t> free = free_series(known, left.size(), first_unknown());
+  for (std::size_t k = 0; k < left.size(); ++k) series[left[k]] = free[k];
   return series;
 }
 

@@ -8,14 +8,17 @@
 
 namespace mapproof {
 
-/// The style of a mapping method in all figures, as series_style() counts them. Two of the seven
-/// colours' methods that share one differ in dash and marker; a method of others comes behind them.
+/// The style of a mapping method in all figures, as series_style() counts them. Yairi's ten methods
+/// have a colour each; a method of others comes behind them.
 std::size_t method_series(Method method);
+
+/// Whether an id names a mapping method, with or without its parameter: "isomap", "isomap-K6".
+bool is_mapping_method(const std::string& id);
 
 /// The styles of a study's methods by their ids, the same in all figures of all studies: that of
 /// the mapping method that an id names, with or without its parameter ("isomap", "isomap-K6"), or
-/// of what mapproof's own studies compare. Ids that are not known come behind those, in their
-/// order; if none is known, they have the first styles.
+/// of what mapproof's own studies compare. Ids that are not known have free_series() in their
+/// order, so that the first ten methods of a study differ in colour.
 std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids);
 
 }  // namespace mapproof

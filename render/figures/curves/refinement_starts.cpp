@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -132,7 +132,8 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
     figure.notes.push_back(
         {fmt::format("The {} greatest of {} tests.", rows.size(), spec.rows.size())});
   figure.caption = fmt::format(
-      "Tests of the fit of the map to its data: the statistic of each over its bound, which fault-free "
+      "Tests of the fit of the map to its data: the statistic of each over its bound, which "
+      "fault-free "
       "data exceed rarely. {}",
       spec.verdict);
   figure.alt =

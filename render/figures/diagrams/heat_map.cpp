@@ -8,10 +8,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -152,7 +152,7 @@ std::string heat_map_finding(const HeatMapSpec& spec, const std::string& quantit
   check_heat_map(spec);
   const auto words = [&](std::size_t cell) {
     return fmt::format(
-        "{} at {} and {}", with_unit(significant(spec.values[cell], 2), spec.unit),
+        "{} at {} and {}", quantity_text(spec.values[cell], spec.unit),
         with_unit(spec.x_names[cell % spec.x_names.size()], line_axis(spec.x_label).unit),
         with_unit(spec.y_names[cell / spec.x_names.size()], line_axis(spec.y_label).unit));
   };

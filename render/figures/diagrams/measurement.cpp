@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/diagrams/measurement_geometry.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 
 namespace mapproof {
@@ -309,7 +309,7 @@ Figure idea_figure(const IdeaSpec& spec) {
   figure.id = spec.id;
   figure.title = "From what was observed to a map, without any pose";
   if (spec.map.score && std::isfinite(spec.map.score->mpe_m))
-    figure.title += fmt::format(": {} off", error_text(spec.map.score->mpe_m, 2));
+    figure.title += fmt::format(": {} off", error_text(spec.map.score->mpe_m));
   figure.record_ids = {spec.map.id};
   figure.panels = {room_of(spec), history_of(spec), map_of(spec)};
   for (Panel& panel : figure.panels) std::erase_if(panel.layers, is_empty);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "render/theme/ticks.hpp"
+#include "core/base/text/number_text.hpp"
 
 namespace mapproof {
 namespace {

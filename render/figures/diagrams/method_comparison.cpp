@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/unit_scale.hpp"
 #include "render/plot/short_names.hpp"
 
@@ -316,8 +316,7 @@ Figure published_errors_figure(const PublishedErrorsSpec& spec) {
     for (const PublishedError& method : sensor.methods)
       if (method.published_m)
         errors.push_back(fmt::format("{} {} (published {})", method.label,
-                                     significant(method.mean_m, 3),
-                                     significant(*method.published_m, 3)));
+                                     significant(method.mean_m), significant(*method.published_m)));
   }
   figure.caption = fmt::format(
       "Mean position error (MPE) of each method at its best parameter, with the 95 % interval of "

@@ -7,10 +7,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/plot/axis_map.hpp"
 
 namespace mapproof {

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/figures/error_ramp.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -92,7 +92,7 @@ Figure error_map_figure(const ErrorMapSpec& spec) {
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
     const TitledMap& one = spec.maps[i];
     Panel& panel = figure.panels.emplace_back();
-    panel.title = fmt::format("{}\nmean {} m", one.title, significant(errors[i].mean(), 2));
+    panel.title = fmt::format("{}\nmean {} m", one.title, significant(errors[i].mean()));
     panel.x = {.label = "x [m]", .limits = Range{0.0, spec.side_m}};
     panel.y = {.label = "y [m]", .limits = Range{0.0, spec.side_m}};
     panel.equal_aspect = true;

@@ -7,9 +7,9 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/base/geometry.hpp"
 #include "render/figures/layer_shapes.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/status_text.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kReach = 0.75;  // Estimates this many room sides off are still shown in place.
 constexpr std::size_t kMostWorst = 5;
-constexpr Eigen::Index kMostDrawn = 5000;  // Landmarks; of more they would cover each other:
+constexpr Eigen::Index kMostDrawn = 5000;    // Landmarks; of more they would cover each other:
 constexpr Eigen::Index kDrawnOfMore = 1000;  // so many are drawn.
 
 void require_consistent(const MapRecord& record) {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {

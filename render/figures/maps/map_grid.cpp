@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/score_text.hpp"
 
 namespace mapproof {

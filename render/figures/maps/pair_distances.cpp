@@ -8,12 +8,12 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
-#include "render/figures/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -26,7 +26,7 @@ void require_consistent(const MeasuredMapSpec& spec) {
 }
 
 Segments pair_lines(const MeasuredMapSpec& spec) {
-  Segments lines{.label = "measured pair", .colour = ThemeColour::kSeries3, .width = 0.4};
+  Segments lines{.label = "measured pair", .colour = ThemeColour::kFaint, .width = 0.5};
   for (const MeasuredPair& pair : spec.pairs) {
     const auto from = spec.map.estimate.row(pair.first), to = spec.map.estimate.row(pair.second);
     if (!from.allFinite() || !to.allFinite()) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,17 +11,20 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/thinning.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
 namespace {
 
 constexpr int kCurveBins = 200;
+/// In which medians are taken, where a curve of all poses would be a barcode: a panel of 250 points
+/// of width has three for each.
+constexpr int kMedianBins = 80;
 /// Of a path on a map: at 500 points of width a piece is shorter than its line is wide.
 constexpr Eigen::Index kMostPieces = 2000;
 constexpr double kPathWidth = 1.6;  // Lines of the theme.
@@ -53,7 +57,7 @@ double greatest_of(const PathErrorsSpec& spec) {
 ScaledUnit unit_of(const PathErrorsSpec& spec) { return scaled_unit("m", greatest_of(spec)); }
 
 std::string in_unit(double error_m, const ScaledUnit& unit) {
-  return with_unit(significant(unit.factor * error_m), unit.unit);
+  return quantity_text(unit.factor * error_m, unit.unit);
 }
 
 std::string numbers_of(const PathErrorsSpec& spec) {
@@ -83,8 +87,10 @@ Figure figure_of(const PathErrorsSpec& spec, std::string caption) {
 std::pair<Eigen::Index, Eigen::Index> plane_of(const PathErrorsSpec& spec) {
   Eigen::RowVector3d span = Eigen::RowVector3d::Zero();
   for (const PathErrorLine& line : spec.lines) {
-    const SpacePoints& path = line.poses->ground_truth_m;
-    span = span.cwiseMax(path.colwise().maxCoeff() - path.colwise().minCoeff());
+    for (const SpacePoints* path :
+         {&line.poses->ground_truth_m, &line.poses->ground_truth_alone.positions_m})
+      if (path->rows() > 0)
+        span = span.cwiseMax(path->colwise().maxCoeff() - path->colwise().minCoeff());
   }
   Eigen::Index least = 0;
   for (Eigen::Index i = 1; i < 3; ++i)
@@ -120,6 +126,90 @@ std::vector<Eigen::Index> shown_poses(const PoseErrors& poses) {
   return shown;
 }
 
+/// A position of a path, of a pose that is associated or alone.
+struct PathPoint {
+  double time_s = 0.0;
+  Eigen::RowVector3d position_m;
+  bool is_alone = false;
+};
+
+/// @param rows  Of the associated poses.
+std::vector<PathPoint> points_of(const PoseErrors& poses, const std::vector<Eigen::Index>& rows,
+                                 const SpacePoints& associated_m, const LonePoses& alone) {
+  std::vector<PathPoint> points;
+  for (const Eigen::Index i : rows)
+    if (i >= 0) points.push_back({poses.time_s(i), associated_m.row(i)});
+  for (Eigen::Index i = 0; i < alone.time_s.size(); ++i)
+    points.push_back({alone.time_s(i), alone.positions_m.row(i), true});
+  std::ranges::stable_sort(points, {}, &PathPoint::time_s);
+  return points;
+}
+
+void add_break(Polyline& line) {
+  line.x.push_back(kNaN);
+  line.y.push_back(kNaN);
+}
+
+/// The ground truth, also where no pose of the estimate is associated: a gap is then seen to be
+/// one of the estimate. It is broken where it has no poses of its own.
+/// @param shown  As of shown_poses().
+void add_ground_truth(const PoseErrors& poses, const std::vector<Eigen::Index>& shown,
+                      std::pair<Eigen::Index, Eigen::Index> plane, Polyline& line) {
+  const LonePoses& alone = poses.ground_truth_alone;
+  const auto add = [&](const Eigen::RowVector3d& position) {
+    line.x.push_back(position(plane.first));
+    line.y.push_back(position(plane.second));
+  };
+  if (alone.time_s.size() == 0) {
+    for (const Eigen::Index i : shown) i < 0 ? add_break(line) : add(poses.ground_truth_m.row(i));
+    return;
+  }
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(poses.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const double longest_s = std::max(longest_step(poses.time_s),
+                                    alone.time_s.size() > 1 ? longest_step(alone.time_s) : 0.0);
+  double last_s = kInfinity;
+  const std::vector<PathPoint> points = points_of(poses, rows, poses.ground_truth_m, alone);
+  const std::size_t stride = 1 + points.size() / (2 * kMostPieces);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool is_gap = points[i].time_s - last_s > longest_s;
+    last_s = points[i].time_s;
+    if (is_gap) add_break(line);
+    if (is_gap || i % stride == 0 || i + 1 == points.size()) add(points[i].position_m);
+  }
+}
+
+/// The estimate where it has no ground truth, from the associated pose before it to the one behind:
+/// the drive is then seen to go on. Short pauses between associated poses are none.
+Polyline lone_estimate(const PoseErrors& poses, std::pair<Eigen::Index, Eigen::Index> plane) {
+  Polyline line{.label = "without ground truth",
+                .colour = ThemeColour::kMuted,
+                .dash = Dash::kDotted,
+                .width = 0.8};
+  const LonePoses& alone = poses.estimate_alone;
+  if (alone.time_s.size() == 0) return line;
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(poses.size()));
+  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
+  const std::vector<PathPoint> points = points_of(poses, rows, poses.estimate_m, alone);
+  const double longest_s = longest_step(poses.time_s);
+  const auto is_associated = [](const PathPoint& point) { return !point.is_alone; };
+  for (auto at = points.begin(); at != points.end();) {
+    const auto first = std::find_if_not(at, points.end(), is_associated);
+    const auto last = std::find_if(first, points.end(), is_associated);
+    const auto from = first == points.begin() ? first : first - 1;
+    const auto to = last == points.end() ? last : last + 1;
+    if (first != last && (to - 1)->time_s - from->time_s > longest_s) {
+      if (!line.x.empty()) add_break(line);
+      for (auto point = from; point != to; ++point) {
+        line.x.push_back(point->position_m(plane.first));
+        line.y.push_back(point->position_m(plane.second));
+      }
+    }
+    at = last;
+  }
+  return line;
+}
+
 Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index> plane,
                 double greatest_m, const ScaledUnit& unit) {
   const PoseErrors& poses = *line.poses;
@@ -129,13 +219,11 @@ Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index>
   estimate.colour_scale = {.limits = {0.0, greatest_m > 0.0 ? unit.factor * greatest_m : 1.0},
                            .ramp = Ramp::kViridis,
                            .bar_label = fmt::format("error [{}]", unit.unit)};
-  for (const Eigen::Index i : shown_poses(poses)) {
-    const auto add = [&](const SpacePoints& path, Polyline& to) {
-      to.x.push_back(i < 0 ? kNaN : path(i, plane.first));
-      to.y.push_back(i < 0 ? kNaN : path(i, plane.second));
-    };
-    add(poses.ground_truth_m, ground_truth);
-    add(poses.estimate_m, estimate);
+  const std::vector<Eigen::Index> shown = shown_poses(poses);
+  add_ground_truth(poses, shown, plane, ground_truth);
+  for (const Eigen::Index i : shown) {
+    estimate.x.push_back(i < 0 ? kNaN : poses.estimate_m(i, plane.first));
+    estimate.y.push_back(i < 0 ? kNaN : poses.estimate_m(i, plane.second));
     estimate.values.push_back(i < 0 ? kNaN : unit.factor * poses.error_m(i));
   }
   Panel panel;
@@ -143,6 +231,8 @@ Panel map_panel(const PathErrorLine& line, std::pair<Eigen::Index, Eigen::Index>
   panel.y.label = fmt::format("{} [m]", kAxisNames[static_cast<std::size_t>(plane.second)]);
   panel.equal_aspect = true;
   panel.layers.emplace_back(std::move(ground_truth));
+  Polyline alone = lone_estimate(poses, plane);
+  if (!alone.x.empty()) panel.layers.emplace_back(std::move(alone));
   panel.layers.emplace_back(std::move(estimate));
   return panel;
 }
@@ -164,22 +254,54 @@ bool has_pauses(const PathErrorsSpec& spec) {
   });
 }
 
-Polyline curve_of(const PathErrorLine& line, const Eigen::VectorXd& over, const ScaledUnit& unit) {
+/// Whether medians are shown in place of its single errors.
+bool has_medians(const PathErrorLine& line) { return line.poses->size() >= 2 * kMedianBins; }
+
+/// The errors of single poses behind their medians if there are enough, else alone.
+void add_curves(const PathErrorLine& line, const Eigen::VectorXd& over, const ScaledUnit& unit,
+                Panel& panel) {
+  const std::string label =
+      fmt::format("{}, RMSE {}", line.label, in_unit(root_mean_square(line.poses->error_m), unit));
   std::vector<double> x, errors;
   for (const Eigen::Index i : poses_and_pauses(*line.poses)) {
     x.push_back(i < 0 ? x.back() : over(i));
     errors.push_back(i < 0 ? kNaN : unit.factor * line.poses->error_m(i));
   }
-  ThinLine thin =
-      thin_curve(Eigen::Map<const Eigen::VectorXd>(x.data(), std::ssize(x)), errors, kCurveBins);
+  const Eigen::Map<const Eigen::VectorXd> at(x.data(), std::ssize(x));
+  ThinLine thin = thin_curve(at, errors, kCurveBins);
+  if (has_medians(line)) {
+    // Below the lines of all systems.
+    const auto first_line = std::ranges::find_if(panel.layers, [](const Layer& layer) {
+      return std::get<Polyline>(layer).colour != ThemeColour::kMuted;
+    });
+    panel.layers.insert(first_line, Polyline{.label = "single poses",
+                                             .x = std::move(thin.x),
+                                             .y = std::move(thin.y),
+                                             .colour = ThemeColour::kMuted,
+                                             .width = 0.3,
+                                             .mark = {"", {{"kind", "single poses"}}}});
+    thin = median_curve(at, errors, kMedianBins);
+  }
   const SeriesStyle style = series_style(line.series);
-  return {.label = fmt::format("{}, RMSE {}", line.label,
-                               in_unit(root_mean_square(line.poses->error_m), unit)),
-          .x = std::move(thin.x),
-          .y = std::move(thin.y),
-          .colour = style.colour,
-          .dash = style.dash,
-          .width = 0.7};
+  panel.layers.emplace_back(Polyline{.label = label,
+                                     .x = std::move(thin.x),
+                                     .y = std::move(thin.y),
+                                     .colour = style.colour,
+                                     .dash = style.dash,
+                                     .width = has_medians(line) ? 1.0 : 0.7,
+                                     .mark = {"", {{"curve", label}}}});
+}
+
+std::string median_words(const PathErrorsSpec& spec, std::string_view over) {
+  if (std::ranges::none_of(spec.lines, has_medians)) return "";
+  return fmt::format(
+      " Lines: the median in each of {} equal pieces of {} and of the way; behind them the errors "
+      "of single poses.{}",
+      kMedianBins, over,
+      std::ranges::all_of(spec.lines, has_medians)
+          ? ""
+          : fmt::format(" A line of fewer than {} poses shows their errors themselves.",
+                        2 * kMedianBins));
 }
 
 /// The share of values at or below each, at most so many points.
@@ -187,7 +309,10 @@ Polyline distribution_of(const PathErrorLine& line, const Eigen::VectorXd& error
   std::vector<double> sorted(errors.begin(), errors.end());
   std::ranges::sort(sorted);
   const SeriesStyle style = series_style(line.series);
-  Polyline curve{.label = line.label, .colour = style.colour, .dash = style.dash};
+  Polyline curve{.label = line.label,
+                 .colour = style.colour,
+                 .dash = style.dash,
+                 .mark = {"", {{"method", line.label}}}};
   const std::size_t n = sorted.size(), points = std::min<std::size_t>(n, 2 * kCurveBins);
   curve.x.push_back(sorted.front());
   curve.y.push_back(0.0);
@@ -213,6 +338,9 @@ Figure path_error_map_figure(const PathErrorsSpec& spec, std::size_t shown) {
                        "ground truth. RMSE: {}.",
                        in_unit(root_mean_square(spec.lines[shown].poses->error_m), unit_of(spec))));
   figure.panels.push_back(map_panel(spec.lines[shown], plane, greatest_of(spec), unit_of(spec)));
+  constexpr std::size_t kLayersOfWhole = 2;
+  if (figure.panels.front().layers.size() > kLayersOfWhole)
+    figure.caption += " Dotted: the estimate where no ground truth is known.";
   require_valid(figure);
   return figure;
 }
@@ -222,8 +350,9 @@ Figure path_error_curves_figure(const PathErrorsSpec& spec) {
   const bool has_times = spec.lines.front().poses->has_times;
   Figure figure = figure_of(
       spec, fmt::format("Position error of each pose over {} and over the way along the "
-                        "ground truth.{}",
+                        "ground truth.{}{}",
                         has_times ? "time" : "the number of the pose",
+                        median_words(spec, has_times ? "the time" : "the poses"),
                         has_pauses(spec) ? " Lines are broken where no pose is associated "
                                            "for more than ten usual steps of time."
                                          : ""));
@@ -235,8 +364,8 @@ Figure path_error_curves_figure(const PathErrorsSpec& spec) {
   for (const PathErrorLine& line : spec.lines)
     first_s = std::min(first_s, has_times ? line.poses->time_s(0) : 0.0);
   for (const PathErrorLine& line : spec.lines) {
-    over_time.layers.emplace_back(curve_of(line, line.poses->time_s.array() - first_s, unit));
-    over_way.layers.emplace_back(curve_of(line, line.poses->distance_m, unit));
+    add_curves(line, line.poses->time_s.array() - first_s, unit, over_time);
+    add_curves(line, line.poses->distance_m, unit, over_way);
   }
   for (Panel* panel : {&over_time, &over_way}) {
     panel->y.label = fmt::format("error [{}]", unit.unit);

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
 #include "render/figures/curves/error_curve.hpp"
@@ -15,7 +16,6 @@
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/status_text.hpp"
 
 namespace mapproof {

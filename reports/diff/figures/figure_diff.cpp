@@ -150,6 +150,7 @@ void compare_layers(const Panel& a, const Panel& b, LayerDiff& layers, FigureLog
 }
 
 constexpr std::size_t kMostValueText = 60;  // Characters of a value in a sentence.
+constexpr std::size_t kMostTitle = 160;     // Of a title, which is read as a whole.
 
 /// "41 mm", "1.2 m"; other units as they are.
 std::string length_text(double length, const std::string& unit) {
@@ -159,7 +160,8 @@ std::string length_text(double length, const std::string& unit) {
 }
 
 std::string change_sentence(const FigureChange& change) {
-  const auto [before, after] = excerpts(change.baseline, change.current, kMostValueText);
+  const auto [before, after] = excerpts(change.baseline, change.current,
+                                        change.what == "title" ? kMostTitle : kMostValueText);
   std::string text = change.location + ": " + change.what;
   if (change.baseline.empty() && change.current.empty()) return text;
   if (change.current.empty()) return text + " (was " + before + ")";

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -12,6 +13,20 @@ namespace {
 Tolerance changed_or(const Tolerances& changed, std::string_view id, const Tolerance& usual) {
   const auto found = changed.find(id);
   return found == changed.end() ? usual : found->second;
+}
+
+/// In as few characters as so many significant digits take; "none" for NaN.
+std::string short_text(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("none");
+}
+
+/// How many significant digits distinguish two numbers, at least the given count.
+int distinguishing_digits(double baseline, double current, int digits) {
+  constexpr int kAll = 17;
+  while (digits < kAll && baseline != current &&
+         short_text(baseline, digits) == short_text(current, digits))
+    ++digits;
+  return digits;
 }
 
 }  // namespace
@@ -25,12 +40,8 @@ Tolerance tolerance_of_others(const Tolerances& changed) {
 }
 
 std::pair<std::string, std::string> distinguished(double baseline, double current, int digits) {
-  constexpr int kAll = 17;
-  const auto text = [&](double value) {
-    return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : std::string("none");
-  };
-  while (digits < kAll && baseline != current && text(baseline) == text(current)) ++digits;
-  return {text(baseline), text(current)};
+  const int enough = distinguishing_digits(baseline, current, digits);
+  return {short_text(baseline, enough), short_text(current, enough)};
 }
 
 bool has_great_errors(const Quantity& quantity, double least_m) {
@@ -41,7 +52,13 @@ bool has_great_errors(const Quantity& quantity, double least_m) {
 std::string change_text(double baseline, double current, std::string_view unit, bool errors_m) {
   const auto is_great = [errors_m](double value) { return errors_m && value > kGreatestError_m; };
   if (is_great(baseline) && is_great(current)) return fmt::format("{} as before", kGreatErrorText);
-  auto [from, to] = distinguished(baseline, current, 3);
+  const int digits = distinguishing_digits(baseline, current, 3);
+  const bool are_counts = baseline == std::floor(baseline) && current == std::floor(current);
+  const auto text = [&](double value) {
+    return are_counts || !std::isfinite(value) ? short_text(value, digits)
+                                               : significant(value, digits);
+  };
+  const std::string from = text(baseline), to = text(current);
   const std::string in_unit = unit.empty() ? "" : fmt::format(" {}", unit);
   if (is_great(baseline)) return fmt::format("{} \u2192 {}{}", kGreatErrorText, to, in_unit);
   if (is_great(current)) return fmt::format("{}{} \u2192 {}", from, in_unit, kGreatErrorText);

@@ -38,7 +38,8 @@ std::pair<std::string, std::string> distinguished(double baseline, double curren
 /// diverged: one of mapproof's, or one with an error that is not above it.
 bool has_great_errors(const Quantity& quantity, double least_m);
 
-/// "0.138 → 0.152 m": as many digits as distinguish the two, at least three.
+/// "0.120 → 0.153 m": as many digits as distinguish the two, at least three; of whole numbers no
+/// decimals.
 /// @param errors_m  Errors in m: those of maps that diverged are "over 1 km".
 std::string change_text(double baseline, double current, std::string_view unit,
                         bool errors_m = false);

@@ -197,7 +197,15 @@ std::string left_out(const std::vector<ShownImages>& shown) {
 
 constexpr std::size_t kLongestNote = 2000;
 
-/// Remarks on items that were not compared or are not shown.
+/// Remarks on items that were not compared.
+list remarks_data(const DiffResult& result) {
+  list out;
+  for (const std::string& remark : result.remarks)
+    out.push_back(data("remark", printable(remark, kLongestNote)));
+  return out;
+}
+
+/// That items have one cause, or are not shown.
 list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown) {
   list out;
   for (const SharedCause& shared : result.shared)
@@ -207,8 +215,6 @@ list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown)
                                    counted(std::ssize(shared.ids), "item"), label(shared.verdict),
                                    shared.cause, shared.cause.ends_with('.') ? "" : ".", kExamples),
                        kLongestNote)));
-  for (const std::string& remark : result.remarks)
-    out.push_back(data("note", printable(remark, kLongestNote)));
   if (const std::string text = left_out(shown); !text.empty()) out.push_back(data("note", text));
   return out;
 }
@@ -269,7 +275,10 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("passes", result.passes);
   page.set("verdict", std::string(name(result.judgement.verdict)));
   page.set("label", std::string(label(result.judgement.verdict)));
-  page.set("cause", text_or_false(printable(result.judgement.cause, kLongestNote)));
+  // Of one item alone it stands beside the item.
+  const bool is_one =
+      result.items.size() == 1 && result.items[0].judgement.verdict != Verdict::kIdentical;
+  page.set("cause", text_or_false(is_one ? "" : printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
   const auto [baseline, current] = distinct_names(shown_baseline(result), shown_current(result));
   page.set("baseline_name", printable(baseline, kMostPath));
@@ -280,6 +289,7 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("files", std::filesystem::is_regular_file(result.current, error));
   page.set("facts", block_data(whole_facts(result), {}, {}, "facts"));
   page.set("counts", counts_data(result));
+  page.set("remarks", remarks_data(result));
   page.set("notes", notes_data(result, shown));
   page.set("version", std::string(version()));
   set_items(page, result, shown, page_bytes);

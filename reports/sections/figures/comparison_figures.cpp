@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "core/base/median.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/diagrams/shepard.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/plot/short_names.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/figures/method_styles.hpp"
@@ -197,7 +197,7 @@ std::string cost_finding(const std::vector<CostedSetting>& settings,
   const auto ties =
       std::ranges::count_if(intervals, [&](const Interval& one) { return one.low <= lowest.high; });
   const std::string name = without_parameters(short_method_name(best->label));
-  const std::string error = error_text(best->mpe_m, 2);
+  const std::string error = error_text(best->mpe_m);
   if (ties == 1) return fmt::format("whatever the time, {} has the lowest MPE, {}", name, error);
   return fmt::format("{} of {} methods tie for the lowest MPE, {} with {}", ties, settings.size(),
                      name, error);

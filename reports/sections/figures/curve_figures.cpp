@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/figures/maps/error_map.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/scatter_map.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -37,11 +37,11 @@ std::optional<SettingSummary> summary_of(const Study& study, const SensorStudy& 
 std::string pair_finding(const MapRecord& nearest, const MapRecord& median, double published_m) {
   if (!nearest.score || !median.score) return "the run nearest to the paper, and the median run";
   if (&nearest == &median)
-    return fmt::format("the median run errs by {} (paper: {})", error_text(median.score->mpe_m, 2),
-                       error_text(published_m, 2));
+    return fmt::format("the median run errs by {} (paper: {})", error_text(median.score->mpe_m),
+                       error_text(published_m));
   return fmt::format("the median run errs by {}, the run nearest to the paper by {} (paper: {})",
-                     error_text(median.score->mpe_m, 2), error_text(nearest.score->mpe_m, 2),
-                     error_text(published_m, 2));
+                     error_text(median.score->mpe_m), error_text(nearest.score->mpe_m),
+                     error_text(published_m));
 }
 
 void add_pair(FigureSource& source, const PaperFigure& wanted, std::vector<Figure>& figures) {
@@ -97,7 +97,7 @@ std::string span_of_errors(const std::vector<TitledMap>& maps) {
   if (!std::ranges::all_of(maps, [&](const TitledMap& one) { return std::isfinite(mpe_of(one)); }))
     return "";
   const auto [least, most] = std::ranges::minmax(maps, {}, mpe_of);
-  return fmt::format("{} to {}", error_text(mpe_of(least), 2), error_text(mpe_of(most), 2));
+  return fmt::format("{} to {}", error_text(mpe_of(least)), error_text(mpe_of(most)));
 }
 
 /// The mean errors of all maps in the half of the floor that is nearer to the walls, and in the
@@ -119,7 +119,7 @@ std::string where_wrong(const std::vector<TitledMap>& maps, double side_m) {
   }
   if (counts[0] == 0.0 || counts[1] == 0.0) return "where the maps are wrong";
   return fmt::format("the mean error is {} in the outer half of the floor, {} in the inner one",
-                     error_text(sums[0] / counts[0], 2), error_text(sums[1] / counts[1], 2));
+                     error_text(sums[0] / counts[0]), error_text(sums[1] / counts[1]));
 }
 
 /// All methods on one run, the best first: the median run of the best method.
@@ -216,8 +216,8 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
 
 std::string errors_over_steps(const MapRecord& first, const MapRecord& last) {
   if (!first.score || !last.score) return "";
-  return fmt::format("{} off after {} steps, {} after {}", error_text(first.score->mpe_m, 2),
-                     first.step, error_text(last.score->mpe_m, 2), last.step);
+  return fmt::format("{} off after {} steps, {} after {}", error_text(first.score->mpe_m),
+                     first.step, error_text(last.score->mpe_m), last.step);
 }
 
 std::vector<Figure> map_figures(FigureSource& source) {
@@ -236,7 +236,7 @@ std::vector<Figure> map_figures(FigureSource& source) {
           if (std::isfinite(error_m))
             figures.back().title =
                 fmt::format("{}, {}: {} off after {} steps", title_of(best.sensor),
-                            short_label(best.setting), error_text(error_m, 2), best.step);
+                            short_label(best.setting), error_text(error_m), best.step);
         }
   return figures;
 }

@@ -1,16 +1,24 @@
 #include "reports/sections/figures/method_styles.hpp"
 
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
 
 namespace mapproof {
 
 std::size_t series_of_method(const Experiment& experiment, Method method) {
-  const std::size_t series = method_series(method);
   const ExternalMethod* external = find_external(experiment, method);
-  if (external == nullptr) return series;
-  return series + static_cast<std::size_t>(external - experiment.external_methods.data());
+  if (external == nullptr) return method_series(method);
+  std::vector<std::size_t> own;
+  for (const SensorStudy& sensor : experiment.sensors)
+    for (const MethodGrid& grid : sensor.methods)
+      if (find_external(experiment, grid.method) == nullptr)
+        own.push_back(method_series(grid.method));
+  const auto k = static_cast<std::size_t>(external - experiment.external_methods.data());
+  return own.empty() ? kMethodStyles + k : free_series(own, k + 1, kMethodStyles)[k];
 }
 
 namespace {

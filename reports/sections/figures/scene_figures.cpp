@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "render/figures/number_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "render/scene/forming_scene.hpp"
+#include "render/scene/map_scene.hpp"
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/room.hpp"
-#include "render/scene/world_scene.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -49,16 +49,16 @@ void add_best(FigureSource& source, const SettingSummary& best, std::vector<Scen
   if (run == nullptr || map == nullptr || map->frame != Frame::kGroundTruth || details == nullptr ||
       !has_room(run->world))
     return;
-  WorldSceneSpec spec{
+  MapSceneSpec spec{
       .id = fmt::format("scene-world-{}", name(best.sensor)),
-      .title = fmt::format(
-          "{}, {}: {}after {} steps", title_of(best.sensor), short_label(best.setting),
-          map->score ? error_text(map->score->mpe_m, 2) + " off " : "the map ", best.step),
-      .run = *id,
+      .title =
+          fmt::format("{}, {}: {}after {} steps", title_of(best.sensor), short_label(best.setting),
+                      map->score ? error_text(map->score->mpe_m) + " off " : "the map ", best.step),
+      .where = fmt::format("Layout {}, pose {}", id->layout, id->pose),
+      .map = *map,
       .world = run->world,
-      .path_m = source.details(*id)->path.positions_m,
-      .map = *map};
-  scenes.push_back(world_scene(spec, WorldView::kPerspective));
+      .path_m = source.details(*id)->path.positions_m};
+  scenes.push_back(map_scene(spec));
   if (!details->manifold || !has_manifold_scene(*details->manifold)) return;
   scenes.push_back(manifold_scene(
       {.id = fmt::format("scene-manifold-{}", name(best.sensor)),

@@ -11,12 +11,12 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "core/statistics/nemenyi.hpp"
 #include "core/statistics/signed_rank.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
 
@@ -225,9 +225,7 @@ std::vector<MethodComparison> compare_at_last(const ResultsView& view, const Res
 
 std::string value_words(double value, const Quantity& quantity, const ResultsView& view) {
   if (view.has_great_errors(quantity) && value > kGreatestError_m) return kGreatErrorText;
-  const std::string digits = fmt::format("{:.3g}", value);
-  const bool has_power = digits.find('e') != std::string::npos;
-  return with_unit(has_power ? significant(value) : digits, quantity.unit);
+  return quantity_text(value, quantity.unit);
 }
 
 std::string label_of(const ComparedMethod& method, const ResultsView& view) {
@@ -332,10 +330,11 @@ std::string where_of(const MethodComparison& comparison) {
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view) {
   const Quantity& quantity = *comparison.quantity;
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
-  std::string text = fmt::format("{}: {} has the {} mean {}, {}; {} follows with {}",
-                                 where_of(comparison), label_of(best, view), best_word(quantity),
-                                 quantity.label, value_words(best.mean, quantity, view),
-                                 label_of(next, view), value_words(next.mean, quantity, view));
+  std::string text =
+      fmt::format("{}: {} has the {} {}{}, {}; {} follows with {}", where_of(comparison),
+                  label_of(best, view), best_word(quantity), view.runs() > 1 ? "mean " : "",
+                  quantity.label, value_words(best.mean, quantity, view), label_of(next, view),
+                  value_words(next.mean, quantity, view));
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));

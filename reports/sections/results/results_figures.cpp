@@ -12,19 +12,24 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
+#include "render/figures/curves/method_series.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/maps/map.hpp"
-#include "render/figures/number_text.hpp"
+#include "render/figures/score_text.hpp"
 #include "render/figures/unit_scale.hpp"
+#include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/method_ranks.hpp"
+#include "reports/sections/results/crossed_names.hpp"
+#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {
@@ -226,8 +231,8 @@ struct Curves {
   std::vector<std::string> joined = {};  ///< Labels of those that are several.
   /// Of those, the label of the first line: what is joined has its values.
   std::map<std::string, std::string> joined_by_first = {};
-  bool lacks_compared_with = false;      ///< What the others are compared with is left out.
-  bool has_bands = false;                ///< Else `low` and `high` serve findings alone.
+  bool lacks_compared_with = false;  ///< What the others are compared with is left out.
+  bool has_bands = false;            ///< Else `low` and `high` serve findings alone.
 };
 
 /// As they are drawn.
@@ -361,16 +366,19 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
   if (known.empty()) return "";
   const auto words = [&](double value) {
-    if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
-    return with_unit(rounded_text(value, decimals_of(known)), unit);
+    if (const auto power = power_of(unit))
+      return quantity_text(value * std::pow(10.0, *power), quantity.unit);
+    return quantity_text(value, unit);
   };
   if (is_tiny_distance(quantity))
     return fmt::format("{} is at most {}", in_sentence(quantity.label),
                        words(std::ranges::max(known)));
   const std::string first = words(known.front()), last = words(known.back());
   if (lines.size() == 1)
-    return first == last
-               ? fmt::format("{} stays at {}", in_sentence(quantity.label), first)
+    return first == last ? fmt::format("{} stays at {}", in_sentence(quantity.label), first)
+           : ends_tie(lines.front())
+               ? fmt::format("{} has no clear trend, {} and {} at the ends",
+                             in_sentence(quantity.label), first, last)
                : fmt::format("{} {} from {} to {}", in_sentence(quantity.label),
                              known.back() < known.front() ? "falls" : "rises", first, last);
   const auto [least, greatest] = std::ranges::minmax(known);
@@ -453,6 +461,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.x_scale = scale_of(block.levels);
   spec.quantity = quantity.label;
   spec.great_errors = view.has_great_errors(quantity);
+  spec.has_runs = view.runs() > 1;
   spec.record_ids = {record_of(block)};
   Curves curves = curves_of(view, block, quantity);
   if (!distinguishes(curves.lines)) return std::nullopt;
@@ -495,6 +504,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.y_label = label_with_unit(quantity);
   spec.quantity = quantity.label;
   spec.great_errors = view.has_great_errors(quantity);
+  spec.has_runs = view.runs() > 1;
   spec.record_ids = {record_of(*overview.blocks.front())};
   std::vector<std::string> joined;
   std::vector<std::vector<ErrorLine>> judged;
@@ -558,7 +568,7 @@ std::string distribution_words(const std::vector<ErrorPanel>& panels,
                                const std::vector<double>& medians, const Quantity& quantity) {
   if (panels.size() != 1 || panels.front().lines.empty()) return quantity.label;
   const std::vector<ErrorLine>& lines = panels.front().lines;
-  const auto words = [&](double value) { return with_unit(significant(value, 2), quantity.unit); };
+  const auto words = [&](double value) { return quantity_text(value, quantity.unit); };
   const std::string name = in_sentence(quantity.label);
   if (lines.size() == 1)
     return fmt::format("the median {} is {}, the greatest {}", name, words(medians.front()),
@@ -646,9 +656,10 @@ class DataSetDots {
       const std::string& label = view.study().methods[line.index].label;
       auto same = std::ranges::find(methods_, label, &OfMethod::label);
       if (same == methods_.end())
-        same = methods_.insert(same, {label, line.series, {}});
+        same = methods_.insert(same, {line.method, label, line.series, {}});
       same->values.merge(view.numbers(block.conditions.front(), line, quantity).values);
     }
+    cross_styles();
   }
 
   std::size_t methods() const { return methods_.size(); }
@@ -658,8 +669,11 @@ class DataSetDots {
     figure.id = data_sets_figure_id(block_, quantity_);
     figure.title = fmt::format("{}: {}", block_.title, finding());
     figure.caption = fmt::format(
-        "Markers: {} of each method, by data set. Those of one data set stand side by side.",
-        quantity_.label);
+        "Markers: {} of each method, by data set. Those of one data set stand side by side.{}",
+        quantity_.label,
+        crossed_ ? " Their colour is that of the name's part before the comma, their form that of "
+                   "the part behind it."
+                 : "");
     figure.alt = figure.caption;
     figure.record_ids = {record_of(block_)};
     Panel& panel = figure.panels.emplace_back();
@@ -669,6 +683,7 @@ class DataSetDots {
       all.insert(all.end(), dots.y.begin(), dots.y.end());
       if (!dots.x.empty()) panel.layers.emplace_back(std::move(dots));
     }
+    add_crossed_legend(panel);
     panel.x.limits = Range{-0.5, static_cast<double>(view_.study().runs.size()) - 0.5};
     for (const Label& run : view_.study().runs) panel.x.names.push_back(run.label);
     panel.y = {.label = label_with_unit(quantity_),
@@ -679,18 +694,66 @@ class DataSetDots {
 
  private:
   struct OfMethod {
+    std::string id;
     std::string label;
     std::size_t series = 0;
     ValuesByRun values;
   };
 
+  /// Names such as "Bearing, ISOMAP" have a colour and a form for each part. Not in a study with
+  /// curves, in which a method would then have two colours, nor of mapproof's own methods.
+  void cross_styles() {
+    if (std::ranges::any_of(view_.blocks(), &ResultsBlock::has_axis)) return;
+    std::vector<std::string> labels, of_study;
+    for (const OfMethod& method : methods_) {
+      if (is_mapping_method(method.id)) return;
+      labels.push_back(method.label);
+    }
+    for (const Label& method : view_.study().methods) of_study.push_back(method.label);
+    auto crossed = crossed_names(labels, of_study);
+    if (!crossed || crossed->firsts.size() > kSeriesCount || crossed->seconds.size() > kMarkerCount)
+      return;
+    crossed_ = std::move(crossed);
+  }
+
+  SeriesStyle style_of(std::size_t k) const {
+    if (!crossed_) return series_style(methods_[k].series);
+    const auto [first, second] = crossed_->names[k];
+    return {.colour = series_colour(first), .marker = series_style(second).marker};
+  }
+
+  /// The forms, then the colours.
+  void add_crossed_legend(Panel& panel) const {
+    if (!crossed_) return;
+    std::set<std::size_t> firsts, seconds;
+    for (const auto& [first, second] : crossed_->names) {
+      firsts.insert(first);
+      seconds.insert(second);
+    }
+    for (const std::size_t second : seconds)
+      panel.layers.emplace_back(Scatter{.label = crossed_->seconds[second],
+                                        .x = {kNaN},
+                                        .y = {kNaN},
+                                        .colour = ThemeColour::kText,
+                                        .marker = series_style(second).marker});
+    for (const std::size_t first : firsts)
+      panel.layers.emplace_back(Segments{.label = crossed_->firsts[first],
+                                         .x0 = {kNaN},
+                                         .y0 = {kNaN},
+                                         .x1 = {kNaN},
+                                         .y1 = {kNaN},
+                                         .colour = series_colour(first),
+                                         .width = 4.0});
+  }
+
   Scatter dots_of(std::size_t k) const {
     constexpr double kTaken = 0.7;  // Of the distance between two data sets.
-    const SeriesStyle style = series_style(methods_[k].series);
+    const SeriesStyle style = style_of(k);
     const double middle = (static_cast<double>(methods_.size()) - 1.0) / 2.0;
     const double aside =
         kTaken * (static_cast<double>(k) - middle) / static_cast<double>(methods_.size());
-    Scatter dots{.label = methods_[k].label, .colour = style.colour, .marker = style.marker};
+    Scatter dots{
+        .label = crossed_ ? "" : methods_[k].label, .colour = style.colour, .marker = style.marker};
     const std::vector<Label>& runs = view_.study().runs;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const double* value = methods_[k].values.find(runs[i].id);
@@ -699,7 +762,7 @@ class DataSetDots {
       dots.y.push_back(*value);
       dots.marks.push_back(
           {fmt::format("{}-set-{}", key_of(k), i + 1),
-           {{"curve", dots.label},
+           {{"curve", methods_[k].label},
             {"points", fmt::format("{}, {}", runs[i].label, data_number(*value))}}});
     }
     return dots;
@@ -734,6 +797,7 @@ class DataSetDots {
   const ResultsBlock& block_;
   const Quantity& quantity_;
   std::vector<OfMethod> methods_;
+  std::optional<CrossedNames> crossed_;
 };
 
 /// Of the quantity that the study judges by first, over two data sets or more by two methods or
@@ -872,11 +936,14 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
 FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
                           const std::vector<GivenPath>& paths) {
   FigureGroup group{study.name + "-maps", "Maps and paths", "", {}};
+  std::vector<std::pair<std::string, const MapRecord*>> titled;
   for (const MapRecord& map : maps) {
     const std::string id = free_id(group, study.name + "-map-" + slug_of(map.id));
     group.figures.push_back(map_figure(map, id, map.id));
     group.figures.back().record_ids = {"maps/" + map.id};
+    titled.emplace_back(title_with_error(map.id, map), &map);
   }
+  group.scenes = best_map_scene("scene-" + study.name + "-map", titled);
   for (const GivenPath& path : paths)
     group.figures.push_back(
         path_figure(path, free_id(group, study.name + "-path-" + slug_of(path.id))));

@@ -11,12 +11,13 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "render/figures/maps/pair_distances.hpp"
-#include "render/figures/number_text.hpp"
+#include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
@@ -59,6 +60,22 @@ void add_extent(const TopicStudy& study, KeyValues& facts) {
 
 constexpr const char* kNoUsableMap = ": no usable map";  ///< Ends the title of its figure.
 
+/// ", the 95 % ellipses of 30 of 46 landmarks hold the true position": without anchors.
+std::string ellipses_text(const MapRecord& map, const MapUncertainty& uncertainty) {
+  int ellipses = 0, hold = 0;
+  for (Eigen::Index i = 0; map.ground_truth_m && i < map.estimate.rows(); ++i) {
+    const Eigen::RowVector2d position = map.estimate.row(i), point = map.ground_truth_m->row(i);
+    if (is_anchor(map, i) || !position.allFinite() || !point.allFinite()) continue;
+    if (!confidence_ellipse(uncertainty, i)) continue;
+    ++ellipses;
+    hold += covers(uncertainty, i, position, point) ? 1 : 0;
+  }
+  if (ellipses == 0 || map.frame != Frame::kGroundTruth)
+    return ", 95\u00a0% ellipses by the bootstrap";
+  return fmt::format(", the 95\u00a0% ellipses of {} of {} landmarks hold the true position", hold,
+                     ellipses);
+}
+
 std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
   const auto setup = std::ranges::find(study.design.setups, map.at.setup.get(), &TopicSetup::id);
   std::string title = is_of_data(study) || setup == study.design.setups.end()
@@ -72,7 +89,6 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
     title += score->moe_percent > kMostTurned_percent ? kNoUsableMap
              : std::isfinite(score->mpe_m)            ? ": " + error_text(score->mpe_m) + " off"
                                                       : "";
-  if (map.uncertainty) title += ", 95\u00a0% ellipses by the bootstrap";
   return title;
 }
 
@@ -222,16 +238,22 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
 
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
+  std::vector<std::pair<std::string, const MapRecord*>> titled;
   for (const TopicPart& part : study.parts)
     for (const TopicMap& map : part.maps) {
       const std::string title = title_of(study, part, map);
-      maps.figures.push_back(measured_map_figure(
-          {prefix + "-map-" + slug_of(map.id), title, map.map, map.pairs, map.uncertainty}));
+      const std::string ellipses =
+          map.uncertainty ? ellipses_text(map.map, *map.uncertainty) : std::string();
+      maps.figures.push_back(
+          measured_map_figure({prefix + "-map-" + slug_of(map.id), title + ellipses, map.map,
+                               map.pairs, map.uncertainty}));
       if (!map.pairs.empty())
         maps.figures.push_back(
             pair_distances_figure({prefix + "-pairs-" + slug_of(map.id), title + ", measured pairs",
                                    map.map, map.pairs}));
+      titled.emplace_back(title, &map.map);
     }
+  maps.scenes = best_map_scene("scene-" + prefix + "-map", titled);
   return maps;
 }
 
@@ -339,13 +361,12 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     const bool is_one = input.view.runs() < 2;
     numbers.items.push_back(
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
-         with_unit(significant(best.mean, 3), comparison.quantity->unit),
-         comparison.groups < 2
-             ? fmt::format("{}; {} {}", name_with_poses(input, best.method),
-                           name_with_poses(input, next.method),
-                           with_unit(significant(next.mean, 3), comparison.quantity->unit))
-             : fmt::format("{}; significantly better than {} of {}",
-                           name_with_poses(input, best.method), worse, others),
+         quantity_text(best.mean, comparison.quantity->unit),
+         comparison.groups < 2 ? fmt::format("{}; {} {}", name_with_poses(input, best.method),
+                                             name_with_poses(input, next.method),
+                                             quantity_text(next.mean, comparison.quantity->unit))
+                               : fmt::format("{}; significantly better than {} of {}",
+                                             name_with_poses(input, best.method), worse, others),
          comparison.block->id});
   }
 }
@@ -405,10 +426,22 @@ void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
   const ResultsStudy& study = input.view.study();
   const std::string& unit = best->quantity->unit;
   numbers.items.push_back({fmt::format("median {} of the best method", best->quantity->label),
-                           significant(best->median, 2) + (unit.empty() ? "" : "\u00a0" + unit),
+                           quantity_text(best->median, unit),
                            fmt::format("{}, over {}", study.methods[best->method].label,
                                        counted(std::ssize(study.runs), "data set")),
                            input.view.blocks().front().id});
+}
+
+/// "only 75.1 % of the poses are associated (orb, desk)"; empty if there are enough of each path.
+std::string few_associated(const ResultsStudy& study) {
+  std::vector<std::string> few;
+  for (const Result& row : study.results.rows)
+    if (row.quantity == kAssociatedPercent && row.value < kFewAssociated_percent)
+      few.push_back(fmt::format("{} ({}, {})", quantity_text(row.value, "%"),
+                                label_of(study.methods, row.method), row.run));
+  constexpr std::size_t kMostNamed = 3;
+  return few.empty() ? ""
+                     : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
 }
 
 /// Where nothing is compared: the first method's means of the quantities that a study judges by,
@@ -429,8 +462,8 @@ void add_means(const ResultsView& view, Highlights& numbers) {
       shown.push_back(stem);
       numbers.items.push_back(
           {quantity->label + (block.factor.empty() ? "" : ", " + view.words_of(block, last)),
-           with_unit(significant(mean->mean, 3), quantity->unit),
-           study.methods[lines.front().index].label, block.id});
+           quantity_text(mean->mean, quantity->unit), study.methods[lines.front().index].label,
+           block.id, quantity->id == kAssociatedPercent && !few_associated(study).empty()});
     }
 }
 
@@ -458,18 +491,6 @@ Highlights numbers_of(const ResultsReportInput& input) {
         {fmt::format("of {} have no value", counted(rows, "result")), fmt::format("{}", lost),
          lost == 0 ? "nothing was lost" : "means rest on the others", study.name + "-provenance"});
   return numbers;
-}
-
-/// "only 75.1 % of the poses are associated (orb, desk)"; empty if there are enough of each path.
-std::string few_associated(const ResultsStudy& study) {
-  std::vector<std::string> few;
-  for (const Result& row : study.results.rows)
-    if (row.quantity == kAssociatedPercent && row.value < kFewAssociated_percent)
-      few.push_back(fmt::format("{:.3g}\u00A0% ({}, {})", row.value,
-                                label_of(study.methods, row.method), row.run));
-  constexpr std::size_t kMostNamed = 3;
-  return few.empty() ? ""
-                     : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
 }
 
 /// "ORB has 32 poses, DSO 785", of the methods with fewest and with most; empty if none has less
@@ -511,9 +532,9 @@ std::vector<std::string> spread(const std::vector<Figure>& figures) {
   return ids;
 }
 
-/// Where a map or a path is, it is what a reader wants to open: it comes before curves, and before
-/// all the best method's map where it is best, or what shows the errors of several systems
-/// together. Groups take turns.
+/// First what the study is judged by: the errors of all systems together, or the values on all data
+/// sets, or the first figure. Then what a reader wants to open: the best method's map where it is
+/// best, the best map in space, other maps and paths, and curves; groups take turns.
 std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
   const ResultsStudy& study = view.study();
   std::vector<std::string> ids;
@@ -523,14 +544,24 @@ std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigur
                               slug_of(best->run)));
   }
   std::vector<std::vector<std::string>> groups;
+  std::vector<std::string> scenes;
   std::ptrdiff_t paths = 0;  // The first of them.
+  std::vector<std::string> maps;
   for (const FigureGroup& group : figures.groups) {
+    for (const Scene& scene : group.scenes) scenes.push_back(scene.id);
     std::vector<std::string> own = spread(group.figures);
-    for (const Scene& scene : group.scenes) own.push_back(scene.id);
     const bool is_of_paths = group.id.starts_with(path_error_prefix(study));
     if (is_of_paths && study.methods.size() > 1) own.insert(own.begin(), group.id + "-curves");
+    if (group.id == study.name + "-maps") {
+      maps = std::move(own);
+      continue;
+    }
     groups.insert(is_of_paths ? groups.begin() + paths++ : groups.end(), std::move(own));
   }
+  if (!groups.empty() && !groups.front().empty()) ids.push_back(groups.front().front());
+  if (!maps.empty() && paths == 0) ids.push_back(maps.front());
+  ids.insert(ids.end(), scenes.begin(), scenes.end());
+  groups.insert(groups.begin() + paths, std::move(maps));
   std::size_t turns = 0;
   for (const std::vector<std::string>& own : groups) turns = std::max(turns, own.size());
   for (std::size_t turn = 0; turn < turns; ++turn)

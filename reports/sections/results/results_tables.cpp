@@ -34,6 +34,11 @@ Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
   return IntervalCell{interval->low, interval->high, decimals};
 }
 
+/// Whether means are over several runs, which repeat each other.
+bool has_intervals(const ResultsView& view) {
+  return view.study().results.are_repeats && view.runs() > 1;
+}
+
 struct ShownQuantity {
   const Quantity& quantity;
   int decimals = 0;
@@ -51,7 +56,7 @@ class CellMaker {
     const auto& [quantity, decimals] = shown;
     const auto mean = view_.mean(at, line, quantity);
     row.cells.push_back(mean_cell(mean, decimals));
-    if (view_.study().results.are_repeats)
+    if (has_intervals(view_))
       row.cells.push_back(interval_cell_of(view_.interval(mean, quantity), decimals));
     if (const int lost = view_.numbers(at, line, quantity).lost; lost > 0)
       table_.notes.push_back(fmt::format("{}{}{}: {} lost.", line.label, where.empty() ? "" : ", ",
@@ -64,7 +69,7 @@ class CellMaker {
     const std::string unit = title.empty() ? quantity.unit : "";
     const bool errors_m = view_.has_great_errors(quantity);
     table_.columns.push_back({title.empty() ? quantity.label : title, unit, group, "", errors_m});
-    if (view_.study().results.are_repeats)
+    if (has_intervals(view_))
       table_.columns.push_back({"95 %", unit, group, kIntervalHint, errors_m});
   }
 
@@ -90,7 +95,7 @@ int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
 }
 
 void add_note(const ResultsView& view, Table& table) {
-  if (!view.study().results.are_repeats) return;
+  if (!has_intervals(view)) return;
   table.notes.insert(
       table.notes.begin(),
       fmt::format(
@@ -288,14 +293,14 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
   table.id = table_id(comparison.id, "paired-" + quantity.id);
   table.caption = fmt::format("{}: {} compared with the best method", where_of(comparison),
                               label_with_unit(quantity));
-  table.columns = {
-      {"Method", "", "", ""},
-      {"Mean", quantity.unit, "", "Over the runs that all of these methods have.", errors_m},
-      {"Mean rank", "", "", "1 is best; methods are ranked in each group."},
-      {"Difference", quantity.unit, "",
-       "From the best method: of the same runs, each group counted once.", errors_m},
-      {"95 %", quantity.unit, "", "Interval of the difference.", errors_m},
-      {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
+  table.columns = {{"Method", "", "", ""},
+                   {view.runs() > 1 ? "Mean" : quantity.label, quantity.unit, "",
+                    "Over the runs that all of these methods have.", errors_m},
+                   {"Mean rank", "", "", "1 is best; methods are ranked in each group."},
+                   {"Difference", quantity.unit, "",
+                    "From the best method: of the same runs, each group counted once.", errors_m},
+                   {"95 %", quantity.unit, "", "Interval of the difference.", errors_m},
+                   {"p", "", "", "Of no difference, corrected by Holm for the number of methods."}};
   for (std::size_t i = 0; i < comparison.methods.size(); ++i) {
     const ComparedMethod& method = comparison.methods[i];
     Row row{{TextCell{view.study().methods[method.method].label, Emphasis::kData},
@@ -313,12 +318,13 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
     }
     table.rows.push_back(std::move(row));
   }
-  const bool by_ranks = comparison.methods.size() > 1 && comparison.methods[1].change &&
-                        comparison.methods[1].change->by_ranks;
-  table.notes.push_back(fmt::format(
-      "Paired over {}: {}.", counted(comparison.groups, "group"),
-      by_ranks ? "Wilcoxon's signed-rank test, and the Hodges-Lehmann estimate of the difference"
-               : "Student's t of the differences"));
+  if (comparison.methods.size() > 1 && comparison.methods[1].change)
+    table.notes.push_back(fmt::format(
+        "Paired over {}: {}.", counted(comparison.groups, "group"),
+        comparison.methods[1].change->by_ranks
+            ? "Wilcoxon's signed-rank test, and the Hodges-Lehmann estimate of the difference"
+            : "Student's t of the differences"));
+  drop_empty_columns(table);
   if (!comparison.has_all_runs)
     table.notes.push_back(fmt::format(
         "Over the {} that all of these methods have; the tables above take every run of a method.",

@@ -401,18 +401,4 @@ std::string level_slug(const Level& level) {
   return sign + slug_of(text);
 }
 
-int decimals_of(std::vector<double> sizes) {
-  constexpr int kSignificant = 3, kOfLeast = 2;
-  constexpr int kMost = 6;
-  std::erase_if(sizes, [](double size) { return !std::isfinite(size) || size == 0.0; });
-  for (double& size : sizes) size = std::abs(size);
-  if (std::ranges::all_of(sizes, [](double size) { return size == std::floor(size); })) return 0;
-  const auto digits_before = [](double size) {
-    return static_cast<int>(std::floor(std::log10(size))) + 1;
-  };
-  const int decimals = kSignificant - digits_before(median(sizes));
-  const int of_least = kOfLeast - digits_before(std::ranges::min(sizes));
-  return std::clamp(std::clamp(of_least, decimals, decimals + 1), 0, kMost);
-}
-
 }  // namespace mapproof

@@ -153,8 +153,4 @@ bool is_lost(double value);
 /// The level's text for ids, with its sign in words: "minus-5", "0-5", "grass".
 std::string level_slug(const Level& level);
 
-/// Decimals that distinguish these values: three significant digits of their median, and one
-/// decimal more if the least would have a single digit.
-int decimals_of(std::vector<double> sizes);
-
 }  // namespace mapproof

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/convergence.hpp"
@@ -16,7 +17,6 @@
 #include "render/figures/diagrams/fit.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/scene/drive_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
@@ -58,7 +58,7 @@ std::string numbered(const std::string& id) {
 std::string off_words(const SlamRun& run, SlamMethod method) {
   const TrajectoryError* error = error_of(run, method);
   return error == nullptr || !std::isfinite(error->mean_m) ? ""
-                                                           : error_text(error->mean_m, 2) + " off";
+                                                           : error_text(error->mean_m) + " off";
 }
 
 /// The error of the path that is shown, and what it is compared with.
@@ -69,14 +69,14 @@ std::string path_title(const SlamRun& run, SlamMethod shown) {
     return fmt::format("{}: {} from ranges", name,
                        counted(std::ssize(run.log.landmarks), "landmark"));
   const auto length = run.simulated ? std::nullopt : length_m(run.log);
-  std::string title = fmt::format("{}: the path is {}{}", name, off,
-                                  length ? fmt::format(" over {:.0f} m", *length) : "");
+  std::string title =
+      fmt::format("{}: the path is {}{}", name, off, length ? " over " + length_text(*length) : "");
   for (const auto& [method, words] :
        {std::pair{SlamMethod::kDeadReckoning, "dead reckoning"},
         std::pair{SlamMethod::kSpectralKnown, "with known landmarks"}})
     if (const TrajectoryError* error = error_of(run, method);
         method != shown && error != nullptr && std::isfinite(error->mean_m))
-      return title + fmt::format(", {} {}", words, error_text(error->mean_m, 2));
+      return title + fmt::format(", {} {}", words, error_text(error->mean_m));
   return title;
 }
 
@@ -156,7 +156,7 @@ std::string windows_title(const SlamRun& run) {
           : windows.held_out_m[static_cast<std::size_t>(chosen - windows.lengths_s.begin())];
   const std::string length = format_duration(windows.chosen_s);
   return std::isfinite(error_m) ? fmt::format("{}: windows of {} predict other ranges {} off",
-                                              title_of(run), length, error_text(error_m, 2))
+                                              title_of(run), length, error_text(error_m))
                                 : fmt::format("{}: windows of {}", title_of(run), length);
 }
 
@@ -285,7 +285,7 @@ std::string space_title(const SpaceRun& run) {
   for (const SpaceRecord& record : run.records)
     if (record.landmarks_error_m)
       title += fmt::format("{}{} off with {} known", title.empty() ? "Landmarks in space: " : ", ",
-                           error_text(*record.landmarks_error_m, 2),
+                           error_text(*record.landmarks_error_m),
                            record.knows_landmarks ? fmt::format("{}", run.known.size()) : "none");
   return title.empty() ? "Landmarks in space, from ranges alone" : title;
 }

@@ -8,12 +8,12 @@
 #include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/log_log.hpp"
 #include "render/figures/curves/refinement_starts.hpp"
 #include "render/figures/maps/path_styles.hpp"
-#include "render/figures/number_text.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/sections/fit_section.hpp"
 #include "reports/sections/fit_text.hpp"
@@ -28,13 +28,11 @@
 namespace mapproof {
 namespace {
 
-std::string metres_of(double value) { return error_text(value, 2); }
-
 /// ".58 m for spectral, 4-D (rigid)"; empty if the method has no error.
 std::string error_words_of(const SlamRun& run, SlamMethod method) {
   const TrajectoryError* error = error_of(run, method);
   if (error == nullptr || !std::isfinite(error->mean_m)) return "";
-  return fmt::format("{} for {} ({})", metres_of(error->mean_m), info(method).label,
+  return fmt::format("{} for {} ({})", error_text(error->mean_m), info(method).label,
                      alignment_words(error->alignment));
 }
 
@@ -86,11 +84,11 @@ std::string end_words(const ConvergenceCurve& curve) {
   const ConvergencePoint& last = curve.points.back();
   if (last.landmarks_m.values == 0) return "";
   std::string text = fmt::format(" After {} steps the mean error of landmarks is {}", last.steps,
-                                 metres_of(last.landmarks_m.mean));
+                                 error_text(last.landmarks_m.mean));
   if (last.positions_m.values > 0)
     text += fmt::format(
         ", single positions of the robot, which have no more measurements than at the start, {}",
-        metres_of(last.positions_m.mean));
+        error_text(last.positions_m.mean));
   return text + ".";
 }
 
@@ -147,7 +145,7 @@ Section section_of(const FigureGroup* figures, std::string id, std::string title
 /// The path and beside it the drive from above, which readers want to see; then what they rest on.
 Section path_section(const FigureGroup* figures, std::string id, std::string title) {
   if (figures == nullptr) return {std::move(id), std::move(title), {}};
-  constexpr std::string_view kDriveScene = "scene-drive-";  // docs/figures.md
+  static constexpr std::string_view kDriveScene = "scene-drive-";  // docs/figures.md
   Section section{figures->id, figures->title, {plain(figures->words)}};
   Gallery gallery = gallery_of(*figures);
   const auto others = std::ranges::stable_partition(
@@ -317,14 +315,11 @@ std::optional<Highlights::Item> error_number(const SlamRun& run) {
   for (auto other = method + 1; other != methods.end(); ++other)
     if (const TrajectoryError* error = error_of(run, *other);
         error != nullptr && std::isfinite(error->mean_m))
-      details.push_back(
-          fmt::format("{} {}", unbroken(info(*other).label), metres_of(error->mean_m)));
+      details.push_back(fmt::format("{} {}", info(*other).label, error_text(error->mean_m)));
   std::ranges::reverse(details);  // Dead reckoning, which every reader knows, first.
-  if (const auto length = length_m(run.log))
-    details.push_back(*length < 1000.0 ? fmt::format("over {:.0f}\u00a0m", *length)
-                                       : fmt::format("over {:.1f}\u00a0km", *length / 1000.0));
+  if (const auto length = length_m(run.log)) details.push_back("over " + length_text(*length));
   return Highlights::Item{"mean position error, " + title_of(run),
-                          metres_of(error_of(run, *method)->mean_m),
+                          error_text(error_of(run, *method)->mean_m),
                           fmt::format("{}", fmt::join(details, "; ")), "slam-accuracy"};
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -33,12 +35,33 @@ Cell difference_interval_cell(const std::optional<MeanEstimate>& estimate, int d
                       estimate->mean + *estimate->half_width, decimals};
 }
 
+int decimals_of(std::vector<double> sizes) {
+  constexpr int kSignificant = 3, kMostMore = 2;
+  constexpr int kMost = 6;
+  std::erase_if(sizes, [](double size) { return !std::isfinite(size) || size == 0.0; });
+  for (double& size : sizes) size = std::abs(size);
+  if (std::ranges::all_of(sizes, [](double size) { return size == std::floor(size); })) return 0;
+  const auto digits_before = [](double size) {
+    return static_cast<int>(std::floor(std::log10(size))) + 1;
+  };
+  const int decimals = kSignificant - digits_before(median(sizes));
+  const int of_least = kSignificant - digits_before(std::ranges::min(sizes));
+  return std::clamp(std::clamp(of_least, decimals, decimals + kMostMore), 0, kMost);
+}
+
+int error_decimals(std::vector<double> errors_m) {
+  constexpr int kFewest = 3;
+  std::erase_if(errors_m, [](double error_m) { return error_m > kGreatestError_m; });
+  return std::max(decimals_of(std::move(errors_m)), kFewest);
+}
+
 int mpe_decimals(std::span<const SettingSummary> summaries) {
-  const bool small = std::ranges::any_of(summaries, [](const SettingSummary& summary) {
-    return (summary.mpe_m && summary.mpe_m->mean < 0.1) ||
-           (summary.published && summary.published->mpe_m < 0.1);
-  });
-  return small ? 4 : 3;
+  std::vector<double> errors;
+  for (const SettingSummary& summary : summaries) {
+    if (summary.mpe_m) errors.push_back(summary.mpe_m->mean);
+    if (summary.published) errors.push_back(summary.published->mpe_m);
+  }
+  return error_decimals(std::move(errors));
 }
 
 int position_decimals(const Points& positions) {
@@ -59,6 +82,18 @@ int position_decimals(const Points& positions) {
 
 Cell position_cell(double coordinate, int decimals) {
   return NumberCell{.value = coordinate, .decimals = decimals};
+}
+
+void drop_empty_columns(Table& table) {
+  for (std::size_t i = table.columns.size(); i-- > 0;) {
+    const bool is_empty = std::ranges::all_of(table.rows, [i](const Row& row) {
+      return std::holds_alternative<MissingCell>(row.cells[i]);
+    });
+    if (!is_empty) continue;
+    const auto at = static_cast<std::ptrdiff_t>(i);
+    table.columns.erase(table.columns.begin() + at);
+    for (Row& row : table.rows) row.cells.erase(row.cells.begin() + at);
+  }
 }
 
 std::string interval_note(bool any_interval) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/model/method.hpp"
 #include "core/model/points.hpp"
@@ -29,7 +30,14 @@ Cell interval_cell(const std::optional<MeanEstimate>& estimate, int decimals);
 /// The interval of a difference, which may reach below 0; missing if it has none.
 Cell difference_interval_cell(const std::optional<MeanEstimate>& estimate, int decimals);
 
-/// Of MPE, m: small errors, ours or a paper's, need a place more.
+/// Decimals of a column of these values: those that give the least three significant digits, as
+/// sentences have them, but at most two more than give them to the median.
+int decimals_of(std::vector<double> sizes);
+
+/// The same of errors in m, but at least 3; those of maps that diverged have no digits.
+int error_decimals(std::vector<double> errors_m);
+
+/// The same of the MPE of some settings and of those that a paper printed for them.
 int mpe_decimals(std::span<const SettingSummary> summaries);
 
 /// Of positions, by their extent: 3, or as many as show a thousandth of it.
@@ -37,6 +45,9 @@ int position_decimals(const Points& positions);
 
 /// A coordinate; missing if it is not finite.
 Cell position_cell(double coordinate, int decimals);
+
+/// Drops the columns that show nothing in any row, as tests of a single run.
+void drop_empty_columns(Table& table);
 
 /// What the intervals of a table rest on.
 std::string interval_note(bool any_interval);

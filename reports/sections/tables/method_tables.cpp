@@ -54,7 +54,9 @@ std::string test_note(const MethodRanks& ranks) {
 }
 
 void add_rank_rows(Table& table, const MethodRanks& ranks) {
-  const int decimals = ranks.mpe_m.size() > 0 && ranks.mpe_m.minCoeff() < 0.1 ? 4 : 3;
+  std::vector<double> means;
+  for (const auto& of_method : ranks.mpe_m.colwise()) means.push_back(of_method.mean());
+  const int decimals = error_decimals(std::move(means));
   std::vector<int> order(ranks.methods.size());
   std::iota(order.begin(), order.end(), 0);
   const auto& mean_ranks = ranks.test->mean_ranks;
@@ -169,10 +171,10 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
                    {"Its 95 % interval", "m", mpe, ""},
                    {"Other half", "%", moe, other},
                    {"95 % interval", "%", moe, ""}};
-  const bool small = std::ranges::any_of(choices.methods, [](const HalfChoice& choice) {
-    return choice.mpe_m && choice.mpe_m->mean < 0.1;
-  });
-  const int decimals = small ? 4 : 3;
+  std::vector<double> errors;
+  for (const HalfChoice& choice : choices.methods)
+    if (choice.mpe_m) errors.push_back(choice.mpe_m->mean);
+  const int decimals = error_decimals(std::move(errors));
   bool any_interval = false;
   for (const HalfChoice& c : choices.methods) {
     any_interval = any_interval || interval_of(c.mpe_m);
@@ -227,10 +229,13 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
                    {"Difference", "m", "", "The second method\u2019s MPE less the first\u2019s."},
                    {"95 % interval", "m", "", "Layouts are the units."},
                    {"Layouts", "", "", "Where it holds in the mean over poses."}};
+  const bool any_small = std::ranges::any_of(claims, [](const OrderingClaim& claim) {
+    return claim.difference_m && std::abs(claim.difference_m->mean) < 0.1;
+  });
+  const int decimals = any_small ? 4 : 3;
   bool any_interval = false;
   for (const OrderingClaim& claim : claims) {
     any_interval = any_interval || (claim.difference_m && claim.difference_m->half_width);
-    const int decimals = claim.difference_m && std::abs(claim.difference_m->mean) < 0.1 ? 4 : 3;
     std::string holds = "not tried";
     if (claim.difference_m)
       holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",

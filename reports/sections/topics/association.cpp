@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -35,8 +36,8 @@ std::vector<std::string> association_conclusions(const TopicStudy& study) {
         continue;
       levels.push_back(fmt::format("{:g}", level));
       right.push_back(fmt::format("{:.0f}", mean("estimated", "correct_percent")));
-      given.push_back(page_metres(mean("given", "mpe_m")));
-      estimated.push_back(page_metres(mean("estimated", "mpe_m")));
+      given.push_back(error_text(mean("given", "mpe_m")));
+      estimated.push_back(error_text(mean("estimated", "mpe_m")));
     }
     if (levels.empty()) continue;
     sentences.push_back(
@@ -59,7 +60,7 @@ TopicHeadline association_headline(const TopicStudy& study) {
     return {
         fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
         fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
-        fmt::format("MPE {}; {} with the IDs as given", page_metres(estimated), page_metres(given)),
+        fmt::format("MPE {}; {} with the IDs as given", error_text(estimated), error_text(given)),
         estimated < given ? "a better map than without" : "no better map than without",
         estimated >= given};
   }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -60,8 +61,8 @@ std::string choice_sentence(const TopicStudy& study, const char* quantity, const
       "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {} "
       "worse than the best map on average; a fixed method is {} worse and a random pick "
       "{}.",
-      when, best, page_metres(least), page_metres(mean_over_all(study, kFixedMethod, quantity)),
-      page_metres(mean_over_all(study, kRandomPick, quantity)));
+      when, best, error_text(least), error_text(mean_over_all(study, kFixedMethod, quantity)),
+      error_text(mean_over_all(study, kRandomPick, quantity)));
 }
 
 std::vector<std::string> choice_conclusions(const TopicStudy& study) {
@@ -78,7 +79,7 @@ TopicHeadline choice_headline(const TopicStudy& study) {
       value, fmt::format("{} the best map: the map that a criterion picks", words), "by " + best,
       std::isnan(fixed) ? ""
                         : fmt::format("{} than a fixed method, {}",
-                                      least < fixed ? "better" : "no better", page_metres(fixed)),
+                                      least < fixed ? "better" : "no better", error_text(fixed)),
       least >= fixed};
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -46,7 +47,7 @@ std::string ranking(const TopicStudy& study, const Condition& at) {
                          k == 0               ? ""
                          : last && k >= kBest ? "; worst: "
                                               : "; ",
-                         means[k].second, page_metres(means[k].first));
+                         means[k].second, error_text(means[k].first));
   }
   return words;
 }
@@ -73,9 +74,9 @@ std::string advice_words(const TopicStudy& study) {
       "Choosing the strategy by the pattern of missing data costs {} of MPE over the best "
       "map of each outcome "
       "on average; pairwise-complete distances always cost {}, PPCA always {}.",
-      page_metres(regret_m(study, "auto")),
-      page_metres(regret_m(study, "pairwise-complete-smacof-knn")),
-      page_metres(regret_m(study, "ppca-smacof-knn")));
+      error_text(regret_m(study, "auto")),
+      error_text(regret_m(study, "pairwise-complete-smacof-knn")),
+      error_text(regret_m(study, "ppca-smacof-knn")));
 }
 
 std::vector<std::string> missing_conclusions(const TopicStudy& study) {
@@ -101,8 +102,8 @@ TopicHeadline missing_headline(const TopicStudy& study) {
   const bool is_best = !(regret > pairwise) && !(regret > ppca);
   const auto [value, words] = regret_words(regret);
   return {value, fmt::format("{} the best map: the strategy chosen for missing data", words),
-          fmt::format("always pairwise-complete {}, always PPCA {}", page_metres(pairwise),
-                      page_metres(ppca)),
+          fmt::format("always pairwise-complete {}, always PPCA {}", error_text(pairwise),
+                      error_text(ppca)),
           is_best ? "as good as the better of both" : "one of both is better everywhere", !is_best};
 }
 

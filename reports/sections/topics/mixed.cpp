@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -52,8 +53,8 @@ std::string mixed_words_at(const TopicStudy& study, const TopicSetup& setup, con
   if (single.method == nullptr || mix.method == nullptr) return "";
   const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
   return fmt::format("at {}, {} has a mean MPE of {} and {} one of {} ({})", level_words(setup, at),
-                     mix.method->label, page_metres(mix.mean_m), single.method->label,
-                     page_metres(single.mean_m),
+                     mix.method->label, error_text(mix.mean_m), single.method->label,
+                     error_text(single.mean_m),
                      difference ? verdict_words(*difference) : "no run has both");
 }
 
@@ -80,7 +81,7 @@ std::string choice_words(const TopicStudy& study, const TopicSetup& setup) {
   return fmt::format(
       "{}: the map that keeps most neighbourhoods of all sensors has an MPE {} above the "
       "best map's, the joint map one of {} above it.",
-      setup.title, page_metres(picked / count), page_metres(joint / count));
+      setup.title, error_text(picked / count), error_text(joint / count));
 }
 
 std::vector<std::string> mixed_conclusions(const TopicStudy& study) {
@@ -117,11 +118,11 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
     const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
     const std::string verdict = difference ? verdict_words(*difference) : "";
     return {
-        page_metres(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
-        verdict.empty() ? fmt::format("the best sensor alone {}", page_metres(single.mean_m)) : "",
+        error_text(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
+        verdict.empty() ? fmt::format("the best sensor alone {}", error_text(single.mean_m)) : "",
         verdict.empty() ? ""
                         : fmt::format("{} the best sensor alone, {}", comparative(verdict),
-                                      page_metres(single.mean_m)),
+                                      error_text(single.mean_m)),
         difference && !verdict.starts_with("better")};
   }
   return {};

@@ -8,6 +8,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
@@ -40,14 +41,14 @@ std::string best_alone(const TopicStudy& study, const TopicPart& part, std::stri
   }
   return best == nullptr ? std::string()
                          : fmt::format("{} ({})", best->label,
-                                       page_metres(method_value(part, best->id, "mpe_m")));
+                                       error_text(method_value(part, best->id, "mpe_m")));
 }
 
 std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   for (const TopicPart& part : study.parts) {
     const auto metres_of = [&part](const char* method) {
-      return page_metres(method_value(part, method, "mpe_m"));
+      return error_text(method_value(part, method, "mpe_m"));
     };
     const double error = method_value(part, "pairs", "mpe_m");
     if (std::isnan(error)) {
@@ -59,7 +60,7 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
     sentences.push_back(fmt::format(
         "{}: range and bearing together put the landmarks {} off (MPE), {} "
         "after a rigid fit; the error is over distances of pairs, without poses.",
-        part.id, page_metres(error), page_metres(method_value(part, "pairs", "rigid_m"))));
+        part.id, error_text(error), error_text(method_value(part, "pairs", "rigid_m"))));
     std::vector<std::string> others;
     for (const char* start : {"visibility", "bearing", "range"})
       if (const std::string best = best_alone(study, part, start); !best.empty())
@@ -71,7 +72,7 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
       sentences.push_back(fmt::format(
           "{}: with two landmark IDs swapped in half of the scans the map is {} off, "
           "corrected {}; with a landmark called by another's name in all scans {}, corrected {}.",
-          part.id, page_metres(swapped), metres_of("swapped-corrected"), metres_of("misnamed"),
+          part.id, error_text(swapped), metres_of("swapped-corrected"), metres_of("misnamed"),
           metres_of("misnamed-corrected")));
   }
   return sentences;
@@ -97,7 +98,7 @@ std::vector<std::string> mrclam_warnings(const TopicStudy& study) {
       sentences.push_back(fmt::format(
           "barcodes of {} are exchanged in the log itself: {} off as given, {} with landmark IDs "
           "corrected",
-          part.id, page_metres(given), page_metres(corrected)));
+          part.id, error_text(given), error_text(corrected)));
   }
   return sentences;
 }
@@ -118,11 +119,11 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
   if (together.empty()) return {};
   const auto failed =
       std::ranges::count_if(study.parts, [](const TopicPart& part) { return is_unusable(part); });
-  return {page_metres(median(together)), "median MPE from range and bearing together",
+  return {error_text(median(together)), "median MPE from range and bearing together",
           alone.empty()
               ? counted(std::ssize(together), "data set")
               : fmt::format("{}; by the best single sensor {}",
-                            counted(std::ssize(together), "data set"), page_metres(median(alone))),
+                            counted(std::ssize(together), "data set"), error_text(median(alone))),
           failed == 0 ? "usable on every data set"
                       : fmt::format("no usable map of {} of {}", failed,
                                     counted(std::ssize(study.parts), "data set")),

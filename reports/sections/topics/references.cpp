@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/model/method.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
@@ -51,14 +52,13 @@ std::vector<std::string> references_conclusions(const TopicStudy& study) {
       const Method method = *method_named(approximate_name);
       std::string sentence = fmt::format(
           "{}, {}: with {:g} references the mean MPE is {}, with {:g} it is {}", setup.title,
-          info(method).label, levels.front(),
-          page_metres(of(levels.front(), approximate, "mpe_m")), levels.back(),
-          page_metres(of(levels.back(), approximate, "mpe_m")));
+          info(method).label, levels.front(), error_text(of(levels.front(), approximate, "mpe_m")),
+          levels.back(), error_text(of(levels.back(), approximate, "mpe_m")));
       if (!exact.empty())
         sentence += fmt::format(
             "; that of {} is {}. The maps with {:g} references differ from those by {:.2g} % of "
             "their size",
-            info(*info(method).approximates).label, page_metres(of(levels.back(), exact, "mpe_m")),
+            info(*info(method).approximates).label, error_text(of(levels.back(), exact, "mpe_m")),
             levels.back(), of(levels.back(), approximate, "gap_percent"));
       sentences.push_back(sentence + ".");
     }
@@ -80,13 +80,13 @@ TopicHeadline references_headline(const TopicStudy& study) {
     if (std::isnan(error_m + exact_m)) continue;
     const auto difference = topic_difference(study, at, approximate, exact, "mpe_m");
     const std::string verdict = difference ? verdict_words(*difference) : "";
-    return {page_metres(error_m),
-            fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
-            fmt::format("{} by {}; the maps differ by {:.2g} % of their size", page_metres(exact_m),
-                        info(exact_method).label,
-                        topic_mean(study, at, approximate, "gap_percent")),
-            verdict.empty() ? "" : verdict + ", compared with all landmarks as references",
-            verdict.starts_with("worse")};
+    return {
+        error_text(error_m),
+        fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
+        fmt::format("{} by {}; the maps differ by {:.2g} % of their size", error_text(exact_m),
+                    info(exact_method).label, topic_mean(study, at, approximate, "gap_percent")),
+        verdict.empty() ? "" : verdict + ", compared with all landmarks as references",
+        verdict.starts_with("worse")};
   }
   return {};
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -38,8 +39,8 @@ std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
     const auto difference = topic_difference(study, at, parts, whole, "mpe_m");
     if (!difference) continue;
     levels.push_back(fmt::format("{:g}", level));
-    of_parts.push_back(page_metres(topic_mean(study, at, parts, "mpe_m")));
-    of_whole.push_back(page_metres(topic_mean(study, at, whole, "mpe_m")));
+    of_parts.push_back(error_text(topic_mean(study, at, parts, "mpe_m")));
+    of_whole.push_back(error_text(topic_mean(study, at, whole, "mpe_m")));
     if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
       (difference->mean > 0.0 ? worse : better).push_back(levels.back());
   }
@@ -73,8 +74,8 @@ TopicHeadline submaps_headline(const TopicStudy& study) {
   const double whole = topic_mean(study, at, "whole-" + name, "mpe_m");
   if (std::isnan(parts + whole)) return {};
   const auto difference = topic_difference(study, at, "parts-" + name, "whole-" + name, "mpe_m");
-  return {page_metres(parts), "MPE of joined sub-maps, " + level_words(setup, at),
-          fmt::format("{}; {}", page_metres(whole), label(setting)),
+  return {error_text(parts), "MPE of joined sub-maps, " + level_words(setup, at),
+          fmt::format("{}; {}", error_text(whole), label(setting)),
           difference ? verdict_words(*difference) + ", compared with the whole map" : "",
           difference && verdict_words(*difference).starts_with("worse")};
 }

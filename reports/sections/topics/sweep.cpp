@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
-#include "render/figures/number_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -96,7 +96,7 @@ TopicHeadline sweep_headline(const TopicStudy& study) {
             fmt::format("greatest by {}, {}", in_sentence(method.label), level_words(setup, at));
       }
   if (least > greatest) return {};
-  return {error_text(least, 2) + " to " + error_text(greatest, 2),
+  return {error_text(least) + " to " + error_text(greatest),
           "mean MPE over all worlds, sensors and anchors", std::move(where)};
 }
 

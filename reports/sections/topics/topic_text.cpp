@@ -1,4 +1,5 @@
 #include "reports/sections/topics/topic_text.hpp"
+#include "core/base/text/number_text.hpp"
 
 #include <algorithm>
 
@@ -22,10 +23,10 @@ std::span<const TopicWords* const> all_topic_words() {
 }
 
 RegretWords regret_words(double regret_m) {
-  constexpr double kLeast_m = 0.0005;  // What page_metres() shows as 0.001 m.
+  constexpr double kLeast_m = 0.001;  // Less makes no difference.
   if (regret_m == 0.0) return {"equal", "to"};
   if (std::abs(regret_m) < kLeast_m) return {"< 0.001\u00a0m", "worse than"};
-  return {page_metres(regret_m), "worse than"};
+  return {error_text(regret_m), "worse than"};
 }
 
 std::string question_of(const TopicExperiment& experiment) {

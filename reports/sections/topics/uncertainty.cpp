@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -51,8 +52,8 @@ std::vector<std::string> uncertainty_conclusions(const TopicStudy& study) {
     sentences.push_back(fmt::format(
         "{}: they hold the ground truth for {:.1f} to {:.1f} % of them, since the mean map itself "
         "is {} to {} off: ellipses measure random errors, not the bias of a method.",
-        setup.title, ground_truth_low, ground_truth_high, page_metres(bias_low),
-        page_metres(bias_high)));
+        setup.title, ground_truth_low, ground_truth_high, error_text(bias_low),
+        error_text(bias_high)));
   }
   return sentences;
 }

@@ -253,6 +253,23 @@ TEST(PathEvaluation, AProjectedPathStaysAsItIs) {
   EXPECT_EQ(plane_named("zx"), std::nullopt);
 }
 
+TEST(PathEvaluation, KeepsWhereTheGroundTruthIsAlone) {
+  const SpacePath ground_truth = straight_line(5000);
+  SpacePath estimate = straight_line(200);
+  estimate.time_s.tail(100).array() += 1000.0;
+  const PoseErrors poses = evaluate_path(ground_truth, estimate, {}).poses;
+  EXPECT_EQ(poses.size(), 200);
+  const LonePoses& alone = poses.ground_truth_alone;
+  ASSERT_GT(alone.time_s.size(), 900);
+  EXPECT_LE(alone.time_s.size(), 1000);
+  EXPECT_EQ(alone.time_s(0), 100.0);
+  EXPECT_EQ(alone.positions_m.col(0), alone.time_s);
+  EXPECT_EQ(poses.estimate_alone.time_s.size(), 0);
+  const PoseErrors other = evaluate_path(estimate, ground_truth, {}).poses;
+  EXPECT_EQ(other.ground_truth_alone.time_s.size(), 0);
+  EXPECT_EQ(other.estimate_alone.time_s, alone.time_s);
+}
+
 TEST(PathEvaluation, PathsWithoutTimesNeedAsManyPoses) {
   SpacePath ground_truth = straight_line(5), estimate = straight_line(6);
   ground_truth.has_times = false;

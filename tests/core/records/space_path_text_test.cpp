@@ -58,12 +58,16 @@ TEST(SpacePathText, NamesTheLineOfWhatIsWrong) {
 }
 
 TEST(PoseErrorsCsv, ReadsBackWhatWasWritten) {
-  PoseErrors errors{.time_s = Eigen::Vector2d(0.1, 0.3),
-                    .distance_m = Eigen::Vector2d(0.0, 1.0 / 3.0),
-                    .estimate_m = SpacePoints::Constant(2, 3, 1.0 / 7.0),
-                    .ground_truth_m = SpacePoints::Constant(2, 3, 1e300),
-                    .error_m = Eigen::Vector2d(0.7, 1e-17),
-                    .error_deg = Eigen::Vector2d(3.0, 4.0)};
+  PoseErrors errors{
+      .time_s = Eigen::Vector2d(0.1, 0.3),
+      .distance_m = Eigen::Vector2d(0.0, 1.0 / 3.0),
+      .estimate_m = SpacePoints::Constant(2, 3, 1.0 / 7.0),
+      .ground_truth_m = SpacePoints::Constant(2, 3, 1e300),
+      .error_m = Eigen::Vector2d(0.7, 1e-17),
+      .error_deg = Eigen::Vector2d(3.0, 4.0),
+      .ground_truth_alone = {Eigen::Vector3d(0.0, 0.2, 0.3),
+                             SpacePoints::Constant(3, 3, 1.0 / 9.0)},
+      .estimate_alone = {Eigen::Vector2d(0.2, 0.4), SpacePoints::Constant(2, 3, 1.0 / 11.0)}};
   const PoseErrors again = parse_pose_errors_csv(pose_errors_csv(errors), "errors.csv");
   EXPECT_EQ(again.time_s, errors.time_s);
   EXPECT_EQ(again.distance_m, errors.distance_m);
@@ -71,11 +75,35 @@ TEST(PoseErrorsCsv, ReadsBackWhatWasWritten) {
   EXPECT_EQ(again.ground_truth_m, errors.ground_truth_m);
   EXPECT_EQ(again.error_m, errors.error_m);
   EXPECT_EQ(again.error_deg, errors.error_deg);
+  EXPECT_EQ(again.ground_truth_alone.time_s, errors.ground_truth_alone.time_s);
+  EXPECT_EQ(again.ground_truth_alone.positions_m, errors.ground_truth_alone.positions_m);
+  EXPECT_EQ(again.estimate_alone.time_s, errors.estimate_alone.time_s);
+  EXPECT_EQ(again.estimate_alone.positions_m, errors.estimate_alone.positions_m);
   EXPECT_THROW(parse_pose_errors_csv("time_s,x_m\n1,2\n", "errors.csv"), IoError);
   EXPECT_THROW(
       parse_pose_errors_csv("pose,distance_m,x_m,y_m,true_x_m,true_y_m,error_m\n0,0,0,0,0,0,-1\n",
                             "errors.csv"),
       IoError);
+}
+
+TEST(PoseErrorsCsv, HasRowsOfOnePathAlone) {
+  const std::string head = "time_s,distance_m,x_m,y_m,true_x_m,true_y_m,error_m\n";
+  const PoseErrors errors = parse_pose_errors_csv(
+      head + "1,,,,5,6,\n2,0,7,8,7,8,0\n3,,,,9,9,\n4,,1,2,,,\n", "errors.csv");
+  EXPECT_EQ(errors.size(), 1);
+  EXPECT_EQ(errors.ground_truth_alone.time_s, Eigen::Vector2d(1.0, 3.0));
+  EXPECT_EQ(errors.ground_truth_alone.positions_m.row(0), Eigen::RowVector3d(5.0, 6.0, 0.0));
+  EXPECT_EQ(errors.estimate_alone.time_s(0), 4.0);
+  EXPECT_EQ(errors.estimate_alone.positions_m.row(0), Eigen::RowVector3d(1.0, 2.0, 0.0));
+  for (const char* wrong : {"1,,,,5,,\n2,0,7,8,7,8,0\n",    // No position.
+                            "1,,,3,5,6,\n2,0,7,8,7,8,0\n",  // Half an estimate.
+                            "3,,,,5,6,\n2,0,7,8,7,8,0\n",   // Time descends.
+                            "1,,,,5,6,\n"})                 // No associated pose.
+    EXPECT_THROW(parse_pose_errors_csv(head + wrong, "errors.csv"), IoError) << wrong;
+  EXPECT_THROW(parse_pose_errors_csv("pose,distance_m,x_m,y_m,true_x_m,true_y_m,error_m\n"
+                                     "0,,,,5,6,\n1,0,7,8,7,8,0\n",
+                                     "errors.csv"),
+               IoError);
 }
 
 }  // namespace

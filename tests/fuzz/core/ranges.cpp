@@ -23,10 +23,12 @@ std::string text_of(const RangeLog& log) {
   return text;
 }
 
-/// The first bytes determine the format: a corpus each, and one reader.
+/// The first bytes determine the format: a corpus each, and one reader. What a log is recognized by
+/// is read twice of one input in eight.
 void read(std::string_view bytes) {
-  read_in_any_way(bytes, [](ByteSource& source) {
-    is_range_log(source);
+  const bool asks = bytes.size() % 8 == 0;
+  read_in_any_way(bytes, [&](ByteSource& source) {
+    if (asks) is_range_log(source);
     return text_of(read_range_log(source));
   });
 }

@@ -1,5 +1,6 @@
 // Arrays of NumPy, times, files beside ranges, and the folders of MRCLAM.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -55,16 +56,14 @@ std::string text_of(const CompanionSummary& read) {
                      read.turned_rad, read.has_headings, read.columns, read.remarks);
 }
 
-/// A file as odometry, as a path, as landmarks, and as what its first row shows.
+/// A file as what its first row shows, or as odometry, as a path or as landmarks, as its size says.
 void read_beside_ranges(std::string_view bytes) {
-  for (const Companion companion : {Companion::kOdometry, Companion::kPath, Companion::kLandmarks})
-    try {
-      read_in_any_way(bytes, [&](ByteSource& source) {
-        return text_of(read_companion(source, companion, {}));
-      });
-    } catch (const IoError&) {
-    }
-  read_in_any_way(bytes, [](ByteSource& source) { return text_of(read_companion(source)); });
+  constexpr std::array kKinds = {Companion::kOdometry, Companion::kPath, Companion::kLandmarks};
+  const std::size_t kind = bytes.size() % (kKinds.size() + 1);
+  read_in_any_way(bytes, [&](ByteSource& source) {
+    return text_of(kind < kKinds.size() ? read_companion(source, kKinds[kind], {})
+                                        : read_companion(source));
+  });
 }
 const Added kCompanions({.name = "ranges-companions",
                          .run = read_beside_ranges,

@@ -46,8 +46,9 @@ void read_all(HistoryStore store) {
   }
   store.digests();
   store.last_number();
-  history_csv(store);
-  history_json(store, true);
+  const auto ignore = [](std::string_view) {};
+  export_history_csv(store, ignore);
+  export_history_json(store, ignore);
 }
 
 /// A store that is read stays as it is; one that is opened to be written to is migrated or refused.

@@ -262,8 +262,10 @@ TEST(PointsDiff, ReportsALostAndAGainedPosition) {
 
 TEST(Quantities, TextsDistinguishUnequalNumbers) {
   EXPECT_EQ(change_text(0.138, 0.152, "m"), "0.138 \u2192 0.152 m");
-  EXPECT_EQ(change_text(1.0, 1.0 + 1e-9, ""), "1 \u2192 1.000000001");
-  EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2 %");
+  EXPECT_EQ(change_text(0.12, 0.153, "m"), "0.120 \u2192 0.153 m");
+  EXPECT_EQ(change_text(3.0, 12.0, ""), "3 \u2192 12");
+  EXPECT_EQ(change_text(1.0, 1.0 + 1e-9, ""), "1.000000000 \u2192 1.000000001");
+  EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2.00 %");
 }
 
 TEST(Quantities, TextsSayThatAMapDiverged) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/json/json_text.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/value_fields.hpp"
 #include "reports/history/history_export.hpp"
@@ -144,6 +145,8 @@ TEST(HistoryPages, DrawNoTrendOfWhatDidNotChangeUnlessItHasAFinding) {
   trend.medians[series] = {0.3, 0.3 * (1.0 + 1e-12)};
   ASSERT_EQ(trend_figures(trend, {}).size(), 1U);
   EXPECT_EQ(trend_figures(trend, {}).front().id, "trend-memory");
+  EXPECT_EQ(trend_figures(trend, {}).front().title,
+            "Peak memory changed by +1.2\u00a0% since nightly run 1");
   EXPECT_EQ(trend_sentences(trend, {}),
             (std::vector<std::string>{
                 "Bearing: MPE 0.300\u00a0m (LPCA); change 0\u00a0% in 2 nightly runs."}));
@@ -314,14 +317,32 @@ TEST(HistoryPages, TakeNoTwoMethodsOfAnotherProgramForSettingsOfOne) {
             "By compass, Walk isomap-K5, 150 steps");
 }
 
+/// What an export wrote.
+std::string exported(HistoryStore& store, void (*as)(HistoryStore&, const TextSink&)) {
+  std::string text;
+  as(store, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
 TEST(HistoryExport, HasALineAValue) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
   store.append(sample_nightly_run(1, 1));
-  const std::string csv = history_csv(store);
+  const std::string csv = exported(store, export_history_csv);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 2 * 25);
   EXPECT_NE(csv.find(",bearing,\"ISOMAP, K = 6\"\r\n"), std::string::npos);
-  EXPECT_EQ(history_json(store, true)["nightly_runs"][0]["studies"][0]["scores"].size(), 12U);
+  const std::string text = exported(store, export_history_json);
+  const auto json = nlohmann::ordered_json::parse(text);
+  EXPECT_EQ(json["nightly_runs"][0]["studies"][0]["scores"].size(), 12U);
+  EXPECT_EQ(text, json_text(json));
+}
+
+TEST(HistoryExport, OfNoNightlyRunIsWhole) {
+  const TemporaryFolder folder;
+  HistoryStore store = HistoryStore::open(folder.path());
+  const std::string text = exported(store, export_history_json);
+  EXPECT_EQ(text, json_text(nlohmann::ordered_json::parse(text)));
+  EXPECT_EQ(schema_problem("history", nlohmann::json::parse(text)), "");
 }
 
 TEST(HistoryExport, IsAsItsSchemasSay) {
@@ -349,10 +370,11 @@ TEST(HistoryExport, IsAsItsSchemasSay) {
   }
   EXPECT_EQ(nlohmann::json::parse(nightly_json(nightly_runs[0]))["verdict"], "not compared");
   for (const bool with_scores : {false, true}) {
-    const auto exported = nlohmann::json::parse(history_json(store, with_scores).dump());
-    EXPECT_EQ(schema_problem("history", exported), "");
-    EXPECT_EQ(exported["nightly_runs"][1]["studies"][0].contains("scores"), with_scores);
-    EXPECT_EQ(exported["nightly_runs"][1]["studies"][0]["methods"].dump(),
+    const auto json = nlohmann::json::parse(with_scores ? exported(store, export_history_json)
+                                                        : history_json(store).dump());
+    EXPECT_EQ(schema_problem("history", json), "");
+    EXPECT_EQ(json["nightly_runs"][1]["studies"][0].contains("scores"), with_scores);
+    EXPECT_EQ(json["nightly_runs"][1]["studies"][0]["methods"].dump(),
               R"([{"id":"lpca","label":"Mine"}])");
   }
 }
@@ -363,8 +385,7 @@ TEST(HistoryExport, KeepsWhatMadeANightlyRunAsThatNightlyRunWroteIt) {
   NightlyRun nightly_run = sample_nightly_run(1, 1);
   nightly_run.facts.provenance = R"({"compiler": "of another version"})";
   store.append(nightly_run);
-  EXPECT_EQ(history_json(store, false)["nightly_runs"][0]["provenance"]["compiler"],
-            "of another version");
+  EXPECT_EQ(history_json(store)["nightly_runs"][0]["provenance"]["compiler"], "of another version");
   EXPECT_FALSE(nightly_value(nightly_run.facts, {}).contains("schema"));
 }
 

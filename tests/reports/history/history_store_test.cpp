@@ -93,7 +93,7 @@ TEST(HistoryStore, KeepsWhatAStudyDeclaresOfItsQuantities) {
   store.append(nightly_run);
   EXPECT_EQ(store.studies(1)[0].quantities.declared(), std::vector<Quantity>{found});
   EXPECT_EQ(store.trend("sample", "d", 60, 1).quantities.at("found"), found);
-  const auto exported = history_json(store, false)["nightly_runs"][0]["studies"][0]["quantities"];
+  const auto exported = history_json(store)["nightly_runs"][0]["studies"][0]["quantities"];
   EXPECT_EQ(exported.dump(),
             R"([{"id":"found","label":"Landmarks found","unit":"%","better":"higher"}])");
   store.remove({1});

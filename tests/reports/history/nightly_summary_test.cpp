@@ -197,6 +197,11 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
       [](const Block& block) { return std::holds_alternative<Callout>(block); });
   EXPECT_EQ(callouts, 1) << "a note on a finding stands with it";
   EXPECT_TRUE(index.link_words.contains("compare/0001-0002/mine.html"));
+  const std::vector<Phrase>& cause = index.report.opening.findings.at(2).phrases;
+  ASSERT_EQ(cause.size(), 5U) << "one diff of both findings";
+  EXPECT_EQ(cause[0].text, "What changed");
+  EXPECT_EQ(cause[2].text, "compare/0001-0002/mine.html");
+  EXPECT_TRUE(cause[4].text.starts_with("git bisect start "));
   const Table* studies = tables(index.report).front();
   ASSERT_EQ(studies->id, "studies");
   ASSERT_EQ(studies->rows.size(), 1U);

@@ -2,6 +2,7 @@
 
 #include "core/topics/topics.hpp"
 #include "core/topics/uncertainty.hpp"
+#include "reports/sections/results/results_report.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 #include "tests/reports/topics/simulated_part.hpp"
 
@@ -52,6 +53,14 @@ TEST(UncertaintyTopic, TriesEverySeriesAtEveryLevelOfBothSensors) {
   ASSERT_TRUE(study.parts[0].maps[0].uncertainty);
   EXPECT_EQ(study.parts[0].maps[0].uncertainty->covariances.size(), 15U);
   EXPECT_EQ(conclusions_of(study).size(), 6U);
+  MapUncertainty& uncertainty = *study.parts[0].maps[0].uncertainty;
+  for (const auto& [variance, words] :
+       {std::pair{1e6, ", the 95\u00a0% ellipses of 11 of 11 landmarks hold the true position"},
+        std::pair{1e-12, ", the 95\u00a0% ellipses of 0 of 11 landmarks hold the true position"}}) {
+    uncertainty.covariances.assign(15, variance * Eigen::Matrix2d::Identity());
+    const std::string title = topic_maps(study, "u").figures.at(0).title;
+    EXPECT_TRUE(title.ends_with(words)) << title;
+  }
 }
 
 TEST(UncertaintyTopic, MakesTheSameAgain) {

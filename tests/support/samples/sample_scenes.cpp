@@ -8,12 +8,12 @@
 #include "core/base/random.hpp"
 #include "render/scene/drive_scene.hpp"
 #include "render/scene/forming_scene.hpp"
+#include "render/scene/map_scene.hpp"
 #include "render/scene/observation_scenes.hpp"
 #include "render/scene/projection.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/space_scene.hpp"
-#include "render/scene/world_scene.hpp"
 #include "tests/support/samples/sample_figures.hpp"
 #include "tests/support/samples/sample_slam.hpp"
 #include "tests/support/samples/sample_studies.hpp"
@@ -43,25 +43,41 @@ Points walk(int steps) {
   return path;
 }
 
-WorldSceneSpec world_spec(const std::string& id, double error_m) {
-  WorldSceneSpec spec{.id = id,
-                      .title = "Bearing, ISOMAP, K = 7 after 2000 steps",
-                      .run = {},
-                      .world = {},
-                      .path_m = spiral(400),
-                      .map = sample_map(50, error_m, 7)};
+MapSceneSpec world_spec(const std::string& id, double error_m) {
+  MapSceneSpec spec{.id = id,
+                    .title = "Bearing, ISOMAP, K = 7 after 2000 steps",
+                    .where = "Layout 0, pose 0",
+                    .map = sample_map(50, error_m, 7),
+                    .path_m = spiral(400)};
   spec.world = {kSceneRoom_m, 0.048, *spec.map.ground_truth_m};
   return spec;
 }
 
 Scene hard_world() {
-  WorldSceneSpec spec = world_spec("world-hard", 0.2);
+  MapSceneSpec spec = world_spec("world-hard", 0.2);
   spec.map.estimate.row(3).setConstant(NAN);
   spec.map.estimate.row(4) << 1e12, -5.0;
   spec.map.names[spec.map.anchors[0]] = "λ₁ = σ² × 10⁻³";
   spec.map.names[spec.map.anchors[1]] = "a landmark of a very long name beside the third window";
   spec.path_m.row(7).setConstant(NAN);
-  return world_scene(spec, WorldView::kPerspective);
+  return map_scene(spec);
+}
+
+/// A map of a yard far from the origin, of which the anchors' true positions alone are known.
+Scene open_ground() {
+  MapSceneSpec spec{.id = "map-open",
+                    .title = "Bearing, ISOMAP, K = 7: up to 0.35 m off at 4 anchors",
+                    .map = sample_map(50, 0.12, 7)};
+  const Eigen::RowVector2d yard(400.0, -120.0);
+  spec.map.estimate = (20.0 * spec.map.estimate).rowwise() + yard;
+  Points given = Points::Constant(50, 2, NAN);
+  for (const Eigen::Index row : spec.map.anchors)
+    given.row(row) = 20.0 * spec.map.ground_truth_m->row(row) + yard;
+  spec.map.ground_truth_m = given;
+  spec.map.estimate.row(3).setConstant(NAN);
+  spec.map.estimate.row(4) << 1e12, -5.0;
+  for (int i = 0; i < 50; ++i) spec.half_axes.push_back(0.3 + 0.02 * i);
+  return map_scene(spec);
 }
 
 /// A sheet that bends as observation histories do.
@@ -204,14 +220,8 @@ Scene small_scene() {
 }
 
 std::vector<Scene> sample_scenes() {
-  std::vector<Scene> scenes = {
-      small_scene(), world_scene(world_spec("world-usual", 0.12), WorldView::kPerspective),
-      world_scene(world_spec("world-plan", 0.12), WorldView::kPlan), hard_world(), bent_sheet()};
-  scenes.push_back(error_field_scene({.id = "field-two",
-                                      .title = "Where maps are wrong",
-                                      .side_m = kSceneRoom_m,
-                                      .maps = {{"ISOMAP, K = 7", sample_map(50, 0.1, 7)},
-                                               {"LLE, K = 9", sample_map(50, 0.3, 7)}}}));
+  std::vector<Scene> scenes = {small_scene(), map_scene(world_spec("world-usual", 0.12)),
+                               hard_world(), open_ground(), bent_sheet()};
   scenes.push_back(
       measurement_scene(sample_measurement(Sensor::kVisibility, 50), "scan-visibility"));
   scenes.push_back(measurement_scene(sample_measurement(Sensor::kBearing, 50), "scan-bearing"));
@@ -238,9 +248,9 @@ std::vector<Scene> sample_scenes() {
   forming.maps[0].score.reset();
   forming.most = 4;
   scenes.push_back(forming_scene(forming));
-  WorldSceneSpec walked = world_spec("world-walked", 0.12);
+  MapSceneSpec walked = world_spec("world-walked", 0.12);
   walked.path_m = walk(2000);
-  scenes.push_back(world_scene(walked, WorldView::kPerspective));
+  scenes.push_back(map_scene(walked));
   const SlamRun drive = sample_drive("plaza-1", 800, 3);
   scenes.push_back(drive_scene({.id = "drive-usual",
                                 .title = "Plaza 1: the path is 0.19 m off, dead reckoning 16 m",

@@ -87,7 +87,7 @@ void add_convergence(std::vector<Figure>& figures) {
   figures.push_back(subspace_angle_figure("angle-usual", curve));
   figures.push_back(positions_figure("positions-usual", curve));
   const std::vector<ConvergenceCurve> curves = {
-      curve, sample_convergence("correlated", "correlated noise, .9 a step", 2.6),
+      curve, sample_convergence("correlated", "correlated noise, 1 % of range, .9 a step", 2.6),
       sample_convergence("additive", "white noise, .1 m", 0.7)};
   figures.push_back(noise_models_figure("noise-usual", curves));
   figures.push_back(factorization_cost_figure("cost-usual", sample_factorization()));

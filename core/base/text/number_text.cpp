@@ -1,0 +1,80 @@
+#include "core/base/text/number_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/text/error_text.hpp"
+#include "core/base/text/raised.hpp"
+#include "core/base/text/unit_text.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Of the power of ten that a value has once it is rounded to so many significant digits: 0 of
+/// 0.9996 to three, which is 1.00.
+int rounded_exponent(double value, int digits) {
+  const std::string text = fmt::format("{:.{}e}", value, digits - 1);
+  return std::stoi(text.substr(text.find('e') + 1));
+}
+
+}  // namespace
+
+std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
+
+std::string power_of_ten(int exponent) { return "×" + ten_to_the(exponent); }
+
+std::string number_text(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text[0] != '-') return text;
+  text.erase(0, 1);
+  if (text.find_first_not_of("0.") == std::string::npos) return text;
+  return "−" + text;
+}
+
+std::string significant(double value, int digits) {
+  if (!std::isfinite(value)) return "unknown";
+  if (value == 0.0) return "0";
+  const int exponent = rounded_exponent(value, digits);
+  if (exponent >= 6 || exponent < -6)
+    return number_text(value / std::pow(10.0, exponent), digits - 1) + power_of_ten(exponent);
+  return number_text(value, std::max(0, digits - 1 - exponent));
+}
+
+std::string rounded_text(double value, int decimals, int digits) {
+  constexpr int kMostDecimals = 6;
+  std::string text = number_text(value, decimals);
+  if (value == 0.0 || text.find_first_of("123456789") != std::string::npos) return text;
+  return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
+}
+
+std::string quantity_text(double value, std::string_view unit) {
+  constexpr double kGreatestCount = 1e6;
+  const bool is_count =
+      unit.empty() && value == std::floor(value) && std::abs(value) < kGreatestCount;
+  return is_count ? number_text(value, 0) : with_unit(significant(value), unit);
+}
+
+std::string error_text(double error_m) {
+  if (error_m > kGreatestError_m) return kGreatErrorText;
+  if (error_m < -kGreatestError_m) return kGreatGainText;
+  return std::isnan(error_m) ? significant(error_m) : significant(error_m) + " m";
+}
+
+std::string length_text(double length_m) {
+  constexpr double kKilometre_m = 999.5;
+  return length_m < kKilometre_m ? significant(length_m) + " m"
+                                 : significant(length_m / 1000.0) + " km";
+}
+
+std::string seconds_text(double seconds) {
+  constexpr double kLeastInMs = 0.9995e-3, kLeastInS = 0.9995;  // What is rounded to 1000 below.
+  if (seconds < kLeastInMs) return significant(1e6 * seconds) + " µs";
+  if (seconds < kLeastInS) return significant(1e3 * seconds) + " ms";
+  return significant(seconds) + " s";
+}
+
+std::string data_number(double value) { return fmt::format("{:.6g}", value); }
+
+}  // namespace mapproof

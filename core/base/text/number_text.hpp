@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace mapproof {
+
+/// "10⁶".
+std::string ten_to_the(int exponent);
+
+/// "×10⁶".
+std::string power_of_ten(int exponent);
+
+/// `value` with `decimals` digits behind the point, U+2212 for minus, no minus before zero.
+std::string number_text(double value, int decimals);
+
+/// `value` with so many significant digits, zeros at their end among them: "0.0120". Never in
+/// scientific notation from 1e-6 to 1e6. Tiles, sentences, titles and the console have numbers from
+/// here, so that one number has the same digits everywhere.
+std::string significant(double value, int digits = 3);
+
+/// `value` with so many decimals. Where these would show zeros alone of a value that is none, it is
+/// "≈ 0"; with six decimals or more, which a quantity of small values has, significant digits.
+std::string rounded_text(double value, int decimals, int digits = 3);
+
+/// A value of a quantity, "0.0120 m", "88.6 %", "2.06°", with a no-break space. A whole number
+/// without a unit is a count: "20".
+std::string quantity_text(double value, std::string_view unit);
+
+/// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m).
+std::string error_text(double error_m);
+
+/// The length of a path with its unit: "86.0 m", "1.86 km".
+std::string length_text(double length_m);
+
+/// A time with its unit: "310 µs", "2.10 ms", "12.0 s".
+std::string seconds_text(double seconds);
+
+/// A number for a data attribute: six significant digits, "." for the point.
+std::string data_number(double value);
+
+}  // namespace mapproof

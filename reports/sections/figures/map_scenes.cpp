@@ -1,0 +1,44 @@
+#include "reports/sections/figures/map_scenes.hpp"
+
+#include <cmath>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
+#include "render/scene/map_scene.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The title, with the mean error of the landmarks where it states none.
+std::string with_mean_error(const std::string& title, const MapRecord& map) {
+  if (title.ends_with(" off") || !map.ground_truth_m || map.frame != Frame::kGroundTruth)
+    return title;
+  double sum_m = 0.0;
+  int count = 0;
+  for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) {
+    const double error_m = (map.estimate.row(i) - map.ground_truth_m->row(i)).norm();
+    if (is_anchor(map, i) || !std::isfinite(error_m)) continue;
+    sum_m += error_m;
+    ++count;
+  }
+  return count == 0 ? title : title + ": " + error_text(sum_m / count) + " off";
+}
+
+}  // namespace
+
+std::vector<Scene> best_map_scene(
+    const std::string& id, const std::vector<std::pair<std::string, const MapRecord*>>& maps) {
+  const auto error_m = [](const MapRecord& map) {
+    return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
+  };
+  const std::pair<std::string, const MapRecord*>* best = nullptr;
+  for (const auto& one : maps)
+    if (has_map_scene(*one.second) &&
+        (best == nullptr || error_m(*one.second) < error_m(*best->second)))
+      best = &one;
+  if (best == nullptr) return {};
+  return {map_scene(
+      {.id = id, .title = with_mean_error(best->first, *best->second), .map = *best->second})};
+}
+
+}  // namespace mapproof

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/model/map_record.hpp"
+#include "render/scene/scene.hpp"
+
+namespace mapproof {
+
+/// The map with the least MPE in space, or without any score the first one that can be drawn; none
+/// if none can.
+/// @param id    Of the scene.
+/// @param maps  Each with its title.
+std::vector<Scene> best_map_scene(
+    const std::string& id, const std::vector<std::pair<std::string, const MapRecord*>>& maps);
+
+}  // namespace mapproof
