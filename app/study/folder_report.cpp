@@ -216,12 +216,8 @@ std::vector<std::string> small_figures_of(const std::vector<FolderReport>& parts
     (has_scene ? in_space : others).push_back(std::move(own));
   }
   in_space.insert(in_space.end(), others.begin(), others.end());
-  std::size_t turns = 0;
-  for (const std::vector<std::string>& own : in_space) turns = std::max(turns, own.size());
-  for (std::size_t turn = 0; turn < turns; ++turn)
-    for (const std::vector<std::string>& own : in_space)
-      if (turn < own.size() && std::ranges::find(ids, own[turn]) == ids.end())
-        ids.push_back(own[turn]);
+  for (std::string& id : in_turns(in_space))
+    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(std::move(id));
   ids.resize(std::min(ids.size(), kMostCandidates));
   return ids;
 }

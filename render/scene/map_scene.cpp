@@ -19,7 +19,6 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostWorst = 3;
-
 constexpr double kGroundMargin = 0.06;  // Around what a map covers, of its side.
 constexpr double kOpenRadius = 0.011;   // Of a landmark of no known size, of the ground's side.
 
@@ -147,13 +146,12 @@ class MapScene {
 
   /// Whether the error of a landmark other than the anchors is known.
   bool has_errors() const {
-    return std::ranges::any_of(rows_of(false), [this](Eigen::Index row) {
-      return std::isfinite(value_of(row, ground_truth_m_));
-    });
+    return std::ranges::any_of(rows_of(false),
+                               [this](Eigen::Index row) { return std::isfinite(error_of(row)); });
   }
 
-  double value_of(Eigen::Index row, const Points& from) const {
-    return (spec_.map.estimate.row(row) - from.row(row)).norm();
+  double error_of(Eigen::Index row) const {
+    return (spec_.map.estimate.row(row) - ground_truth_m_.row(row)).norm();
   }
 
   /// What colours each landmark that pillars() draws; NaN, and so grey, where it is not known.
@@ -164,8 +162,7 @@ class MapScene {
     std::vector<double> known;
     for (const Eigen::Index row : rows) {
       if (!at_.row(row).allFinite()) continue;
-      const double value =
-          errors ? value_of(row, ground_truth_m_) : spec_.half_axes[static_cast<std::size_t>(row)];
+      const double value = errors ? error_of(row) : spec_.half_axes[static_cast<std::size_t>(row)];
       tones.values.push_back(std::isfinite(value) ? value : kNaN);
       if (std::isfinite(value)) known.push_back(value);
     }

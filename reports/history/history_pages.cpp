@@ -693,14 +693,11 @@ void put_regressed_first(Report& report, Section worse) {
 void show_regressed(Report& report, std::span<const FindingGroup> groups) {
   Opening& opening = report.opening;
   const auto all = figures(report);
-  const std::string first = groups.empty() ? "" : groups.front().headline();
-  const bool any_of_first = std::ranges::any_of(all, [&](const FigureBlock* figure) {
-    return !first.empty() && figure->regressed.find(first) != std::string::npos;
-  });
+  std::string first = groups.empty() ? "" : groups.front().headline();
   const auto is_worse = [&](const FigureBlock* figure) {
-    return any_of_first ? figure->regressed.find(first) != std::string::npos
-                        : !figure->regressed.empty();
+    return !figure->regressed.empty() && figure->regressed.find(first) != std::string::npos;
   };
+  if (std::ranges::none_of(all, is_worse)) first.clear();  // Then any that got worse.
   const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
   const auto worse = std::ranges::find_if(all, is_worse);
   if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;

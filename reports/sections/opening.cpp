@@ -206,6 +206,16 @@ std::string smaller_than_paper(const Experiment& experiment) {
   return text;
 }
 
+std::vector<std::string> in_turns(const std::vector<std::vector<std::string>>& lists) {
+  std::vector<std::string> ids;
+  std::size_t turns = 0;
+  for (const std::vector<std::string>& own : lists) turns = std::max(turns, own.size());
+  for (std::size_t turn = 0; turn < turns; ++turn)
+    for (const std::vector<std::string>& own : lists)
+      if (turn < own.size()) ids.push_back(own[turn]);
+  return ids;
+}
+
 std::vector<std::string> present_ids(const std::vector<std::string>& ids,
                                      const StudyFigures& figures, std::size_t most) {
   std::vector<std::string> there, chosen;

@@ -22,6 +22,9 @@ Opening study_opening(const Study& study, const StudyFigures& figures);
 /// nothing, and for other studies.
 std::string smaller_than_paper(const Experiment& experiment);
 
+/// The first ids of all lists, then the second ones, and so on.
+std::vector<std::string> in_turns(const std::vector<std::vector<std::string>>& lists);
+
 /// Those of the ids that are among the figures and scenes, each once, the first `most`.
 std::vector<std::string> present_ids(const std::vector<std::string>& ids,
                                      const StudyFigures& figures, std::size_t most);

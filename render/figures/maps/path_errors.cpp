@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -133,12 +132,12 @@ struct PathPoint {
   bool is_alone = false;
 };
 
-/// @param rows  Of the associated poses.
-std::vector<PathPoint> points_of(const PoseErrors& poses, const std::vector<Eigen::Index>& rows,
-                                 const SpacePoints& associated_m, const LonePoses& alone) {
+/// Of the associated poses and those alone, by time.
+std::vector<PathPoint> points_of(const PoseErrors& poses, const SpacePoints& associated_m,
+                                 const LonePoses& alone) {
   std::vector<PathPoint> points;
-  for (const Eigen::Index i : rows)
-    if (i >= 0) points.push_back({poses.time_s(i), associated_m.row(i)});
+  for (Eigen::Index i = 0; i < poses.size(); ++i)
+    points.push_back({poses.time_s(i), associated_m.row(i)});
   for (Eigen::Index i = 0; i < alone.time_s.size(); ++i)
     points.push_back({alone.time_s(i), alone.positions_m.row(i), true});
   std::ranges::stable_sort(points, {}, &PathPoint::time_s);
@@ -164,12 +163,10 @@ void add_ground_truth(const PoseErrors& poses, const std::vector<Eigen::Index>& 
     for (const Eigen::Index i : shown) i < 0 ? add_break(line) : add(poses.ground_truth_m.row(i));
     return;
   }
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(poses.size()));
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
   const double longest_s = std::max(longest_step(poses.time_s),
                                     alone.time_s.size() > 1 ? longest_step(alone.time_s) : 0.0);
   double last_s = kInfinity;
-  const std::vector<PathPoint> points = points_of(poses, rows, poses.ground_truth_m, alone);
+  const std::vector<PathPoint> points = points_of(poses, poses.ground_truth_m, alone);
   const std::size_t stride = 1 + points.size() / (2 * kMostPieces);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool is_gap = points[i].time_s - last_s > longest_s;
@@ -188,9 +185,7 @@ Polyline lone_estimate(const PoseErrors& poses, std::pair<Eigen::Index, Eigen::I
                 .width = 0.8};
   const LonePoses& alone = poses.estimate_alone;
   if (alone.time_s.size() == 0) return line;
-  std::vector<Eigen::Index> rows(static_cast<std::size_t>(poses.size()));
-  std::iota(rows.begin(), rows.end(), Eigen::Index{0});
-  const std::vector<PathPoint> points = points_of(poses, rows, poses.estimate_m, alone);
+  const std::vector<PathPoint> points = points_of(poses, poses.estimate_m, alone);
   const double longest_s = longest_step(poses.time_s);
   const auto is_associated = [](const PathPoint& point) { return !point.is_alone; };
   for (auto at = points.begin(); at != points.end();) {

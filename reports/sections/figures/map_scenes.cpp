@@ -4,6 +4,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
+#include "render/figures/maps/map.hpp"
 #include "render/scene/map_scene.hpp"
 
 namespace mapproof {
@@ -11,14 +12,13 @@ namespace {
 
 /// The title, with the mean error of the landmarks where it states none.
 std::string with_mean_error(const std::string& title, const MapRecord& map) {
-  if (title.ends_with(" off") || !map.ground_truth_m || map.frame != Frame::kGroundTruth)
-    return title;
+  if (title.ends_with(" off")) return title;
+  const MapView view = view_of(map);
   double sum_m = 0.0;
   int count = 0;
-  for (Eigen::Index i = 0; i < map.estimate.rows(); ++i) {
-    const double error_m = (map.estimate.row(i) - map.ground_truth_m->row(i)).norm();
-    if (is_anchor(map, i) || !std::isfinite(error_m)) continue;
-    sum_m += error_m;
+  for (std::size_t i = 0; i < view.error_m.size(); ++i) {
+    if (view.is_anchor[i] || std::isnan(view.error_m[i])) continue;
+    sum_m += view.error_m[i];
     ++count;
   }
   return count == 0 ? title : title + ": " + error_text(sum_m / count) + " off";

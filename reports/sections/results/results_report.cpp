@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -562,11 +563,7 @@ std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigur
   if (!maps.empty() && paths == 0) ids.push_back(maps.front());
   ids.insert(ids.end(), scenes.begin(), scenes.end());
   groups.insert(groups.begin() + paths, std::move(maps));
-  std::size_t turns = 0;
-  for (const std::vector<std::string>& own : groups) turns = std::max(turns, own.size());
-  for (std::size_t turn = 0; turn < turns; ++turn)
-    for (const std::vector<std::string>& own : groups)
-      if (turn < own.size()) ids.push_back(own[turn]);
+  std::ranges::move(in_turns(groups), std::back_inserter(ids));
   return ids;
 }
 
