@@ -116,6 +116,7 @@ class ErrorsReader {
   }
 
   static LonePoses poses_of(const std::vector<double>& rows) {
+    if (rows.empty()) return {};
     const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>> table(
         rows.data(), std::ssize(rows) / 4, 4);
     return {table.col(0), table.rightCols<3>()};
