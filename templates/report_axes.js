@@ -83,6 +83,28 @@ function anchorOf(word, marks, frame) {
   return off(nearest) < kReachOfWords ? nearest : word;
 }
 
+// The names at the ends of lines, each with the line that leads to it and the points of its curve.
+function endsOf(parts, frame, panel) {
+  const kLeads = /^m(-?[\d.]+) (-?[\d.]+)l(-?[\d.]+) ?(-?[\d.]+)$/;
+  return legendEntries(parts).flatMap((entry) => {
+    const leads = entry[0].querySelector("path"), words = entry.at(-1).querySelector("[data-words]");
+    const [x, height, width, down] =
+      (kLeads.exec(leads?.getAttribute("d") ?? "") ?? []).slice(1).map(Number);
+    const isBeside = frame.right < x && x < frame.right + width &&
+      frame.y - 1 < height && height < frame.bottom + 1;
+    if (!isBeside || !words?.hasAttribute("transform")) return [];
+    const path = panel.flatMap((part) => [part, ...part.querySelectorAll("[data-curve]")])
+      .filter((each) => each.dataset.curve === words.dataset.words && !each.closest("g.band"))
+      .map((each) => (each.localName === "path" ? each : each.querySelector("path"))).find(Boolean);
+    if (!path) return [];
+    const marker = entry.map((part) => part.querySelector("use")).slice(0, -1).find(Boolean);
+    const drawn = [[leads, "d"], [words, "transform"], ...marker ? [[marker, "y"]] : []].map(
+      ([element, name]) => [element, name, element.getAttribute(name)]);
+    return [{ leads, x, width, row: height + down, marker, words, drawn,
+      transform: words.getAttribute("transform"), points: pointsOfPath(path.getAttribute("d")) }];
+  });
+}
+
 function hasAxes(svg) {
   const { frames, panels } = partsOf(svg);
   return panels.length > 0 && frames.every(({ axes }) => axes[0] || axes[1]);
@@ -133,6 +155,35 @@ function zoomMarks(frame, { marks, words }, mapping) {
     element.setAttribute("transform", mapping.scale === 1 ? transform
       : transform.replace(/translate\([^)]*\)/, moved));
     element.classList.toggle("outside", mapping.scale > 1 && !isInFrame(frame, at));
+  }
+}
+
+// The height of a curve where the view ends on the right.
+function heightAtRight(points, { clip, at }) {
+  const x = clip.x + clip.width, next = points.findIndex((point) => point.x >= x);
+  if (next <= 0) return at(points.at(next)).y;
+  const a = points[next - 1], b = points[next], share = (x - a.x) / (b.x - a.x);
+  return at({ x, y: a.y + share * (b.y - a.y) }).y;
+}
+
+// The names at the ends of lines take the order in which their lines leave the view.
+function zoomEnds(frame, ends, mapping) {
+  if (mapping.scale === 1) {
+    for (const [element, name, value] of ends.flatMap(({ drawn }) => drawn)) {
+      if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+    }
+    return;
+  }
+  const rows = ends.map(({ row }) => row).sort((a, b) => a - b);
+  const placed = ends.map((end) => ({ end, at: heightAtRight(end.points, mapping) }))
+    .sort((a, b) => a.at - b.at);
+  for (const [i, { end, at }] of placed.entries()) {
+    const row = rows[i], nearest = clamp(at, frame.y, frame.bottom);
+    const from = Math.abs(at - nearest) > 1 ? row : nearest;  // It leads to no line.
+    end.leads.setAttribute("d", `m${end.x} ${from}l${end.width} ${row - from}`);
+    end.marker?.setAttribute("y", row);
+    end.words.setAttribute("transform", end.transform.replace(/translate\((\S+) (\S+?)\)/,
+      (all, x, y) => `translate(${x} ${Number(y) + row - end.row})`));
   }
 }
 
@@ -229,7 +280,7 @@ function zoomTicks(svg, part, view, mapping) {
 
 // Reads what of the panels follows the view, before anything was moved.
 function readZoomedParts(svg) {
-  const { frames, panels, axes } = partsOf(svg), size = leastWords(svg);
+  const parts = partsOf(svg), { frames, panels, axes } = parts, size = leastWords(svg);
   const labels = panels.map((panel, i) => {
     const found = tickLabelsOf(panel, frames[i]);
     for (const label of [...found.left, ...found.below]) label.box = boxIn(svg, label);
@@ -238,6 +289,7 @@ function readZoomedParts(svg) {
   const hasAll = () => svg.querySelector(":scope > .step-axes") !== null;
   return panels.map((panel, i) => ({
     panel, frame: frames[i], labels: labels[i], content: contentOf(panel, frames[i]),
+    ends: endsOf(parts, frames[i], panel),
     label: axes.filter(isUpright)
       .filter((label) => frameOfLabel(label, frames)?.x === frames[i].x)
       .map((label) => boxIn(svg, label))[0],
@@ -252,8 +304,20 @@ function applyAxes(svg, view) {
     zoomShapes(part.frame, part.content, mapping);
     zoomMarks(part.frame, part.content, mapping);
     zoomTicks(svg, part, view.now, mapping);
+    if (!svg.parentElement.classList.contains("stacked")) zoomEnds(part.frame, part.ends, mapping);
   }
   svg.classList.toggle("zoomed-axes", view.isZoomed);
+}
+
+// What the axes of the first frame count in a view, for whoever cannot see them.
+function wordsOfView(svg, { x, y, width, height }) {
+  const { frame } = zoomedParts.get(svg)[0], shares = [[x, x + width], [1 - y - height, 1 - y]];
+  const labels = labelsOfFrame([...svg.querySelectorAll(":scope > .axis-label > *")], frame);
+  return frame.axes.flatMap((axis, i) => {
+    if (!axis) return [];
+    const { low, high } = rangeShown(axis, ...shares[i]), { name, unit } = labels[i];
+    return [`${name} ${numberOnAxis(low)} to ${withAxisUnit(numberOnAxis(high), unit)}`.trim()];
+  }).join(", ");
 }
 
 // The frame under a pointer, or the nearest one, where it is shown.

@@ -28,11 +28,22 @@ function labelOfMark(mark) {
 }
 
 const kOfMethods = "[data-curve], [data-setting], [data-method]";
+const kNamesOfMethods = ["legend-text", "mark-label", "tick-label"].map(
+  (kind) => `.${kind} [data-words]`).join();
 
 function highlightIn(svg) {
   const marks = [...svg.querySelectorAll(kOfMethods)];
   const isHere = chosenMethod !== "" && marks.some((mark) => labelOfMark(mark) === chosenMethod);
   for (const mark of marks) mark.classList.toggle("dim", isHere && labelOfMark(mark) !== chosenMethod);
+  const labels = new Set(marks.map(labelOfMark));
+  for (const words of svg.querySelectorAll(kNamesOfMethods)) {
+    const name = methodOf(words.dataset.words.replace(/ [\d.]+$/, ""));  // A mean rank follows it.
+    words.classList.toggle("dim", isHere && name !== chosenMethod && labels.has(name));
+  }
+  for (const entry of legendEntries({ rest: [...svg.children] })) {
+    const isDim = entry.at(-1).querySelector("[data-words]")?.classList.contains("dim") ?? false;
+    for (const sample of entry.slice(0, -1)) sample.classList.toggle("dim", isDim);
+  }
 }
 
 function chooseMethod(label) {

@@ -94,9 +94,12 @@ function breakWords(svg, words, room) {
   const kLineHeight = 1.2;
   const scale = Number(/scale\(([\d.]+)/.exec(words.getAttribute("transform") ?? "")?.[1]);
   if (!(scale > 0) || isUpright(words) || boxIn(svg, words).width <= room) return 0;
-  const glyphs = [...words.querySelectorAll("use")].map((glyph) => {
+  const drawn = [...words.querySelectorAll("use")], text = [...words.dataset.words ?? ""];
+  const isKept = (i) => text.length === drawn.length && text[i] === "\u00a0";
+  const glyphs = drawn.map((glyph, i) => {
     const { x, width } = glyph.getBBox();  // A space has no outline.
-    return { glyph, at: Number(glyph.getAttribute("x") ?? 0), end: x + width, isSpace: width === 0 };
+    return { glyph, at: Number(glyph.getAttribute("x") ?? 0), end: x + width,
+      isSpace: width === 0 && !isKept(i) };
   });
   const lines = brokenLines(glyphs, room / scale);
   lines.slice(1).forEach((line, i) => {

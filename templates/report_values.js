@@ -319,7 +319,7 @@ function showValue(svg, value, isPinned) {
 // By keys: from point to point of a curve, and from curve to curve.
 function stepValue(svg, count, curves = 0) {
   const places = placesNow(svg), all = valuesOf(svg).filter((value) => places.isShown(value));
-  if (all.length === 0) return;
+  if (all.length === 0) return announce("No point of a curve is in this part of the axes.");
   const key = ({ name, kind, number }) => `${number}\n${name}\n${kind}`;
   const keys = [...new Set(all.map(key))];
   const old = valueShown?.svg === svg ? valueShown.value : null;
@@ -332,7 +332,7 @@ function stepValue(svg, count, curves = 0) {
   const from = old && curves === 0 ? points.indexOf(old) : points.indexOf(nearest);
   const value = points[old && curves === 0 ? (from + count + points.length) % points.length : from];
   showValue(svg, value, true);
-  announce([nameOfValue(value), ...wordsOfValue(svg, value)].join(", "));
+  return announce([nameOfValue(value), ...wordsOfValue(svg, value)].join(", "));
 }
 
 function followValues(figure, svg) {

@@ -49,6 +49,7 @@ function makeZoomable(box, svg) {
     if (!act) return;
     event.preventDefault();
     act(view);
+    if (isOfAxes) announce(wordsOfView(svg, view.now));
   });
 }
 

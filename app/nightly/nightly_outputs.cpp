@@ -12,6 +12,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "reports/diff/folder_diff.hpp"
+#include "reports/diff/records/record_diff.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/diff/shown_images.hpp"
@@ -53,6 +54,28 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Whether records call a series so at any step: "bearing/ekf/noise-0.1" of "ekf noise=0.1".
+bool is_subject_of(const std::string& subject, const SeriesId& series) {
+  const std::size_t end = levels_begin(series.method);
+  std::string levels = series.method.substr(end);
+  std::ranges::replace(levels, '=', '-');
+  std::ranges::replace(levels, ' ', '/');
+  const std::string parts = subject + "/";
+  return parts.starts_with(series.sensor + "/" + series.method.substr(0, end) + "/") &&
+         parts.find(levels + "/") != std::string::npos;
+}
+
+/// Gives the records that findings are about the outcome of these.
+void judge_found(const std::vector<FindingGroup>& groups, const std::string& study,
+                 RecordDiff& records) {
+  for (const FindingGroup& group : groups)
+    for (const SeriesId& series : group.series)
+      for (Comparison& comparison : records.comparisons)
+        if (group.study == study && comparison.quantity.id == group.quantity_id &&
+            comparison.beyond > 0 && is_subject_of(comparison.subject, series))
+          comparison.outcome = Outcome::kWorse;
+}
+
 /// Gives a comparison the verdict of the nightly run: one rule judges a nightly run and the page
 /// that shows why.
 void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, DiffResult& result) {
@@ -60,11 +83,14 @@ void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, Dif
   if (standing.sentences.empty()) return;
   std::string cause = standing.title + ":";
   for (const std::string& sentence : standing.sentences) cause += " " + sentence;
+  for (DiffItem& item : result.items)
+    if (item.records) judge_found(pair.groups, study, *item.records);
   judge_records_as(result, {Verdict::kWorse, true, cause});
   result.remarks.insert(
       result.remarks.begin(),
-      "Nightly runs are judged by the change in percent, or in points, over all runs of a method; "
-      "the tables below test each quantity by its ranks alone, for which more runs are needed.");
+      "Nightly runs are judged by the change in percent, or in points, over all runs of a method: "
+      "what they found is called worse below. All else is tested by its ranks alone, for which "
+      "more runs are needed.");
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ std::vector<ErrorWords> error_words(const Score& score) {
     words.push_back({"MPE", error_text(mpe), "mean position error",
                      usual ? "" : "after the best affine fit to all landmarks"});
   if (std::isfinite(moe))
-    words.push_back({"MOE", fmt::format("{:.2f} %", moe),
-                     "landmark triples with a wrong orientation", usual ? "" : "up to a mirror"});
+    words.push_back({"MOE", quantity_text(moe, "%"), "landmark triples with a wrong orientation",
+                     usual ? "" : "up to a mirror"});
   return words;
 }
 

@@ -22,7 +22,7 @@ constexpr std::array<ShortNames, 4> kMethods = {{
 
 /// Clear beside the others of their figure alone. Each is a whole part of a label of a topic or an
 /// experiment of ours, so that labels of others keep their words.
-constexpr std::array<ShortNames, 14> kShort = {{
+constexpr std::array<ShortNames, 15> kShort = {{
     {"Pairwise-complete", "Pairwise"},
     {"PPCA, expected squares", "PPCA squares"},
     {"PCA with missing data", "PCA"},
@@ -34,6 +34,7 @@ constexpr std::array<ShortNames, 14> kShort = {{
     {" alone, its order", ", its order"},
     {"Doubtful measurements left out", "Doubtful left out"},
     {" % of the range", " %"},
+    {"One landmark called by another's name in all scans", "One landmark misnamed"},
     {", incremental", ", incr."},
     {", from scratch", ", scratch"},
     {", known landmarks", ", known"},
@@ -46,14 +47,20 @@ constexpr std::array<ShortNames, 3> kShortest = {{
     {", its order", ", order"},
 }};
 
-/// Whether a name is a whole part of a text: from its start, a comma or an "and" to the next, or to
-/// a colon.
+/// Whether a text is a number behind a space: the mean rank behind a method's name.
+bool is_number_behind(std::string_view text) {
+  return text.size() > 1 && text[0] == ' ' &&
+         text.find_first_not_of("0123456789.", 1) == std::string_view::npos;
+}
+
+/// Whether a name is a whole part of a text: from its start, a comma or an "and" to the next, to a
+/// colon or to a number at its end.
 bool is_part(std::string_view text, std::size_t at, std::string_view name) {
   const std::string_view before = text.substr(0, at), after = text.substr(at + name.size());
   const bool begins = before.empty() || name.starts_with(',') || name.starts_with(' ') ||
                       before.ends_with(", ") || before.ends_with(" and ");
   return begins && (after.empty() || after.starts_with(", ") || after.starts_with(" and ") ||
-                    after.starts_with(": "));
+                    after.starts_with(": ") || is_number_behind(after));
 }
 
 template <std::size_t kCount>

@@ -271,7 +271,7 @@ class DriveScene {
     const std::string method(info(record_.method).label);
     scene_.caption = fmt::format(
         "{} from above: the {} path, {}.{} Pillars stand at the {} positions of the landmarks "
-        "(heights are the drawing's){}.",
+        "(heights not to scale){}.",
         run_.log.name, method,
         has_errors_ ? fmt::format("coloured by its error up to {} m, the 95th percentile",
                                   significant(limits_.high, 2))

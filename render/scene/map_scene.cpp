@@ -201,7 +201,7 @@ class MapScene {
     if (spec_.world)
       text += fmt::format(" of {} mm in diameter",
                           significant(1000.0 * spec_.world->landmark_diameter_m));
-    return text + " (heights are the drawing's)";
+    return text + " (heights not to scale)";
   }
 
   void describe() {

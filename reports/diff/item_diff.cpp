@@ -55,13 +55,20 @@ class SceneComparer {
   void compare(const ParsedJson& a, const ParsedJson& b, const std::string& location) {
     for (const auto& [key, value] : a.items()) {
       if (key == "schema" || key == "records") continue;
-      if (key == "parts" && location == "scene")
-        compare_parts(value, b.at(key));
-      else if (value.is_object())
-        compare(value, b.at(key), location);
+      const auto other = b.find(key);
+      if (other == b.end())
+        log_.change(kind_of(key, location), location, key, short_text(value), "");
+      else if (key == "parts" && location == "scene")
+        compare_parts(value, *other);
+      else if (value.is_object() && other->is_object())
+        compare(value, *other, location);
       else
-        compare_value(value, b.at(key), location, key);
+        compare_value(value, *other, location, key);
     }
+    // What is written only where it is set.
+    for (const auto& [key, value] : b.items())
+      if (!a.contains(key) && key != "schema" && key != "records")
+        log_.change(kind_of(key, location), location, key, "", short_text(value));
   }
 
  private:

@@ -284,7 +284,7 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   if (std::cmp_less(usual.size(), rules.least_passing_nightly_runs)) {
     outcome.remarks.push_back(
         fmt::format("{}: {} of {} passing nightly runs on this machine so far; seconds and memory "
-                    "are not judged yet",
+                    "of one nightly run are not judged yet, only their course over all of them",
                     trend.name, usual.size(), rules.least_passing_nightly_runs));
     return outcome;
   }

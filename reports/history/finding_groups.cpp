@@ -68,6 +68,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   group.setup = shown_setup(trend->labels, series->sensor);
   const std::string shown = shown_method(trend->labels, series->method);
   group.lines.push_back(shown);
+  group.series.push_back(*series);
   group.method = shown_method(trend->labels, base_method(trend->labels, series->method));
   if (shown.starts_with(group.method + ", "))
     group.settings.push_back(shown.substr(group.method.size() + 2));
@@ -262,6 +263,7 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
     append(same->numbers, group.numbers);
     append(same->sentences, group.sentences);
     append(same->lines, group.lines);
+    append(same->series, group.series);
   }
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.is_time; });
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });

@@ -54,6 +54,7 @@ struct FindingGroup {
   std::vector<std::string> sentences = {};
   std::vector<std::string> lines =
       {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
+  std::vector<SeriesId> series = {};      ///< The first step of each that the findings are about.
   std::optional<NightlyNote> known = {};  ///< By which all of them are known.
   CommitRange commits = {};
 

@@ -646,7 +646,9 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   show_first(page.figures, report.opening);
   if (!page.figures.empty()) {
     report.sections.push_back(
-        {"course", "Trends over the nightly runs", {gallery_of(page.figures)}});
+        {"course",
+         facts.nightly_runs.size() < 2 ? "What was measured" : "Trends over the nightly runs",
+         {gallery_of(page.figures)}});
   }
   report.sections.push_back(
       {"nightly-runs", "All nightly runs", {nightly_runs_table(facts, links)}});

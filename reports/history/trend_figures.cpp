@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <optional>
@@ -36,6 +37,8 @@ constexpr std::size_t kLongestId = 100;
 
 constexpr const char* kFound = "a finding";
 
+constexpr std::size_t kLongestMethod = 30;  ///< Characters on an axis; the rest of a name is cut.
+
 /// A part of an id.
 std::string id_of(const std::string& name) {
   const std::string slug = slug_of(name);
@@ -49,17 +52,28 @@ double level_over_nightly_runs(const std::vector<double>& values) {
   return known.empty() ? kInfinity : median(known);
 }
 
+/// The number of each setting among those of its method, in the order of their names: so it has one
+/// style in all figures, whichever settings these show.
+std::map<std::string, std::size_t> setting_numbers(const StudyTrend& trend) {
+  std::map<std::string, std::size_t> numbers;
+  for (const auto& [id, values] : trend.medians) numbers.emplace(id.method, 0);
+  std::map<std::string, std::size_t> of_method;
+  for (auto& [setting, number] : numbers) number = of_method[base_method(trend.labels, setting)]++;
+  return numbers;
+}
+
 /// A trend with what was found of it.
 struct Reported {
   const StudyTrend& trend;
   std::vector<std::pair<std::size_t, const NightlyFinding*>>
       findings;  ///< By the index of the nightly run.
   const TrendLocation& location;
+  std::map<std::string, std::size_t> setting_numbers;
 };
 
 Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
                      const TrendLocation& location) {
-  Reported reported{trend, {}, location};
+  Reported reported{trend, {}, location, setting_numbers(trend)};
   for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
     if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
         nightly_run != findings.end())
@@ -237,9 +251,10 @@ std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string
   if (!labels.methods.empty()) {
     const std::vector<std::string> ids = labels.ordered();
     const auto found = std::ranges::find(ids, base_method(labels, method));
-    return found == ids.end() ? std::nullopt
-                              : std::optional(series_of_methods(
-                                    ids)[static_cast<std::size_t>(found - ids.begin())]);
+    if (found == ids.end()) return std::nullopt;
+    std::vector<std::string> shown;
+    for (const std::string& id : ids) shown.push_back(labels.methods.at(id));
+    return series_of_methods(ids, shown)[static_cast<std::size_t>(found - ids.begin())];
   }
   const std::optional<Method> known = method_named(base_method(labels, method));
   return known ? std::optional(method_series(*known)) : std::nullopt;
@@ -353,6 +368,29 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
   return text + without_change(reported.trend, *longest.values);
 }
 
+/// The styles of the settings of a figure. There are more settings than markers: where another
+/// setting of the figure has the marker of one, that one has the next that is free.
+class StyleNumbers {
+ public:
+  explicit StyleNumbers(const Reported& reported) : reported_(reported) {}
+
+  /// What series_style() takes; empty of a method without a style.
+  std::optional<std::size_t> next(const std::string& setting) {
+    const std::optional<std::size_t> of_method = style_of(reported_.trend.labels, setting);
+    if (!of_method) return std::nullopt;
+    const std::size_t number = reported_.setting_numbers.at(setting);
+    for (std::size_t k = 0; k < kMarkerCount; ++k)
+      if (const std::size_t style = series_of_setting(*of_method, (number + k) % kMarkerCount);
+          taken_.insert(style).second)
+        return style;
+    return series_of_setting(*of_method, number);
+  }
+
+ private:
+  const Reported& reported_;
+  std::set<std::size_t> taken_;
+};
+
 std::optional<Figure> lines_figure(const Reported& reported, const std::string& sensor,
                                    const std::string& quantity) {
   const std::vector<Line> lines = shown_settings(reported, sensor, quantity);
@@ -382,23 +420,89 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
           : "",
       changes ? ", as its change since " + base_words(reported) : "");
   ErrorPanel panel = panel_of(reported.trend);
-  std::map<std::size_t, std::size_t> settings;  // That have a style already, by their method's.
+  StyleNumbers styles(reported);
   for (const Line& line : lines) {
-    std::optional<std::size_t> series = style_of(reported.trend.labels, line.id.method);
-    if (series) series = series_of_setting(*series, settings[*series]++);
     const std::string label = shown_method(reported.trend.labels, line.id.method);
     const std::vector<double> values = shown_of(line);
     panel.lines.push_back({.label = label,
                            .key = id_of(line.id.method),
                            .x = places_of(reported.trend),
                            .mean = values,
-                           .series = series});
+                           .series = styles.next(line.id.method)});
     const auto is_about_it = [&](const NightlyFinding& finding) {
       return is_about(finding, line.id);
     };
     mark_findings(reported, label, values, is_about_it, panel);
   }
   return drawn(std::move(spec), std::move(panel), facts.nightly == NightlyRule::kDuration);
+}
+
+/// "SMACOF has the lowest MPE, 0.0597 m": of values in the order of the lines, the best last.
+std::string best_text(const Reported& reported, const Quantity& quantity,
+                      const std::vector<Line>& lines) {
+  const auto value_of = [&](const Line& line) {
+    return quantity_text(level_over_nightly_runs(*line.values), quantity.unit);
+  };
+  const std::string best = value_of(lines.back());
+  std::vector<std::string> methods;
+  for (const Line& line : lines)
+    if (value_of(line) == best)
+      methods.push_back(shown_method(reported.trend.labels, line.id.method));
+  constexpr std::size_t kMostNamed = 2;
+  return fmt::format(
+      "{} {} the {} {}, {}", listed(methods, kMostNamed), methods.size() == 1 ? "has" : "have",
+      quantity.better == Better::kHigher ? "highest" : "lowest", quantity.label, best);
+}
+
+/// What was measured of the methods where there is no course to draw: a dot each, the best one
+/// uppermost. Nothing of what is not an accuracy, or of one method.
+std::optional<Figure> values_figure(const Reported& reported, const std::string& sensor,
+                                    const std::string& quantity) {
+  const Quantity& facts = reported.trend.quantities.at(quantity);
+  std::vector<Line> lines = shown_settings(reported, sensor, quantity);
+  if (!is_accuracy(facts.nightly) || lines.size() < 2) return std::nullopt;
+  const auto level_of = [](const Line& line) { return level_over_nightly_runs(*line.values); };
+  std::ranges::stable_sort(lines, std::greater<>(), level_of);
+  if (facts.better == Better::kHigher) std::ranges::reverse(lines);
+  const std::string setup = first_setup(reported.trend.labels, sensor);
+  const ErrorLinesSpec spec =
+      named_spec(reported, id_of(quantity) + "-" + id_of(sensor) + "-values",
+                 (setup.empty() ? "" : setup + ": ") + best_text(reported, facts, lines));
+  const auto [least, most] = std::ranges::minmax(lines, {}, level_of);
+  constexpr double kWideSpan = 20.0;
+  Panel panel;
+  panel.x.label = label_with_unit(facts);
+  if (level_of(least) > 0.0 && level_of(most) > kWideSpan * level_of(least))
+    panel.x.scale = Scale::kLog;
+  panel.y.limits = Range{-0.6, static_cast<double>(lines.size()) - 0.4};
+  StyleNumbers styles(reported);
+  std::string alt;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Line& line = lines[i];
+    const std::string label = shown_method(reported.trend.labels, line.id.method);
+    const SeriesStyle style = series_style(styles.next(line.id.method).value_or(i));
+    panel.y.names.push_back(printable(label, kLongestMethod));
+    panel.layers.emplace_back(Scatter{
+        .x = {level_of(line)},
+        .y = {static_cast<double>(i)},
+        .colour = style.colour,
+        .marker = style.marker,
+        .marks = {Mark{"value-" + id_of(line.id.method),
+                       {{"method", label}, {id_of(quantity), data_number(level_of(line))}}}}});
+    alt = fmt::format("{} {}{}", label, quantity_text(level_of(line), facts.unit),
+                      alt.empty() ? "." : "; " + alt);
+  }
+  Figure figure{.id = spec.id,
+                .title = spec.title,
+                .caption = fmt::format(
+                    "Dots: median over runs of {}, of each method the setting that is best{}",
+                    facts.label, without_change(reported.trend, *lines.back().values)),
+                .alt = spec.title + ". " + alt,
+                .record_ids = {},
+                .notes = {},
+                .panels = {}};
+  figure.panels.push_back(std::move(panel));
+  return figure;
 }
 
 bool is_about_memory(const NightlyFinding& finding) { return finding.quantity == "memory"; }
@@ -474,13 +578,25 @@ std::vector<Figure> trend_figures(const StudyTrend& trend, const NightlyFindings
   const Reported reported = reported_of(trend, findings, location);
   std::vector<Figure> figures;
   const auto is_full = [&] { return location.most > 0 && figures.size() >= location.most; };
-  for (const auto& [later, rank, quantity, sensor] : subjects_of(reported)) {
+  const std::set<Subject> subjects = subjects_of(reported);
+  bool any_accuracy = false;
+  for (const auto& [later, rank, quantity, sensor] : subjects) {
     if (is_full()) break;
-    if (auto figure = lines_figure(reported, sensor, quantity))
+    if (auto figure = lines_figure(reported, sensor, quantity)) {
       figures.push_back(std::move(*figure));
+      any_accuracy = any_accuracy || is_accuracy(trend.quantities.at(quantity).nightly);
+    }
   }
   if (!is_full())
     if (auto figure = memory_figure(reported)) figures.push_back(std::move(*figure));
+  for (const auto& [later, rank, quantity, sensor] : subjects) {
+    if (any_accuracy) break;
+    if (auto figure = values_figure(reported, sensor, quantity)) {
+      figures.insert(figures.begin(), *std::move(figure));
+      any_accuracy = true;
+    }
+  }
+  if (location.most > 0 && figures.size() > location.most) figures.resize(location.most);
   return figures;
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/wording.hpp"
@@ -68,34 +69,41 @@ CertificatesByKind certificates_of(const Study& study) {
   return all;
 }
 
-std::string gap_text(double gap) {
-  return std::isfinite(gap) ? fmt::format("{:.1e}", gap) : "no bound";
+std::string gap_text(double gap) { return std::isfinite(gap) ? significant(gap, 2) : "no bound"; }
+
+std::string residual_text(double residual) { return significant(residual, 2); }
+
+/// As a number that a page writes with a power of ten, and a file as one.
+Cell gap_cell(double gap) {
+  return std::isfinite(gap) ? Cell(NumberCell{gap, 6}) : Cell(TextCell{gap_text(gap)});
 }
 
-std::string residual_text(double residual) { return fmt::format("{:.1e}", residual); }
+std::string certified_gap_text() {
+  return ten_to_the(static_cast<int>(std::lround(std::log10(kCertifiedGap))));
+}
 
 Table certificates_table(const CertificatesByKind& all) {
-  Table table{"certificates",
-              "Semidefinite programs: how near the optimum",
-              {{"Sensor", "", "", ""},
-               {"Method", "", "", ""},
-               {"Solver", "", "", "The solver of the solution."},
-               {"Solves", "", "", ""},
-               {"Certified", "", "",
-                fmt::format("With a relative gap and a residual of at most {:g}.", kCertifiedGap)},
-               {"Largest gap", "", "", "|dual - primal| / |dual|."},
-               {"Largest residual", "", "", "Violation of a constraint over the largest one."},
-               {"Worst record", "", "", "That of the largest gap."}},
-              {},
-              {}};
+  Table table{
+      "certificates",
+      "Semidefinite programs: how near the optimum",
+      {{"Sensor", "", "", ""},
+       {"Method", "", "", ""},
+       {"Solver", "", "", "The solver of the solution."},
+       {"Solves", "", "", ""},
+       {"Certified", "", "",
+        fmt::format("With a relative gap and a residual of at most {}.", certified_gap_text())},
+       {"Largest gap", "", "", "|dual - primal| / |dual|."},
+       {"Largest residual", "", "", "Violation of a constraint over the largest one."},
+       {"Worst record", "", "", "That of the largest gap."}},
+      {},
+      {}};
   for (const auto& [kind, certificates] : all)
     table.rows.push_back(
         {{TextCell{title_of(kind.sensor)}, TextCell{label(certificates.setting)},
           TextCell{std::string(title_of_solver(kind.solver))},
           NumberCell{static_cast<double>(certificates.solves), 0},
-          NumberCell{static_cast<double>(certificates.certified), 0},
-          TextCell{gap_text(certificates.gap)}, TextCell{residual_text(certificates.residual)},
-          TextCell{certificates.worst, Emphasis::kData}},
+          NumberCell{static_cast<double>(certificates.certified), 0}, gap_cell(certificates.gap),
+          NumberCell{certificates.residual, 6}, TextCell{certificates.worst, Emphasis::kData}},
          certificates.worst,
          false});
   return table;
@@ -125,9 +133,9 @@ std::optional<Section> certificates_section(const Study& study) {
       "certificates", "Certificates of the semidefinite programs", {}, "", Interest::kFew};
   section.blocks.emplace_back(plain(fmt::format(
       "{} solved, {}. Each solution has an upper bound from its dual. Feasible and optimal to "
-      "within {:g}: {} of them; the largest relative gap is {}, the largest residual {}. Those of "
+      "within {}: {} of them; the largest relative gap is {}, the largest residual {}. Those of "
       "the variations are not counted.",
-      counted(solves, "program"), listed(by, 3), kCertifiedGap, certified, gap_text(gap),
+      counted(solves, "program"), listed(by, 3), certified_gap_text(), certified, gap_text(gap),
       residual_text(residual))));
   section.blocks.emplace_back(certificates_table(all));
   return section;

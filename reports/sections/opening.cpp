@@ -232,8 +232,17 @@ void choose_figures(const std::vector<std::string>& ids, const StudyFigures& fig
                     Opening& opening) {
   opening.figure_ids = present_ids(ids, figures, kMostCandidates);
   if (opening.figure_ids.empty()) return;
-  opening.main_figure = opening.figure_ids.front();
-  opening.figure_ids.erase(opening.figure_ids.begin());
+  // One that found something, if there is any.
+  const auto found_nothing = [&](const std::string& id) {
+    return std::ranges::any_of(all_figures(figures), [&](const Figure* figure) {
+      return figure->id == id && (figure->title.find(kIntervalsOverlap) != std::string::npos ||
+                                  figure->title.find(kTooFewRuns) != std::string::npos);
+    });
+  };
+  auto main_figure = std::ranges::find_if_not(opening.figure_ids, found_nothing);
+  if (main_figure == opening.figure_ids.end()) main_figure = opening.figure_ids.begin();
+  opening.main_figure = *main_figure;
+  opening.figure_ids.erase(main_figure);
 }
 
 std::string today_utc() { return fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr))); }

@@ -201,6 +201,10 @@ TEST_F(StudyOfAnotherProgram, HasPagesOfANightlyRunThatAgree) {
   EXPECT_NE(page.find("Nightly run 2: accuracy got worse: 6 findings: indoors, EKF: "),
             std::string::npos);
   EXPECT_EQ(page.find("Stale:"), std::string::npos) << "ranks can stay while errors change";
+  // What a finding is about is called worse, and comes first.
+  const std::string scores = page.substr(page.find("id=\"table-scores-"), 3000);
+  EXPECT_NE(scores.find("<bdi>indoors/ekf/"), std::string::npos) << scores;
+  EXPECT_LT(scores.find("data, worse"), scores.find("</tr>", scores.find("<tbody>"))) << scores;
 
   // A table whose columns are levels marks the method that got worse, and says at which levels.
   const std::string report = read_file(study / "report.html");

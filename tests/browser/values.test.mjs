@@ -113,6 +113,49 @@ test("in zoomed axes a point keeps its values, and one that is zoomed away has n
   await close();
 });
 
+test("in zoomed axes names at the ends of lines follow them, and keys say what is shown", async () => {
+  const { page, close } = await open();
+  const shown = await figure(page, kCurves);
+  // Each name that a line leads to: where that line begins, and where its curve leaves the frame.
+  const ends = () => shown.locator("svg").evaluate((svg) => {
+    const frame = svg.querySelector("defs clipPath rect"), drawn = svg.querySelector("g.frame path");
+    const { right, top, bottom } = drawn.getBoundingClientRect();
+    const curves = [...svg.querySelectorAll("[data-curve]")].filter((each) => !each.closest("g.band"))
+      .map((each) => (each.localName === "path" ? each : each.querySelector("path"))).filter(Boolean);
+    return curves.map((path) => {
+      const name = path.closest("[data-curve]").dataset.curve;
+      const words = [...svg.querySelectorAll("g.legend-text [data-words]")].find(
+        (each) => each.dataset.words === name);
+      const matrix = path.getScreenCTM(), length = path.getTotalLength();
+      let height = NaN, least = Infinity;
+      for (let i = 0; i <= 4000; ++i) {
+        const at = path.getPointAtLength(i / 4000 * length).matrixTransform(matrix);
+        if (Math.abs(at.x - right) < least) [least, height] = [Math.abs(at.x - right), at.y];
+      }
+      const box = words?.getBoundingClientRect();
+      return { name, height: Math.min(bottom, Math.max(top, height)),
+        row: box ? box.top + box.height / 2 : NaN, hasFrame: frame !== null };
+    }).filter(({ row }) => !Number.isNaN(row)).sort((a, b) => a.row - b.row);
+  });
+  const isInOrder = (all) => all.every((end, i) => i === 0 || all[i - 1].height <= end.height + 1);
+  const before = await ends();
+  assert.ok(before.length >= 3 && isInOrder(before), JSON.stringify(before));
+  await shown.locator(".drawing").focus();
+  await page.keyboard.press("+");
+  assert.match(await page.locator("#status").textContent(), / to .*, MPE [\d.]+ to [\d.]+\u00a0m$/);
+  await page.keyboard.press("+");
+  const after = await ends();
+  assert.ok(isInOrder(after), JSON.stringify(after));
+  assert.notDeepEqual(after.map(({ height }) => height), before.map(({ height }) => height));
+  for (let i = 0; i < 12; ++i) await page.keyboard.press("+");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("n");
+  assert.match(await page.locator("#status").textContent(), /^No point of a curve/);
+  await page.keyboard.press("0");
+  assert.deepEqual(await ends(), before);
+  await close();
+});
+
 test("the dots of a dot plot name their interval", async () => {
   const { page, close } = await open();
   const shown = await figure(page, "published-errors");

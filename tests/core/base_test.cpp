@@ -162,6 +162,15 @@ TEST(NumberText, ScalesTimesAndLengthsOfPaths) {
   EXPECT_EQ(length_text(86.0), "86.0 m");
 }
 
+TEST(NumberText, OfADataAttributeIsNotRoundedTwice) {
+  EXPECT_EQ(data_number(0.123456789), "0.123457");
+  EXPECT_EQ(data_number(0.25049996), "0.25049996");  // 0.250 with three digits, as 0.2505 is not.
+  EXPECT_EQ(data_number(-1204.99999), "-1204.99999");
+  EXPECT_EQ(data_number(0.2505), "0.2505");
+  EXPECT_EQ(data_number(25.0), "25");
+  EXPECT_EQ(data_number(NAN), "nan");
+}
+
 TEST(NumberText, OfACountHasNoDecimals) {
   EXPECT_EQ(quantity_text(20.0, ""), "20");
   EXPECT_EQ(quantity_text(20.5, ""), "20.5");

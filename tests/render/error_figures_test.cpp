@@ -55,12 +55,20 @@ TEST(SeriesOf, KeepsWhatIsAskedForAndGivesOthersStylesThatAreLeft) {
 }
 
 TEST(SeriesOfMethods, AreThoseOfMappingMethodsWhateverTheirParameter) {
-  const auto series =
-      series_of_methods({"isomap", "isomap-K6", "kpca-gaussian-sigma2-0.5", "mine"});
+  const auto series = series_of_methods({"isomap-K6", "kpca-gaussian-sigma2-0.5", "mine"});
   EXPECT_EQ(series[0], method_series(Method::kIsomap));
-  EXPECT_EQ(series[1], series[0]);
-  EXPECT_EQ(series[2], method_series(Method::kKpcaGaussian));
-  EXPECT_GE(series[3], kMethodStyles);
+  EXPECT_EQ(series[1], method_series(Method::kKpcaGaussian));
+  EXPECT_GE(series[2], kMethodStyles);
+}
+
+TEST(SeriesOfMethods, DifferForTwoSettingsOfAMethodUnderTwoLabels) {
+  const auto alike = series_of_methods({"isomap-K6", "isomap-K8"}, {"ISOMAP", "ISOMAP"});
+  EXPECT_EQ(alike[1], alike[0]);
+  const auto series = series_of_methods({"isomap-K6", "isomap-K8", "lpca"});
+  EXPECT_EQ(series[0], method_series(Method::kIsomap));
+  EXPECT_EQ(series[2], method_series(Method::kLpca));
+  EXPECT_NE(series_style(series[1]).colour, series_style(series[0]).colour);
+  EXPECT_NE(series_style(series[1]).colour, series_style(series[2]).colour);
 }
 
 TEST(SeriesOfMethods, OfOneStudyDoNotDependOnItsOtherMethods) {
@@ -175,7 +183,7 @@ TEST(BestLine, IsNoneWhereIntervalsOrShownDigitsTie) {
   const ErrorLine a = of_means("A", {0.99691, 1, 2}), b = of_means("B", {0.99696, 3, 4});
   EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "A has the lowest MPE wherever they differ");
   EXPECT_EQ(best_over({a, b, of_means("C", {2, 3, 4})}, {}, {"noise"}),
-            "A has the lowest MPE, alone at 2 of 3 points");
+            "A has the lowest MPE at noise\u00A0=\u00A02 and 3; elsewhere it ties with others");
   EXPECT_EQ(best_over({of_means("A", {0.99691, 1}), of_means("B", {0.99696, 1.001})}, {}, {"K"}),
             "");
   EXPECT_EQ(best_of_points({{a, b}}, {}), "A has the lowest MPE at 2 of 3 points");
@@ -268,6 +276,7 @@ TEST(BestLine, IsPluralIfItStandsForSeveralWhateverItsLabel) {
 TEST(ShortNames, AreOfWholePartsOfLabelsOfOurs) {
   EXPECT_EQ(short_name("Pairwise-complete, kNN-SMACOF"), "Pairwise, kNN");
   EXPECT_EQ(short_name("bearing alone, its order"), "bearing, its order");
+  EXPECT_EQ(short_name("bearing alone, its order 2.00"), "bearing, its order 2.00");
   EXPECT_EQ(short_name("white noise, 1 % of the range, plain SVD"), "white noise, 1 %, plain SVD");
   EXPECT_EQ(short_name("SMACOF, equal weights, from scratch and 2 others"),
             "SMACOF, scratch and 2 others");

@@ -71,8 +71,8 @@ TEST(MapFigure, SaysItsScoreInTheCaption) {
   MapRecord map = sample_map(50, 0.1, 1);
   map.score = Score{0.2190, 4.7, 0.2, 4.7};
   const Figure figure = map_figure(map, "map");
-  EXPECT_TRUE(
-      figure.caption.starts_with("ISOMAP, K = 6, visibility, 2000 steps: MPE 0.219 m, MOE 4.70 %."))
+  EXPECT_TRUE(figure.caption.starts_with(
+      "ISOMAP, K = 6, visibility, 2000 steps: MPE 0.219 m, MOE 4.70\u00A0%."))
       << figure.caption;
   EXPECT_TRUE(has_note(figure, "MPE 0.219 m"));
   EXPECT_EQ(figure.record_ids, std::vector<std::string>{map.id});
@@ -86,7 +86,7 @@ TEST(MapFigure, SaysOnlyErrorsThatAreKnown) {
     const Figure figure = map_figure(map, "map");
     EXPECT_TRUE(has_note(figure, "0.310 m after the best affine fit to all landmarks"));
     for (const std::string& words : {figure.caption, figure.alt, figure.notes.at(0).text}) {
-      EXPECT_NE(words.find("MOE 4.20 % up to a mirror"), std::string::npos) << words;
+      EXPECT_NE(words.find("MOE 4.20\u00A0% up to a mirror"), std::string::npos) << words;
       EXPECT_EQ(words.find("nan"), std::string::npos) << words;
       EXPECT_EQ(words.find("unknown"), std::string::npos) << words;
     }
@@ -217,11 +217,12 @@ TEST(ErrorCurveFigure, RefusesCurvesWhosePartsDisagree) {
 }
 
 TEST(ScoreWords, TakeTheErrorsWithoutAnchorsOnlyWhereTheUsualAreUnknown) {
-  EXPECT_EQ(score_text({0.219, 4.7, 0.2, 4.7}), "MPE 0.219 m, MOE 4.70 %");
+  EXPECT_EQ(score_text({0.219, 4.7, 0.2, 4.7}), "MPE 0.219 m, MOE 4.70\u00A0%");
   // Every landmark an anchor: no other is left to average over.
-  EXPECT_EQ(score_text({NAN, 95.0, 0.31, 5.0}),
-            "MPE 0.310 m after the best affine fit to all landmarks, MOE 5.00 % up to a mirror");
-  EXPECT_EQ(score_text({NAN, NAN, NAN, 4.2}), "MOE 4.20 % up to a mirror");
+  EXPECT_EQ(
+      score_text({NAN, 95.0, 0.31, 5.0}),
+      "MPE 0.310 m after the best affine fit to all landmarks, MOE 5.00\u00A0% up to a mirror");
+  EXPECT_EQ(score_text({NAN, NAN, NAN, 4.2}), "MOE 4.20\u00A0% up to a mirror");
   EXPECT_EQ(score_text({NAN, NAN, NAN, NAN}), "");
   EXPECT_EQ(title_with_error("A map", Score{0.219, 4.7, 0.2, 4.7}),
             "A map: 0.219 m off in the mean");

@@ -282,7 +282,7 @@ TEST(MapReport, SaysOnlyErrorsThatAreKnown) {
       items[0].detail,
       "map of 3.0 m by 4.0 m; mean position error over 2 landmarks, after the best affine fit "
       "to all landmarks");
-  EXPECT_EQ(items[1].value, "4.20 %");
+  EXPECT_EQ(items[1].value, "4.20\u00A0%");
   record.score = Score{kNaN, kNaN, kNaN, kNaN};
   const Report unknown = report_of(record);
   for (const auto& item : unknown.opening.numbers.items) {

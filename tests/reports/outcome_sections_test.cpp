@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reports/model/format.hpp"
 #include "reports/sections/certificates.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/study_report.hpp"
@@ -103,10 +104,10 @@ TEST(CertificatesSection, CountsWhatIsCertifiedAndNamesTheWorstRecord) {
                    "4 programs solved, 3 by interior point (ours) and 1 by low rank "
                    "(ours)"))
       << test::words(*section);
-  EXPECT_TRUE(contains_text(*section, "within 1e-06: 1 of them")) << test::words(*section);
+  EXPECT_TRUE(contains_text(*section, "within 10⁻⁶: 1 of them")) << test::words(*section);
   const Table& table = table_named(*section, "certificates");
   ASSERT_EQ(table.rows.size(), 2U);
-  EXPECT_EQ(std::get<TextCell>(table.rows[0].cells[5]).text, "3.0e-04");
+  EXPECT_EQ(page_cell(table.rows[0].cells[5], table.columns[5]), "0.000300");
   EXPECT_EQ(table.rows[0].source, record_id({2, 1}, Sensor::kVisibility, sde, records[1].step));
   EXPECT_EQ(std::get<TextCell>(table.rows[1].cells[5]).text, "no bound");
 }

@@ -11,50 +11,14 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/statistics/paired_change.hpp"
-#include "reports/model/format.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/results/results_tables.hpp"
-#include "reports/tables/write_tables.hpp"
+#include "tests/reports/results_rows.hpp"
 
 namespace mapproof {
 namespace {
-
-/// Rows of one quantity, mpe_m: setup "s", the group of a run its first letter.
-class Rows {
- public:
-  explicit Rows(std::string quantity = "mpe_m") : quantity_(std::move(quantity)) {}
-
-  Rows& add(const std::string& method, const std::string& run, double value,
-            std::vector<Level> levels = {}, const std::string& subject = "") {
-    study_.results.rows.push_back({.at = condition("s", std::move(levels)),
-                                   .method = method,
-                                   .quantity = quantity_,
-                                   .run = run,
-                                   .group = run.substr(0, 1),
-                                   .subject = subject,
-                                   .value = value});
-    return *this;
-  }
-
-  void declare(const Quantity& quantity) { study_.results.quantities.declare(quantity); }
-
-  ResultsStudy study(bool are_repeats = true) {
-    study_.name = "test";
-    study_.title = "Test";
-    study_.results.are_repeats = are_repeats;
-    sort_results(study_.results);
-    EXPECT_EQ(complete(study_), "");
-    return study_;
-  }
-
- private:
-  std::string quantity_;
-  ResultsStudy study_;
-};
-
-const Quantity& mpe() { return known_quantity("mpe_m"); }
 
 std::map<std::string, double> by_name(const ValuesByRun& values) {
   return {values.begin(), values.end()};
@@ -361,21 +325,6 @@ TEST(ResultsView, AnOverviewHasAColumnPerLevelOfAText) {
   EXPECT_EQ(figures.groups.front().figures[0].panels.size(), 3U);
 }
 
-TEST(ResultsTables, NumberAndUnitStayOnOneLineInHeadsOfColumns) {
-  Rows rows;
-  for (const double side : {1.5, 4.0})
-    for (const double noise : {0.1, 0.2, 0.3})
-      rows.add("m", "a", side + noise, {{"noise", noise}, {"side", side}});
-  ResultsStudy study = rows.study();
-  for (Label& factor : study.factors)
-    if (factor.id == "side") factor.unit = "m";
-  const ResultsView view(study);
-  ASSERT_EQ(view.overviews().size(), 1U);
-  const Table table = overview_tables(view, view.overviews()[0]).at(0);
-  EXPECT_EQ(table.columns[1].title, "side 1.5\u00A0m");
-  EXPECT_NE(table_csv(table).find("side: side 1.5 m"), std::string::npos) << table_csv(table);
-}
-
 TEST(ResultsView, WithOneBlockHasNoOverview) {
   const ResultsStudy study =
       Rows().add("m", "a", 1.0, {{"noise", 1.0}}).add("m", "a", 2.0, {{"noise", 2.0}}).study();
@@ -397,38 +346,44 @@ TEST(ResultsView, RowsThatLackAFactorSayItInTheirTitle) {
 
 TEST(ResultsView, IntervalsEndWhereNoValueCanLie) {
   const auto interval = [](const std::string& quantity, double first, double second) {
-    const ResultsStudy study = Rows(quantity).add("m", "a", first).add("m", "b", second).study();
+    Rows rows(quantity);
+    for (const char* run : {"a", "b", "c"}) rows.add("m", run, first);
+    for (const char* run : {"d", "e"}) rows.add("m", run, second);
+    const ResultsStudy study = rows.study();
     const ResultsView view(study);
     const Quantity& known = known_quantity(quantity);
     const ResultsBlock& block = view.blocks()[0];
-    return *view.interval(view.mean(block.conditions[0], view.lines(block, known)[0], known),
-                          known);
+    return *view.spread(block.conditions[0], view.lines(block, known)[0], known);
   };
-  const Interval share = interval("moe_percent", 90.0, 99.0);
+  const Interval share = interval("moe_percent", 60.0, 99.0);
   EXPECT_DOUBLE_EQ(share.high, 100.0);
   EXPECT_DOUBLE_EQ(interval("moe_percent", 1.0, 10.0).low, 0.0);
   EXPECT_GT(interval("moe_percent", 90.0, 101.0).high, 100.0);
-  EXPECT_GT(interval("mpe_m", 90.0, 99.0).high, 100.0);
+  EXPECT_GT(interval("mpe_m", 60.0, 99.0).high, 100.0);
   EXPECT_LT(interval("mpe_m", -1.0, 9.0).low, 0.0);
 }
 
-/// The page's text of a table's cell.
-std::string shown(const Table& table, std::size_t row, std::size_t column) {
-  return page_cell(table.rows.at(row).cells.at(column), table.columns.at(column));
-}
-
-TEST(ResultsTables, SayOfMethodsThatDivergedOnlyWhereOthersDidNot) {
-  const std::vector<Level> levels = {{"noise", 0.1}};
-  const ResultsStudy some =
-      Rows().add("good", "a1", 0.5, levels).add("lost", "a1", 4e12, levels).study();
-  const ResultsView view(some);
-  const Table table = results_tables(view, view.blocks()[0]).at(0);
-  EXPECT_EQ(shown(table, 0, 1), "0.500");
-  EXPECT_EQ(shown(table, 1, 1), "over 1\u00A0km");
-
-  const ResultsStudy all = Rows().add("a", "a1", 4000.0).add("b", "a1", 9000.0).study();
-  const ResultsView far(all);
-  EXPECT_EQ(shown(results_tables(far, far.blocks()[0]).at(0), 0, 1).substr(0, 4), "4000");
+TEST(ResultsView, OfFewGroupsTheSpreadIsThatOfTheRuns) {
+  Rows rows;
+  for (const char* run : {"a1", "a2", "b1", "c1", "d1"})
+    rows.add("m", run, run[0] - 'a' + 0.1 * (run[1] - '0'));
+  rows.add("n", "a1", 1.0);
+  const ResultsStudy few = rows.study();
+  const ResultsView view(few);
+  const ResultsBlock& block = view.blocks()[0];
+  const auto lines = view.lines(block, mpe());
+  const auto spread = view.spread(block.conditions[0], lines[0], mpe());
+  ASSERT_TRUE(spread);
+  EXPECT_DOUBLE_EQ(spread->low, 0.1);
+  EXPECT_DOUBLE_EQ(spread->high, 3.1);
+  EXPECT_FALSE(view.spread(block.conditions[0], lines[1], mpe())) << "of one run";
+  const ResultsStudy more = rows.add("m", "e1", 4.1).study();
+  const ResultsView enough(more);
+  const auto interval = enough.spread(enough.blocks()[0].conditions[0],
+                                      enough.lines(enough.blocks()[0], mpe())[0], mpe());
+  ASSERT_TRUE(interval);
+  EXPECT_GT(interval->high, 3.1) << "Student's t of five groups";
+  EXPECT_LT(interval->high, 4.1);
 }
 
 TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
@@ -449,86 +404,6 @@ TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
   EXPECT_EQ(first.value, "0.200\u00a0m");
   EXPECT_EQ(first.label, "median MPE of the best method");
   EXPECT_EQ(first.detail, "even, over 3 data sets");
-}
-
-TEST(ResultsFigures, OfDataSetsShowEachMethodInEachOfThem) {
-  ResultsStudy study = Rows()
-                           .add("even", "a1", 0.2)
-                           .add("even", "b1", 0.1)
-                           .add("uneven", "a1", 0.05)
-                           .add("uneven", "b1", 0.9)
-                           .add("uneven", "c1", 0.8)
-                           .study(false);
-  study.runs = {{"a1", "a1"}, {"b1", "b1"}, {"c1", "c1"}};
-  const ResultsView view(study);
-  const StudyFigures figures = results_figures(view, compare_methods(view));
-  const Figure& figure = figures.groups.at(0).figures.at(0);
-  EXPECT_EQ(figure.id, data_sets_figure_id(view.blocks()[0], mpe()));
-  EXPECT_TRUE(figure.title.ends_with("uneven has the lowest MPE on 2 of 3 data sets"))
-      << figure.title;
-  const Panel& panel = figure.panels.at(0);
-  EXPECT_EQ(panel.x.names, (std::vector<std::string>{"a1", "b1", "c1"}));
-  ASSERT_EQ(panel.layers.size(), 2U);
-  const auto& even = std::get<Scatter>(panel.layers[0]);
-  EXPECT_EQ(even.label, "even");
-  EXPECT_EQ(even.y, (std::vector<double>{0.2, 0.1}));
-  const auto& uneven = std::get<Scatter>(panel.layers[1]);
-  for (std::size_t i = 0; i < uneven.x.size(); ++i)
-    EXPECT_EQ(std::lround(uneven.x[i]), static_cast<long>(i)) << "beside its data set's tick";
-  EXPECT_LT(even.x[0], uneven.x[0]);
-  const Report report = results_report(
-      {.view = view, .comparisons = compare_methods(view), .figures = figures, .provenance = {}});
-  EXPECT_EQ(report.opening.main_figure, figure.id);
-}
-
-/// Two sensors by two methods, on two data sets.
-Rows crossed_rows() {
-  Rows rows;
-  double value = 0.1;
-  for (const char* run : {"a1", "b1"})
-    for (const char* method : {"Near, A", "Near, B", "Far, A", "Far, B"})
-      rows.add(method, run, value += 0.1);
-  return rows;
-}
-
-TEST(ResultsFigures, OfDataSetsHaveAColourPerFirstPartOfANameAndAFormPerSecondOne) {
-  ResultsStudy study = crossed_rows().study(false);
-  study.runs = {{"a1", "a1"}, {"b1", "b1"}};
-  const ResultsView view(study);
-  const Figure figure = results_figures(view, compare_methods(view)).groups.at(0).figures.at(0);
-  const std::vector<Layer>& layers = figure.panels.at(0).layers;
-  ASSERT_EQ(layers.size(), 8U) << "four methods, two forms and two colours of the legend";
-  std::map<std::string, const Scatter*> dots;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto& one = std::get<Scatter>(layers[i]);
-    EXPECT_EQ(one.label, "") << "not in the legend";
-    dots[one.marks.at(0).data.at(0).second] = &one;
-  }
-  EXPECT_EQ(dots.at("Near, A")->colour, dots.at("Near, B")->colour);
-  EXPECT_NE(dots.at("Near, A")->colour, dots.at("Far, A")->colour);
-  EXPECT_EQ(dots.at("Near, A")->marker, dots.at("Far, A")->marker);
-  EXPECT_NE(dots.at("Near, A")->marker, dots.at("Near, B")->marker);
-  EXPECT_EQ(std::get<Scatter>(layers[4]).marker, dots.at("Near, A")->marker);
-  EXPECT_EQ(std::get<Segments>(layers[7]).label, "Near");
-  EXPECT_EQ(std::get<Segments>(layers[7]).colour, dots.at("Near, A")->colour);
-}
-
-TEST(ResultsFigures, OfDataSetsKeepTheStylesOfMethodsThatHaveCurvesOrNoCrossedNames) {
-  const auto labelled = [](Rows rows) {
-    ResultsStudy study = rows.study(false);
-    study.runs = {{"a1", "a1"}, {"b1", "b1"}};
-    const ResultsView view(study);
-    std::size_t count = 0;
-    for (const FigureGroup& group : results_figures(view, compare_methods(view)).groups)
-      for (const Figure& figure : group.figures)
-        if (figure.id.find("-data-sets-") != std::string::npos)
-          for (const Layer& layer : figure.panels.at(0).layers)
-            if (const auto* dots = std::get_if<Scatter>(&layer)) count += !dots->label.empty();
-    return count;
-  };
-  Rows rows = crossed_rows();
-  EXPECT_EQ(labelled(rows), 2U) << "the forms";
-  EXPECT_EQ(labelled(rows.add("Near", "a1", 0.1).add("Near", "b1", 0.1)), 5U);
 }
 
 TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
@@ -677,30 +552,6 @@ TEST(ResultsView, ShowsShortTimesInUnitsThatFitThem) {
   }
 }
 
-TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {
-  GivenPath path;
-  path.id = "p";
-  path.path.time_s = Eigen::Vector3d(0.0, 1.0, 2.0);
-  path.path.positions_m = Points::Zero(3, 2);
-  path.path.positions_m(1, 0) = path.path.positions_m(2, 1) = 1.0;
-  path.ground_truth = path.path;
-  const auto figure_of = [&] {
-    return given_figures(Rows().add("m", "a", 1.0).study(), {}, {path}).figures.at(0);
-  };
-  const Figure plain = figure_of();
-  const auto& ground_truth = std::get<Polyline>(plain.panels[0].layers[0]);
-  const auto& estimate = std::get<Polyline>(plain.panels[0].layers[1]);
-  EXPECT_EQ(ground_truth.label, "ground truth");
-  EXPECT_EQ(ground_truth.dash, Dash::kSolid);
-  EXPECT_LT(ground_truth.width, estimate.width);
-  EXPECT_NE(plain.caption.find("nothing was aligned"), std::string::npos);
-  path.alignment = Alignment::kSimilarity;
-  path.rms_m = 0.25;
-  EXPECT_NE(figure_of().caption.find("aligned by rotation, translation and scale. RMS distance "
-                                     "from the ground truth: 0.25 m."),
-            std::string::npos);
-}
-
 TEST(ResultsView, AValueWhoseSquareIsNoNumberIsLost) {
   const ResultsStudy study = Rows().add("m", "a", 1e308).add("m", "b", -1e308).study();
   const ResultsView view(study);
@@ -708,295 +559,6 @@ TEST(ResultsView, AValueWhoseSquareIsNoNumberIsLost) {
   const RunNumbers numbers = view.numbers(block.conditions[0], view.lines(block, mpe())[0], mpe());
   EXPECT_TRUE(numbers.values.empty());
   EXPECT_EQ(numbers.lost, 2);
-}
-
-TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
-  Rows curve, plain;
-  for (const char* run : {"a", "b", "c"})
-    for (const char* method : {"m", "n", "o"}) {
-      plain.add(method, run, run[0] - 'a' + 0.1 * (method[0] - 'm') + 1.0);
-      for (const double noise : {0.1, 0.2})
-        curve.add(method, run, noise * (method[0] - 'l'), {{"noise", noise}});
-    }
-  const ResultsStudy first = curve.study(), second = plain.study();
-  const ResultsView with_axis(first), without(second);
-  const StudyFigures curves = results_figures(with_axis, compare_methods(with_axis));
-  ASSERT_EQ(curves.groups.size(), 1U);
-  ASSERT_EQ(curves.groups[0].figures.size(), 2U);
-  EXPECT_EQ(curves.groups[0].figures[0].panels[0].x.label, "noise");
-  EXPECT_EQ(curves.groups[0].figures[1].id, "test-s-ranks-mpe-m");
-  const StudyFigures distributions = results_figures(without, compare_methods(without));
-  EXPECT_EQ(distributions.groups[0].figures[0].panels[0].y.label, "runs at or below [%]");
-}
-
-TEST(ResultsFigures, ADistributionOfManyRunsKeepsTheSharesOfFiveHundredOfThem) {
-  Rows rows;
-  for (int run = 1; run <= 1237; ++run) rows.add("m", std::to_string(run), run);
-  const ResultsStudy study = rows.study();
-  const ResultsView view(study);
-  const StudyFigures figures = results_figures(view, compare_methods(view));
-  ASSERT_EQ(figures.groups.size(), 1U);
-  std::set<double> steps;
-  for (const Layer& layer : figures.groups[0].figures[0].panels[0].layers) {
-    const auto* line = std::get_if<Polyline>(&layer);
-    if (line == nullptr) continue;
-    for (std::size_t i = 1; i < line->x.size(); i += 2) {
-      steps.insert(line->x[i]);
-      EXPECT_NEAR(line->y[i], 100.0 * line->x[i] / 1237.0, 1e-9);
-    }
-  }
-  EXPECT_EQ(steps.size(), 500U);
-  EXPECT_EQ(*steps.rbegin(), 1237.0);
-}
-
-/// Two methods over two factors of numbers; `o` has no value at the last level of both.
-ResultsStudy grid_study() {
-  Rows rows;
-  for (const char* run : {"a", "b"})
-    for (const double noise : {0.1, 0.2, 0.3})
-      for (const double size : {5.0, 10.0}) {
-        const std::vector<Level> at = {{"noise", noise}, {"size", size}};
-        rows.add("m", run, noise * size, at);
-        rows.add("o", run, noise == 0.3 && size == 10.0 ? kNaN : noise + size, at);
-      }
-  return rows.study();
-}
-
-TEST(ResultsFigures, TwoFactorsOfNumbersGiveAHeatMapPerMethod) {
-  const ResultsStudy study = grid_study();
-  const ResultsView view(study);
-  const FigureGroup group = heat_maps(view, study.setups[0]);
-  EXPECT_EQ(group.id, "test-s-grid");
-  ASSERT_EQ(group.figures.size(), 2U);
-  EXPECT_EQ(group.figures[0].id, "test-s-grid-mpe-m-m");
-  const Panel& panel = group.figures[0].panels[0];
-  EXPECT_EQ(panel.x.label, "noise");
-  EXPECT_EQ(panel.x.names, (std::vector<std::string>{"0.1", "0.2", "0.3"}));
-  EXPECT_EQ(panel.y.names, (std::vector<std::string>{"5", "10"}));
-  const auto& cells = std::get<Cells>(panel.layers.back());
-  EXPECT_DOUBLE_EQ(cells.values[0], 1.0);  // Noise 0.1 at size 10, in the upper row.
-  EXPECT_DOUBLE_EQ(cells.values[5], 1.5);
-  EXPECT_EQ(group.figures[1].notes.size(), 1U) << "a missing cell is said";
-}
-
-TEST(ResultsFigures, HaveIdsOfTheirOwnWhereMethodsDifferByCaseAlone) {
-  Rows rows;
-  for (const char* run : {"a", "b"})
-    for (const double noise : {0.1, 0.2, 0.3})
-      for (const double size : {5.0, 10.0})
-        for (const auto& [method, error] : {std::pair("EKF", 1.0), std::pair("ekf", 2.0)})
-          rows.add(method, run, error * noise * size, {{"noise", noise}, {"size", size}});
-  const ResultsStudy study = rows.study();
-  std::set<std::string> ids;
-  std::size_t count = 0;
-  for (const FigureGroup& group : results_figures(ResultsView(study), {}).groups)
-    for (const Figure& figure : group.figures) ids.insert(figure.id), ++count;
-  EXPECT_GE(count, 4U);
-  EXPECT_EQ(ids.size(), count);
-}
-
-TEST(ResultsFigures, OneFactorOrATextGivesNoHeatMap) {
-  Rows one, text;
-  for (const double noise : {0.1, 0.2})
-    for (const char* light : {"day", "noon"}) {
-      one.add("m", std::string("a") + light, noise, {{"noise", noise}});
-      text.add("m", "a1", noise, {{"noise", noise}, {"light", std::string(light)}});
-    }
-  for (const ResultsStudy& study : {one.study(), text.study()}) {
-    const ResultsView view(study);
-    EXPECT_TRUE(heat_maps(view, study.setups[0]).empty());
-  }
-}
-
-TEST(ResultsFigures, ALevelOf0IsNoHindranceToALogarithmicAxis) {
-  Rows rows;
-  for (const double noise : {0.0, 0.1, 1.0, 10.0})
-    rows.add("m", "a", noise + 1.0, {{"noise", noise}});
-  const ResultsStudy study = rows.study();
-  const ResultsView view(study);
-  const StudyFigures figures = results_figures(view, {});
-  const Figure& figure = figures.groups.at(0).figures.at(0);
-  EXPECT_EQ(figure.panels[0].x.scale, Scale::kLog);
-  EXPECT_NE(figure.caption.find("level 0"), std::string::npos);
-}
-
-TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
-  Rows rows;
-  for (const double noise : {0.1, 0.2})
-    for (const char* method : {"m", "n"}) rows.add(method, "a", 3.0, {{"noise", noise}});
-  const ResultsStudy study = rows.study();
-  const ResultsView view(study);
-  EXPECT_TRUE(results_figures(view, {}).groups.empty());
-  EXPECT_EQ(why_no_figure(view, view.blocks()[0], mpe()),
-            "MPE: there is no curve, since the mean is 3\u00A0m at every level, for every method.");
-}
-
-TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
-  Rows rows;
-  for (const char* run : {"a", "b", "c", "d", "e"})
-    for (const double steps : {100.0, 200.0})
-      for (const char* method : {"m", "n", "o", "p", "q", "r"})
-        rows.add(method, run, method[0] < 'p' ? steps : 20.0, {{"steps", steps}});
-  ResultsStudy study = rows.study();
-  for (Label& method : study.methods)
-    method.label = method.id + (method.id < "p" ? ", K = 6, from scratch" : ", incremental");
-  study.methods.back().label = "r";  // Has no end that the others have.
-  const ResultsView view(study);
-  const StudyFigures figures = results_figures(view, {});
-  std::vector<std::string> labels;
-  for (const Layer& layer : figures.groups[0].figures[0].panels[0].layers)
-    if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
-  EXPECT_EQ(labels, (std::vector<std::string>{"K = 6, from scratch (3 methods)",
-                                              "p, incremental and 2 others"}));
-}
-
-/// The first figure of methods m and n over two levels; each has two runs.
-Figure figure_of_two(const std::string& quantity, double half_spread) {
-  Rows rows(quantity);
-  for (const double noise : {0.1, 0.2})
-    for (const char* method : {"m", "n"})
-      for (const double sign : {-1.0, 1.0})
-        rows.add(method, sign < 0.0 ? "a" : "b",
-                 100.0 * noise + (method[0] == 'n' ? 5.0 : 0.0) + sign * half_spread,
-                 {{"noise", noise}});
-  rows.declare(study_quantity(quantity, "Coverage", "%", Better::kHigher));
-  const ResultsStudy study = rows.study();
-  return results_figures(ResultsView(study), {}).groups.at(0).figures.at(0);
-}
-
-TEST(ResultsFigures, NoMethodStandsOutWithinTheSpreadOfFewRuns) {
-  EXPECT_TRUE(
-      figure_of_two("share_percent", 1.0).title.ends_with("n has the highest coverage throughout"))
-      << figure_of_two("share_percent", 1.0).title;
-  EXPECT_TRUE(
-      figure_of_two("share_percent", 3.0)
-          .title.ends_with("no method stands out, coverage between 10.0\u00A0% and 25.0\u00A0%"))
-      << figure_of_two("share_percent", 3.0).title;
-}
-
-TEST(ResultsFigures, TheSampleOfSingleRunsOfSeveralMethodsIsGrey) {
-  const Figure figure = figure_of_two("share_percent", 1.0);
-  const auto& sample = std::get<Scatter>(figure.panels[0].layers.at(0));
-  EXPECT_EQ(sample.label, "single runs");
-  EXPECT_EQ(sample.colour, ThemeColour::kMuted);
-}
-
-TEST(ResultsFigures, CoverageIsComparedWithItsAim) {
-  const Figure figure = figure_of_two("mean_covered_percent", 1.0);
-  const auto& aim = std::get<Polyline>(figure.panels[0].layers.at(0));
-  EXPECT_EQ(aim.y, (std::vector<double>{95.0, 95.0}));
-  EXPECT_GE(figure.panels[0].y.limits->high, 95.0);
-  EXPECT_TRUE(
-      figure_of_two("mean_covered_percent", 1.0)
-          .title.ends_with("coverage between 10.0\u00A0% and 25.0\u00A0%, aimed at 95\u00A0%"))
-      << figure_of_two("mean_covered_percent", 1.0).title;
-}
-
-TEST(ResultsFigures, ALineAt0IsMissedOnlyIfItWasLeftOut) {
-  // Five alike lines are joined, and none is at 0.
-  Rows rows("gap_s");
-  for (const char* run : {"a", "b"})
-    for (const double noise : {0.1, 0.2, 0.3, 0.4})
-      for (const char* method : {"m", "n", "o", "p", "q"})
-        rows.add(method, run, method[0] < 'p' ? noise : 2.0 * noise, {{"noise", noise}});
-  rows.declare(study_quantity("gap_s", "Lag", "s", Better::kLower));
-  const ResultsStudy study = rows.study();
-  const ResultsView view(study);
-  const Figure figure = results_figures(view, {}).groups.at(0).figures.at(0);
-  EXPECT_EQ(figure.caption.find("compared with"), std::string::npos) << figure.caption;
-}
-
-TEST(ResultsFigures, ADistributionsMedianIsThatOfItsRuns) {
-  const auto title_of = [](int runs) {
-    Rows rows;
-    for (int run = 1; run <= runs; ++run) rows.add("m", std::to_string(run), run);
-    const ResultsStudy study = rows.study();
-    const ResultsView view(study);
-    return results_figures(view, {}).groups.at(0).figures.at(0).title;
-  };
-  // Of an even number the mean of both; of very many not the end of a step of several.
-  EXPECT_NE(title_of(6).find("the median MPE is 3.50\u00A0m"), std::string::npos) << title_of(6);
-  EXPECT_NE(title_of(10).find("the median MPE is 5.50\u00A0m"), std::string::npos) << title_of(10);
-}
-
-TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {
-  const auto why = [](Rows& rows, bool are_repeats = true) {
-    const ResultsStudy study = rows.study(are_repeats);
-    const ResultsView view(study);
-    const std::string sentence = why_no_figure(view, view.blocks()[0], mpe());
-    EXPECT_EQ(sentence.empty(), !results_figures(view, {}).groups.empty());
-    return sentence;
-  };
-  Rows single, lost, varied, repeated, many;
-  single.add("m", "a", 3.0);
-  EXPECT_EQ(why(single),
-            "MPE: there is no figure of the distribution over runs, since no method has two values "
-            "at one level.");
-  for (const double noise : {0.1, 0.2}) {
-    lost.add("m", "a", kNaN, {{"noise", noise}});
-    varied.add("m", "a", noise, {{"noise", noise}});
-  }
-  EXPECT_EQ(why(lost), "MPE: there is no curve, since no run gave a value.");
-  EXPECT_EQ(why(varied), "");
-  EXPECT_EQ(why(repeated.add("m", "a", 3.0).add("m", "b", 3.0)),
-            "MPE: there is no figure of the distribution over runs, which have fewer than 3 "
-            "different values.");
-  EXPECT_EQ(why(repeated.add("m", "c", 4.0).add("m", "d", 5.0)), "");
-  for (const char* terrain : {"a", "b", "c", "d", "e"})
-    many.add("m", "a", 1.0, {{"terrain", std::string(terrain)}})
-        .add("m", "b", 2.0, {{"terrain", std::string(terrain)}});
-  EXPECT_EQ(why(many),
-            "MPE: there is no figure of the distribution over runs, which shows 4 levels at most.");
-}
-
-TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
-  ResultsStudy study = Rows()
-                           .add("m", "a1", 1.0, {{"noise", 0.1}})
-                           .add("m", "b1", 2.0, {{"noise", 0.1}})
-                           .add("m", "b1", 2.5, {{"noise", 0.2}})
-                           .study();
-  const Condition at = condition("s", {{"noise", 0.1}});
-  study.results.outcomes = {{at, "m", "a1", {"not_converged", "not_converged"}},
-                            {at, "m", "b1", {}}};
-  const ResultsView view(study);
-  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
-  EXPECT_EQ(tables.at(0).notes.back(), "m: not converged in 1 of 2 at noise 0.1.");
-}
-
-TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
-  ResultsStudy study = Rows().add("m", "a1", 1.0).study();
-  study.quantity_labels = {{.id = "mpe_m", .label = "MPE of the pick"}};
-  const ResultsView view(study);
-  EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).columns.at(1).title, "MPE of the pick");
-}
-
-TEST(ResultsTables, MethodsOfTheSameLabelHaveARowEach) {
-  Rows rows;
-  for (const char* light : {"day", "noon"})
-    rows.add("m", "a", 1.0, {{"light", std::string(light)}, {"size", 1.0}})
-        .add("n", "a", 2.0, {{"light", std::string(light)}, {"size", 1.0}});
-  ResultsStudy study = rows.study();
-  for (Label& method : study.methods) method.label = "EKF";
-  const ResultsView view(study);
-  for (const Table& table : results_tables(view, view.blocks()[0]))
-    EXPECT_EQ(table.rows.size(), 2U);
-  ResultsStudy single = Rows().add("m", "a", 1.0).add("n", "a", 2.0).study();
-  for (Label& method : single.methods) method.label = "EKF";
-  const ResultsView other(single);
-  EXPECT_EQ(results_tables(other, other.blocks()[0]).at(0).rows.size(), 2U);
-}
-
-TEST(ResultsTables, LabelledRunsHaveATableEach) {
-  ResultsStudy study =
-      Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);
-  study.runs = {{.id = "a1", .label = "First set"}, {.id = "b1", .label = "Second set"}};
-  const ResultsView view(study);
-  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
-  ASSERT_EQ(tables.size(), 2U);
-  EXPECT_EQ(tables[0].id, "test-s-a1");
-  EXPECT_EQ(tables[0].caption, "First set: s");
-  EXPECT_EQ(tables[0].rows.size(), 2U);
-  EXPECT_EQ(tables[1].rows.size(), 1U);
 }
 
 }  // namespace

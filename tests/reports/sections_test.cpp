@@ -239,6 +239,22 @@ std::string number_of(const Opening& opening, const std::string& label) {
   return "";
 }
 
+TEST(Opening, ShowsAFigureThatFoundSomethingFirst) {
+  StudyFigures figures;
+  figures.groups = {{"g",
+                     "Group",
+                     "",
+                     {Figure{.id = "a", .title = "Hall: too few runs to rank the methods, MPE 1 m"},
+                      Figure{.id = "b", .title = "Hall: SDE has the lowest MPE"}}}};
+  Opening opening;
+  choose_figures({"a", "b"}, figures, opening);
+  EXPECT_EQ(opening.main_figure, "b");
+  EXPECT_EQ(opening.figure_ids, std::vector<std::string>{"a"});
+  Opening alone;
+  choose_figures({"a"}, figures, alone);
+  EXPECT_EQ(alone.main_figure, "a") << "if there is any";
+}
+
 TEST(StudyOpening, BeginsWithHowThePublishedNumbersCompare) {
   Study study = synthetic_study();
   study.experiment.sensors[0].published.orderings = {

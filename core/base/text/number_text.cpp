@@ -75,6 +75,14 @@ std::string seconds_text(double seconds) {
   return significant(seconds) + " s";
 }
 
-std::string data_number(double value) { return fmt::format("{:.6g}", value); }
+std::string data_number(double value) {
+  std::string text = fmt::format("{:.6g}", value);
+  // Who rounds it to three digits must not round twice: "0.2505" may be of 0.25049996.
+  std::string digits = text.substr(0, text.find('e'));
+  std::erase_if(digits, [](char c) { return c < '0' || c > '9'; });
+  digits.erase(0, digits.find_first_not_of('0'));
+  constexpr std::size_t kHalf = 4;
+  return digits.size() == kHalf && digits.back() == '5' ? fmt::format("{:.12g}", value) : text;
+}
 
 }  // namespace mapproof

@@ -36,7 +36,8 @@ std::string length_text(double length_m);
 /// A time with its unit: "310 µs", "2.10 ms", "12.0 s".
 std::string seconds_text(double seconds);
 
-/// A number for a data attribute: six significant digits, "." for the point.
+/// A number for a data attribute: six significant digits, or twelve where three of these six would
+/// be rounded from a half; "." for the point.
 std::string data_number(double value);
 
 }  // namespace mapproof

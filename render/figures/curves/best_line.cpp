@@ -279,10 +279,8 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
         "{} {}", listed_names(some, lines),
         has_the_best(quantity, some.size() > 1 || is_plural(*some.front().line, quantity)));
   };
-  // Lines whose intervals overlap do not differ. Where one of them is drawn below the best, the
-  // points are named at which the best is so alone.
-  const auto wherever_words = [&](const std::vector<At>& some, const std::string& unless_beaten) {
-    if (!is_beaten(some, lines, xs, quantity)) return finding(some) + unless_beaten;
+  // Lines whose intervals overlap do not differ: the points are named at which the best is alone.
+  const auto where_alone = [&](const std::vector<At>& some) {
     std::vector<double> alone;
     for (const std::vector<At>& one : best)
       if (are_alike(one, some) && has_others(one)) alone.push_back(one.front().x());
@@ -291,6 +289,11 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     return fmt::format("{} at {}; elsewhere {} with others", finding(some),
                        places(axis, alone, best.size(), quantity),
                        are_several ? "they tie" : "it ties");
+  };
+  // Unless one of them is drawn below the best.
+  const auto wherever_they_differ = [&](const std::vector<At>& some) {
+    return is_beaten(some, lines, xs, quantity) ? where_alone(some)
+                                                : finding(some) + " wherever they differ";
   };
   const std::vector<At> throughout = in_all(best);
   if (throughout.size() == lines.size()) return "";
@@ -301,17 +304,15 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     const auto of_all = std::ssize(best) - std::ranges::count_if(best, has_others);
     if (alone == 0) return "";
     if (alone == std::ssize(best)) return finding(throughout) + " throughout";
-    if (alone + of_all == std::ssize(best))
-      return wherever_words(throughout, " wherever they differ");
-    return wherever_words(throughout,
-                          fmt::format(", alone at {} of {} points", alone, best.size()));
+    return alone + of_all == std::ssize(best) ? wherever_they_differ(throughout)
+                                              : where_alone(throughout);
   }
   // Where all lines are equal, as without a disturbance, none is better.
   std::vector<std::vector<At>> differing = best;
   std::erase_if(differing, std::not_fn(has_others));
   if (differing.empty()) return "";
   if (const std::vector<At> some = in_all(differing); !some.empty() && some.size() <= kMostNamed)
-    return wherever_words(some, " wherever they differ");
+    return wherever_they_differ(some);
   std::erase_if(differing, [](const std::vector<At>& one) { return one.size() > kMostNamed; });
   if (differing.empty()) return "";
   const std::vector<At>&first = differing.front(), &last = differing.back();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -117,10 +118,13 @@ bool is_mapping_method(const std::string& id) {
   return method_named(without_parameter(id)).has_value();
 }
 
-std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids) {
+std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids,
+                                           const std::vector<std::string>& labels) {
   std::vector<std::size_t> series(ids.size()), known, left;
+  std::map<std::size_t, std::string> owners;  // The label that has a known style.
   for (std::size_t i = 0; i < ids.size(); ++i)
-    if (const auto style = series_of_id(ids[i]))
+    if (const auto style = series_of_id(ids[i]);
+        style && owners.try_emplace(*style, labels[i]).first->second == labels[i])
       known.push_back(series[i] = *style);
     else
       left.push_back(i);

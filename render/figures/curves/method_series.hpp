@@ -18,7 +18,15 @@ bool is_mapping_method(const std::string& id);
 /// The styles of a study's methods by their ids, the same in all figures of all studies: that of
 /// the mapping method that an id names, with or without its parameter ("isomap", "isomap-K6"), or
 /// of what mapproof's own studies compare. Ids that are not known have free_series() in their
-/// order, so that the first ten methods of a study differ in colour.
-std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids);
+/// order, as have further settings of a known method under another label: no two labels of a study
+/// have one style, and the first ten differ in colour.
+/// @param labels  As many as ids.
+std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids,
+                                           const std::vector<std::string>& labels);
+
+/// Of methods that are called as their ids.
+inline std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids) {
+  return series_of_methods(ids, ids);
+}
 
 }  // namespace mapproof

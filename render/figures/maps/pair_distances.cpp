@@ -26,7 +26,7 @@ void require_consistent(const MeasuredMapSpec& spec) {
 }
 
 Segments pair_lines(const MeasuredMapSpec& spec) {
-  Segments lines{.label = "measured pair", .colour = ThemeColour::kFaint, .width = 0.5};
+  Segments lines{.label = "measured pair", .colour = ThemeColour::kMuted, .width = 0.3};
   for (const MeasuredPair& pair : spec.pairs) {
     const auto from = spec.map.estimate.row(pair.first), to = spec.map.estimate.row(pair.second);
     if (!from.allFinite() || !to.allFinite()) continue;

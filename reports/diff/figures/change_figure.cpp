@@ -293,7 +293,8 @@ std::optional<Figure> change_figure(const RecordDiff& diff) {
   std::vector<const Comparison*> severe;
   for (const Comparison& comparison : diff.comparisons)
     if (comparison.beyond > 0) severe.push_back(&comparison);
-  std::ranges::stable_sort(severe, std::greater(), &Comparison::outcome);
+  std::ranges::stable_sort(
+      severe, [](const Comparison* a, const Comparison* b) { return shows_more(*a, *b); });
   for (const Comparison* comparison : severe) {
     if (figure.panels.size() > kMostQuantities) break;
     if (std::optional<Panel> panel = panel_of(*comparison))

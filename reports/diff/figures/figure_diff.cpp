@@ -196,13 +196,22 @@ Verdict direction(const FigureDiff& diff) {
   return change > 0.0 ? Verdict::kWorse : Verdict::kBetter;
 }
 
+/// "27 landmarks": each once, however many layers draw it; else the points that are drawn.
+std::string moved_text(const FigureDiff& diff) {
+  std::set<std::string> landmarks;
+  for (const MarkMove& move : diff.moves) landmarks.insert(move.landmark);
+  const bool all_known = diff.moved == std::ssize(diff.moves) && !landmarks.contains("");
+  return all_known ? counted(std::ssize(landmarks), "landmark")
+                   : counted(diff.moved, "drawn point");
+}
+
 std::string data_cause(const FigureDiff& diff) {
   std::string text;
   if (!diff.transforms.empty()) {
     text = diff.transforms.front();
   } else if (!diff.moves.empty()) {
     text = move_text(diff.moves[0]);
-    if (diff.moved > 1) text += fmt::format(", {} moved in all", diff.moved);
+    if (diff.moved > 1) text += fmt::format(", {} moved in all", moved_text(diff));
   }
   const std::string more = first_of(diff, ChangeKind::kData);
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
@@ -210,7 +219,7 @@ std::string data_cause(const FigureDiff& diff) {
   if (text.empty() && records != diff.changes.end())
     text = std::string(kMadeOfOthers) + ", " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
-    text += fmt::format("; mean error {}",
+    text += fmt::format("; mean error of all positions drawn {}",
                         change_text(*diff.baseline_error, *diff.current_error, "m", true));
   return text;
 }

@@ -25,28 +25,6 @@ double reported_effect(const Comparison& c) {
   return c.test && c.test->p < kSignificant ? std::abs(c.test->test.effect) : 0.0;
 }
 
-/// Orders by weight of the outcome, then by the order of the dictionary, then by the largest
-/// significant effect, then by the best method where there is no direction and no test, else by the
-/// largest change.
-bool shows_more(const Comparison& a, const Comparison& b) {
-  const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
-  if (first != second) return first > second;
-  const std::size_t rank = dictionary_rank(a.quantity), other = dictionary_rank(b.quantity);
-  if (rank != other) return rank < other;
-  if (reported_effect(a) != reported_effect(b)) return reported_effect(a) > reported_effect(b);
-  const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
-  if (p != q) return p < q;
-  if (first == Verdict::kChanged && !a.test && !b.test && a.quantity.better == Better::kLower &&
-      a.baseline_mean != b.baseline_mean)
-    return a.baseline_mean < b.baseline_mean || std::isnan(b.baseline_mean);
-  const auto change = [](const Comparison& c) {
-    const double ratio =
-        std::abs(c.current_mean - c.baseline_mean) / std::max(std::abs(c.baseline_mean), 1e-300);
-    return std::isnan(ratio) ? 0.0 : ratio;
-  };
-  return change(a) > change(b);
-}
-
 std::string names_text(const std::vector<std::string>& names) {
   std::vector<std::string> shown;
   for (const std::string& name : names) shown.push_back(printable(name));
@@ -416,6 +394,25 @@ std::string_view name(Presence presence) {
       return "current";
   }
   return "";
+}
+
+bool shows_more(const Comparison& a, const Comparison& b) {
+  const Verdict first = verdict_of(a.outcome), second = verdict_of(b.outcome);
+  if (first != second) return first > second;
+  const std::size_t rank = dictionary_rank(a.quantity), other = dictionary_rank(b.quantity);
+  if (rank != other) return rank < other;
+  if (reported_effect(a) != reported_effect(b)) return reported_effect(a) > reported_effect(b);
+  const double p = a.test ? a.test->p : 1.0, q = b.test ? b.test->p : 1.0;
+  if (p != q) return p < q;
+  if (first == Verdict::kChanged && !a.test && !b.test && a.quantity.better == Better::kLower &&
+      a.baseline_mean != b.baseline_mean)
+    return a.baseline_mean < b.baseline_mean || std::isnan(b.baseline_mean);
+  const auto change = [](const Comparison& c) {
+    const double ratio =
+        std::abs(c.current_mean - c.baseline_mean) / std::max(std::abs(c.baseline_mean), 1e-300);
+    return std::isnan(ratio) ? 0.0 : ratio;
+  };
+  return change(a) > change(b);
 }
 
 std::string_view name(Outcome outcome) {

@@ -73,6 +73,11 @@ struct Comparison {
   Outcome outcome = Outcome::kEqual;
 };
 
+/// Whether the first is to be shown before the second: by the weight of the outcome, then by the
+/// order of the dictionary, then by the largest significant effect, then by the best method where
+/// there is no direction and no test, else by the largest change.
+bool shows_more(const Comparison& a, const Comparison& b);
+
 /// One landmark or one position of a path that moved beyond tolerance.
 struct PointMove {
   std::string name;

@@ -67,7 +67,7 @@ void add_facts(KeyValues& facts, const ImageFile& file) {
 }
 
 Table svg_table(const SvgDiff& svg, const std::string& suffix) {
-  Table table{"svg-" + suffix, "What changed in the SVG", {}, {}, {}};
+  Table table{"svg-" + suffix, "What changed in the SVG", {}, {}, {}, true};
   table.columns = {{"Element", "", "", ""},
                    {"What", "", "", ""},
                    {"Baseline", "", "", ""},
@@ -88,6 +88,15 @@ Table svg_table(const SvgDiff& svg, const std::string& suffix) {
   return table;
 }
 
+/// The same as a table, which a page can fold.
+Table folded(const KeyValues& facts, const std::string& suffix) {
+  Table table{"files-" + suffix, "Files, pixels and elements", {}, {}, {}, true};
+  table.columns = {{"What", "", "", ""}, {"How it differs", "", "", ""}};
+  for (const KeyValues::Item& item : facts.items)
+    table.rows.push_back({{TextCell{item.key}, TextCell{item.value.text}}, "", false});
+  return table;
+}
+
 }  // namespace
 
 std::string size_text(const ImageSize& size) {
@@ -95,7 +104,7 @@ std::string size_text(const ImageSize& size) {
 }
 
 void add_image_tables(std::vector<Block>& blocks, const std::vector<ImageFile>& files,
-                      const std::string& suffix) {
+                      const std::string& suffix, bool secondary) {
   KeyValues facts;
   for (const ImageFile& file : files) {
     const auto& pixels = file.diff.pixels;
@@ -107,7 +116,8 @@ void add_image_tables(std::vector<Block>& blocks, const std::vector<ImageFile>& 
              Emphasis::kPlain}}}});
     add_facts(facts, file);
   }
-  if (!facts.items.empty()) blocks.emplace_back(std::move(facts));
+  if (!facts.items.empty())
+    blocks.push_back(secondary ? Block(folded(facts, suffix)) : Block(std::move(facts)));
   int number = 0;
   for (const ImageFile& file : files)
     if (file.diff.svg)

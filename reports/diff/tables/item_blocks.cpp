@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -27,26 +26,6 @@
 
 namespace mapproof {
 namespace {
-
-/// Orders by outcome, worse before changed before better and so on, then by p.
-std::tuple<int, double> weight(const Comparison& comparison) {
-  const auto location = [](Outcome outcome) {
-    switch (outcome) {
-      case Outcome::kWorse:
-        return 0;
-      case Outcome::kChanged:
-        return 1;
-      case Outcome::kBetter:
-        return 2;
-      case Outcome::kWithinTolerance:
-        return 3;
-      case Outcome::kEqual:
-        break;
-    }
-    return 4;
-  };
-  return {location(comparison.outcome), comparison.test ? comparison.test->p : 2.0};
-}
 
 std::string runs_text(const Comparison& c) {
   std::string text = fmt::format("{} of {}", c.beyond, c.pairs);
@@ -79,12 +58,14 @@ Row row_of(const Comparison& c) {
   return row;
 }
 
-/// Adds a table of the scores of both sides with their tests: the most significant first.
+/// Adds a table of the scores of both sides with their tests, in the order of shows_more().
 /// @param comparisons  None is null.
+/// @param secondary    Whether the item of the records has them, too.
 void add_score_table(std::vector<Block>& blocks, const std::string& id, const std::string& caption,
-                     std::vector<const Comparison*> comparisons) {
-  std::ranges::stable_sort(comparisons, {}, [](const Comparison* c) { return weight(*c); });
-  Table table{id, caption, {}, {}, {}};
+                     std::vector<const Comparison*> comparisons, bool secondary) {
+  std::ranges::stable_sort(
+      comparisons, [](const Comparison* a, const Comparison* b) { return shows_more(*a, *b); });
+  Table table{id, caption, {}, {}, {}, secondary};
   table.columns = {{"Subject", "", "", ""},
                    {"Score", "", "", ""},
                    {"Baseline", "", "", "Mean over the runs that both sides have"},
@@ -237,7 +218,7 @@ void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
             std::ssize(diff.settings));
   std::vector<const Comparison*> comparisons;
   for (const Comparison& comparison : diff.comparisons) comparisons.push_back(&comparison);
-  add_score_table(blocks, "scores-" + suffix, "Scores", std::move(comparisons));
+  add_score_table(blocks, "scores-" + suffix, "Scores", std::move(comparisons), false);
   add_points_table(blocks, diff, suffix);
   add_table(blocks,
             changes_table("statuses-" + suffix, "Warnings", "Record", diff.statuses,
@@ -281,7 +262,17 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
   double scale = 0.0;
   for (const MarkMove& move : diff.moves)
     if (std::isfinite(move.distance)) scale = std::max(scale, move.distance);
+  // A layer of errors draws the positions of another one again.
+  const auto is_drawn_before = [&](const MarkMove& move) {
+    const auto is_same = [&](const MarkMove& other) {
+      return other.landmark == move.landmark && other.panel == move.panel &&
+             other.baseline.x == move.baseline.x && other.baseline.y == move.baseline.y &&
+             other.current.x == move.current.x && other.current.y == move.current.y;
+    };
+    return !move.landmark.empty() && std::any_of(diff.moves.data(), &move, is_same);
+  };
   for (const MarkMove& move : diff.moves) {
+    if (is_drawn_before(move)) continue;
     Row row{
         {user_text(who(move)), user_text(move.location),
          TextCell{location_text(move.baseline, move.current)},
@@ -296,7 +287,7 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
   if (diff.within > 0)
     table.notes.push_back(counted(diff.within, "more point") + " moved within tolerance.");
   if (diff.baseline_error && diff.current_error)
-    table.notes.push_back("Mean error of the marks: " +
+    table.notes.push_back("Mean error of all positions drawn: " +
                           change_text(*diff.baseline_error, *diff.current_error, "", true) + ".");
   return table;
 }
@@ -305,8 +296,10 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
 /// @param suffix  The end of the tables' ids.
 void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
                        const std::string& suffix) {
-  add_table(blocks, moves_table(diff, suffix), diff.moved);
-  Table changes{"changes-" + suffix, "Changes of the figure's value", {}, {}, {}};
+  Table moves = moves_table(diff, suffix);
+  const long shown = std::ssize(moves.rows);
+  add_table(blocks, std::move(moves), shown + diff.moved - std::ssize(diff.moves));
+  Table changes{"changes-" + suffix, "Changes of the figure's value", {}, {}, {}, true};
   changes.columns = {{"Where", "", "", ""},
                      {"What", "", "", ""},
                      {"Kind", "", "", "Data; style; or metadata: title, caption, alternative text"},
@@ -373,11 +366,11 @@ std::vector<Block> item_blocks(const DiffItem& item, const DiffResult& all, std:
     add_figure_tables(blocks, *item.figure, suffix);
     if (item.figure->has(ChangeKind::kData))
       add_score_table(blocks, "tied-" + suffix, "Scores of the records that the figure shows",
-                      tied_scores(item, all));
+                      tied_scores(item, all), true);
   }
   if (item.records) add_record_tables(blocks, *item.records, suffix);
   add_others_table(blocks, item.documents, suffix);
-  add_image_tables(blocks, item.images, suffix);
+  add_image_tables(blocks, item.images, suffix, item.figure.has_value());
   return blocks;
 }
 

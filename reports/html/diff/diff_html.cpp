@@ -205,16 +205,29 @@ list remarks_data(const DiffResult& result) {
   return out;
 }
 
+/// "3 items follow from records: data, worse.", whose cause stands beside that item; else with the
+/// cause.
+std::string shared_text(const SharedCause& shared, const DiffResult& result) {
+  const std::string count = counted(std::ssize(shared.ids), "item");
+  const std::string verdict(label(shared.verdict));
+  std::string text;
+  for (const DiffItem& item : result.items)
+    if (item.kind == ItemKind::kRecords &&
+        shared.cause.starts_with("it follows from " + item.id + ": "))
+      text = fmt::format("{} follow from {}: {}.", count, item.id, verdict);
+  if (text.empty())
+    text = fmt::format("{} have one cause, {}: {}{}", count, verdict, shared.cause,
+                       shared.cause.ends_with('.') ? "" : ".");
+  if (std::ssize(shared.ids) > kExamples)
+    text += fmt::format(" The first {} are shown in full.", kExamples);
+  return text;
+}
+
 /// That items have one cause, or are not shown.
 list notes_data(const DiffResult& result, const std::vector<ShownImages>& shown) {
   list out;
   for (const SharedCause& shared : result.shared)
-    out.push_back(
-        data("note",
-             printable(fmt::format("{} have one cause, {}: {}{} The first {} are shown in full.",
-                                   counted(std::ssize(shared.ids), "item"), label(shared.verdict),
-                                   shared.cause, shared.cause.ends_with('.') ? "" : ".", kExamples),
-                       kLongestNote)));
+    out.push_back(data("note", printable(shared_text(shared, result), kLongestNote)));
   if (const std::string text = left_out(shown); !text.empty()) out.push_back(data("note", text));
   return out;
 }

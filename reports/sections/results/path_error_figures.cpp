@@ -22,10 +22,11 @@ std::size_t rank_of(const ResultsStudy& study, const std::string& method) {
 
 /// Of the methods in their order, and of one that it does not have.
 std::vector<std::size_t> styles_of(const ResultsStudy& study) {
-  std::vector<std::string> ids;
-  for (const Label& method : study.methods) ids.push_back(method.id);
-  ids.emplace_back();
-  return series_of_methods(ids);
+  std::vector<std::string> ids, labels;
+  for (const Label& method : study.methods)
+    ids.push_back(method.id), labels.push_back(method.label);
+  ids.emplace_back(), labels.emplace_back();
+  return series_of_methods(ids, labels);
 }
 
 /// The methods of one run, in the order of the study.

@@ -113,8 +113,6 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
 
 /// Bands of more lines than these hide each other.
 constexpr std::size_t kMostBands = 4;
-/// With fewer groups of runs an interval of the mean is a guess: the runs themselves are shown.
-constexpr std::size_t kFewestGroups = 5;
 constexpr const char* kSingleRuns = "single runs";
 constexpr const char* kSingleRunsRemark =
     " Small circles: single runs, which are too few for an interval.";
@@ -175,16 +173,6 @@ Scale scale_of(const std::vector<Level>& levels) {
   return spans_widely_above_0(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
 }
 
-/// The least and the greatest value of the runs; NaN of fewer than two.
-Range spread_of(const ResultsView& view, const Condition& at, const ResultsLine& line,
-                const Quantity& quantity) {
-  std::vector<double> values;
-  for (const auto& [run, value] : view.numbers(at, line, quantity).values) values.push_back(value);
-  if (values.size() < 2) return {kNaN, kNaN};
-  const auto [least, greatest] = std::ranges::minmax(values);
-  return {least, greatest};
-}
-
 /// `low` and `high` are of the interval or, of few groups of runs, of the runs themselves.
 ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
                    const ResultsLine& line, std::size_t index) {
@@ -194,14 +182,11 @@ ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Qua
   if (line.run.empty()) curve.series = line.series;
   for (std::size_t i = 0; i < block.levels.size(); ++i) {
     const auto mean = view.mean(block.conditions[i], line, quantity);
-    const auto interval = view.interval(mean, quantity);
+    const auto spread = view.spread(block.conditions[i], line, quantity);
     curve.x.push_back(std::get<double>(block.levels[i].value));
     curve.mean.push_back(mean ? mean->mean : kNaN);
-    Range spread{interval ? interval->low : kNaN, interval ? interval->high : kNaN};
-    if (view.groups() < kFewestGroups)
-      spread = spread_of(view, block.conditions[i], line, quantity);
-    curve.low.push_back(spread.low);
-    curve.high.push_back(spread.high);
+    curve.low.push_back(spread ? spread->low : kNaN);
+    curve.high.push_back(spread ? spread->high : kNaN);
   }
   return curve;
 }
@@ -292,7 +277,7 @@ Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quant
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const bool is_log = scale_of(block.levels) == Scale::kLog;
   Curves curves;
-  curves.has_bands = lines.size() <= kMostBands && view.groups() >= kFewestGroups;
+  curves.has_bands = lines.size() <= kMostBands && view.has_groups_for_intervals();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
@@ -356,11 +341,12 @@ std::string finding_of(const Curves& curves, const Quantity& quantity, const std
 }
 
 /// What lines do where none of them is called the best: of one, how it goes from the first x to the
-/// last; of several, that none stands out and between which values they lie; of tiny distances, how
-/// much they are at most; of what is aimed at, the aim. Empty if nothing is known.
-/// @param unit  Of the lines' values.
+/// last; of several, why they are not ranked and between which values they lie; of tiny distances,
+/// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
+/// @param unit         Of the lines' values.
+/// @param not_ranked   kIntervalsOverlap or kTooFewRuns.
 std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
-                      const std::string& unit) {
+                      const std::string& unit, const std::string& not_ranked) {
   std::vector<double> known;
   for (const ErrorLine& line : lines)
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
@@ -388,7 +374,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   if (const auto aim = aim_of(quantity))
     return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
                        with_unit(data_number(*aim), unit));
-  return fmt::format("{}{} {}", has_better_side(quantity) ? "no method stands out, " : "",
+  return fmt::format("{}{} {}", has_better_side(quantity) ? not_ranked : "",
                      in_sentence(quantity.label), span);
 }
 
@@ -405,7 +391,7 @@ std::string label_of_curve(const Curves& curves, const std::string& line) {
 std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& block,
                                 const Quantity& quantity, const Curves& curves) {
   std::vector<ErrorPoint> points;
-  if (view.groups() >= kFewestGroups || curves.lines.size() > kMethodStyles) return points;
+  if (view.has_groups_for_intervals() || curves.lines.size() > kMethodStyles) return points;
   const bool is_log = scale_of(block.levels) == Scale::kLog;
   for (const ResultsLine& line : view.lines(block, quantity)) {
     const std::string label = label_of_curve(curves, line.label);
@@ -470,7 +456,9 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
   std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
-  if (finding.empty()) finding = course_of(curves.lines, quantity, shown.unit);
+  if (finding.empty())
+    finding = course_of(curves.lines, quantity, shown.unit,
+                        view.has_groups_for_intervals() ? kIntervalsOverlap : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   spec.methods = drawn(std::move(curves));

@@ -468,7 +468,33 @@ void add_means(const ResultsView& view, Highlights& numbers) {
     }
 }
 
-Highlights numbers_of(const ResultsReportInput& input) {
+/// "ORB has 32 poses, DSO 785", of the methods with fewest and with most; empty if none has less
+/// than half as many as another.
+std::string unequal_poses(const ResultsReportInput& input) {
+  if (input.poses.size() < 2) return "";
+  const auto [fewest, most] = std::ranges::minmax_element(
+      input.poses, {}, &std::pair<const std::string, long long>::second);
+  if (2 * fewest->second >= most->second) return "";
+  const std::vector<Label>& methods = input.view.study().methods;
+  return fmt::format("errors are of different poses: {} has {}, {} {}",
+                     label_of(methods, fewest->first), counted(fewest->second, "pose"),
+                     label_of(methods, most->first), most->second);
+}
+
+/// What is missing or lost, and what whoever knows the study says.
+std::vector<std::string> warnings_of(const ResultsReportInput& input) {
+  std::vector<std::string> warnings = input.warnings;
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) warnings.push_back(text);
+  };
+  if (!input.incomplete.empty()) add("incomplete: " + input.incomplete);
+  add(losses_of(input.view));
+  add(few_associated(input.view.study()));
+  add(unequal_poses(input));
+  return warnings;
+}
+
+Highlights numbers_of(const ResultsReportInput& input, const std::vector<std::string>& warnings) {
   const ResultsStudy& study = input.view.study();
   Highlights numbers;
   if (!input.headline.value.empty()) {
@@ -484,38 +510,21 @@ Highlights numbers_of(const ResultsReportInput& input) {
                              fmt::format("{}", study.methods.size()),
                              counted(static_cast<long long>(input.view.runs()),
                                      study.runs.empty() ? "run" : "data set")});
-  const auto rows = std::ssize(study.results.rows);
-  const auto lost = std::ranges::count_if(study.results.rows,
-                                          [](const Result& row) { return is_lost(row.value); });
-  if (rows > 0)
-    numbers.items.push_back(
-        {fmt::format("of {} have no value", counted(rows, "result")), fmt::format("{}", lost),
-         lost == 0 ? "nothing was lost" : "means rest on the others", study.name + "-provenance"});
+  const std::string provenance = study.name + "-provenance";
+  if (!warnings.empty())
+    numbers.items.push_back({warnings.size() == 1 ? "warning" : "warnings",
+                             fmt::format("{}", warnings.size()), warnings.front(), provenance,
+                             true});
+  else if (const auto rows = std::ssize(study.results.rows); rows > 0)
+    numbers.items.push_back({fmt::format("of {} have no value", counted(rows, "result")), "0",
+                             "nothing was lost", provenance});
   return numbers;
 }
 
-/// "ORB has 32 poses, DSO 785", of the methods with fewest and with most; empty if none has less
-/// than half as many as another.
-std::string unequal_poses(const ResultsReportInput& input) {
-  if (input.poses.size() < 2) return "";
-  const auto [fewest, most] = std::ranges::minmax_element(
-      input.poses, {}, &std::pair<const std::string, long long>::second);
-  if (2 * fewest->second >= most->second) return "";
-  const std::vector<Label>& methods = input.view.study().methods;
-  return fmt::format("errors are of different poses: {} has {}, {} {}",
-                     label_of(methods, fewest->first), counted(fewest->second, "pose"),
-                     label_of(methods, most->first), most->second);
-}
-
-/// What is wrong, in one paragraph: what is missing or lost, and what whoever knows the study says.
-Paragraph warnings_paragraph(const ResultsReportInput& input) {
-  std::vector<std::string> wrong = input.warnings;
-  if (!input.incomplete.empty()) wrong.push_back("incomplete: " + input.incomplete);
-  if (std::string losses = losses_of(input.view); !losses.empty()) wrong.push_back(losses);
-  if (std::string few = few_associated(input.view.study()); !few.empty()) wrong.push_back(few);
-  if (std::string poses = unequal_poses(input); !poses.empty()) wrong.push_back(poses);
-  std::string text = wrong.empty() ? "none; every result has a value." : "";
-  for (const std::string& one : wrong) text += (text.empty() ? "" : "; ") + one;
+/// What is wrong, in one paragraph.
+Paragraph warnings_paragraph(const std::vector<std::string>& warnings) {
+  std::string text = warnings.empty() ? "none; every result has a value." : "";
+  for (const std::string& one : warnings) text += (text.empty() ? "" : "; ") + one;
   if (!text.ends_with('.')) text += '.';
   return {{strong("Warnings"), phrase(": " + text)}};
 }
@@ -589,8 +598,9 @@ Report results_report(const ResultsReportInput& input) {
     for (const std::string& conclusion : input.conclusions)
       if (report.opening.findings.size() < kFewComparisons)
         report.opening.findings.push_back(plain(conclusion));
-  report.opening.numbers = numbers_of(input);
-  report.opening.findings.insert(report.opening.findings.begin(), warnings_paragraph(input));
+  const std::vector<std::string> warnings = warnings_of(input);
+  report.opening.numbers = numbers_of(input, warnings);
+  report.opening.findings.insert(report.opening.findings.begin(), warnings_paragraph(warnings));
   choose_figures(figure_ids_of(input.view, input.figures), input.figures, report.opening);
   report.footer = input.footer;
   report.date = input.date;

@@ -18,6 +18,8 @@ namespace {
 
 constexpr const char* kIntervalHint =
     "95 % interval of the mean, by Student's t over groups; cut where no value can lie.";
+constexpr const char* kSpreadHint =
+    "Least and greatest of the runs, whose groups are too few for an interval of the mean.";
 
 std::string table_id(const std::string& block, std::string what) {
   std::ranges::replace(what, '_', '-');
@@ -35,7 +37,7 @@ Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
 }
 
 /// Whether means are over several runs, which repeat each other.
-bool has_intervals(const ResultsView& view) {
+bool has_repeats(const ResultsView& view) {
   return view.study().results.are_repeats && view.runs() > 1;
 }
 
@@ -56,8 +58,8 @@ class CellMaker {
     const auto& [quantity, decimals] = shown;
     const auto mean = view_.mean(at, line, quantity);
     row.cells.push_back(mean_cell(mean, decimals));
-    if (has_intervals(view_))
-      row.cells.push_back(interval_cell_of(view_.interval(mean, quantity), decimals));
+    if (has_repeats(view_))
+      row.cells.push_back(interval_cell_of(view_.spread(at, line, quantity), decimals));
     if (const int lost = view_.numbers(at, line, quantity).lost; lost > 0)
       table_.notes.push_back(fmt::format("{}{}{}: {} lost.", line.label, where.empty() ? "" : ", ",
                                          where, counted(lost, "value")));
@@ -69,8 +71,11 @@ class CellMaker {
     const std::string unit = title.empty() ? quantity.unit : "";
     const bool errors_m = view_.has_great_errors(quantity);
     table_.columns.push_back({title.empty() ? quantity.label : title, unit, group, "", errors_m});
-    if (has_intervals(view_))
+    if (!has_repeats(view_)) return;
+    if (view_.has_groups_for_intervals())
       table_.columns.push_back({"95 %", unit, group, kIntervalHint, errors_m});
+    else
+      table_.columns.push_back({"runs", unit, group, kSpreadHint, errors_m});
   }
 
  private:
@@ -95,13 +100,15 @@ int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
 }
 
 void add_note(const ResultsView& view, Table& table) {
-  if (!has_intervals(view)) return;
+  if (!has_repeats(view)) return;
   table.notes.insert(
       table.notes.begin(),
-      fmt::format(
-          "Mean over runs and its 95 % interval; {} in {}, a group is one independent unit.",
-          counted(static_cast<long long>(view.runs()), "run"),
-          counted(static_cast<long long>(view.groups()), "group")));
+      fmt::format("Mean over runs and {}; {} in {}, a group is one independent unit.",
+                  view.has_groups_for_intervals()
+                      ? "its 95 % interval"
+                      : "their least and greatest value, since groups are too few for an interval",
+                  counted(static_cast<long long>(view.runs()), "run"),
+                  counted(static_cast<long long>(view.groups()), "group")));
 }
 
 /// "SDE: not converged in 3 of 9 at noise 0.5.": one note per line and status.

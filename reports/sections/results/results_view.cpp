@@ -74,9 +74,10 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     }
     quantities_.emplace(id, std::move(quantity));
   }
-  std::vector<std::string> ids;
-  for (const Label& method : study.methods) ids.push_back(method.id);
-  series_ = series_of_methods(ids);
+  std::vector<std::string> ids, labels;
+  for (const Label& method : study.methods)
+    ids.push_back(method.id), labels.push_back(method.label);
+  series_ = series_of_methods(ids, labels);
   take_rows();
   name_setups();
   for (const RunOutcome& outcome : study.results.outcomes)
@@ -341,6 +342,16 @@ std::optional<Interval> ResultsView::interval(const std::optional<MeanEstimate>&
   if (quantity.unit == "%" && least >= 0.0 && greatest <= kMostPercent)
     interval.high = std::min(interval.high, kMostPercent);
   return interval;
+}
+
+std::optional<Interval> ResultsView::spread(const Condition& at, const ResultsLine& line,
+                                            const Quantity& quantity) const {
+  if (has_groups_for_intervals()) return interval(mean(at, line, quantity), quantity);
+  std::vector<double> values;
+  for (const auto& [run, value] : numbers(at, line, quantity).values) values.push_back(value);
+  if (values.size() < 2) return std::nullopt;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return Interval{least, greatest};
 }
 
 StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line) const {

@@ -75,6 +75,8 @@ class ResultsView {
   const std::vector<ResultsOverview>& overviews() const { return overviews_; }
   std::size_t runs() const { return groups_.size(); }
   std::size_t groups() const { return groups_in_all_; }
+  /// Otherwise an interval of a mean is a guess: figures and tables show the runs themselves.
+  bool has_groups_for_intervals() const { return groups() >= kFewestGroups; }
 
   /// One of the study's quantities, under the study's label.
   const Quantity& quantity(const std::string& id) const { return quantities_.at(id); }
@@ -91,10 +93,11 @@ class ResultsView {
   /// The mean over runs with its interval over groups; empty without a value.
   std::optional<MeanEstimate> mean(const Condition& at, const ResultsLine& line,
                                    const Quantity& quantity) const;
-  /// The 95 % interval of a mean(), cut where the quantity has no values: at 0 if none of its
-  /// values lies below, at 100 % if its unit is that and none lies above. Empty without one.
-  std::optional<Interval> interval(const std::optional<MeanEstimate>& mean,
-                                   const Quantity& quantity) const;
+  /// The 95 % interval of a mean(), cut where the quantity has no values (at 0 if none of its
+  /// values lies below, at 100 % if its unit is that and none lies above), or, without groups for
+  /// one, the least and the greatest value of the runs. Empty of fewer than two.
+  std::optional<Interval> spread(const Condition& at, const ResultsLine& line,
+                                 const Quantity& quantity) const;
   /// What is known of how a line's runs ended.
   StatusCounts statuses(const Condition& at, const ResultsLine& line) const;
   /// The group of each run of the study.
@@ -118,7 +121,10 @@ class ResultsView {
     auto operator<=>(const Key&) const = default;
   };
   using Rows = std::span<const Result>;
+  static constexpr std::size_t kFewestGroups = 5;
 
+  std::optional<Interval> interval(const std::optional<MeanEstimate>& mean,
+                                   const Quantity& quantity) const;
   void take_rows();
   void name_setups();
   /// Empty where nothing was tried.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -49,10 +50,10 @@ std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
     const double beyond = greatest_of(study, at, methods, "beyond_percent");
     sentences.push_back(fmt::format(
         "{}: up to {:g} observations no incremental map, whatever the method, was further than "
-        "{:.2g} ppm of its size from the map computed again{}; it goes through {:g} observations "
+        "{} ppm of its size from the map computed again{}; it goes through {:g} observations "
         "for "
         "its last update instead of {:g}.",
-        setup.title, last, greatest,
+        setup.title, last, significant(greatest, 2),
         beyond > 0.0
             ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one run", beyond)
             : "",
@@ -77,7 +78,7 @@ TopicHeadline incremental_headline(const TopicStudy& study) {
   return {fmt::format("{:g} of {:g}", through, last), "observations used by an update of a map",
           greatest < kNothing_ppm
               ? std::string("less than 0.001 ppm from the map computed again")
-              : fmt::format("{:.2g} ppm at most from the map computed again", greatest),
+              : significant(greatest, 2) + " ppm at most from the map computed again",
           greatest < kSame_ppm ? "the same map, for less work" : "not the same map",
           greatest >= kSame_ppm};
 }

@@ -52,6 +52,25 @@ TEST(SceneDiff, DistinguishesDataFromStyleAndTexts) {
             ChangeKind::kStyle);
 }
 
+TEST(SceneDiff, IsOfAnyTwoScenesWhicheverKeysTheyHave) {
+  const std::vector<Scene> scenes = sample_scenes();
+  for (const Scene& a : scenes)
+    for (const Scene& b : scenes) EXPECT_EQ(diff_of(a, b).equal, &a == &b) << a.id << ", " << b.id;
+  // What only one side writes is a change in both directions.
+  const auto with_label = [&](const std::string& label) {
+    Scene scene = scenes[0];
+    std::visit([&](auto& part) { part.label = label; }, scene.parts[0]);
+    return scene;
+  };
+  for (const auto& [a, b] : {std::pair("", "a label"), std::pair("a label", "")}) {
+    const FigureDiff diff = diff_of(with_label(a), with_label(b));
+    ASSERT_EQ(diff.changes.size(), 1U);
+    EXPECT_EQ(diff.changes[0].what, "label");
+    EXPECT_EQ(diff.changes[0].baseline, a);
+    EXPECT_EQ(diff.changes[0].current, b);
+  }
+}
+
 TEST(SceneDiff, ShowsOfTwoNumbersWhereTheyDiffer) {
   Scene scene = sample_scenes()[0];
   std::visit(

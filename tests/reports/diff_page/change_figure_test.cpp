@@ -10,6 +10,7 @@
 #include "render/plot/axis_map.hpp"
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
+#include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/diff/item_images.hpp"
 #include "reports/html/diff/diff_html.hpp"
@@ -59,6 +60,15 @@ std::vector<Kind> layers_of(const Panel& panel) {
   for (const Layer& layer : panel.layers)
     if (const Kind* one = std::get_if<Kind>(&layer)) found.push_back(*one);
   return found;
+}
+
+/// The page on two folders with this figure, as mapproof writes it.
+std::string page_of(const Figure& baseline, const Figure& current) {
+  const TemporaryFolder folder;
+  write_figure(baseline, report_theme(), OutputFolder(folder / "a"));
+  write_figure(current, report_theme(), OutputFolder(folder / "b"));
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  return diff_html(result, shown_images(result, {}), load_templates());
 }
 
 TEST(ChangeFigure, JoinsTheOldAndTheNewPositionOfWhatMovedAndNamesIt) {
@@ -139,6 +149,53 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   EXPECT_FALSE(change_figure(RecordDiff{}));
 }
 
+/// Errors drawn to the estimates, which a layer of their own draws again.
+Figure with_errors(double shift) {
+  Figure figure = landmarks();
+  Scatter& points = points_of(figure);
+  for (double& y : points.y) y += shift * (&y - points.y.data());
+  Segments errors{.label = "error"};
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    errors.x0.push_back(points.x[i]), errors.y0.push_back(0.5);
+    errors.x1.push_back(points.x[i]), errors.y1.push_back(points.y[i]);
+    errors.marks.push_back({"e" + std::to_string(i), points.marks[i].data});
+  }
+  figure.panels[0].layers.insert(figure.panels[0].layers.begin() + 1, errors);
+  return figure;
+}
+
+TEST(FigureDiff, CountsALandmarkOnceHoweverManyLayersDrawIt) {
+  const std::string cause = judge(figure_diff(with_errors(0.0), with_errors(0.01))).cause;
+  EXPECT_NE(cause.find(", 9 landmarks moved in all"), std::string::npos) << cause;
+  const std::string page = page_of(with_errors(0.0), with_errors(0.01));
+  const std::string moves = page.substr(page.find("id=\"table-moves-"), 20000);
+  std::size_t rows = 0;
+  const std::string body = moves.substr(0, moves.find("</table>"));
+  for (std::size_t at = body.find("landmark L"); at != std::string::npos;
+       at = body.find("landmark L", at + 1))
+    ++rows;
+  EXPECT_EQ(rows, 9U) << body;
+}
+
+TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
+  RecordDiff diff;
+  for (const auto& [subject, outcome] :
+       {std::pair("bearing/lpca", Outcome::kChanged), std::pair("bearing/sde", Outcome::kBetter),
+        std::pair("bearing/isomap", Outcome::kWorse)}) {
+    Comparison comparison;
+    comparison.subject = subject;
+    comparison.quantity = known_quantity("mpe_m");
+    comparison.beyond = 1;
+    comparison.largest = {{"run-1", 0.1, 0.2}};
+    comparison.outcome = outcome;
+    diff.comparisons.push_back(comparison);
+  }
+  const auto figure = change_figure(diff);
+  ASSERT_TRUE(figure);
+  EXPECT_EQ(figure->panels.front().title, "bearing/isomap");
+  EXPECT_EQ(figure->panels.size(), 3U);
+}
+
 TEST(CommonAxes, HoldWhatEitherFigureShows) {
   const auto both = on_common_axes({landmarks(), stretched()});
   ASSERT_TRUE(both);
@@ -148,15 +205,6 @@ TEST(CommonAxes, HoldWhatEitherFigureShows) {
   EXPECT_LE(a.y.low, 0.0);
   EXPECT_GE(a.y.high, 2.5);
   EXPECT_FALSE(on_common_axes({landmarks(), moved()})) << "their limits are equal";
-}
-
-/// The page on two folders with this figure, as mapproof writes it.
-std::string page_of(const Figure& baseline, const Figure& current) {
-  const TemporaryFolder folder;
-  write_figure(baseline, report_theme(), OutputFolder(folder / "a"));
-  write_figure(current, report_theme(), OutputFolder(folder / "b"));
-  const DiffResult result = folder_diff(folder / "a", folder / "b");
-  return diff_html(result, shown_images(result, {}), load_templates());
 }
 
 TEST(ItemImages, HoldWhatMovedBesideAChangeOfData) {
@@ -177,6 +225,12 @@ TEST(DiffPage, ShowsWhatMovedBesideAChangeOfData) {
   const std::string page = page_of(landmarks(), moved());
   EXPECT_NE(page.find("<figure class=\"change\">"), std::string::npos);
   EXPECT_NE(page.find("alt=\"What changed of map\""), std::string::npos);
+  // What few readers need is folded.
+  for (const char* caption : {"Files, pixels and elements", "What changed in the SVG"}) {
+    const std::size_t at = page.find(caption);
+    ASSERT_NE(at, std::string::npos) << caption;
+    EXPECT_NE(page.substr(at - 200, 200).find("<details class=\"fold\""), std::string::npos);
+  }
 }
 
 TEST(DiffPage, AShiftOfLimitsDoesNotDrownTheHeatMap) {

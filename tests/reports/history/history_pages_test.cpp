@@ -120,22 +120,48 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
 }
 
-TEST(HistoryPages, SayWhatTheFirstNightlyRunMeasuredInsteadOfDrawingATrend) {
+TEST(HistoryPages, GiveASettingOneStyleInAllFigures) {
+  StudyTrend trend = best_got_worse();
+  trend.medians[{"visibility", "isomap-K5", 150, "mpe_m"}] = {0.30, 0.30, 0.30, 0.40};
+  trend.medians[{"visibility", "isomap-K7", 150, "mpe_m"}] = {0.22, 0.22, 0.22, 0.21};
+  const auto marker_of = [](const Figure& figure, const std::string& label) {
+    for (const Layer& layer : figure.panels.front().layers)
+      if (const auto* line = std::get_if<Polyline>(&layer); line && line->label == label)
+        return line->marker;
+    return Marker::kNone;
+  };
+  const NightlyFindings findings = {
+      {4,
+       {{.study = "mine", .subject = "bearing, isomap-K7, 150 steps", .quantity = "mpe_m"},
+        {.study = "mine", .subject = "visibility, isomap-K5, 150 steps", .quantity = "mpe_m"}}}};
+  const std::vector<Figure> figures = trend_figures(trend, findings);
+  ASSERT_EQ(figures.size(), 2U);
+  for (const char* label : {"ISOMAP, K = 5", "ISOMAP, K = 7"}) {
+    EXPECT_NE(marker_of(figures[0], label), Marker::kNone) << label;
+    EXPECT_EQ(marker_of(figures[0], label), marker_of(figures[1], label)) << label;
+  }
+  EXPECT_NE(marker_of(figures[0], "ISOMAP, K = 5"), marker_of(figures[0], "ISOMAP, K = 7"));
+}
+
+TEST(HistoryPages, ShowWhatTheFirstNightlyRunMeasuredInsteadOfATrend) {
   StudyTrend trend{.name = "mine", .nightly_runs = {{.number = 3}}, .peak_memory_mib = {80}};
   trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.3};
   trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.0612};
-  EXPECT_TRUE(trend_figures(trend, {}).empty());
+  const std::vector<Figure> figures = trend_figures(trend, {});
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].title, "Bearing: ISOMAP, K = 6 has the lowest MPE, 0.0612\u00a0m");
+  EXPECT_EQ(figures[0].panels.front().y.names, (std::vector<std::string>{"LPCA", "ISOMAP, K = 6"}));
+  EXPECT_EQ(problem(figures[0]), "");
   EXPECT_EQ(trend_sentences(trend, {}),
             (std::vector<std::string>{"Bearing: MPE from 0.0612\u00a0m (ISOMAP, K = 6) to "
                                       "0.300\u00a0m (LPCA), 2 methods in nightly run 3.",
                                       "Peak memory 80.0\u00a0MiB in nightly run 3."}));
   const HistoryPage index = index_page({.nightly_runs = {{.number = 3}}, .trends = {trend}}, {});
-  EXPECT_TRUE(index.report.opening.main_figure.empty());
-  EXPECT_TRUE(index.report.opening.figure_ids.empty());
+  EXPECT_EQ(index.report.opening.main_figure, figures[0].id);
   EXPECT_EQ(index.report.opening.findings.at(2).phrases.front().text, "Measured");
   const HistoryPage page = trend_page(trend, {}, false, {});
   EXPECT_NO_THROW(check(page.report));
-  EXPECT_TRUE(page.report.opening.main_figure.empty());
+  EXPECT_EQ(page.report.opening.main_figure, figures[0].id);
 }
 
 TEST(HistoryPages, DrawNoTrendOfWhatDidNotChangeUnlessItHasAFinding) {

@@ -1,0 +1,114 @@
+#include "reports/sections/results/results_tables.hpp"
+
+#include <gtest/gtest.h>
+
+#include "reports/model/format.hpp"
+#include "reports/tables/write_tables.hpp"
+#include "tests/reports/results_rows.hpp"
+
+namespace mapproof {
+namespace {
+
+/// The page's text of a table's cell.
+std::string shown(const Table& table, std::size_t row, std::size_t column) {
+  return page_cell(table.rows.at(row).cells.at(column), table.columns.at(column));
+}
+
+TEST(ResultsTables, NumberAndUnitStayOnOneLineInHeadsOfColumns) {
+  Rows rows;
+  for (const double side : {1.5, 4.0})
+    for (const double noise : {0.1, 0.2, 0.3})
+      rows.add("m", "a", side + noise, {{"noise", noise}, {"side", side}});
+  ResultsStudy study = rows.study();
+  for (Label& factor : study.factors)
+    if (factor.id == "side") factor.unit = "m";
+  const ResultsView view(study);
+  ASSERT_EQ(view.overviews().size(), 1U);
+  const Table table = overview_tables(view, view.overviews()[0]).at(0);
+  EXPECT_EQ(table.columns[1].title, "side 1.5\u00A0m");
+  EXPECT_NE(table_csv(table).find("side: side 1.5 m"), std::string::npos) << table_csv(table);
+}
+
+TEST(ResultsTables, OfFewGroupsHaveTheReachOfTheRunsAndNoInterval) {
+  Rows rows;
+  for (const char* run : {"a1", "b1"}) rows.add("m", run, run[0] - 'a' + 1.0);
+  const ResultsStudy few = rows.study();
+  const ResultsView view(few);
+  const Table table = results_tables(view, view.blocks()[0]).at(0);
+  EXPECT_EQ(table.columns.at(2).title, "runs");
+  EXPECT_EQ(shown(table, 0, 2), "1.00\u20132.00");
+  EXPECT_NE(table.notes.at(0).find("too few for an interval"), std::string::npos);
+  for (const char* run : {"c1", "d1", "e1"}) rows.add("m", run, run[0] - 'a' + 1.0);
+  const ResultsStudy more = rows.study();
+  const ResultsView enough(more);
+  const Table with = results_tables(enough, enough.blocks()[0]).at(0);
+  EXPECT_EQ(with.columns.at(2).title, "95 %");
+  EXPECT_NE(with.notes.at(0).find("95 % interval"), std::string::npos);
+}
+
+TEST(ResultsTables, SayOfMethodsThatDivergedOnlyWhereOthersDidNot) {
+  const std::vector<Level> levels = {{"noise", 0.1}};
+  const ResultsStudy some =
+      Rows().add("good", "a1", 0.5, levels).add("lost", "a1", 4e12, levels).study();
+  const ResultsView view(some);
+  const Table table = results_tables(view, view.blocks()[0]).at(0);
+  EXPECT_EQ(shown(table, 0, 1), "0.500");
+  EXPECT_EQ(shown(table, 1, 1), "over 1\u00A0km");
+
+  const ResultsStudy all = Rows().add("a", "a1", 4000.0).add("b", "a1", 9000.0).study();
+  const ResultsView far(all);
+  EXPECT_EQ(shown(results_tables(far, far.blocks()[0]).at(0), 0, 1).substr(0, 4), "4000");
+}
+
+TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
+  ResultsStudy study = Rows()
+                           .add("m", "a1", 1.0, {{"noise", 0.1}})
+                           .add("m", "b1", 2.0, {{"noise", 0.1}})
+                           .add("m", "b1", 2.5, {{"noise", 0.2}})
+                           .study();
+  const Condition at = condition("s", {{"noise", 0.1}});
+  study.results.outcomes = {{at, "m", "a1", {"not_converged", "not_converged"}},
+                            {at, "m", "b1", {}}};
+  const ResultsView view(study);
+  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
+  EXPECT_EQ(tables.at(0).notes.back(), "m: not converged in 1 of 2 at noise 0.1.");
+}
+
+TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {
+  ResultsStudy study = Rows().add("m", "a1", 1.0).study();
+  study.quantity_labels = {{.id = "mpe_m", .label = "MPE of the pick"}};
+  const ResultsView view(study);
+  EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).columns.at(1).title, "MPE of the pick");
+}
+
+TEST(ResultsTables, MethodsOfTheSameLabelHaveARowEach) {
+  Rows rows;
+  for (const char* light : {"day", "noon"})
+    rows.add("m", "a", 1.0, {{"light", std::string(light)}, {"size", 1.0}})
+        .add("n", "a", 2.0, {{"light", std::string(light)}, {"size", 1.0}});
+  ResultsStudy study = rows.study();
+  for (Label& method : study.methods) method.label = "EKF";
+  const ResultsView view(study);
+  for (const Table& table : results_tables(view, view.blocks()[0]))
+    EXPECT_EQ(table.rows.size(), 2U);
+  ResultsStudy single = Rows().add("m", "a", 1.0).add("n", "a", 2.0).study();
+  for (Label& method : single.methods) method.label = "EKF";
+  const ResultsView other(single);
+  EXPECT_EQ(results_tables(other, other.blocks()[0]).at(0).rows.size(), 2U);
+}
+
+TEST(ResultsTables, LabelledRunsHaveATableEach) {
+  ResultsStudy study =
+      Rows().add("m", "a1", 1.0).add("m", "b1", 3.0).add("n", "a1", 2.0).study(false);
+  study.runs = {{.id = "a1", .label = "First set"}, {.id = "b1", .label = "Second set"}};
+  const ResultsView view(study);
+  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
+  ASSERT_EQ(tables.size(), 2U);
+  EXPECT_EQ(tables[0].id, "test-s-a1");
+  EXPECT_EQ(tables[0].caption, "First set: s");
+  EXPECT_EQ(tables[0].rows.size(), 2U);
+  EXPECT_EQ(tables[1].rows.size(), 1U);
+}
+
+}  // namespace
+}  // namespace mapproof
