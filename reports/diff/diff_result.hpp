@@ -63,6 +63,12 @@ struct SharedCause {
   std::vector<std::string> ids;
 };
 
+/// How the cause of what follows from an item begins, before that item's own: "it follows from
+/// records: ".
+inline std::string follows_from(const DiffItem& item) {
+  return "it follows from " + item.id + ": ";
+}
+
 /// The comparison of two studies, two folders or two files.
 struct DiffResult {
   std::string baseline, current;  ///< As the user named them.

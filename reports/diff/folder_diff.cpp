@@ -312,7 +312,7 @@ bool holds_items(const fs::path& folder) {
 void judge_records_as(DiffResult& result, const Judgement& judgement) {
   const auto records = std::ranges::find(result.items, ItemKind::kRecords, &DiffItem::kind);
   if (records == result.items.end()) return;
-  const std::string follows = fmt::format("it follows from {}: ", records->id);
+  const std::string follows = follows_from(*records);
   records->judgement = judgement;
   records->passes = passes(judgement, result.allowed);
   for (DiffItem& item : result.items)

@@ -320,8 +320,7 @@ Judgement by_records(const std::string& what, const std::vector<DiffItem>& repor
   const bool has_direction = verdict == Verdict::kBetter || verdict == Verdict::kWorse;
   // The item of the records has the details.
   const std::string& cause = records->judgement.cause;
-  const std::string why =
-      fmt::format("it follows from {}: {}", records->id, cause.substr(0, cause.find("; ")));
+  const std::string why = follows_from(*records) + cause.substr(0, cause.find("; "));
   const std::string settings = records->records ? settings_text(*records->records) : "";
   return {has_direction ? verdict : Verdict::kChanged, true, what + "; " + why,
           settings.empty() ? why : settings};

@@ -212,8 +212,7 @@ std::string shared_text(const SharedCause& shared, const DiffResult& result) {
   const std::string verdict(label(shared.verdict));
   std::string text;
   for (const DiffItem& item : result.items)
-    if (item.kind == ItemKind::kRecords &&
-        shared.cause.starts_with("it follows from " + item.id + ": "))
+    if (item.kind == ItemKind::kRecords && shared.cause.starts_with(follows_from(item)))
       text = fmt::format("{} follow from {}: {}.", count, item.id, verdict);
   if (text.empty())
     text = fmt::format("{} have one cause, {}: {}{}", count, verdict, shared.cause,

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "core/base/text/slug.hpp"
-#include "render/figures/curves/method_series.hpp"
 #include "render/figures/maps/path_errors.hpp"
+#include "reports/sections/results/results_view.hpp"
 
 namespace mapproof {
 namespace {
@@ -20,21 +20,14 @@ std::size_t rank_of(const ResultsStudy& study, const std::string& method) {
   return static_cast<std::size_t>(found - study.methods.begin());
 }
 
-/// Of the methods in their order, and of one that it does not have.
-std::vector<std::size_t> styles_of(const ResultsStudy& study) {
-  std::vector<std::string> ids, labels;
-  for (const Label& method : study.methods)
-    ids.push_back(method.id), labels.push_back(method.label);
-  ids.emplace_back(), labels.emplace_back();
-  return series_of_methods(ids, labels);
-}
-
 /// The methods of one run, in the order of the study.
 PathErrorsSpec spec_of(const ResultsStudy& study, std::vector<const PathErrors*> run) {
   std::ranges::stable_sort(
       run, {}, [&](const PathErrors* errors) { return rank_of(study, errors->method); });
   PathErrorsSpec spec;
-  const std::vector<std::size_t> series = styles_of(study);
+  std::vector<Label> methods = study.methods;
+  methods.emplace_back();  // A method that the study does not have.
+  const std::vector<std::size_t> series = styles_of(methods);
   for (const PathErrors* errors : run) {
     spec.lines.push_back({.label = label_of(study.methods, errors->method),
                           .poses = &errors->poses,

@@ -74,10 +74,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     }
     quantities_.emplace(id, std::move(quantity));
   }
-  std::vector<std::string> ids, labels;
-  for (const Label& method : study.methods)
-    ids.push_back(method.id), labels.push_back(method.label);
-  series_ = series_of_methods(ids, labels);
+  series_ = styles_of(study.methods);
   take_rows();
   name_setups();
   for (const RunOutcome& outcome : study.results.outcomes)
@@ -388,6 +385,12 @@ std::string ResultsView::short_words(const Level& level) const {
 std::string ResultsView::words_of(const ResultsBlock& block, std::size_t condition) const {
   return block.factor.empty() ? block.title
                               : block.title + ", " + level_words(block.levels[condition]);
+}
+
+std::vector<std::size_t> styles_of(const std::vector<Label>& methods) {
+  std::vector<std::string> ids, labels;
+  for (const Label& method : methods) ids.push_back(method.id), labels.push_back(method.label);
+  return series_of_methods(ids, labels);
 }
 
 bool is_lost(double value) {

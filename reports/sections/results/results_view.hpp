@@ -153,6 +153,9 @@ class ResultsView {
   std::vector<ResultsOverview> overviews_;
 };
 
+/// What series_style() takes for each method.
+std::vector<std::size_t> styles_of(const std::vector<Label>& methods);
+
 /// Whether a value counts as lost: no number, or too large for a sum of squares.
 bool is_lost(double value);
 
