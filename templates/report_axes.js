@@ -166,11 +166,22 @@ function heightAtRight(points, { clip, at }) {
   return at({ x, y: a.y + share * (b.y - a.y) }).y;
 }
 
-// The names at the ends of lines take the order in which their lines leave the view.
+// Whether a part of a curve is in the view.
+function isInView(frame, points, mapping) {
+  const kSteps = 20;  // Between two points.
+  return points.some((point, i) => i > 0 && Array.from({ length: kSteps + 1 }, (_, k) => k / kSteps)
+    .some((share) => isInFrame(frame, mapping.at({
+      x: points[i - 1].x + share * (point.x - points[i - 1].x),
+      y: points[i - 1].y + share * (point.y - points[i - 1].y) }))));
+}
+
+// The names at the ends of lines take the order in which their lines leave the view; of lines that are
+// not in it they are hidden.
 function zoomEnds(frame, ends, mapping) {
   if (mapping.scale === 1) {
     for (const [element, name, value] of ends.flatMap(({ drawn }) => drawn)) {
       if (element.getAttribute(name) !== value) element.setAttribute(name, value);
+      element.classList.remove("outside");
     }
     return;
   }
@@ -180,6 +191,8 @@ function zoomEnds(frame, ends, mapping) {
   for (const [i, { end, at }] of placed.entries()) {
     const row = rows[i], nearest = clamp(at, frame.y, frame.bottom);
     const from = Math.abs(at - nearest) > 1 ? row : nearest;  // It leads to no line.
+    const isOutside = !isInView(frame, end.points, mapping);
+    for (const [element] of end.drawn) element.classList.toggle("outside", isOutside);
     end.leads.setAttribute("d", `m${end.x} ${from}l${end.width} ${row - from}`);
     end.marker?.setAttribute("y", row);
     end.words.setAttribute("transform", end.transform.replace(/translate\((\S+) (\S+?)\)/,

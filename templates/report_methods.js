@@ -7,7 +7,7 @@ const kMostRead = 100;  // Figures whose curves name the methods: a page may hol
 
 // "SMACOF, kNN weights, K = 5" is a curve of "SMACOF, kNN weights".
 function methodOf(label) {
-  return label.replace(/(, \S+ = \S+|, \S+=\S+( \S+=\S+)*)$/, "");
+  return label.replaceAll("\u00a0", " ").replace(/(, \S+ = \S+|, \S+=\S+( \S+=\S+)*)$/, "");
 }
 
 // The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean".
@@ -31,7 +31,28 @@ const kOfMethods = "[data-curve], [data-setting], [data-method]";
 const kNamesOfMethods = ["legend-text", "mark-label", "tick-label"].map(
   (kind) => `.${kind} [data-words]`).join();
 
+// The method that a panel's heading names: "KPCA Gauss, σ² = 4000" is of "KPCA, Gaussian".
+function methodOfPanel(parts) {
+  const heading = parts.find((part) => kindOf(part) === "panel-title");
+  const words = heading?.querySelector("[data-words]")?.dataset.words ?? heading?.dataset.words ?? "";
+  const key = methodOf(words).toLowerCase().replace(/[^a-z0-9]+/g, "-");
+  if (key === "") return "";
+  const alike = [...methods.keys()].filter((each) => each.startsWith(key));
+  return methods.get(key) ?? (alike.length === 1 ? methods.get(alike[0]) : "");
+}
+
+// Of panels of one method each the others are dimmed.
+function highlightPanels(svg) {
+  const { panels } = partsOf(svg), names = panels.length > 1 ? panels.map(methodOfPanel) : [];
+  const isHere = chosenMethod !== "" && names.includes(chosenMethod);
+  for (const [i, name] of names.entries()) {
+    const isDim = isHere && name !== "" && name !== chosenMethod;
+    for (const part of panels[i]) part.classList.toggle("dim", isDim);
+  }
+}
+
 function highlightIn(svg) {
+  highlightPanels(svg);
   const marks = [...svg.querySelectorAll(kOfMethods)];
   const isHere = chosenMethod !== "" && marks.some((mark) => labelOfMark(mark) === chosenMethod);
   for (const mark of marks) mark.classList.toggle("dim", isHere && labelOfMark(mark) !== chosenMethod);
@@ -46,11 +67,25 @@ function highlightIn(svg) {
   }
 }
 
+// A drawing for an image, which has no style sheet of the page.
+function highlighted(text) {
+  if (chosenMethod === "") return text;
+  const box = document.createElement("div");
+  box.append(drawingOf(text));
+  const svg = box.firstChild;
+  highlightIn(svg);
+  for (const part of svg.querySelectorAll(".dim")) {
+    part.setAttribute("opacity", part.dataset.words === undefined ? .15 : .35);  // As report.css has it.
+  }
+  return new XMLSerializer().serializeToString(svg);
+}
+
 function chooseMethod(label) {
   chosenMethod = label === chosenMethod ? "" : label;
   const list = document.querySelector("select.method");
   if (list) list.value = chosenMethod;
   for (const svg of document.querySelectorAll(".drawing > svg")) highlightIn(svg);
+  highlightImages();
   for (const head of document.querySelectorAll("main tbody th[scope=row]")) {
     const isChosen = chosenMethod !== "" && head.textContent.trim() === chosenMethod;
     head.parentElement.classList.toggle("chosen", isChosen);

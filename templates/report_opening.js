@@ -119,14 +119,25 @@ function readable(text, width_px, height_px) {
     paper_px: kPaperWords_px / least * shown.height };
 }
 
+const openingDrawings = new WeakMap();  // Each image → its drawing.
+
 function addImage(link, alt, drawing) {
   const figure = document.getElementById(link.hash.slice(1));
   const text = figure ? sourceOf(figure) : "";
   if (text === "") return;
   const image = link.querySelector("img") ?? new Image();
   image.alt = alt;
-  image.src = svgUrl(inPageColours(drawing(text)));
+  openingDrawings.set(image, inPageColours(drawing(text)));
+  image.src = svgUrl(highlighted(openingDrawings.get(image)));
   link.prepend(image);
+}
+
+// The method that is chosen, in the images.
+function highlightImages() {
+  for (const image of document.querySelectorAll(".thumbnails img, .main-figure img")) {
+    const drawing = openingDrawings.get(image);
+    if (drawing) image.src = svgUrl(highlighted(drawing));
+  }
 }
 
 const kLeastDrawn = .02;  // Of the pixels of a small image.

@@ -158,7 +158,8 @@ function frameOfLabel(label, frames) {
   return frames.filter((frame) => gap(frame) > 0).sort((a, b) => gap(a) - gap(b))[0];
 }
 
-// The label of each axis of a panel: of several, the one that is nearest to the panel.
+// The label of each axis of a panel, with all of its lines: of several, the one that is nearest to the
+// panel.
 function axisLabelsOf(svg, parts, frame) {
   const middle = (label) => {
     const box = boxIn(svg, label);
@@ -168,10 +169,16 @@ function axisLabelsOf(svg, parts, frame) {
     const at = middle(label);
     return Math.hypot(at.x - frame.x - frame.width / 2, at.y - frame.y - frame.height / 2);
   };
-  return [true, false].flatMap((upright) => parts.axes
-    .filter((label) => isUpright(label) === upright && frameOfLabel(label, parts.frames))
-    .sort((a, b) => off(a) - off(b)).slice(0, 1)
-    .map((label) => ({ label, upright, middle: middle(label) })));
+  const kMostBeside = 40;  // Lines of one label, which have one middle.
+  const areOne = (a, b) => a.dataset.words === b.dataset.words &&
+    Math.abs(middle(a).y - middle(b).y) < 2 && Math.abs(middle(a).x - middle(b).x) < kMostBeside;
+  return [true, false].flatMap((upright) => {
+    const labels = parts.axes
+      .filter((label) => isUpright(label) === upright && frameOfLabel(label, parts.frames))
+      .sort((a, b) => off(a) - off(b));
+    return labels.filter((label) => areOne(label, labels[0]))
+      .map((label) => ({ label, upright, middle: middle(label) }));
+  });
 }
 
 // The labels of the axes that a panel shares with others, moved to this panel.

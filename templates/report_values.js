@@ -54,15 +54,17 @@ function labelsOfFrame(labels, frame) {
 // Before anything is moved: the frames and their labels, and where the marks are. Returns if there
 // are any.
 function keepValues(figure, svg) {
-  const marks = [...svg.querySelectorAll(kOfMethods)].filter(
-    (mark) => mark.dataset.landmark === undefined && /^(use|path|g)$/.test(mark.localName));
+  const marks = [...svg.querySelectorAll(kOfMethods)].filter(({ dataset, localName }) =>
+    dataset.landmark === undefined && dataset.kind !== "interval" &&
+    /^(use|path|g)$/.test(localName));
   if (marks.length === 0 || framesOf(svg).length === 0) return;
   const placeOf = (use) => ({ x: Number(use.getAttribute("x")), y: Number(use.getAttribute("y")) });
   const place = (mark) => (mark.localName === "use" ? placeOf(mark)
     : (mark.querySelector("path") ?? mark).getAttribute("d"));
   const markers = (mark) => [...mark.querySelectorAll("use.marker")]
     .map((element) => ({ element, place: placeOf(element) }));
-  const bars = [...svg.querySelectorAll('g.line[clip-path] > path:not([data-curve])')];
+  const bars = [...svg.querySelectorAll(
+    "g.line[clip-path] > path:is(:not([data-curve]), [data-kind=interval])")];
   keptValues.set(svg, {
     frames: framesOf(svg),
     marks: marks.map((mark) => ({ mark, at: place(mark), markers: markers(mark) })),

@@ -8,6 +8,7 @@
 #include "core/records/studies/study_store.hpp"
 #include "core/score/trajectory_error.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 

@@ -1,5 +1,6 @@
 #include "core/experiment/slam_worlds.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -295,6 +296,7 @@ SlamRun make_example(const SlamExperiment& experiment, std::vector<SlamTiming>& 
 
 std::vector<FactorizationCost> time_factorization(const SlamExperiment& experiment) {
   using Clock = std::chrono::steady_clock;
+  constexpr int kTimings = 5;
   std::vector<FactorizationCost> costs;
   RangeNoiseModel noise;
   noise.share = 0.01;
@@ -304,10 +306,13 @@ std::vector<FactorizationCost> time_factorization(const SlamExperiment& experime
           simulate_range_world(range_world_options(experiment.world, noise, landmarks, steps),
                                derive_seed(experiment.seed, {kSlamCost}));
       const Eigen::MatrixXd Y = half_squared_ranges(world.ranges_m);
-      const Clock::time_point start = Clock::now();
-      metric_upgrade(factorize(Y, 4));
-      const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-      costs.push_back({.landmarks = landmarks, .steps = steps, .seconds = seconds});
+      double least_s = kInfinity;  // What else runs on the machine only adds to a time.
+      for (int i = 0; i < kTimings; ++i) {
+        const Clock::time_point start = Clock::now();
+        metric_upgrade(factorize(Y, 4));
+        least_s = std::min(least_s, std::chrono::duration<double>(Clock::now() - start).count());
+      }
+      costs.push_back({.landmarks = landmarks, .steps = steps, .seconds = least_s});
     }
   return costs;
 }

@@ -91,7 +91,7 @@ RangeHistoryStudy make_histories(const SlamExperiment& experiment);
 /// @throws InvalidInput if the experiment has no such part.
 SpaceRun make_space_run(const SlamExperiment& experiment);
 
-/// Seconds of factorisation and upgrade over the experiment's grid.
+/// Seconds of factorisation and upgrade over the experiment's grid, the least of five times each.
 std::vector<FactorizationCost> time_factorization(const SlamExperiment& experiment);
 
 }  // namespace mapproof

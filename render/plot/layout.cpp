@@ -117,8 +117,7 @@ class SharedGrid {
           (room_.width() - outer_left_ - right - gaps) / static_cast<double>(columns_);
       if (pass < 3 || width_ > widest) width_ = widest;
     }
-    height_ = frame_height();
-    if (panels_.front().equal_aspect) width_ = height_ * aspect();
+    height_ = panels_.front().equal_aspect ? width_ / aspect() : frame_height();
   }
 
   /// What labels need left of the frames. @return What they need right of the last one.
@@ -151,7 +150,7 @@ class SharedGrid {
 
   double frame_height() const {
     const double most = kMostOfPage * theme_.height_pt;
-    if (panels_.front().equal_aspect) return std::min(width_ / aspect(), 1.2 * most);
+    if (panels_.front().equal_aspect) return stretch_ * std::min(width_ / aspect(), 1.2 * most);
     const double usual =
         stretch_ * std::min(std::max(kHeightOfWidth * width_, kLeastHeight * theme_.font_pt), most);
     // A row that is named needs its name.
@@ -292,13 +291,14 @@ class CellGrid {
     const double gap = columns_ == 1 ? 0.0 : gap_across();
     const double width = (room_.width() - (columns - 1.0) * gap) / columns;
     double top = room_.y0, of_row = 0.0;
+    std::set<std::string> known;
     for (std::size_t p = 0; p < count; ++p) {
       const double left = room_.x0 + static_cast<double>(p % columns_) * (width + gap);
       if (p % columns_ == 0) of_row = row_height(p, width);
       const Panel& panel = figure_.panels[p];
-      const double height = has_fixed_shape(panel) ? cell_height(panel, width) : of_row;
-      lay_out_panel(figure_.panels[p], p, {left, top, left + width, top + height}, theme_,
-                    drawing_);
+      const double height = has_fixed_shape(panel) ? cell_height(panel, width, stretch_) : of_row;
+      lay_out_panel(panel, p, {left, top, left + width, top + height}, theme_, drawing_, known);
+      known.merge(labels_of(panel));
       if ((p + 1) % columns_ == 0 || p + 1 == count)
         top = lowest_drawn(drawing_, p - p % columns_) + gap_down();
     }
@@ -319,8 +319,10 @@ class CellGrid {
     return figure_.arrows.empty() ? 2.0 * theme_.space_pt : kArrowGap * theme_.font_pt;
   }
 
-  double cell_height(const Panel& panel, double width) const {
-    return std::min(width * 0.86 + 4.0 * theme_.font_pt, most_of_page(panel) * theme_.height_pt);
+  /// @param stretch  Of what the panel takes of the page at most.
+  double cell_height(const Panel& panel, double width, double stretch = 1.0) const {
+    return std::min(width * 0.86 + 4.0 * theme_.font_pt,
+                    stretch * most_of_page(panel) * theme_.height_pt);
   }
 
   /// The height of a panel at most, of the theme's.
@@ -541,6 +543,8 @@ Drawing lay_out_on(const Figure& figure, const Theme& theme, double height, doub
 constexpr double kLeastHigher = 0.5;  // In points.
 constexpr double kHigher = 1.1;       // Factor from one height of a page to the next one tried.
 constexpr double kMostFree = 0.1;     // Of a page, below everything that is drawn.
+constexpr double kHighestPage = 684.0;  // In points: of a printed page with a caption.
+constexpr int kMostStretches = 6;
 
 /// The height of the page at which the only frame has its share of it.
 double height_for_frame(const Figure& figure, const Theme& theme, const Drawing& drawing) {
@@ -553,49 +557,74 @@ double height_for_frame(const Figure& figure, const Theme& theme, const Drawing&
                     (1.0 - (theme.draws_title ? kLeastWithTitle : kLeastWithout));
 }
 
-/// What of the height of a page in a text the frames of several panels and their titles take, 0 to
-/// 1: where one of them is, not where two are beside each other.
-double share_of_rows(const Drawing& drawing, const Theme& theme) {
-  std::vector<std::pair<double, double>> parts;
-  for (const Box& frame : drawing.frames) parts.emplace_back(frame.y0, frame.y1);
-  for (const Item& item : drawing.items)
-    if (item.item_class == ItemClass::kPanelTitle) {
-      const double foot = std::get<TextLine>(item.what).at.y;
-      parts.emplace_back(foot - FontFacts::kAscent * theme.font_pt,
-                         foot + FontFacts::kDescent * theme.font_pt);
-    }
-  std::ranges::sort(parts);
+/// What of the height of a page the frames of several panels take, 0 to 1: what has a frame, not
+/// how many are beside each other.
+double share_of_frames(const Drawing& drawing) {
+  std::vector<Box> frames = drawing.frames;
+  std::ranges::sort(frames, {}, &Box::y0);
   double taken = 0.0, end = 0.0;
-  for (const auto& [from, to] : parts) {
-    taken += std::max(0.0, to - std::max(from, end));
-    end = std::max(end, to);
+  for (const Box& frame : frames) {
+    taken += std::max(0.0, frame.y1 - std::max(frame.y0, end));
+    end = std::max(end, frame.y1);
   }
   return taken / drawing.height;
 }
 
-/// How many rows the frames stand in.
-std::size_t rows_of(const Drawing& drawing) {
-  std::set<double> tops;
-  for (const Box& frame : drawing.frames) tops.insert(std::round(frame.y0));
-  return tops.size();
+/// How many different places the frames have along an axis: rows by `y0`, columns by `x0`.
+std::size_t count_places(const Drawing& drawing, double Box::*side) {
+  std::set<double> places;
+  for (const Box& frame : drawing.frames) places.insert(std::round(frame.*side));
+  return places.size();
+}
+
+/// Maps are as high as they are wide: until they have their share of the page, fewer of them are
+/// beside each other, as long as a printed page holds all.
+Drawing with_larger_maps(const Figure& figure, const Theme& theme, Drawing drawing) {
+  Figure fewer = figure;
+  while (share_of_frames(drawing) < kLeastWithout && count_places(drawing, &Box::x0) > 1) {
+    fewer.columns = count_places(drawing, &Box::x0) - 1;
+    Drawing higher = lay_out_on(fewer, theme, theme.height_pt);
+    double stretch = 1.0;
+    for (int i = 0; i < kMostStretches && higher.height > kHighestPage; ++i) {
+      const double frames = share_of_frames(higher) * higher.height;
+      stretch *= 1.0 - std::min((higher.height - kHighestPage + 1.0) / frames, 0.5);
+      higher = lay_out_on(fewer, theme, theme.height_pt, stretch);
+    }
+    if (higher.height > kHighestPage || share_of_frames(higher) < share_of_frames(drawing)) break;
+    drawing = std::move(higher);
+  }
+  // Of one column they may be as wide as the page.
+  const bool is_column = count_places(drawing, &Box::x0) == 1;
+  double stretch = kHigher;
+  for (int i = 0; is_column && i < kMostStretches && share_of_frames(drawing) < kLeastWithout;
+       ++i) {
+    Drawing higher = lay_out_on(fewer, theme, theme.height_pt, stretch);
+    if (higher.height > kHighestPage) break;
+    drawing = std::move(higher);
+    stretch *= kHigher;
+  }
+  return drawing;
 }
 
 /// Several panels on a page in a text, which is as much higher as they need for their share.
 Drawing lay_out_rows(const Figure& figure, const Theme& theme) {
   Drawing drawing = lay_out_on(figure, theme, theme.height_pt);
-  const bool is_fixed = std::ranges::any_of(
-      figure.panels, [](const Panel& panel) { return panel.equal_aspect || panel.bare; });
-  if (theme.draws_title || is_fixed) return drawing;
+  if (theme.draws_title || !figure.arrows.empty()) return drawing;
+  const auto keeps_proportions = [](const Panel& panel) {
+    return panel.equal_aspect || has_image(panel);
+  };
+  if (std::ranges::all_of(figure.panels, keeps_proportions))
+    return with_larger_maps(figure, theme, std::move(drawing));
+  if (std::ranges::any_of(figure.panels, &Panel::bare)) return drawing;
   double stretch = 1.0;
-  for (int i = 0; i < kMostHeights; ++i) {
-    const double share = share_of_rows(drawing, theme);
+  for (int i = 0; i < kMostStretches; ++i) {
+    const double share = share_of_frames(drawing);
     if (share >= kLeastWithout) break;
     // Around the frames everything keeps its height.
     double frames = 0.0;
     for (const Box& frame : drawing.frames) frames = std::max(frames, frame.height());
     const double missing = (kLeastWithout - share) / (1.0 - kLeastWithout) * drawing.height;
-    const auto rows = static_cast<double>(rows_of(drawing));
-    stretch *= 1.0 + missing / (rows * frames);
+    stretch *= 1.0 + missing / (static_cast<double>(count_places(drawing, &Box::y0)) * frames);
     drawing = lay_out_on(figure, theme, theme.height_pt, stretch);
   }
   return drawing;

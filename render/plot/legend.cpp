@@ -18,16 +18,6 @@ constexpr double kSampleGap = 0.6;
 constexpr double kColumnGap = 1.4;
 constexpr double kRowHeight = 1.45;
 
-const std::string& label_of(const Layer& layer) {
-  static const std::string none;
-  return std::visit(
-      [](const auto& one) -> const std::string& {
-        if constexpr (requires { one.label; }) return one.label;
-        return none;
-      },
-      layer);
-}
-
 /// In points, what a sample needs to show two periods of each dash of the panel, with a dash at
 /// either end: a marker in the middle then hides none of the two gaps.
 double longest_dashes(const Panel& panel, const Theme& theme) {
@@ -154,6 +144,16 @@ class SamplePainter {
 };
 
 }  // namespace
+
+const std::string& label_of(const Layer& layer) {
+  static const std::string none;
+  return std::visit(
+      [](const auto& one) -> const std::string& {
+        if constexpr (requires { one.label; }) return one.label;
+        return none;
+      },
+      layer);
+}
 
 Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars)
     : theme_(theme), as_bars_(as_bars) {

@@ -286,8 +286,15 @@ void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& a
   draw_colour_bar(panel, panel_index, beside, theme, drawing);
 }
 
+std::set<std::string> labels_of(const Panel& panel) {
+  std::set<std::string> labels;
+  for (const Layer& layer : panel.layers) labels.insert(label_of(layer));
+  labels.erase("");
+  return labels;
+}
+
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
-                   Drawing& drawing) {
+                   Drawing& drawing, const std::set<std::string>& known) {
   const Box room = draw_panel_title(panel, panel_index, cell, theme, drawing);
   const AxesLayout layout(panel, theme);
   const LineEndLabels ends(layout);
@@ -299,7 +306,10 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
   const bool at_ends = ends.fit(arrangement.axes.frame, room);
   Legend of_all(panel, theme, cell.width(), as_bars);
   of_all.order_by_ends(ends_of_lines(panel, panel_limits(panel), true));
-  const Legend& legend = at_ends ? of_rest : of_all;
+  const Legend none({}, theme, cell.width(), as_bars);
+  const Legend& legend = at_ends                                          ? of_rest
+                         : std::ranges::includes(known, labels_of(panel)) ? none
+                                                                          : of_all;
   if (!at_ends) arrangement = Arranger(layout, legend, 0.0).arrange(room);
   const Box& frame = arrangement.axes.frame;
   draw_panel(layout, panel_index, arrangement.axes, drawing);

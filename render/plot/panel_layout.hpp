@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,12 @@
 namespace mapproof {
 
 /// Lays one panel out in `cell`: axes, legend, layers and labels.
+/// @param known  Labels that panels before have: a legend of no others is left out.
 void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell, const Theme& theme,
-                   Drawing& drawing);
+                   Drawing& drawing, const std::set<std::string>& known = {});
+
+/// The labels of its layers, but for empty ones.
+std::set<std::string> labels_of(const Panel& panel);
 
 /// Draws a panel whose axes stand already: grid, layers, frame and labels of the axes.
 void draw_panel(const AxesLayout& layout, std::size_t panel_index, const Axes& axes,

@@ -42,6 +42,12 @@ std::string shown_subject_of(const NightlyFinding& finding, const StudyTrend* tr
   return trend == nullptr ? finding.subject : shown_setup(trend->labels, finding.subject);
 }
 
+/// What names without settings of their own have in common: "isomap-K" of "isomap-K6", "isomap-K8".
+std::string without_last_number(const std::string& name) {
+  const std::size_t end = name.find_last_not_of("0123456789.");
+  return end == std::string::npos ? name : name.substr(0, end + 1);
+}
+
 bool is_time_unit(const std::string& unit) {
   constexpr std::array kUnits = {"s", "ms", "us", "µs", "ns", "min", "h"};
   return std::ranges::find(kUnits, unit) != kUnits.end();
@@ -52,6 +58,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   FindingGroup group{.study = finding.study,
                      .rule = finding.rule,
                      .method = shown_subject_of(finding, trend),
+                     .family = shown_subject_of(finding, trend),
                      .quantity = finding.quantity == "memory" ? "peak memory" : finding.quantity,
                      .quantity_id = finding.quantity};
   if (finding.change) group.changes.push_back(*finding.change);
@@ -74,17 +81,27 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
     group.settings.push_back(shown.substr(group.method.size() + 2));
   else
     group.method = shown;
+  group.family = group.settings.empty() ? without_last_number(group.method) : group.method;
   return group;
 }
 
 bool is_same(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const FindingGroup& group) {
-    return std::tie(group.study, group.rule, group.setup, group.method, group.quantity_id,
+    return std::tie(group.study, group.rule, group.setup, group.family, group.quantity_id,
                     group.commits.since.number);
   };
   const bool both_known = a.known.has_value() == b.known.has_value();
   return both_known && key(a) == key(b) && (!a.known || a.known->text == b.known->text) &&
          a.settings.empty() == b.settings.empty();
+}
+
+/// Of several methods without settings the names of all.
+void name_methods(FindingGroup& group) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> names;
+  for (const std::string& line : group.lines)
+    if (std::ranges::find(names, line) == names.end()) names.push_back(line);
+  if (group.settings.empty() && names.size() > 1) group.method = listed(names, kMost);
 }
 
 template <typename T>
@@ -265,6 +282,7 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
     append(same->lines, group.lines);
     append(same->series, group.series);
   }
+  for (FindingGroup& group : groups) name_methods(group);
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.is_time; });
   std::ranges::stable_partition(groups, [](const FindingGroup& group) { return !group.known; });
   return groups;

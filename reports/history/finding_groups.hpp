@@ -43,7 +43,8 @@ struct FindingGroup {
   std::string study = {};
   HistoryRule rule = HistoryRule::kAccuracy;
   std::string setup = {};                  ///< As shown; may be empty.
-  std::string method = {};                 ///< "ISOMAP", "all methods".
+  std::string method = {};                 ///< "ISOMAP", "all methods", "isomap-K6 and isomap-K8".
+  std::string family = {};                 ///< `method` but for the number at its end: "isomap-K".
   std::vector<std::string> settings = {};  ///< "K = 6"; none: the method has none.
   std::string quantity = {};               ///< Its label.
   std::string quantity_id = {};

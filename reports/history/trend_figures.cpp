@@ -22,6 +22,7 @@
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "render/figures/diagrams/value_dots.hpp"
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -36,8 +37,6 @@ constexpr std::size_t kMostLines = 12;
 constexpr std::size_t kLongestId = 100;
 
 constexpr const char* kFound = "a finding";
-
-constexpr std::size_t kLongestMethod = 30;  ///< Characters on an axis; the rest of a name is cut.
 
 /// A part of an id.
 std::string id_of(const std::string& name) {
@@ -149,27 +148,44 @@ std::string day_of(const NightlyFacts& nightly_run) {
   return time.size() >= kTime && time[4] == '-' ? time.substr(0, kDay) : "";
 }
 
-/// "7: 11-22", the number and the local date of a nightly run, or its hour: "7: 02:30".
-std::string tick_of(const NightlyFacts& nightly_run, bool by_hour) {
-  constexpr std::size_t kMonth = 5;  // In "2026-11-22".
-  const std::string number = std::to_string(nightly_run.number), day = day_of(nightly_run);
-  if (day.empty()) return number;
-  return number + ": " +
-         (by_hour ? local_time(nightly_run).substr(kDay + 1, kTime - kDay - 1)
-                  : day.substr(kMonth));
+/// The local time of a nightly run, "02:30".
+std::string minute_of(const NightlyFacts& nightly_run) {
+  return local_time(nightly_run).substr(kDay + 1, kTime - kDay - 1);
 }
 
-/// The nightly runs side by side, by the hour where all are of one day.
-ErrorPanel panel_of(const StudyTrend& trend) {
+/// "7: 11-22", the number and the local date of a nightly run.
+std::string dated_tick(const NightlyFacts& nightly_run) {
+  constexpr std::size_t kMonth = 5;  // In "2026-11-22".
+  const std::string number = std::to_string(nightly_run.number), day = day_of(nightly_run);
+  return day.empty() ? number : number + ": " + day.substr(kMonth);
+}
+
+/// Names an axis on which the nightly runs are side by side: by their dates; where all are of one
+/// day by their times, and by their numbers alone where two of these are the same.
+void name_nightly_runs(const StudyTrend& trend, Axis& axis) {
   const std::string day = day_of(trend.nightly_runs.front());
-  const bool by_hour =
+  const bool is_one_day =
       !day.empty() && std::ranges::all_of(trend.nightly_runs, [&](const NightlyFacts& other) {
         return day_of(other) == day;
       });
-  ErrorPanel panel;
-  panel.x.label = by_hour ? "nightly run: time on " + day : "nightly run: date";
+  std::set<std::string> times;
   for (const NightlyFacts& nightly_run : trend.nightly_runs)
-    panel.x.names.push_back(tick_of(nightly_run, by_hour));
+    if (is_one_day) times.insert(minute_of(nightly_run));
+  const bool by_time = is_one_day && times.size() == trend.nightly_runs.size();
+  axis.label = by_time      ? "nightly run: time on " + day
+               : is_one_day ? "nightly run, " + day
+                            : "nightly run: date";
+  for (const NightlyFacts& nightly_run : trend.nightly_runs) {
+    const std::string number = std::to_string(nightly_run.number);
+    axis.names.push_back(by_time      ? number + ": " + minute_of(nightly_run)
+                         : is_one_day ? number
+                                      : dated_tick(nightly_run));
+  }
+}
+
+ErrorPanel panel_of(const StudyTrend& trend) {
+  ErrorPanel panel;
+  name_nightly_runs(trend, panel.x);
   panel.x.limits = Range{-0.5, static_cast<double>(trend.nightly_runs.size()) - 0.5};
   return panel;
 }
@@ -247,14 +263,22 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
 }
 
 /// The style of a method in all figures, its report's too.
-std::optional<std::size_t> style_of(const StudyLabels& labels, const std::string& method) {
+std::optional<std::size_t> style_of(const StudyTrend& trend, const std::string& method) {
+  const StudyLabels& labels = trend.labels;
   if (!labels.methods.empty()) {
     const std::vector<std::string> ids = labels.ordered();
     const auto found = std::ranges::find(ids, base_method(labels, method));
     if (found == ids.end()) return std::nullopt;
+    std::map<std::string, std::set<std::string>> setups_by_method;
+    for (const auto& [series, values] : trend.medians)
+      setups_by_method[base_method(labels, series.method)].insert(series.sensor);
     std::vector<std::string> shown;
-    for (const std::string& id : ids) shown.push_back(labels.methods.at(id));
-    return series_of_methods(ids, shown)[static_cast<std::size_t>(found - ids.begin())];
+    std::vector<std::set<std::string>> setups;
+    for (const std::string& id : ids) {
+      shown.push_back(labels.methods.at(id));
+      setups.push_back(setups_by_method[id]);
+    }
+    return series_of_methods(ids, shown, setups)[static_cast<std::size_t>(found - ids.begin())];
   }
   const std::optional<Method> known = method_named(base_method(labels, method));
   return known ? std::optional(method_series(*known)) : std::nullopt;
@@ -376,7 +400,7 @@ class StyleNumbers {
 
   /// What series_style() takes; empty of a method without a style.
   std::optional<std::size_t> next(const std::string& setting) {
-    const std::optional<std::size_t> of_method = style_of(reported_.trend.labels, setting);
+    const std::optional<std::size_t> of_method = style_of(reported_.trend, setting);
     if (!of_method) return std::nullopt;
     const std::size_t number = reported_.setting_numbers.at(setting);
     for (std::size_t k = 0; k < kMarkerCount; ++k)
@@ -465,44 +489,26 @@ std::optional<Figure> values_figure(const Reported& reported, const std::string&
   std::ranges::stable_sort(lines, std::greater<>(), level_of);
   if (facts.better == Better::kHigher) std::ranges::reverse(lines);
   const std::string setup = first_setup(reported.trend.labels, sensor);
-  const ErrorLinesSpec spec =
+  const ErrorLinesSpec named =
       named_spec(reported, id_of(quantity) + "-" + id_of(sensor) + "-values",
                  (setup.empty() ? "" : setup + ": ") + best_text(reported, facts, lines));
-  const auto [least, most] = std::ranges::minmax(lines, {}, level_of);
-  constexpr double kWideSpan = 20.0;
-  Panel panel;
-  panel.x.label = label_with_unit(facts);
-  if (level_of(least) > 0.0 && level_of(most) > kWideSpan * level_of(least))
-    panel.x.scale = Scale::kLog;
-  panel.y.limits = Range{-0.6, static_cast<double>(lines.size()) - 0.4};
+  ValueDotsPanel panel;
   StyleNumbers styles(reported);
-  std::string alt;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    const std::string label = shown_method(reported.trend.labels, line.id.method);
-    const SeriesStyle style = series_style(styles.next(line.id.method).value_or(i));
-    panel.y.names.push_back(printable(label, kLongestMethod));
-    panel.layers.emplace_back(Scatter{
-        .x = {level_of(line)},
-        .y = {static_cast<double>(i)},
-        .colour = style.colour,
-        .marker = style.marker,
-        .marks = {Mark{"value-" + id_of(line.id.method),
-                       {{"method", label}, {id_of(quantity), data_number(level_of(line))}}}}});
-    alt = fmt::format("{} {}{}", label, quantity_text(level_of(line), facts.unit),
-                      alt.empty() ? "." : "; " + alt);
-  }
-  Figure figure{.id = spec.id,
-                .title = spec.title,
-                .caption = fmt::format(
-                    "Dots: median over runs of {}, of each method the setting that is best{}",
-                    facts.label, without_change(reported.trend, *lines.back().values)),
-                .alt = spec.title + ". " + alt,
-                .record_ids = {},
-                .notes = {},
-                .panels = {}};
-  figure.panels.push_back(std::move(panel));
-  return figure;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    panel.methods.push_back({.label = shown_method(reported.trend.labels, lines[i].id.method),
+                             .key = id_of(lines[i].id.method),
+                             .series = styles.next(lines[i].id.method).value_or(i),
+                             .value = level_of(lines[i])});
+  return value_dots_figure(
+      {.id = named.id,
+       .title = named.title,
+       .caption = fmt::format("Dots: median over runs of {}, of each method the setting that is "
+                              "best{}",
+                              facts.label, without_change(reported.trend, *lines.back().values)),
+       .x_label = label_with_unit(facts),
+       .unit = facts.unit,
+       .higher_is_better = facts.better == Better::kHigher,
+       .panels = {std::move(panel)}});
 }
 
 bool is_about_memory(const NightlyFinding& finding) { return finding.quantity == "memory"; }

@@ -207,6 +207,38 @@ test("the list of methods has methods alone", async () => {
   await close();
 });
 
+test("a method that is chosen lights in figures with a panel for each method", async () => {
+  const { page, close } = await open();
+  const maps = await figure(page, "maps-bearing");
+  await page.locator("select.method").selectOption("KPCA, Gaussian");
+  const lit = await maps.evaluate((each) => [...each.querySelectorAll("g.panel-title:not(.dim)")]
+    .map((heading) => heading.querySelector("[data-words]").dataset.words));
+  assert.equal(lit.length, 1);
+  assert.match(lit[0], /^KPCA Gauss/);
+  await page.locator("select.method").selectOption("");
+  assert.equal(await maps.locator("g.dim").count(), 0);
+  await close();
+});
+
+test("a method that is chosen lights in the figure of the first screen", async () => {
+  const { page, close } = await open();
+  const list = page.locator("select.method"), image = page.locator(".main-figure img");
+  await list.waitFor({ state: "attached" });
+  const shown = async () => decodeURIComponent(await image.getAttribute("src"));
+  const before = await shown();
+  await list.selectOption("ISOMAP");
+  const words = (await shown()).match(/<g [^>]*class="dim"[^>]*>/g) ?? [];
+  assert.ok(words.some((tag) => tag.includes("SDE")), "the names of others");
+  assert.ok(words.every((tag) => !tag.includes("ISOMAP")), "not its own");
+  const bars = (await shown()).match(/<path [^>]*data-kind="interval"[^>]*>/g);
+  const lit = bars.filter((tag) => !/opacity/.test(tag));
+  assert.ok(lit.length > 0 && lit.length < bars.length, "its intervals");
+  assert.ok(lit.every((tag) => tag.includes('data-method="ISOMAP"')));
+  await list.selectOption("");
+  assert.equal(await shown(), before);
+  await close();
+});
+
 test("a step fills the box also on a wide page", async () => {
   const { page, close } = await open();
   const film = await figure(page, "forming-bearing");

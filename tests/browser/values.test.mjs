@@ -134,7 +134,7 @@ test("in zoomed axes names at the ends of lines follow them, and keys say what i
       }
       const box = words?.getBoundingClientRect();
       return { name, height: Math.min(bottom, Math.max(top, height)),
-        row: box ? box.top + box.height / 2 : NaN, hasFrame: frame !== null };
+        row: box?.height > 0 ? box.top + box.height / 2 : NaN, hasFrame: frame !== null };
     }).filter(({ row }) => !Number.isNaN(row)).sort((a, b) => a.row - b.row);
   });
   const isInOrder = (all) => all.every((end, i) => i === 0 || all[i - 1].height <= end.height + 1);

@@ -71,6 +71,18 @@ TEST(SeriesOfMethods, DifferForTwoSettingsOfAMethodUnderTwoLabels) {
   EXPECT_NE(series_style(series[1]).colour, series_style(series[2]).colour);
 }
 
+TEST(SeriesOfMethods, AreOneOfTwoParametersThatNoFigureShowsTogether) {
+  const auto series_in = [](const std::set<std::string>& first,
+                            const std::set<std::string>& other) {
+    return series_of_methods({"isomap-K6", "isomap-K9"}, {"ISOMAP, K = 6", "ISOMAP, K = 9"},
+                             {first, other});
+  };
+  const auto apart = series_in({"visibility"}, {"bearing"});
+  EXPECT_EQ(apart[0], apart[1]);
+  const auto together = series_in({"visibility"}, {"visibility", "bearing"});
+  EXPECT_NE(together[0], together[1]);
+}
+
 TEST(SeriesOfMethods, OfOneStudyDoNotDependOnItsOtherMethods) {
   const std::size_t fixed = series_of_methods({"fixed"})[0];
   EXPECT_EQ(series_of_methods({"stress", "fixed", "isomap"})[1], fixed);

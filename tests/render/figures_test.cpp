@@ -101,7 +101,7 @@ TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
   map.estimate(2, 0) += 0.5;
   const MapView view = view_of(map);
   EXPECT_EQ(view.worst, (std::vector<Eigen::Index>{9, 2}));
-  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 0.800 m and L03 0.500 m."),
+  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 (0.800 m) and L03 (0.500 m)."),
             std::string::npos);
 }
 

@@ -80,6 +80,35 @@ TEST(PanelGrid, HasFewerColumnsOnANarrowPage) {
   EXPECT_GT(narrow.height, paper_theme(3.25).height_pt);
 }
 
+TEST(PanelGrid, HasALegendOnceOfPanelsWithTheSameNames) {
+  const auto legend_texts = [](const std::string& other) {
+    Figure figure = grid(2, false);
+    std::get<Polyline>(figure.panels[1].layers[0]).label = other;
+    return count_of(lay_out(figure, report_theme()), ItemClass::kLegendText);
+  };
+  EXPECT_EQ(legend_texts("line"), 1U);
+  EXPECT_EQ(legend_texts("another line"), 2U);
+}
+
+TEST(PanelGrid, GivesMapsTwoThirdsOfTheHeightOfAPrintedPage) {
+  for (const std::size_t count : {2U, 3U, 4U, 10U, 11U}) {
+    Figure figure = grid(count, true);
+    for (Panel& panel : figure.panels) {
+      panel.equal_aspect = true;
+      panel.title += "\nMPE 0.1 m";
+      panel.layers = {Scatter{.label = "landmark", .x = {0.0, 2.0}, .y = {0.0, 1.7}}};
+    }
+    const Drawing drawing = lay_out(figure, paper_theme(3.25));
+    double frames = 0.0, end = 0.0;
+    for (const Box& frame : drawing.frames) {
+      frames += std::max(0.0, frame.y1 - std::max(frame.y0, end));
+      end = std::max(end, frame.y1);
+    }
+    EXPECT_GE(frames, 0.65 * drawing.height) << count;
+    EXPECT_LE(drawing.height, 9.5 * 72.0) << count;
+  }
+}
+
 TEST(PanelGrid, IsCleanInEveryTheme) {
   for (const bool shared : {true, false})
     for (const std::size_t count : {2u, 3u, 7u, 10u})

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/not_finite.hpp"
+#include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "tests/reports/results_rows.hpp"
@@ -119,7 +120,7 @@ TEST(ResultsFigures, GroundTruthIsASolidThinLineBelowTheEstimate) {
 
 TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
   Rows curve, plain;
-  for (const char* run : {"a", "b", "c"})
+  for (const char* run : {"a", "b", "c", "d", "e"})
     for (const char* method : {"m", "n", "o"}) {
       plain.add(method, run, run[0] - 'a' + 0.1 * (method[0] - 'm') + 1.0);
       for (const double noise : {0.1, 0.2})
@@ -134,6 +135,24 @@ TEST(ResultsFigures, ACurveOverNumbersElseADistribution) {
   EXPECT_EQ(curves.groups[0].figures[1].id, "test-s-ranks-mpe-m");
   const StudyFigures distributions = results_figures(without, compare_methods(without));
   EXPECT_EQ(distributions.groups[0].figures[0].panels[0].y.label, "runs at or below [%]");
+}
+
+TEST(ResultsFigures, FewRunsAreEachADotAndNoDistribution) {
+  Rows rows;
+  for (const auto& [run, value] : {std::pair("a", 1.0), {"b", 3.0}, {"c", 2.0}})
+    rows.add("m", run, value).add("n", run, value + 10.0);
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const Figure figure = results_figures(view, {}).groups.at(0).figures.at(0);
+  EXPECT_NE(figure.title.find("too few runs to rank the methods, the median MPE is between "
+                              "2.00\u00A0m and 12.0\u00A0m"),
+            std::string::npos)
+      << figure.title;
+  const Panel& panel = figure.panels.at(0);
+  EXPECT_EQ(panel.y.names, (std::vector<std::string>{"n", "m"})) << "the best one uppermost";
+  ASSERT_EQ(panel.layers.size(), 4U) << "runs and median of two methods";
+  EXPECT_EQ(std::get<Scatter>(panel.layers[2]).x, (std::vector<double>{1.0, 3.0, 2.0}));
+  EXPECT_EQ(std::get<Scatter>(panel.layers[3]).x, (std::vector<double>{2.0}));
 }
 
 TEST(ResultsFigures, ADistributionOfManyRunsKeepsTheSharesOfFiveHundredOfThem) {
@@ -349,7 +368,12 @@ TEST(ResultsFigures, EveryQuantityHasOneOrASentence) {
   EXPECT_EQ(why(repeated.add("m", "a", 3.0).add("m", "b", 3.0)),
             "MPE: there is no figure of the distribution over runs, which have fewer than 3 "
             "different values.");
-  EXPECT_EQ(why(repeated.add("m", "c", 4.0).add("m", "d", 5.0)), "");
+  EXPECT_EQ(why(repeated.add("m", "c", 4.0).add("m", "d", 5.0)),
+            "MPE: there is no figure of the runs of one method, which are too few for a "
+            "distribution.");
+  Rows two = repeated;
+  EXPECT_EQ(why(two.add("n", "a", 3.0)), "");
+  EXPECT_EQ(why(repeated.add("m", "e", 6.0)), "");
   for (const char* terrain : {"a", "b", "c", "d", "e"})
     many.add("m", "a", 1.0, {{"terrain", std::string(terrain)}})
         .add("m", "b", 2.0, {{"terrain", std::string(terrain)}});

@@ -379,6 +379,7 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
   const auto most = std::ranges::max_element(wins, {}, &std::pair<const std::string, int>::second);
   if (std::ranges::count(wins, most->second, &std::pair<const std::string, int>::second) > 1)
     return "";
+  if (2 * most->second <= points) return "";  // At most points another one, or several, are best.
   const auto& line = *std::ranges::find(all, most->first, &ErrorLine::label);
   const std::string best =
       fmt::format("{} {}", named(line, all), has_the_best(quantity, is_plural(line, quantity)));

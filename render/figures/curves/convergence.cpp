@@ -308,8 +308,8 @@ Figure factorization_cost_figure(const std::string& id, std::span<const Factoriz
   spec.title = factorization_title(costs);
   spec.varies = true;
   spec.caption =
-      "Time of singular values and upgrade over the number of steps T and of landmarks N, with the "
-      "slopes of O((2N)\u00B2 T). It varies from run to run.";
+      "Time of singular values and upgrade, the least of five, over the number of steps T and of "
+      "landmarks N, with the slopes of O((2N)\u00B2 T). It varies from run to run.";
   double longest_s = 0.0;
   for (const FactorizationCost& cost : costs) longest_s = std::max(longest_s, cost.seconds);
   const ScaledUnit unit = scaled_unit("s", longest_s);

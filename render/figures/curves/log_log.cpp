@@ -120,6 +120,7 @@ class PanelBuilder {
         add_line(bars, high, {high.x, low_end_});
       else
         add_line(bars, {high.x, from.low[i]}, high);
+      bars.marks.push_back({"", {{"curve", from.label}, {"kind", "interval"}}});
     }
     return bars;
   }

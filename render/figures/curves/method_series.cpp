@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "render/figures/curves/error_lines.hpp"
+#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -119,15 +120,29 @@ bool is_mapping_method(const std::string& id) {
 }
 
 std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids,
-                                           const std::vector<std::string>& labels) {
+                                           const std::vector<std::string>& labels,
+                                           const std::vector<std::set<std::string>>& setups) {
   std::vector<std::size_t> series(ids.size()), known, left;
-  std::map<std::size_t, std::string> owners;  // The label that has a known style.
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    if (const auto style = series_of_id(ids[i]);
-        style && owners.try_emplace(*style, labels[i]).first->second == labels[i])
-      known.push_back(series[i] = *style);
-    else
+  const auto are_together = [&](std::size_t i, std::size_t j) {
+    return setups.empty() || std::ranges::any_of(setups[i], [&](const std::string& setup) {
+             return setups[j].contains(setup);
+           });
+  };
+  const auto can_share = [&](std::size_t i, std::size_t j) {
+    return labels[i] == labels[j] ||
+           (without_parameters(labels[i]) == without_parameters(labels[j]) && !are_together(i, j));
+  };
+  std::map<std::size_t, std::vector<std::size_t>> owners;  // Of each known style.
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const auto style = series_of_id(ids[i]);
+    if (!style || !std::ranges::all_of(owners[*style],
+                                       [&](std::size_t owner) { return can_share(i, owner); })) {
       left.push_back(i);
+      continue;
+    }
+    owners[*style].push_back(i);
+    known.push_back(series[i] = *style);
+  }
   const std::vector<std::size_t> free = free_series(known, left.size(), first_unknown());
   for (std::size_t k = 0; k < left.size(); ++k) series[left[k]] = free[k];
   return series;

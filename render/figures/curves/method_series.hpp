@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,14 @@ bool is_mapping_method(const std::string& id);
 /// The styles of a study's methods by their ids, the same in all figures of all studies: that of
 /// the mapping method that an id names, with or without its parameter ("isomap", "isomap-K6"), or
 /// of what mapproof's own studies compare. Ids that are not known have free_series() in their
-/// order, as have further settings of a known method under another label: no two labels of a study
-/// have one style, and the first ten differ in colour.
+/// order, as have further settings of a known method under another label that a figure may show
+/// together: no two such labels have one style, and the first ten differ in colour. "ISOMAP, K = 6"
+/// and "ISOMAP, K = 9" of different setups have one.
 /// @param labels  As many as ids.
+/// @param setups  Of each id, those in which it has results; none at all: all are shown together.
 std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids,
-                                           const std::vector<std::string>& labels);
+                                           const std::vector<std::string>& labels,
+                                           const std::vector<std::set<std::string>>& setups = {});
 
 /// Of methods that are called as their ids.
 inline std::vector<std::size_t> series_of_methods(const std::vector<std::string>& ids) {

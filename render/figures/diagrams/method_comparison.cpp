@@ -100,8 +100,10 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
     const PublishedError& method = methods[i];
     const double y = static_cast<double>(i);
     panel.y.names.push_back(printable(method.label, kLongestMethodLabel));
-    if (method.interval && is_drawn(method.interval->low))
+    if (method.interval && is_drawn(method.interval->low)) {
       add_line(intervals, {method.interval->low, y}, {method.interval->high, y});
+      intervals.marks.push_back({"", {{"method", method.label}, {"kind", "interval"}}});
+    }
     add_point(ours, {method.mean_m, y});
     ours.marks.push_back(mark_of(method, number, "ours", method.mean_m));
     if (!method.published_m) continue;
@@ -348,8 +350,13 @@ std::string ranking_title(const CriticalDifferenceSpec& spec, const std::string&
       : alike == others ? "no other differs from it significantly"
                         : fmt::format("{} of {} others rank{} significantly lower", others - alike,
                                       others, others - alike == 1 ? "s" : "");
-  return fmt::format("{} ranks best by {}; {}", without_parameters(short_method_name(best.label)),
-                     by, others_words);
+  constexpr std::size_t kMostNamed = 2;
+  std::vector<std::string> names;  // Those whose labels have the same rank.
+  for (const RankedMethod& method : spec.methods)
+    if (fmt::format("{:.2f}", method.mean_rank) == fmt::format("{:.2f}", best.mean_rank))
+      names.push_back(without_parameters(short_method_name(method.label)));
+  return fmt::format("{} rank{} best by {}; {}", listed(names, kMostNamed),
+                     names.size() == 1 ? "s" : "", by, others_words);
 }
 
 Figure critical_difference_figure(const CriticalDifferenceSpec& spec) {

@@ -231,7 +231,7 @@ class MapFigure {
   std::string worst_text() const {
     std::vector<std::string> parts;
     for (const Eigen::Index i : view_.worst)
-      parts.push_back(record_.names[i] + " " + error_text(view_.error_m[i]));
+      parts.push_back(fmt::format("{} ({})", record_.names[i], error_text(view_.error_m[i])));
     return listed(parts, kMostNamed);
   }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "core/statistics/intervals.hpp"
 #include "render/figures/curves/spectrum.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
@@ -126,10 +127,18 @@ std::string gap_words(const std::vector<SpectrumPanel>& methods) {
     if (const double gap = spectral_gap(method.eigenvalues); std::isfinite(gap))
       gaps.emplace_back(gap, method.title);
   if (gaps.size() < 2) return "";
+  constexpr int kDigits = 2;
+  constexpr std::size_t kMostNamed = 3;
   const auto [least, most] = std::ranges::minmax(gaps);
-  return fmt::format("two eigenvalues stand out most with {} ({} times), least with {} ({} times)",
-                     most.second, significant(most.first, 2), least.second,
-                     significant(least.first, 2));
+  // Those whose panels print the same number.
+  const auto named = [&](double gap) {
+    std::vector<std::string> names;
+    for (const auto& [other, name] : gaps)
+      if (significant(other, kDigits) == significant(gap, kDigits)) names.push_back(name);
+    return fmt::format("{} ({} times)", listed(names, kMostNamed), significant(gap, kDigits));
+  };
+  return fmt::format("two eigenvalues stand out most with {}, least with {}", named(most.first),
+                     named(least.first));
 }
 
 void add_spectra(FigureSource& source, const SensorStudy& sensor, const RunId& run,

@@ -25,9 +25,7 @@ PathErrorsSpec spec_of(const ResultsStudy& study, std::vector<const PathErrors*>
   std::ranges::stable_sort(
       run, {}, [&](const PathErrors* errors) { return rank_of(study, errors->method); });
   PathErrorsSpec spec;
-  std::vector<Label> methods = study.methods;
-  methods.emplace_back();  // A method that the study does not have.
-  const std::vector<std::size_t> series = styles_of(methods);
+  const std::vector<std::size_t> series = styles_of(study);
   for (const PathErrors* errors : run) {
     spec.lines.push_back({.label = label_of(study.methods, errors->method),
                           .poses = &errors->poses,

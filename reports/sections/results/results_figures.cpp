@@ -23,10 +23,9 @@
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
-#include "render/figures/maps/map.hpp"
+#include "render/figures/diagrams/value_dots.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/unit_scale.hpp"
-#include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/method_ranks.hpp"
 #include "reports/sections/results/crossed_names.hpp"
 #include "reports/sections/tables/cells.hpp"
@@ -111,8 +110,8 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
   return lines;
 }
 
-/// Bands of more lines than these hide each other.
-constexpr std::size_t kMostBands = 4;
+/// Of more lines some may hide others.
+constexpr std::size_t kMostApart = 4;
 constexpr const char* kSingleRuns = "single runs";
 constexpr const char* kSingleRunsRemark =
     " Small circles: single runs, which are too few for an interval.";
@@ -277,7 +276,7 @@ Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quant
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   const bool is_log = scale_of(block.levels) == Scale::kLog;
   Curves curves;
-  curves.has_bands = lines.size() <= kMostBands && view.has_groups_for_intervals();
+  curves.has_bands = lines.size() <= kMethodStyles && view.has_groups_for_intervals();
   for (std::size_t i = 0; i < lines.size(); ++i) {
     ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
     if (std::ranges::none_of(curve.mean, is_known)) continue;
@@ -286,7 +285,7 @@ Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quant
   }
   if (is_distance_from_another(quantity))
     curves.lacks_compared_with = drop_compared_with(curves.lines);
-  if (lines.size() > kMostBands) join_same(curves);
+  if (lines.size() > kMostApart) join_same(curves);
   return curves;
 }
 
@@ -593,6 +592,42 @@ bool has_different_values(const ResultsView& view, const ResultsBlock& block,
   return false;
 }
 
+/// Where no factor has numbers and the runs are too few for a distribution: each of them, a panel
+/// per level. Of one method the table has as much.
+std::optional<Figure> runs_figure(const ResultsView& view, const ResultsBlock& block,
+                                  const Quantity& quantity) {
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  if (lines.size() < 2) return std::nullopt;
+  ValueDotsSpec spec{.id = figure_id(block.id, quantity.id),
+                     .caption = fmt::format("Filled: the median {} of each method; circles: single "
+                                            "runs, which are too few for a distribution.",
+                                            in_sentence(quantity.label)),
+                     .x_label = label_with_unit(quantity),
+                     .unit = quantity.unit,
+                     .higher_is_better = quantity.better == Better::kHigher,
+                     .record_ids = {record_of(block)}};
+  std::vector<double> medians;
+  for (std::size_t i = 0; i < block.conditions.size(); ++i) {
+    ValueDotsPanel& panel = spec.panels.emplace_back();
+    if (!block.factor.empty()) panel.title = view.level_words(block.levels[i]);
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+      const auto runs = view.numbers(block.conditions[i], lines[k], quantity).values;
+      if (runs.empty()) continue;
+      MethodValue& method = panel.methods.emplace_back();
+      method = {lines[k].label, key_of(k), lines[k].series, median_of(runs), {}};
+      medians.push_back(method.value);
+      for (const auto& [run, value] : runs) method.runs.push_back(value);
+    }
+  }
+  if (medians.empty()) return std::nullopt;
+  const auto [least, greatest] = std::ranges::minmax(medians);
+  spec.title =
+      fmt::format("{}: {}the median {} is between {} and {}", block.title,
+                  has_better_side(quantity) ? kTooFewRuns : "", in_sentence(quantity.label),
+                  quantity_text(least, quantity.unit), quantity_text(greatest, quantity.unit));
+  return value_dots_figure(spec);
+}
+
 /// Where no factor has numbers: the distribution over runs, a panel per level. Steps between two
 /// values would show nothing but a share, which the table has.
 std::optional<Figure> distribution_figure(const ResultsView& view, const ResultsBlock& block,
@@ -600,6 +635,7 @@ std::optional<Figure> distribution_figure(const ResultsView& view, const Results
   if (!view.study().results.are_repeats || block.conditions.size() > kMostPanels ||
       !has_several_runs(view, block, quantity) || !has_different_values(view, block, quantity))
     return std::nullopt;
+  if (!view.has_groups_for_intervals()) return runs_figure(view, block, quantity);
   ErrorLinesSpec spec;
   spec.id = figure_id(block.id, quantity.id);
   spec.title = block.title + ": " + quantity.label;
@@ -830,59 +866,6 @@ std::optional<Figure> rank_figure(const ResultsView& view, const MethodCompariso
   return figure;
 }
 
-/// An id that no figure of the group has.
-std::string free_id(const FigureGroup& group, const std::string& id) {
-  std::string free = id;
-  for (int i = 2; std::ranges::find(group.figures, free, &Figure::id) != group.figures.end(); ++i)
-    free = fmt::format("{}-{}", id, i);
-  return free;
-}
-
-Polyline path_line(const std::string& label, const Trajectory& path, ThemeColour colour,
-                   double width) {
-  constexpr double kShareOfSpan = 5e-4;  // Less than a line's width.
-  const Eigen::RowVector2d span =
-      path.positions_m.colwise().maxCoeff() - path.positions_m.colwise().minCoeff();
-  const ThinLine thin = thin_path(path, kShareOfSpan * span.maxCoeff());
-  return {.label = label, .x = thin.x, .y = thin.y, .colour = colour, .width = width};
-}
-
-std::string alignment_words(const GivenPath& path) {
-  switch (path.alignment) {
-    case Alignment::kRigid:
-      return ", to which it was aligned by rotation and translation";
-    case Alignment::kSimilarity:
-      return ", to which it was aligned by rotation, translation and scale";
-    default:
-      return ", as it was given: nothing was aligned";
-  }
-}
-
-Figure path_figure(const GivenPath& path, std::string id) {
-  Figure figure;
-  figure.id = std::move(id);
-  figure.title = path.id;
-  figure.record_ids = {"paths/" + path.id};
-  Panel& panel = figure.panels.emplace_back();
-  panel.x.label = "x [m]";
-  panel.y.label = "y [m]";
-  panel.equal_aspect = true;
-  if (path.ground_truth)
-    panel.layers.emplace_back(
-        path_line("ground truth", *path.ground_truth, ThemeColour::kText, 0.6));
-  panel.layers.emplace_back(path_line("estimate", path.path, ThemeColour::kSeries1, 1.0));
-  figure.caption =
-      fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
-                  path.ground_truth ? " and its ground truth" : "", alignment_words(path));
-  constexpr double kMicrometres = 1e6;  // Below, a distance is rounding alone.
-  if (path.rms_m)
-    figure.caption += fmt::format(" RMS distance from the ground truth: {:.3g} m.",
-                                  std::round(kMicrometres * *path.rms_m) / kMicrometres);
-  figure.alt = figure.caption;
-  require_valid(figure);
-  return figure;
-}
-
 }  // namespace
 
 FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
@@ -918,23 +901,6 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
       group.figures.push_back(heat_map_figure(spec));
     }
   }
-  return group;
-}
-
-FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
-                          const std::vector<GivenPath>& paths) {
-  FigureGroup group{study.name + "-maps", "Maps and paths", "", {}};
-  std::vector<std::pair<std::string, const MapRecord*>> titled;
-  for (const MapRecord& map : maps) {
-    const std::string id = free_id(group, study.name + "-map-" + slug_of(map.id));
-    group.figures.push_back(map_figure(map, id, map.id));
-    group.figures.back().record_ids = {"maps/" + map.id};
-    titled.emplace_back(title_with_error(map.id, map), &map);
-  }
-  group.scenes = best_map_scene("scene-" + study.name + "-map", titled);
-  for (const GivenPath& path : paths)
-    group.figures.push_back(
-        path_figure(path, free_id(group, study.name + "-path-" + slug_of(path.id))));
   return group;
 }
 
@@ -983,6 +949,11 @@ std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
         "{}: there is no figure of the distribution over runs, which have fewer than {} different "
         "values.",
         quantity.label, kFewestValues);
+  if (!view.has_groups_for_intervals() && view.lines(block, quantity).size() < 2)
+    return fmt::format(
+        "{}: there is no figure of the runs of one method, which are too few for a "
+        "distribution.",
+        quantity.label);
   return "";
 }
 

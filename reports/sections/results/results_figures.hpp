@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "core/model/given_path.hpp"
-#include "core/model/map_record.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_view.hpp"
@@ -33,11 +31,5 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup);
 /// one, and where runs are not repeats of each other and there is no axis for a curve.
 std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
                           const Quantity& quantity);
-
-/// The maps, each landmark's error as a line where the ground truth is known, and the paths beside
-/// theirs: maps as they were given, paths as their alignment says. Without either the group is
-/// empty.
-FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
-                          const std::vector<GivenPath>& paths);
 
 }  // namespace mapproof

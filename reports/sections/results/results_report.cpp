@@ -19,6 +19,7 @@
 #include "core/evaluate/evaluation_rows.hpp"
 #include "render/figures/maps/pair_distances.hpp"
 #include "reports/sections/figures/map_scenes.hpp"
+#include "reports/sections/figures/map_walls.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
@@ -77,20 +78,24 @@ std::string ellipses_text(const MapRecord& map, const MapUncertainty& uncertaint
                      ellipses);
 }
 
-std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
+/// "dataset1: Range and bearing, SMACOF once".
+std::string name_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
   const auto setup = std::ranges::find(study.design.setups, map.at.setup.get(), &TopicSetup::id);
   std::string title = is_of_data(study) || setup == study.design.setups.end()
                           ? title_of(study, part.id)
                           : setup->title;
   if (setup != study.design.setups.end() && !setup->factors.empty())
     title += ", " + level_words(*setup, map.at);
-  title += ": " + series_label(study.design, map.method);
-  constexpr double kMostTurned_percent = 25.0;  // Of triples; 50 are chance.
-  if (const auto& score = map.map.score)
-    title += score->moe_percent > kMostTurned_percent ? kNoUsableMap
-             : std::isfinite(score->mpe_m)            ? ": " + error_text(score->mpe_m) + " off"
-                                                      : "";
-  return title;
+  return title + ": " + series_label(study.design, map.method);
+}
+
+/// With its error.
+std::string title_of(const TopicStudy& study, const TopicPart& part, const TopicMap& map) {
+  const std::string name = name_of(study, part, map);
+  const auto& score = map.map.score;
+  if (!score) return name;
+  if (!is_usable(*score)) return name + kNoUsableMap;
+  return std::isfinite(score->mpe_m) ? name + ": " + error_text(score->mpe_m) + " off" : name;
 }
 
 std::vector<Paragraph> findings_of(const ResultsReportInput& input) {
@@ -239,7 +244,10 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
 
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
-  std::vector<std::pair<std::string, const MapRecord*>> titled;
+  std::vector<std::pair<std::string, const MapRecord*>> named, titled;
+  for (const TopicPart& part : study.parts)
+    for (const TopicMap& map : part.maps) named.emplace_back(name_of(study, part, map), &map.map);
+  maps.figures = map_walls(prefix, named);
   for (const TopicPart& part : study.parts)
     for (const TopicMap& map : part.maps) {
       const std::string title = title_of(study, part, map);
@@ -360,14 +368,17 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     const std::string others = counted(std::ssize(comparison.methods) - 1, "other method");
     const ComparedMethod& next = comparison.methods[1];
     const bool is_one = input.view.runs() < 2;
+    std::string note = name_with_poses(input, best.method) + "; ";
+    if (comparison.groups < 2)
+      note += fmt::format("{} {}", name_with_poses(input, next.method),
+                          quantity_text(next.mean, comparison.quantity->unit));
+    else if (worse == 0)
+      note += "not significantly better than any other method (paired test)";
+    else
+      note += fmt::format("significantly better than {} of {} (paired test)", worse, others);
     numbers.items.push_back(
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
-         quantity_text(best.mean, comparison.quantity->unit),
-         comparison.groups < 2 ? fmt::format("{}; {} {}", name_with_poses(input, best.method),
-                                             name_with_poses(input, next.method),
-                                             quantity_text(next.mean, comparison.quantity->unit))
-                               : fmt::format("{}; significantly better than {} of {}",
-                                             name_with_poses(input, best.method), worse, others),
+         quantity_text(best.mean, comparison.quantity->unit), std::move(note),
          comparison.block->id});
   }
 }

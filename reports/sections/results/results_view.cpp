@@ -74,7 +74,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     }
     quantities_.emplace(id, std::move(quantity));
   }
-  series_ = styles_of(study.methods);
+  series_ = styles_of(study);
   take_rows();
   name_setups();
   for (const RunOutcome& outcome : study.results.outcomes)
@@ -387,10 +387,25 @@ std::string ResultsView::words_of(const ResultsBlock& block, std::size_t conditi
                               : block.title + ", " + level_words(block.levels[condition]);
 }
 
-std::vector<std::size_t> styles_of(const std::vector<Label>& methods) {
+std::vector<std::size_t> styles_of(const ResultsStudy& study) {
+  std::map<std::string, std::set<std::string>> setups_by_method;
+  const Result* last = nullptr;  // Millions of rows may have the same names one after the other.
+  for (const Result& row : study.results.rows) {
+    if (last == nullptr || last->method != row.method || last->at.setup != row.at.setup)
+      setups_by_method[row.method].insert(row.at.setup);
+    last = &row;
+  }
   std::vector<std::string> ids, labels;
-  for (const Label& method : methods) ids.push_back(method.id), labels.push_back(method.label);
-  return series_of_methods(ids, labels);
+  std::vector<std::set<std::string>> setups;
+  for (const Label& method : study.methods) {
+    ids.push_back(method.id);
+    labels.push_back(method.label);
+    setups.push_back(setups_by_method[method.id]);
+  }
+  ids.emplace_back();
+  labels.emplace_back();
+  setups.emplace_back();
+  return series_of_methods(ids, labels, setups);
 }
 
 bool is_lost(double value) {

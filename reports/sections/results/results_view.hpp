@@ -153,8 +153,8 @@ class ResultsView {
   std::vector<ResultsOverview> overviews_;
 };
 
-/// What series_style() takes for each method.
-std::vector<std::size_t> styles_of(const std::vector<Label>& methods);
+/// What series_style() takes for each method of a study, and for one that it does not have.
+std::vector<std::size_t> styles_of(const ResultsStudy& study);
 
 /// Whether a value counts as lost: no number, or too large for a sum of squares.
 bool is_lost(double value);

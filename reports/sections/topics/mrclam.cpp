@@ -120,13 +120,11 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
   const auto failed =
       std::ranges::count_if(study.parts, [](const TopicPart& part) { return is_unusable(part); });
   return {error_text(median(together)), "median MPE from range and bearing together",
-          alone.empty()
-              ? counted(std::ssize(together), "data set")
-              : fmt::format("{}; by the best single sensor {}",
-                            counted(std::ssize(together), "data set"), error_text(median(alone))),
-          failed == 0 ? "usable on every data set"
-                      : fmt::format("no usable map of {} of {}", failed,
-                                    counted(std::ssize(study.parts), "data set")),
+          alone.empty() ? "" : "by the best single sensor " + error_text(median(alone)),
+          failed == 0
+              ? fmt::format("usable on all of {}", counted(std::ssize(together), "data set"))
+              : fmt::format("no usable map of {} of {}", failed,
+                            counted(std::ssize(study.parts), "data set")),
           failed > 0};
 }
 

@@ -199,6 +199,10 @@ TEST(HistoryPages, GiveTheHourWhereAllNightlyRunsAreOfOneDay) {
     nightly_run.started_utc = fmt::format("2026-11-22T0{}:30:07Z", nightly_run.number);
   EXPECT_EQ(ticks().label, "nightly run: time on 2026-11-22");
   EXPECT_EQ(ticks().names.front(), "1: 01:30");
+  const std::string first = trend.nightly_runs.front().started_utc;
+  trend.nightly_runs.back().started_utc = first;
+  EXPECT_EQ(ticks().label, "nightly run, 2026-11-22");
+  EXPECT_EQ(ticks().names.front(), "1");
   trend.nightly_runs.back().started_utc = "2026-11-23T04:30:07Z";
   EXPECT_EQ(ticks().label, "nightly run: date");
   EXPECT_EQ(ticks().names.front(), "1: 11-22");

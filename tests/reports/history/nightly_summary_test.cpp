@@ -76,6 +76,21 @@ TEST(FindingGroups, AreOfOneMethodAndSayWhatChangedByHowMuchAndSinceWhichCommits
   EXPECT_EQ(group.count_text(), "2 findings");
 }
 
+TEST(FindingGroups, OfAnotherProgramJoinMethodsWhoseNamesDifferInTheirLastNumberAlone) {
+  StudyTrend trend = two_settings();
+  trend.labels.setups = {{"bearing", "Hall"}};
+  trend.labels.methods = {{"isomap-K6", "isomap-K6"}, {"isomap-K8", "isomap-K8"}, {"lpca", "lpca"}};
+  std::vector<NightlyFinding> findings = two_findings();
+  findings.push_back(findings.front());
+  findings.back().subject = "bearing, lpca, 150 steps";
+  const NightlySummary summary = last_summary(
+      {.nightly_runs = trend.nightly_runs, .findings = {{3, findings}}, .trends = {trend}});
+  ASSERT_EQ(summary.groups.size(), 2U);
+  EXPECT_EQ(summary.groups[0].headline(), "isomap-K6 and isomap-K8: MPE +17.6\u00a0%");
+  EXPECT_EQ(summary.groups[0].count_text(), "2 findings");
+  EXPECT_EQ(summary.groups[1].headline(), "lpca: MPE +17.6\u00a0%");
+}
+
 TEST(FindingGroups, SearchWithACommandThatNamesNoCommitAndWritesNothing) {
   CommitRange range{
       .before = {.number = 1, .commit = std::string(40, 'a')},

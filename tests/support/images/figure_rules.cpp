@@ -21,6 +21,7 @@ constexpr std::size_t kFewestLabels = 2, kFewestWithRoom = 3;
 constexpr double kRoomOfThree = 12.0;    // For three labels of numbers side by side, em.
 constexpr double kUppermost = 0.7;       // Of an axis from 0: lines above it alone.
 constexpr double kLeastOfPaper = 0.65;   // Of the height, for the frame of a narrow paper figure.
+constexpr double kHighPage = 640.0;      // In points: maps beyond would not fit on paper.
 constexpr double kLeastOfWidth = 0.4;    // Of the page, for the only frame.
 constexpr double kLeastOfReport = 0.5;   // Of the height below the title, on a screen.
 constexpr std::size_t kMostLabels = 12;  // Of numbers on an axis.
@@ -222,8 +223,9 @@ class Rules {
     const bool is_map = std::ranges::any_of(figure_.panels, &Panel::equal_aspect);
     const bool is_bare = std::ranges::any_of(figure_.panels, &Panel::bare);
     if (is_bare || (!paper && (is_map || figure_.panels.size() > 1))) return;
-    // Of maps the width decides where they are as wide as the page, and of rows of maps anyway.
-    if (is_map && (figure_.panels.size() > 1 || is_wide(drawing_.frames[0]))) return;
+    // Of maps that are as wide as the page the width decides, and of several the page's end.
+    if (is_map && figure_.panels.size() == 1 && is_wide(drawing_.frames[0])) return;
+    if (is_map && figure_.panels.size() > 1 && drawing_.height > kHighPage) return;
     if (const double width = drawing_.frames[0].width() / drawing_.width;
         figure_.panels.size() == 1 && !is_map && width < kLeastOfWidth)
       add(fmt::format("the frame takes {:.0f} % of the width", 100.0 * width));
@@ -236,12 +238,9 @@ class Rules {
 
   bool is_wide(const Box& frame) const { return frame.width() > kWide * drawing_.width; }
 
-  /// Of the page, what has a frame beside it, or a panel's title if there are several.
+  /// Of the page, what has a frame beside it.
   double height_of_rows() const {
     std::vector<Box> parts = drawing_.frames;
-    for (const Item& item : drawing_.items)
-      if (item.item_class == ItemClass::kPanelTitle && parts.size() > 1)
-        parts.push_back(text_box(std::get<TextLine>(item.what)).grown(0.3 * theme_.font_pt));
     std::ranges::sort(parts, {}, &Box::y0);
     double height = 0.0, end = 0.0;
     for (const Box& part : parts) {

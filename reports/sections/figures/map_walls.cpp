@@ -1,0 +1,111 @@
+#include "reports/sections/figures/map_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
+#include "render/figures/maps/map_grid.hpp"
+
+namespace mapproof {
+namespace {
+
+constexpr std::size_t kMostMaps = 12;
+constexpr std::size_t kColumns = 3;
+constexpr std::string_view kOf = ": ";  ///< Between a subject and what its map is of.
+
+using NamedMap = std::pair<std::string, const MapRecord*>;
+
+struct MapsOfWorld {
+  std::string subject = {};
+  std::vector<NamedMap> maps = {};
+};
+
+std::string subject_of(const std::string& name) {
+  const std::size_t end = name.find(kOf);
+  return end == std::string::npos ? "" : name.substr(0, end);
+}
+
+bool has_use(const MapRecord& map) { return map.score && is_usable(*map.score); }
+
+/// Infinite if it is not known.
+double error_m(const MapRecord& map) {
+  return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
+}
+
+/// Also where both are not known.
+bool are_equal(const Points& a, const Points& b) {
+  return a.rows() == b.rows() &&
+         (a.array() == b.array() || (a.array().isNaN() && b.array().isNaN())).all();
+}
+
+std::vector<MapsOfWorld> worlds_of(const std::vector<NamedMap>& maps) {
+  std::vector<MapsOfWorld> worlds;
+  for (const auto& [name, map] : maps) {
+    if (map->frame != Frame::kGroundTruth || !map->ground_truth_m) continue;
+    const std::string subject = subject_of(name);
+    auto world = std::ranges::find_if(worlds, [&, &map = map](const MapsOfWorld& one) {
+      const MapRecord& first = *one.maps.front().second;
+      return one.subject == subject && first.names == map->names &&
+             are_equal(*first.ground_truth_m, *map->ground_truth_m);
+    });
+    if (world == worlds.end()) world = worlds.insert(world, MapsOfWorld{.subject = subject});
+    world->maps.emplace_back(name, map);
+  }
+  for (MapsOfWorld& world : worlds)
+    std::ranges::stable_sort(world.maps, {}, [](const NamedMap& map) {
+      return std::pair(!has_use(*map.second), error_m(*map.second));
+    });
+  return worlds;
+}
+
+/// "Range and bearing" above "SMACOF once".
+std::string in_two_lines(std::string name) {
+  constexpr std::string_view kComma = ", ";
+  if (const std::size_t at = name.find(kComma); at != std::string::npos)
+    name.replace(at, kComma.size(), "\n");
+  return name;
+}
+
+Figure wall_of(const MapsOfWorld& world, std::string id) {
+  MapGridSpec spec{.id = std::move(id), .title = "", .maps = {}};
+  const std::size_t cut = world.subject.empty() ? 0 : world.subject.size() + kOf.size();
+  for (const auto& [name, map] : world.maps)
+    if (spec.maps.size() < kMostMaps) spec.maps.push_back({in_two_lines(name.substr(cut)), *map});
+  const MapRecord& best = spec.maps.front().map;
+  const std::string subject = world.subject.empty() ? "" : world.subject + std::string(kOf);
+  if (has_use(best) && std::isfinite(error_m(best))) {
+    const auto useless =
+        std::ranges::count_if(spec.maps, [](const TitledMap& one) { return !has_use(one.map); });
+    spec.title = fmt::format(
+        "{} is best, {} off; {}", world.maps.front().first, error_text(error_m(best)),
+        useless == 0 ? "the others in the order of their errors"
+                     : fmt::format("{} of {} maps are not usable", useless, spec.maps.size()));
+  } else {
+    spec.title = subject + (best.score ? "no map is usable" : "maps of one world");
+  }
+  Figure figure = map_wall_figure(spec);
+  figure.columns = kColumns;
+  return figure;
+}
+
+}  // namespace
+
+bool is_usable(const Score& score) {
+  constexpr double kMostTurned_percent = 25.0;
+  return !(score.moe_percent > kMostTurned_percent);
+}
+
+std::vector<Figure> map_walls(const std::string& prefix,
+                              const std::vector<std::pair<std::string, const MapRecord*>>& maps) {
+  std::vector<Figure> walls;
+  for (const MapsOfWorld& world : worlds_of(maps))
+    if (world.maps.size() > 1)
+      walls.push_back(wall_of(world, fmt::format("{}-world-{}", prefix, walls.size() + 1)));
+  return walls;
+}
+
+}  // namespace mapproof

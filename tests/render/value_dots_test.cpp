@@ -1,0 +1,63 @@
+#include "render/figures/diagrams/value_dots.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/plot/layout.hpp"
+#include "tests/support/images/figure_checks.hpp"
+
+namespace mapproof::test {
+namespace {
+
+ValueDotsSpec three_methods() {
+  return {.id = "dots",
+          .title = "A has the lowest MPE",
+          .caption = "Dots.",
+          .x_label = "MPE [m]",
+          .unit = "m",
+          .panels = {{.methods = {{"A", "a", 0, 0.1, {}},
+                                  {"B", "b", 1, 0.3, {0.2, 0.3, 0.4}},
+                                  {"lost", "c", 2, kNaN, {}}}}}};
+}
+
+TEST(ValueDots, PutTheBestMethodUppermostAndLeaveOutWhatHasNoValue) {
+  ValueDotsSpec spec = three_methods();
+  EXPECT_EQ(value_dots_figure(spec).panels[0].y.names, (std::vector<std::string>{"B", "A"}));
+  spec.higher_is_better = true;
+  EXPECT_EQ(value_dots_figure(spec).panels[0].y.names, (std::vector<std::string>{"A", "B"}));
+}
+
+TEST(ValueDots, ShowRunsBehindTheirMedian) {
+  const Panel panel = value_dots_figure(three_methods()).panels[0];
+  ASSERT_EQ(panel.layers.size(), 3U) << "runs and value of B, value of A";
+  const auto& runs = std::get<Scatter>(panel.layers[0]);
+  const auto& value = std::get<Scatter>(panel.layers[1]);
+  EXPECT_EQ(runs.x, (std::vector<double>{0.2, 0.3, 0.4}));
+  EXPECT_EQ(runs.y, (std::vector<double>{0.0, 0.0, 0.0}));
+  EXPECT_FALSE(runs.filled);
+  EXPECT_TRUE(value.filled);
+  EXPECT_GT(value.size, runs.size);
+  EXPECT_EQ(value.colour, runs.colour);
+}
+
+TEST(ValueDots, AreOnALogarithmicAxisIfTheySpanMuch) {
+  ValueDotsSpec spec = three_methods();
+  EXPECT_EQ(value_dots_figure(spec).panels[0].x.scale, Scale::kLinear);
+  spec.panels[0].methods[1].runs.push_back(30.0);
+  EXPECT_EQ(value_dots_figure(spec).panels[0].x.scale, Scale::kLog);
+}
+
+TEST(ValueDots, AreSaidInWords) {
+  EXPECT_EQ(value_dots_figure(three_methods()).alt,
+            "A has the lowest MPE. A 0.100\u00A0m; B 0.300\u00A0m.");
+}
+
+TEST(ValueDots, AreCleanOnPagesOfAllKinds) {
+  ValueDotsSpec spec = three_methods();
+  spec.panels.push_back(spec.panels[0]);
+  for (const Theme& theme : {report_theme(), dark_theme(), paper_theme(3.25)})
+    for (const std::string& flaw : flaws(lay_out(value_dots_figure(spec), theme)))
+      ADD_FAILURE() << theme.name << ": " << flaw;
+}
+
+}  // namespace
+}  // namespace mapproof::test
