@@ -61,6 +61,24 @@ std::map<std::string, std::size_t> setting_numbers(const StudyTrend& trend) {
   return numbers;
 }
 
+/// The style of each method that the study declares, in all figures, its report's too.
+std::map<std::string, std::size_t> method_styles(const StudyTrend& trend) {
+  std::map<std::string, std::set<std::string>> setups_by_method;
+  for (const auto& [series, values] : trend.medians)
+    setups_by_method[base_method(trend.labels, series.method)].insert(series.sensor);
+  std::vector<std::string> ids, shown;
+  std::vector<std::set<std::string>> setups;
+  if (!trend.labels.methods.empty()) ids = trend.labels.ordered();
+  for (const std::string& id : ids) {
+    shown.push_back(trend.labels.methods.at(id));
+    setups.push_back(setups_by_method[id]);
+  }
+  const std::vector<std::size_t> series = series_of_methods(ids, shown, setups);
+  std::map<std::string, std::size_t> styles;
+  for (std::size_t i = 0; i < ids.size(); ++i) styles[ids[i]] = series[i];
+  return styles;
+}
+
 /// A trend with what was found of it.
 struct Reported {
   const StudyTrend& trend;
@@ -68,11 +86,22 @@ struct Reported {
       findings;  ///< By the index of the nightly run.
   const TrendLocation& location;
   std::map<std::string, std::size_t> setting_numbers;
+  std::map<std::string, std::size_t> method_styles;
 };
+
+/// Of mapproof's own methods where the study declares none.
+std::optional<std::size_t> style_of(const Reported& reported, const std::string& method) {
+  const std::string base = base_method(reported.trend.labels, method);
+  if (const auto found = reported.method_styles.find(base); found != reported.method_styles.end())
+    return found->second;
+  if (!reported.trend.labels.methods.empty()) return std::nullopt;
+  const std::optional<Method> known = method_named(base);
+  return known ? std::optional(method_series(*known)) : std::nullopt;
+}
 
 Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
                      const TrendLocation& location) {
-  Reported reported{trend, {}, location, setting_numbers(trend)};
+  Reported reported{trend, {}, location, setting_numbers(trend), method_styles(trend)};
   for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
     if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
         nightly_run != findings.end())
@@ -262,28 +291,6 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
   return figure;
 }
 
-/// The style of a method in all figures, its report's too.
-std::optional<std::size_t> style_of(const StudyTrend& trend, const std::string& method) {
-  const StudyLabels& labels = trend.labels;
-  if (!labels.methods.empty()) {
-    const std::vector<std::string> ids = labels.ordered();
-    const auto found = std::ranges::find(ids, base_method(labels, method));
-    if (found == ids.end()) return std::nullopt;
-    std::map<std::string, std::set<std::string>> setups_by_method;
-    for (const auto& [series, values] : trend.medians)
-      setups_by_method[base_method(labels, series.method)].insert(series.sensor);
-    std::vector<std::string> shown;
-    std::vector<std::set<std::string>> setups;
-    for (const std::string& id : ids) {
-      shown.push_back(labels.methods.at(id));
-      setups.push_back(setups_by_method[id]);
-    }
-    return series_of_methods(ids, shown, setups)[static_cast<std::size_t>(found - ids.begin())];
-  }
-  const std::optional<Method> known = method_named(base_method(labels, method));
-  return known ? std::optional(method_series(*known)) : std::nullopt;
-}
-
 /// A setup as a title or a sentence begins with it; a label of the study stays as it is.
 std::string first_setup(const StudyLabels& labels, const std::string& sensor) {
   std::string setup = shown_setup(labels, sensor);
@@ -400,7 +407,7 @@ class StyleNumbers {
 
   /// What series_style() takes; empty of a method without a style.
   std::optional<std::size_t> next(const std::string& setting) {
-    const std::optional<std::size_t> of_method = style_of(reported_.trend, setting);
+    const std::optional<std::size_t> of_method = style_of(reported_, setting);
     if (!of_method) return std::nullopt;
     const std::size_t number = reported_.setting_numbers.at(setting);
     for (std::size_t k = 0; k < kMarkerCount; ++k)

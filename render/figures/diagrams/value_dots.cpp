@@ -16,7 +16,6 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kLongestName = 30;  ///< Characters on an axis; the rest of a name is cut.
-constexpr double kWideSpan = 20.0;
 constexpr double kSizeAmongRuns = 1.5;
 
 /// Those with a value, the best one last: row 0 is lowest.

@@ -9,6 +9,9 @@
 
 namespace mapproof {
 
+/// Values that span more than this factor are on a logarithmic axis.
+inline constexpr double kWideSpan = 20.0;
+
 /// A method's row.
 struct MethodValue {
   std::string label = {};
@@ -35,7 +38,7 @@ struct ValueDotsSpec {
 };
 
 /// Values of methods as dots, a row each, the best one uppermost; small circles for the runs. The
-/// axis is logarithmic where the values span more than a factor of 20.
+/// axis is logarithmic where the values span widely.
 Figure value_dots_figure(const ValueDotsSpec& spec);
 
 }  // namespace mapproof

@@ -12,6 +12,7 @@
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/scatter_map.hpp"
+#include "reports/sections/figures/map_scenes.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -138,9 +139,8 @@ void add_wall(FigureSource& source, const SensorStudy& sensor, std::vector<Figur
       spec.maps.push_back({short_label(method.setting), *map});
   if (spec.maps.size() < 2) return;
   // By what the panels print.
-  std::ranges::stable_sort(spec.maps, {}, [](const TitledMap& one) {
-    return one.map.score && std::isfinite(one.map.score->mpe_m) ? one.map.score->mpe_m : HUGE_VAL;
-  });
+  std::ranges::stable_sort(spec.maps, {},
+                           [](const TitledMap& one) { return error_or_infinity(one.map); });
   if (const std::string errors = span_of_errors(spec.maps); !errors.empty())
     spec.title = fmt::format("{}, {}: MPE {}, the best first", title_of(sensor.sensor.sensor),
                              words_of(*run), errors);

@@ -26,15 +26,16 @@ std::string with_mean_error(const std::string& title, const MapRecord& map) {
 
 }  // namespace
 
+double error_or_infinity(const MapRecord& map) {
+  return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
+}
+
 std::vector<Scene> best_map_scene(
     const std::string& id, const std::vector<std::pair<std::string, const MapRecord*>>& maps) {
-  const auto error_m = [](const MapRecord& map) {
-    return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
-  };
   const std::pair<std::string, const MapRecord*>* best = nullptr;
   for (const auto& one : maps)
     if (has_map_scene(*one.second) &&
-        (best == nullptr || error_m(*one.second) < error_m(*best->second)))
+        (best == nullptr || error_or_infinity(*one.second) < error_or_infinity(*best->second)))
       best = &one;
   if (best == nullptr) return {};
   return {map_scene(

@@ -9,6 +9,9 @@
 
 namespace mapproof {
 
+/// The MPE of a map, for an order of maps; infinite if it is not known.
+double error_or_infinity(const MapRecord& map);
+
 /// The map with the least MPE in space, or without any score the first one that can be drawn; none
 /// if none can.
 /// @param id    Of the scene.

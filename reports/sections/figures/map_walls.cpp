@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "render/figures/maps/map_grid.hpp"
+#include "reports/sections/figures/map_scenes.hpp"
 
 namespace mapproof {
 namespace {
@@ -31,11 +31,6 @@ std::string subject_of(const std::string& name) {
 
 bool has_use(const MapRecord& map) { return map.score && is_usable(*map.score); }
 
-/// Infinite if it is not known.
-double error_m(const MapRecord& map) {
-  return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
-}
-
 /// Also where both are not known.
 bool are_equal(const Points& a, const Points& b) {
   return a.rows() == b.rows() &&
@@ -57,7 +52,7 @@ std::vector<MapsOfWorld> worlds_of(const std::vector<NamedMap>& maps) {
   }
   for (MapsOfWorld& world : worlds)
     std::ranges::stable_sort(world.maps, {}, [](const NamedMap& map) {
-      return std::pair(!has_use(*map.second), error_m(*map.second));
+      return std::pair(!has_use(*map.second), error_or_infinity(*map.second));
     });
   return worlds;
 }
@@ -77,11 +72,11 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
     if (spec.maps.size() < kMostMaps) spec.maps.push_back({in_two_lines(name.substr(cut)), *map});
   const MapRecord& best = spec.maps.front().map;
   const std::string subject = world.subject.empty() ? "" : world.subject + std::string(kOf);
-  if (has_use(best) && std::isfinite(error_m(best))) {
+  if (has_use(best) && std::isfinite(error_or_infinity(best))) {
     const auto useless =
         std::ranges::count_if(spec.maps, [](const TitledMap& one) { return !has_use(one.map); });
     spec.title = fmt::format(
-        "{} is best, {} off; {}", world.maps.front().first, error_text(error_m(best)),
+        "{} is best, {} off; {}", world.maps.front().first, error_text(error_or_infinity(best)),
         useless == 0 ? "the others in the order of their errors"
                      : fmt::format("{} of {} maps are not usable", useless, spec.maps.size()));
   } else {
@@ -94,10 +89,7 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
 
 }  // namespace
 
-bool is_usable(const Score& score) {
-  constexpr double kMostTurned_percent = 25.0;
-  return !(score.moe_percent > kMostTurned_percent);
-}
+bool is_usable(const Score& score) { return !(score.moe_percent > kMostTurned_percent); }
 
 std::vector<Figure> map_walls(const std::string& prefix,
                               const std::vector<std::pair<std::string, const MapRecord*>>& maps) {

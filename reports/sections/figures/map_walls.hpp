@@ -9,8 +9,10 @@
 
 namespace mapproof {
 
-/// Whether a map shows how landmarks lie: at most a quarter of their triples are turned, where half
-/// are by chance.
+/// Of the triples of landmarks of a usable map, the share that is turned at most; 50 are chance.
+inline constexpr double kMostTurned_percent = 25.0;
+
+/// Whether a map shows how landmarks lie.
 bool is_usable(const Score& score);
 
 /// A figure for each world with two maps or more: maps of one subject with the same landmarks at

@@ -115,8 +115,6 @@ constexpr std::size_t kMostApart = 4;
 constexpr const char* kSingleRuns = "single runs";
 constexpr const char* kSingleRunsRemark =
     " Small circles: single runs, which are too few for an interval.";
-/// Levels, and values of a distribution, that span more than this are on a logarithmic axis.
-constexpr double kWideSpan = 20.0;
 /// A distribution over more runs has steps of several: 0.2 % is less than the width of a line.
 constexpr std::size_t kMostSteps = 500;
 /// Fewer different values have no distribution.

@@ -11,6 +11,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/figures/map_walls.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -81,7 +82,6 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
 /// Whether the map of a set cannot be used: a quarter of its landmark triples and more are turned
 /// the wrong way round, where half are by chance.
 bool is_unusable(const TopicPart& part) {
-  constexpr double kMostTurned_percent = 25.0;
   return method_value(part, "pairs", "moe_percent") > kMostTurned_percent;
 }
 
