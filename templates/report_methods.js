@@ -7,7 +7,23 @@ const kMostRead = 100;  // Figures whose curves name the methods: a page may hol
 
 // "SMACOF, kNN weights, K = 5" is a curve of "SMACOF, kNN weights".
 function methodOf(label) {
-  return label.replaceAll("\u00a0", " ").replace(/(, \S+ = \S+|, \S+=\S+( \S+=\S+)*)$/, "");
+  return label.replaceAll("\u00a0", " ").replace(/(, \S+ = \S+( × \S+)?|, \S+=\S+( \S+=\S+)*)$/, "");
+}
+
+function keyOfMethod(name) {
+  return name.toLowerCase().replace(/[^a-z0-9]+/g, "-");
+}
+
+// The method of a label: "Whole, ISOMAP" and "ISOMAP, K = 6, always" are of ISOMAP; labels of none
+// are their own.
+const namesOfLabels = new Map();
+function nameOf(label) {
+  if (namesOfLabels.has(label)) return namesOfLabels.get(label);
+  const own = methodOf(label), names = [...methods.values()];
+  const within = names.filter((name) => `, ${own}, `.includes(`, ${name}, `));
+  const longest = within.reduce((a, b) => (b.length > a.length ? b : a), "");
+  namesOfLabels.set(label, longest || own);
+  return longest || own;
 }
 
 // The ids of curves hold the keys of their methods: "fig-4-smacof-knn-mean".
@@ -21,10 +37,10 @@ function readMethods(figure) {
 
 function labelOfMark(mark) {
   const { curve, setting, method } = mark.dataset;
-  if (curve ?? setting) return methodOf(curve ?? setting);
+  if (curve ?? setting) return nameOf(curve ?? setting);
   if (method === undefined) return "";
   const key = /^(?:ours|published)-\d+-(.+)$/.exec(mark.id.slice(mark.ownerSVGElement.id.length + 1));
-  return methods.get(key?.[1]) ?? method;
+  return methods.get(key?.[1]) ?? nameOf(method);
 }
 
 const kOfMethods = "[data-curve], [data-setting], [data-method]";
@@ -35,7 +51,7 @@ const kNamesOfMethods = ["legend-text", "mark-label", "tick-label"].map(
 function methodOfPanel(parts) {
   const heading = parts.find((part) => kindOf(part) === "panel-title");
   const words = heading?.querySelector("[data-words]")?.dataset.words ?? heading?.dataset.words ?? "";
-  const key = methodOf(words).toLowerCase().replace(/[^a-z0-9]+/g, "-");
+  const key = keyOfMethod(nameOf(words));
   if (key === "") return "";
   const alike = [...methods.keys()].filter((each) => each.startsWith(key));
   return methods.get(key) ?? (alike.length === 1 ? methods.get(alike[0]) : "");
@@ -58,7 +74,7 @@ function highlightIn(svg) {
   for (const mark of marks) mark.classList.toggle("dim", isHere && labelOfMark(mark) !== chosenMethod);
   const labels = new Set(marks.map(labelOfMark));
   for (const words of svg.querySelectorAll(kNamesOfMethods)) {
-    const name = methodOf(words.dataset.words.replace(/ [\d.]+$/, ""));  // A mean rank follows it.
+    const name = nameOf(words.dataset.words.replace(/ [\d.]+$/, ""));  // A mean rank follows it.
     words.classList.toggle("dim", isHere && name !== chosenMethod && labels.has(name));
   }
   for (const entry of legendEntries({ rest: [...svg.children] })) {
@@ -110,15 +126,30 @@ function namedMethods() {
   return names;
 }
 
+// Of figures without curves of means: what both a table and the marks or headings of figures name.
+function readNamedMethods(figures, rows) {
+  const shown = new Set();
+  for (const figure of figures) {
+    const pattern = / (?:data-(?:curve|setting|method)|aria-label)="([^"]*)"/g;
+    for (const [, label] of sourceOf(figure).matchAll(pattern)) shown.add(methodOf(decoded(label)));
+  }
+  for (const row of rows) {
+    const name = methodOf(row);
+    if (shown.has(name)) methods.set(keyOfMethod(name), name);
+  }
+}
+
 // Puts the list behind an element.
 function addMethodList(before) {
-  const figures = [...document.querySelectorAll("figure[data-id]")];
-  figures.slice(0, kMostRead).forEach(readMethods);
+  const figures = [...document.querySelectorAll("figure[data-id]")].slice(0, kMostRead);
+  figures.forEach(readMethods);
   // Other curves, such as published ones or kinds of noise, are not in columns of methods.
   const rows = new Set(namedMethods());
   for (const [key, name] of methods) {
     if (![...rows].some((row) => row === name || row.startsWith(`${name}, `))) methods.delete(key);
   }
+  if (methods.size === 0) readNamedMethods(figures, rows);
+  namesOfLabels.clear();
   const names = [...new Set(methods.values())];
   if (names.length < 2) return;
   const list = document.createElement("select");

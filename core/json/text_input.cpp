@@ -41,9 +41,11 @@ std::size_t first_bad_byte(std::string_view text) {
 
 std::string_view checked_text(std::string_view text, const std::string& source,
                               std::size_t first_line) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-    throw IoError(source, "is UTF-16; save it as UTF-8");
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (first_line == 1) {
+    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+      throw IoError(source, "is UTF-16; save it as UTF-8");
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  }
   if (text.empty()) throw IoError(source, "is empty");
   const std::size_t nul = text.find('\0');
   if (nul != std::string_view::npos)

@@ -9,7 +9,8 @@
 namespace mapproof {
 
 /// The text without its byte order mark, fit to be read as UTF-8.
-/// @param first_line  Number of the text's first line, for what is a part of a file.
+/// @param first_line  Number of the text's first line, for what is a part of a file; a byte order
+///        mark stands in the first alone.
 /// @throws IoError with the line for a NUL byte, UTF-16, or bytes that are not UTF-8; or if empty.
 std::string_view checked_text(std::string_view text, const std::string& source,
                               std::size_t first_line = 1);

@@ -230,12 +230,12 @@ std::string slug(const MethodSetting& setting) {
 
 namespace {
 
-/// "4000", "1.4×10⁷": without an "e".
+/// "4000", "1.4 × 10⁷" with no-break spaces: without an "e".
 std::string number_words(double value) {
   const std::string text = fmt::format("{:g}", value);
   const std::size_t e = text.find('e');
   if (e == std::string::npos) return text;
-  return text.substr(0, e) + "×10" + raised(std::stoi(text.substr(e + 1)));
+  return text.substr(0, e) + "\u00A0×\u00A010" + raised(std::stoi(text.substr(e + 1)));
 }
 
 }  // namespace

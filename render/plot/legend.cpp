@@ -167,8 +167,11 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
     const auto same = std::ranges::find(entries_, label, &LegendEntry::whole);
     if (same != entries_.end()) {
       const auto index = [](const Layer* one) { return one->index(); };
-      if (std::ranges::find(same->layers, layer.index(), index) == same->layers.end())
+      const auto kind = std::ranges::find(same->layers, layer.index(), index);
+      if (kind == same->layers.end())
         same->layers.push_back(&layer);
+      else if (const auto* points = std::get_if<Scatter>(&layer))
+        same->in_colours |= std::get<Scatter>(**kind).colour != points->colour;
       continue;
     }
     entries_.push_back(
@@ -268,7 +271,15 @@ void Legend::draw_sample(const LegendEntry& entry, const Box& position, std::siz
   for (const Layer* layer : entry.layers) {
     // A bar across the line would be taken for a part of its marker.
     if (as_bars_ && has_line && std::holds_alternative<Band>(*layer)) continue;
-    std::visit(SamplePainter(theme_, position, as_bars_, panel_index, drawing), *layer);
+    SamplePainter painter(theme_, position, as_bars_, panel_index, drawing);
+    const auto* points = std::get_if<Scatter>(layer);
+    if (points != nullptr && entry.in_colours) {
+      Scatter of_none = *points;
+      of_none.colour = ThemeColour::kMuted;
+      painter(of_none);
+    } else {
+      std::visit(painter, *layer);
+    }
   }
 }
 

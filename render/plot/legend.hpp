@@ -17,6 +17,7 @@ struct LegendEntry {
   ShapedText text;
   std::string whole;
   std::vector<const Layer*> layers;
+  bool in_colours = false;  ///< It stands for points of several colours: its sample is grey.
 };
 
 /// A panel's legend before it has a position.

@@ -105,7 +105,8 @@ std::string page_cell(const Cell& cell, const Column& column) {
   const bool is_plain = low == format_number(interval->low, interval->decimals) &&
                         high == format_number(interval->high, interval->decimals);
   if (is_plain) return format_cell(cell);
-  return low == high ? low : low + " to " + high;
+  if (low == high) return low;
+  return (interval->low == 0.0 ? "0" : low) + " to " + high;
 }
 
 std::string full_heading(const Column& column) {

@@ -60,6 +60,7 @@ TEST(PageCell, HasWordsForMapsThatDiverged) {
   EXPECT_EQ(shown(NumberCell{-1900.25, 2}, "m"), "below \u22121\u00A0km");
   EXPECT_EQ(shown(NumberCell{900.25, 2}, "m"), "900.25");
   EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "m"), "0.5 to over 1\u00A0km");
+  EXPECT_EQ(shown(IntervalCell{0.0, 1e15, 4}, "m"), "0 to over 1\u00A0km");
   EXPECT_EQ(shown(IntervalCell{1500, 1e15, 1}, "m"), "over 1\u00A0km");
   EXPECT_EQ(shown(IntervalCell{0.5, 1.5, 1}, "m"), "0.5\u20131.5");
 }

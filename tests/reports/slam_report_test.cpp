@@ -110,7 +110,8 @@ TEST(SlamFigures, HaveTheTenMethodsAndTheSpectralMapOnOneWall) {
   for (const Figure* figure : all_figures(figures))
     if (figure->id.starts_with("lfmdr-")) {
       EXPECT_EQ(figure->panels.size(), 11u);
-      EXPECT_TRUE(figure->panels.back().title.starts_with("Spectral\n"));
+      EXPECT_TRUE(std::ranges::any_of(
+          figure->panels, [](const Panel& each) { return each.title.starts_with("Spectral\n"); }));
     }
 }
 

@@ -113,6 +113,7 @@ std::size_t ByteSource::fill_unpacked(std::string& bytes, std::size_t count) {
     }
     block.resize(std::min(next_block(), kPackedBlock));
     const std::size_t got = read_(block);
+    block_ = got;
     is_over_ = got == 0;
     if (is_over_)
       unpacker_.end();
@@ -122,18 +123,15 @@ std::size_t ByteSource::fill_unpacked(std::string& bytes, std::size_t count) {
   return bytes.size() - before;
 }
 
-/// Bytes of the next call of read_: each time twice as many.
-std::size_t ByteSource::next_block() {
-  block_ = std::clamp(2 * block_, kFirstBlock, kBlock);
-  return block_;
-}
+/// Bytes of the next call of read_: twice as many as the last one gave.
+std::size_t ByteSource::next_block() const { return std::clamp(2 * block_, kFirstBlock, kBlock); }
 
 /// The same for bytes that need no unpacking: reads into `bytes` itself.
 std::size_t ByteSource::fill_plain(std::string& bytes, std::size_t count) {
   const std::size_t before = bytes.size();
   std::size_t filled = 0;
   while (filled < count && !is_over_) {
-    const std::size_t end = std::min(count, filled + next_block());
+    const std::size_t from = filled, end = std::min(count, from + next_block());
     bytes.resize(before + end);
     while (filled < end && !is_over_) {
       const std::size_t got = read_(std::span(bytes).subspan(before + filled));
@@ -141,6 +139,7 @@ std::size_t ByteSource::fill_plain(std::string& bytes, std::size_t count) {
       filled += got;
     }
     bytes.resize(before + filled);
+    block_ = filled - from;
   }
   return filled;
 }

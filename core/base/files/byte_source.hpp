@@ -83,7 +83,7 @@ class ByteSource {
   std::size_t fill(std::string& bytes, std::size_t count);
   std::size_t fill_unpacked(std::string& bytes, std::size_t count);
   std::string decoded(std::string bytes);
-  std::size_t next_block();
+  std::size_t next_block() const;
   std::size_t fill_plain(std::string& bytes, std::size_t count);
   std::size_t ahead() const;
 
@@ -97,7 +97,7 @@ class ByteSource {
   std::deque<std::string> ahead_;  ///< Peeked blocks; of the first one the bytes from at_ on.
   std::size_t at_ = 0;
   std::size_t taken_ = 0;  ///< Bytes that were read.
-  std::size_t block_ = 0;  ///< Of the last call of read_.
+  std::size_t block_ = 0;  ///< Bytes that were read together last.
   Text text_ = Text::kBytes;
   std::string decoded_;  ///< Text behind the peeked bytes.
 };

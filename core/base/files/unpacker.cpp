@@ -211,15 +211,14 @@ namespace {
 
 constexpr std::size_t kUnpackedBlock = std::size_t{1} << 16;
 
-/// Refuses more than 64 MB that are more than 300 times as large as their packed bytes.
+}  // namespace
+
 void refuse_bomb(const std::string& source, double packed_bytes, double unpacked_bytes) {
   constexpr double kHarmless = 64.0 * 1024.0 * 1024.0;
   constexpr double kMostSwelling = 300.0;
   if (unpacked_bytes > kHarmless && unpacked_bytes > kMostSwelling * packed_bytes)
     throw IoError(source, "unpacks to more than 300 times its size: no table does");
 }
-
-}  // namespace
 
 struct Unpacker::State {
   explicit State(std::string name) : source(std::move(name)) {}

@@ -50,6 +50,10 @@ class Unpacker {
   std::unique_ptr<State> state_;
 };
 
+/// Refuses more than 64 MB that are more than 300 times as large as their packed bytes.
+/// @throws IoError.
+void refuse_bomb(const std::string& source, double packed_bytes, double unpacked_bytes);
+
 /// The first bytes of what zlib packed, `most` or all; fewer where it is damaged.
 std::string zlib_start(std::string_view packed, std::size_t most);
 

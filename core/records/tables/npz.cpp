@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +11,7 @@
 #include <zip.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/files/unpacker.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/records/tables/npy.hpp"
 #include "core/records/tables/respelling.hpp"
@@ -21,7 +24,8 @@ constexpr std::size_t kLargestArray = std::size_t{1} << 31;
 /// An archive of arrays.
 class Archive {
  public:
-  Archive(std::string_view bytes, const std::string& source) : source_(source) {
+  Archive(std::string_view bytes, const std::string& source)
+      : source_(source), packed_bytes_(static_cast<double>(bytes.size())) {
     zip_error_t error;
     zip_error_init(&error);
     zip_source_t* buffer = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
@@ -48,6 +52,7 @@ class Archive {
       total += facts.size;
       if (facts.size > kLargestArray || total > kLargestArray)
         throw IoError(source_, "its arrays unpack to more than 2 GiB");
+      refuse_bomb(source_, packed_bytes_, static_cast<double>(total));
       arrays.emplace_back(name.substr(0, name.size() - 4),
                           entry(static_cast<zip_uint64_t>(i), facts.size));
     }
@@ -55,17 +60,24 @@ class Archive {
   }
 
  private:
+  /// What an entry holds, in memory that grows with it: an archive may state any size.
   std::string entry(zip_uint64_t index, zip_uint64_t size) {
-    std::string bytes(size, '\0');
-    zip_file_t* file = zip_fopen_index(archive_, index, 0);
-    const bool is_read =
-        file != nullptr && zip_fread(file, bytes.data(), size) == static_cast<zip_int64_t>(size);
-    if (file != nullptr) zip_fclose(file);
-    if (!is_read) throw IoError(source_, "the archive of NumPy arrays is damaged");
+    const auto close = [](zip_file_t* file) { zip_fclose(file); };
+    const std::unique_ptr<zip_file_t, decltype(close)> file(zip_fopen_index(archive_, index, 0));
+    std::array<char, std::size_t{1} << 14> block;
+    std::string bytes;
+    zip_int64_t got = file ? 1 : -1;
+    while (got > 0 && bytes.size() <= size) {
+      got = zip_fread(file.get(), block.data(), block.size());
+      if (got > 0) bytes.append(block.data(), static_cast<std::size_t>(got));
+    }
+    if (got != 0 || bytes.size() != size)
+      throw IoError(source_, "the archive of NumPy arrays is damaged");
     return bytes;
   }
 
   const std::string& source_;
+  double packed_bytes_;
   zip_t* archive_ = nullptr;
 };
 

@@ -53,11 +53,10 @@ void StreamedTable::end(const TakeRow& take_row) {
 
 void StreamedTable::read_line(std::string_view line, const TakeRow& take_row) {
   ++line_;
-  if (trimmed(line).empty()) return;
+  if (line.empty()) return;
   std::string_view text;
   at_location(source_, line_, "is not UTF-8 text, or holds a NUL byte",
-              [&] { text = checked_text(line, source_); });
-  if (trimmed(text).empty() || trimmed(text).front() == '#') return;
+              [&] { text = checked_text(line, source_, line_); });
   if (separator_ == '\0') separator_ = TableReader::separator_in(text);
   TableReader reader(text, source_, separator_, line_);
   TableRow row;

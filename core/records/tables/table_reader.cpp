@@ -228,7 +228,10 @@ TableReader::TableReader(std::string_view text, const std::string& source, char 
                          std::size_t first_line)
     : text_(text), source_(source), separator_(separator), line_(first_line) {}
 
-char TableReader::separator_in(std::string_view text) { return separator_of(first_row(text)); }
+char TableReader::separator_in(std::string_view text) {
+  const std::string_view row = first_row(text);
+  return row.empty() ? '\0' : separator_of(row);
+}
 
 std::string_view TableReader::rest_of_line() const {
   return text_.substr(at_, std::min(text_.find('\n', at_), text_.size()) - at_);

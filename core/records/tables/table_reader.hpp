@@ -47,7 +47,7 @@ class TableReader {
   TableReader(std::string_view text, const std::string& source, char separator,
               std::size_t first_line = 1);
 
-  /// What separates the cells of the text's first row.
+  /// What separates the cells of the text's first row; '\0' if it has none.
   static char separator_in(std::string_view text);
 
   /// @return Whether there was a row.

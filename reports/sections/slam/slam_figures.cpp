@@ -225,7 +225,7 @@ TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map)
   return titled;
 }
 
-/// The maps of ranges, or of squared ranges, with the spectral map last.
+/// The maps of ranges, or of squared ranges, and the spectral map, the best first.
 std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
   std::vector<Figure> figures;
   for (const bool squared : {false, true}) {
@@ -244,11 +244,12 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
       const double error = map.map.score ? map.map.score->mpe_all_fitted_m : kNaN;
       return std::isnan(error) ? kInfinity : error;
     };
-    const auto best = std::ranges::min_element(spec.maps, {}, error_of_map);
-    if (std::isfinite(error_of_map(*best)))
+    std::ranges::stable_sort(spec.maps, {}, error_of_map);
+    const TitledMap& best = spec.maps.front();
+    if (std::isfinite(error_of_map(best)))
       spec.title =
           fmt::format("On {} {} has the lowest error, {}", squared ? "squared ranges" : "ranges",
-                      best->title, error_text(error_of_map(*best)));
+                      best.title, error_text(error_of_map(best)));
     figures.push_back(map_wall_figure(spec));
   }
   return figures;

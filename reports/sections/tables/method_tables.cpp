@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/tables/cells.hpp"
@@ -113,7 +114,10 @@ void add_error_cells(std::vector<Cell>& cells, const SettingSummary& s, bool pub
   cells.push_back(interval_cell(s.mpe_m, decimals));
   if (published) {
     cells.push_back(NumberCell{paper_mpe, decimals});
-    cells.push_back(NumberCell{100.0 * mpe_difference_m(s) / paper_mpe, 1, true});
+    // By how much a map diverged says nothing.
+    const bool diverged = s.mpe_m && s.mpe_m->mean > kGreatestError_m;
+    cells.push_back(diverged ? Cell{MissingCell{}}
+                             : Cell{NumberCell{100.0 * mpe_difference_m(s) / paper_mpe, 1, true}});
   }
   cells.push_back(mean_cell(s.moe_percent, kMoeDecimals));
   cells.push_back(interval_cell(s.moe_percent, kMoeDecimals));

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
@@ -103,24 +102,34 @@ std::vector<std::string> mrclam_warnings(const TopicStudy& study) {
   return sentences;
 }
 
+/// "0.0641 m to 1.15 m"
+std::string range_of(const std::vector<double>& errors_m) {
+  const auto [least, most] = std::ranges::minmax(errors_m);
+  return error_text(least) + (least < most ? " to " + error_text(most) : "");
+}
+
 TopicHeadline mrclam_headline(const TopicStudy& study) {
+  const bool none_usable = std::ranges::all_of(study.parts, is_unusable);
   std::vector<double> together, alone;
   for (const TopicPart& part : study.parts) {
-    if (const double error = method_value(part, "pairs", "mpe_m"); !std::isnan(error))
-      together.push_back(error);
+    const double error = method_value(part, "pairs", "mpe_m");
+    if (std::isnan(error) || (is_unusable(part) && !none_usable)) continue;
+    together.push_back(error);
     double least = HUGE_VAL;
     for (const StudiedMethod& method : study.design.methods)
       for (const char* start : {"visibility", "bearing", "range"})
-        if (const double error = method_value(part, method.id, "mpe_m");
-            method.id.starts_with(start) && error < least)
-          least = error;
+        if (const double single = method_value(part, method.id, "mpe_m");
+            method.id.starts_with(start) && single < least)
+          least = single;
     if (std::isfinite(least)) alone.push_back(least);
   }
   if (together.empty()) return {};
   const auto failed =
       std::ranges::count_if(study.parts, [](const TopicPart& part) { return is_unusable(part); });
-  return {error_text(median(together)), "median MPE from range and bearing together",
-          alone.empty() ? "" : "by the best single sensor " + error_text(median(alone)),
+  return {range_of(together),
+          failed == 0 || none_usable ? "MPE from range and bearing together"
+                                     : "MPE of usable maps from range and bearing together",
+          alone.empty() ? "" : "by the best single sensor " + range_of(alone),
           failed == 0
               ? fmt::format("usable on all of {}", counted(std::ssize(together), "data set"))
               : fmt::format("no usable map of {} of {}", failed,

@@ -74,6 +74,34 @@ TEST(DetectionStream, HoldsAScanBackUntilALaterOneOfTheRobotBegins) {
   EXPECT_TRUE(stream.remarks().empty());
 }
 
+TEST(DetectionStream, HasAByteOrderMarkAtItsStartAlone) {  // Found by the fuzzer.
+  const std::string mark = "\xEF\xBB\xBF", header = "time,landmark,range,bearing\n";
+  test::TemporaryFolder folder;
+  for (const std::string& rows : {mark + "1,a,2,0\n2,a,2,0\n", "1,a,2,0\n" + mark + "2,a,2,0\n"}) {
+    const std::string text = mark + header + rows;
+    DetectionStream stream("f", {});
+    const std::string error = error_of([&] { stream.take(text); });
+    EXPECT_NE(error.find("is not a time"), std::string::npos) << error;
+    const std::string of_file = error_of([&] { read_detections(folder.file("f", text)); });
+    EXPECT_NE(of_file.find("is not a time"), std::string::npos) << of_file;
+  }
+  DetectionStream stream("f", {});
+  EXPECT_EQ(streamed(mark + header + "1,a,2,0\n2,a,2,0\n", 1, stream).size(), 2U);
+}
+
+TEST(DetectionStream, TakesALineOfTabsForARowIfTabsSeparate) {  // Found by the fuzzer.
+  const std::string header = "time\tlandmark\trange\tbearing\n", row = "1\ta\t2\t0\n";
+  test::TemporaryFolder folder;
+  const std::string text = header + row + "\t\t\t\n";
+  DetectionStream stream("f", {});
+  const std::string error = error_of([&] { stream.take(text); });
+  EXPECT_NE(error.find("line 3"), std::string::npos) << error;
+  EXPECT_EQ(error_of([&] { read_detections(folder.file("f", text)); }),
+            (folder / "f").string() + error.substr(1));
+  DetectionStream blanks("f", {});
+  EXPECT_EQ(streamed(header + " \r\n\n# none\n" + row, 1, blanks).size(), 1U);
+}
+
 TEST(DetectionStream, NamesTheLineOfWhatIsWrong) {
   const auto error = [](const std::string& text) {
     return error_of([&] {

@@ -395,6 +395,17 @@ TEST(NumpyArrays, ThatAreCutOrOfOtherElementsAreRefusedByName) {
   EXPECT_NE(table_error(records).find("pandas.DataFrame(array).to_csv"), std::string::npos);
 }
 
+TEST(NumpyArchives, ThatStateMoreThanTheirBytesCanHoldAreRefusedAtOnce) {
+  std::string bytes = read_file(test::data_file("foreign/numpy_columns.npz"));
+  constexpr std::size_t kSizeInEntry = 24;  // Of the directory at the end of the archive.
+  const std::uint32_t stated = 1'700'000'000;
+  std::memcpy(bytes.data() + bytes.find("PK\x01\x02") + kSizeInEntry, &stated, sizeof stated);
+  EXPECT_EQ(table_error(bytes), "unpacks to more than 300 times its size: no table does");
+  const std::uint32_t harmless = 1'000'000;
+  std::memcpy(bytes.data() + bytes.find("PK\x01\x02") + kSizeInEntry, &harmless, sizeof harmless);
+  EXPECT_EQ(table_error(bytes), "the archive of NumPy arrays is damaged");
+}
+
 TEST(OtherFiles, AreNamedWithWhatConvertsThem) {
   const auto expect = [](const std::string& bytes, const std::string& name,
                          const std::string& remedy) {

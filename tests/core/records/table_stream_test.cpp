@@ -51,6 +51,14 @@ TEST(TableStream, GivesTheRowsThatOneReaderGives) {
   EXPECT_TRUE(read_all(folder.file("a.csv", text)) == read_whole(text));
 }
 
+TEST(TableStream, TakesItsSeparatorFromTheFirstRowHoweverFarDownItIs) {  // Found by the fuzzer.
+  const test::TemporaryFolder folder;
+  std::string remarks;
+  while (remarks.size() < (std::size_t{1} << 20)) remarks += "# a remark, and another\n";
+  for (const std::string& text : {remarks + "a;b\n1;2\n", std::string("\n40\t,\"\n")})
+    EXPECT_EQ(read_all(folder.file("t", text)), read_whole(text));
+}
+
 TEST(TableStream, NamesTheLineFarDownThatIsNoText) {
   const test::TemporaryFolder folder;
   std::string text;
