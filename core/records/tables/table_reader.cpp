@@ -246,8 +246,8 @@ bool TableReader::skip_to_row() {
   while (at_ < text_.size()) {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
-    const bool is_row =
-        !content.empty() && content.front() != '#' && !(at_ == 0 && stated_separator(content));
+    const bool is_row = !content.empty() && content.front() != '#' &&
+                        !(is_first_line() && stated_separator(content));
     // A line of tabs alone is a row of empty cells, if tabs separate.
     if (is_row ||
         (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))
@@ -285,7 +285,8 @@ bool TableReader::next_numbers(NumberRow& row) {
   const char* const end = text_.data() + text_.size();
   PlainCells cells(text_.data() + at_, end, separator_);
   // What next() passes over, or refuses, is left to it.
-  if (!cells.starts_row() || (at_ == 0 && stated_separator(trimmed(rest_of_line())))) return false;
+  if (!cells.starts_row() || (is_first_line() && stated_separator(trimmed(rest_of_line()))))
+    return false;
   row.line = line_;
   bool is_last = false;
   row.values.push_back(kNaN);

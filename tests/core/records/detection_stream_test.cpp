@@ -102,6 +102,18 @@ TEST(DetectionStream, TakesALineOfTabsForARowIfTabsSeparate) {  // Found by the 
   EXPECT_EQ(streamed(header + " \r\n\n# none\n" + row, 1, blanks).size(), 1U);
 }
 
+TEST(DetectionStream, StatesItsSeparatorInItsFirstLineAlone) {  // Found by the fuzzer.
+  const std::string rows = "time;landmark;range;bearing\n1;a;2;0\n2;a;2;0\n";
+  DetectionStream stream("f", {});
+  EXPECT_EQ(streamed("sep=;\n" + rows, 1, stream).size(), 2U);
+  test::TemporaryFolder folder;
+  DetectionStream late("f", {});
+  const std::string error = error_of([&] { late.take(rows + "sep=;\n"); });
+  EXPECT_NE(error.find("line 4"), std::string::npos) << error;
+  const auto file = folder.file("f", rows + "sep=;\n");
+  EXPECT_EQ(error_of([&] { read_detections(file); }), file.string() + error.substr(1));
+}
+
 TEST(DetectionStream, NamesTheLineOfWhatIsWrong) {
   const auto error = [](const std::string& text) {
     return error_of([&] {
