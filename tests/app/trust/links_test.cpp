@@ -46,7 +46,7 @@ class Trap {
   Contents before_;
 };
 
-/// Expects one line that names the link; a slow machine is told before it what is being drawn.
+/// Expects one line that names the link; on a slow machine the progress of drawing stands before it.
 void expect_named(const Outcome& outcome, const fs::path& link) {
   EXPECT_EQ(outcome.exit_code, 2) << link << ": " << outcome.out;
   const auto lines = std::ranges::count(outcome.error, '\n');
