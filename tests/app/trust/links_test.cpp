@@ -46,7 +46,8 @@ class Trap {
   Contents before_;
 };
 
-/// Expects one line that names the link; on a slow machine the progress of drawing stands before it.
+/// Expects one line that names the link; on a slow machine the progress of drawing stands before
+/// it.
 void expect_named(const Outcome& outcome, const fs::path& link) {
   EXPECT_EQ(outcome.exit_code, 2) << link << ": " << outcome.out;
   const auto lines = std::ranges::count(outcome.error, '\n');
