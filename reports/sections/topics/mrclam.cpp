@@ -109,7 +109,8 @@ std::string range_of(const std::vector<double>& errors_m) {
 }
 
 TopicHeadline mrclam_headline(const TopicStudy& study) {
-  const bool none_usable = std::ranges::all_of(study.parts, is_unusable);
+  const auto failed = std::ranges::count_if(study.parts, is_unusable);
+  const bool none_usable = failed == std::ssize(study.parts);
   std::vector<double> together, alone;
   for (const TopicPart& part : study.parts) {
     const double error = method_value(part, "pairs", "mpe_m");
@@ -124,8 +125,6 @@ TopicHeadline mrclam_headline(const TopicStudy& study) {
     if (std::isfinite(least)) alone.push_back(least);
   }
   if (together.empty()) return {};
-  const auto failed =
-      std::ranges::count_if(study.parts, [](const TopicPart& part) { return is_unusable(part); });
   return {range_of(together),
           failed == 0 || none_usable ? "MPE from range and bearing together"
                                      : "MPE of usable maps from range and bearing together",
