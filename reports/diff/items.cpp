@@ -14,7 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFiles = 100'000;
+constexpr std::size_t kMostImages = 100'000;
+constexpr std::size_t kMostEntries = 3 * kMostImages;  // A value and two images for each figure.
+
 enum class KindClass {
   kFigure,    ///< The value from which an image was drawn.
   kImage,     ///< An image that is compared.
@@ -137,15 +139,17 @@ ItemList list_items(const fs::path& path) {
     if (!name.kind.empty()) add(items, name, path);
     return items;
   }
-  std::size_t files = 0;
+  std::size_t entries = 0, images = 0;
   fs::recursive_directory_iterator entry(path, error), end;
   for (; !error && entry != end; entry.increment(error)) {
+    if (++entries > kMostEntries)
+      throw IoError(path.string(), "holds more than 300,000 files: compare folders below it");
     std::error_code unknown;  // A broken link: reading it reports the error.
     const ItemName name = item_name(entry->path(), path);
     // A folder with the name of an image may have replaced one: reading it reports the error.
     const bool is_folder = entry->is_directory(unknown);
     if (name.kind.empty() || (is_folder && !is_image(name.kind))) continue;
-    if (++files > kMostFiles)
+    if (++images > kMostImages)
       throw IoError(path.string(), "holds more than 100,000 images: compare folders below it");
     add(items, name, entry->path());
   }

@@ -220,7 +220,7 @@ TEST(Arguments, OfAnyKindAreRefusedInOneShortLine) {
       {"run", "sweep", "--out", "/dev/null", "--seed", "-1"}};
   for (const std::vector<std::string>& arguments : hostile) {
     SCOPED_TRACE(testing::PrintToString(arguments).substr(0, 200));
-    std::vector<std::string> command = {"timeout", "20", program()};
+    std::vector<std::string> command = {"timeout", "60", program()};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const Outcome outcome = run_program(command);
     EXPECT_TRUE(outcome.exit_code == 1 || outcome.exit_code == 2) << outcome.exit_code;
