@@ -263,6 +263,24 @@ void prefix_mark_ids(Panel& panel, const std::string& prefix) {
         layer);
 }
 
+const std::string& label_of(const Layer& layer) {
+  static const std::string none;
+  return std::visit(
+      [](const auto& one) -> const std::string& {
+        if constexpr (requires { one.label; }) return one.label;
+        return none;
+      },
+      layer);
+}
+
+void set_label(Layer& layer, const std::string& label) {
+  std::visit(
+      [&](auto& one) {
+        if constexpr (requires { one.label; }) one.label = label;
+      },
+      layer);
+}
+
 bool is_empty(const Layer& layer) {
   return std::visit(
       [](const auto& one) {

@@ -266,6 +266,12 @@ bool is_figure_id(std::string_view id);
 /// Puts `prefix` before the ids of all marks, so that panels of one figure have none in common.
 void prefix_mark_ids(Panel& panel, const std::string& prefix);
 
+/// What a layer is called in the legend; empty: it is not there, as no layer without labels is.
+const std::string& label_of(const Layer& layer);
+
+/// Nothing happens to a layer without labels. @param label  Empty: it leaves the legend.
+void set_label(Layer& layer, const std::string& label);
+
 /// Whether the layer has nothing to draw.
 bool is_empty(const Layer& layer);
 

@@ -145,16 +145,6 @@ class SamplePainter {
 
 }  // namespace
 
-const std::string& label_of(const Layer& layer) {
-  static const std::string none;
-  return std::visit(
-      [](const auto& one) -> const std::string& {
-        if constexpr (requires { one.label; }) return one.label;
-        return none;
-      },
-      layer);
-}
-
 Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars)
     : theme_(theme), as_bars_(as_bars) {
   const double em = theme.font_pt;

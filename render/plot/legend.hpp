@@ -9,9 +9,6 @@
 
 namespace mapproof {
 
-/// What a layer is called in the legend; empty if it is not there.
-const std::string& label_of(const Layer& layer);
-
 /// One line of a legend: all layers that share a label.
 struct LegendEntry {
   ShapedText text;

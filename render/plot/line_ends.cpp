@@ -31,16 +31,6 @@ std::optional<LineEnd> end_of(const Polyline& line) {
   return std::nullopt;
 }
 
-std::string& layer_label(Layer& layer) {
-  static std::string none;
-  return std::visit(
-      [](auto& one) -> std::string& {
-        if constexpr (requires { one.label; }) return one.label;
-        return none;
-      },
-      layer);
-}
-
 /// Heights in ascending order moved apart to at least `row`, as little as that takes, within
 /// [low, high].
 std::vector<double> apart(const std::vector<double>& wanted, double row, double low, double high) {
@@ -157,9 +147,8 @@ void LineEndLabels::draw(const Box& frame, std::size_t panel_index, Drawing& dra
 Panel LineEndLabels::without_labels() const {
   Panel panel = layout_.panel();
   for (Layer& layer : panel.layers)
-    if (std::string& label = layer_label(layer);
-        std::ranges::find(ends_, label, &LineEnd::label) != ends_.end())
-      label.clear();
+    if (std::ranges::find(ends_, label_of(layer), &LineEnd::label) != ends_.end())
+      set_label(layer, "");
   return panel;
 }
 

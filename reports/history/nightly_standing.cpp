@@ -190,17 +190,6 @@ void mark_table(Table& table, const FindingGroup& group) {
   }
 }
 
-std::string label_of(const Layer& layer) {
-  return std::visit(
-      [](const auto& one) -> std::string {
-        if constexpr (requires { std::string(one.label); })
-          return one.label;
-        else
-          return "";
-      },
-      layer);
-}
-
 /// A name and its value: "K" and "6".
 using Assignment = std::pair<std::string, std::string>;
 

@@ -247,7 +247,7 @@ bool TableReader::skip_to_row() {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
     const bool is_row = !content.empty() && content.front() != '#' &&
-                        !(is_first_line() && stated_separator(content));
+                        !(line_ == 1 && stated_separator(content));
     // A line of tabs alone is a row of empty cells, if tabs separate.
     if (is_row ||
         (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))
@@ -285,7 +285,7 @@ bool TableReader::next_numbers(NumberRow& row) {
   const char* const end = text_.data() + text_.size();
   PlainCells cells(text_.data() + at_, end, separator_);
   // What next() passes over, or refuses, is left to it.
-  if (!cells.starts_row() || (is_first_line() && stated_separator(trimmed(rest_of_line()))))
+  if (!cells.starts_row() || (line_ == 1 && stated_separator(trimmed(rest_of_line()))))
     return false;
   row.line = line_;
   bool is_last = false;

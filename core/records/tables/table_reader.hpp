@@ -68,7 +68,6 @@ class TableReader {
 
  private:
   void check_line_ends() const;
-  bool is_first_line() const { return at_ == 0 && line_ == 1; }
   bool skip_to_row();
   void split_blanks(std::string_view line, TableRow& row);
   void split_bare(std::string_view line, TableRow& row) const;

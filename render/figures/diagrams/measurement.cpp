@@ -92,12 +92,7 @@ Panel map_of(const IdeaSpec& spec) {
   Panel panel = map_panel(spec.map, "map-");
   panel.title = "Map";
   panel.bare = true;
-  for (Layer& layer : panel.layers)
-    std::visit(
-        [](auto& one) {
-          if constexpr (requires { one.label; }) one.label.clear();
-        },
-        layer);
+  for (Layer& layer : panel.layers) set_label(layer, "");
   std::erase_if(panel.layers,
                 [](const Layer& layer) { return std::holds_alternative<PointLabels>(layer); });
   return panel;

@@ -61,9 +61,9 @@ Layer plain(Layer layer) {
       [](auto& each) {
         if constexpr (requires { each.marks; }) each.marks.clear();
         if constexpr (requires { each.mark; }) each.mark = {};
-        if constexpr (requires { each.label; }) each.label.clear();
       },
       layer);
+  set_label(layer, "");
   return layer;
 }
 
@@ -74,14 +74,6 @@ Layer in_grey(Layer layer) {
       },
       layer);
   return layer;
-}
-
-void set_label(Layer& layer, const std::string& label) {
-  std::visit(
-      [&](auto& each) {
-        if constexpr (requires { each.label; }) each.label = label;
-      },
-      layer);
 }
 
 /// Labels would cover the new positions; an image is not in the figure's value.
