@@ -57,7 +57,7 @@ function addCompare() {
   const code = document.createElement("code");
   const update = () => {
     const [a, b] = selects.map((select) => select.value);
-    code.textContent = `mapproof history . --compare ${a} ${b}`;
+    code.textContent = `mapproof history STORE --compare ${a} ${b}`;
   };
   for (const select of selects) select.addEventListener("change", update);
   update();

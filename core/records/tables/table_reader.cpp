@@ -246,8 +246,8 @@ bool TableReader::skip_to_row() {
   while (at_ < text_.size()) {
     const std::string_view line = rest_of_line();
     const std::string_view content = trimmed(line);
-    const bool is_row = !content.empty() && content.front() != '#' &&
-                        !(line_ == 1 && stated_separator(content));
+    const bool is_row =
+        !content.empty() && content.front() != '#' && !(line_ == 1 && stated_separator(content));
     // A line of tabs alone is a row of empty cells, if tabs separate.
     if (is_row ||
         (separator_ == '\t' && line.find('\t') != std::string_view::npos && content.empty()))

@@ -23,6 +23,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
+#include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/sections/results/results_view.hpp"

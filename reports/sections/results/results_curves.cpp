@@ -1,0 +1,407 @@
+#include "reports/sections/results/results_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
+#include "render/figures/curves/best_line.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/figures/curves/level_curve.hpp"
+#include "render/figures/curves/method_series.hpp"
+#include "render/figures/score_text.hpp"
+#include "render/figures/unit_scale.hpp"
+#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/study_figures.hpp"
+
+namespace mapproof {
+namespace {
+
+/// Of more lines some may hide others.
+constexpr std::size_t kMostApart = 4;
+constexpr const char* kSingleRuns = "single runs";
+constexpr const char* kSingleRunsRemark =
+    " Small circles: single runs, which are too few for an interval.";
+
+/// Of levels: a 0 among them does not count, since no logarithmic axis has it.
+bool spans_widely_above_0(std::vector<double> levels) {
+  std::erase(levels, 0.0);
+  return levels.size() > 1 && spans_widely(levels);
+}
+
+void drop_level_0(ErrorLine& line) {
+  if (line.x.empty() || line.x.front() != 0.0) return;
+  for (std::vector<double>* values : {&line.x, &line.mean, &line.low, &line.high})
+    if (!values->empty()) values->erase(values->begin());
+}
+
+/// Whether any two values differ: what is the same everywhere needs no figure.
+bool distinguishes(const std::vector<ErrorLine>& lines) {
+  double least = HUGE_VAL, greatest = -HUGE_VAL;
+  for (const ErrorLine& line : lines)
+    for (const double mean : line.mean) {
+      if (!is_known(mean)) continue;
+      least = std::min(least, mean);
+      greatest = std::max(greatest, mean);
+    }
+  return greatest > least;
+}
+
+Scale scale_of(const std::vector<Level>& levels) {
+  std::vector<double> numbers;
+  for (const Level& level : levels) numbers.push_back(std::get<double>(level.value));
+  return spans_widely_above_0(std::move(numbers)) ? Scale::kLog : Scale::kLinear;
+}
+
+/// `low` and `high` are of the interval or, of few groups of runs, of the runs themselves.
+ErrorLine curve_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity,
+                   const ResultsLine& line, std::size_t index) {
+  ErrorLine curve;
+  curve.label = line.label;
+  curve.key = key_of(index);
+  if (line.run.empty()) curve.series = line.series;
+  for (std::size_t i = 0; i < block.levels.size(); ++i) {
+    const auto mean = view.mean(block.conditions[i], line, quantity);
+    const auto spread = view.spread(block.conditions[i], line, quantity);
+    curve.x.push_back(std::get<double>(block.levels[i].value));
+    curve.mean.push_back(mean ? mean->mean : kNaN);
+    curve.low.push_back(spread ? spread->low : kNaN);
+    curve.high.push_back(spread ? spread->high : kNaN);
+  }
+  return curve;
+}
+
+/// How curves that are the same are named: what only their labels end with, "from scratch (2
+/// methods)" of "SMACOF, from scratch" and "ISOMAP, from scratch"; else two by both labels, more by
+/// the first one and their number.
+std::string joined_label(const std::vector<std::string>& labels,
+                         const std::vector<std::string>& others) {
+  constexpr std::string_view kComma = ", ";
+  for (std::size_t at = labels.front().find(kComma); at != std::string::npos;
+       at = labels.front().find(kComma, at + 1)) {
+    const std::string end = labels.front().substr(at);
+    const auto has_end = [&](const std::string& one) { return one.ends_with(end); };
+    if (std::ranges::all_of(labels, has_end) && std::ranges::none_of(others, has_end))
+      return fmt::format("{} ({} methods)", end.substr(kComma.size()), labels.size());
+  }
+  constexpr std::size_t kLongest = 40;  // Of a label, in characters.
+  if (labels.size() == 2 && labels[0].size() + labels[1].size() < kLongest)
+    return labels[0] + " and " + labels[1];
+  return fmt::format("{} and {}", labels.front(), counted(std::ssize(labels) - 1, "other"));
+}
+
+/// Curves of a block.
+struct Curves {
+  std::vector<ErrorLine> lines;
+  std::vector<std::string> joined = {};  ///< Labels of those that are several.
+  /// Of those, the label of the first line: what is joined has its values.
+  std::map<std::string, std::string> joined_by_first = {};
+  bool lacks_compared_with = false;  ///< What the others are compared with is left out.
+  bool has_bands = false;            ///< Else `low` and `high` serve findings alone.
+};
+
+/// As they are drawn.
+std::vector<ErrorLine> drawn(Curves curves) {
+  for (ErrorLine& line : curves.lines)
+    if (!curves.has_bands || std::ranges::none_of(line.low, is_known)) {
+      line.low.clear();
+      line.high.clear();
+    }
+  return std::move(curves.lines);
+}
+
+/// Joins curves that are the same to one, in the style of the first: drawn each, the last would
+/// hide the others.
+void join_same(Curves& curves) {
+  std::vector<ErrorLine> apart;
+  for (const ErrorLine& first : curves.lines) {
+    const auto is_same = [&](const ErrorLine& one) {
+      return one.x == first.x && one.mean == first.mean;
+    };
+    if (std::ranges::any_of(apart, is_same)) continue;
+    std::vector<std::string> labels, others;
+    for (const ErrorLine& one : curves.lines) (is_same(one) ? labels : others).push_back(one.label);
+    apart.push_back(first);
+    if (labels.size() == 1) continue;
+    apart.back().label = joined_label(labels, others);
+    curves.joined.push_back(apart.back().label);
+    curves.joined_by_first[first.label] = apart.back().label;
+  }
+  curves.lines = std::move(apart);
+}
+
+/// A distance of parts per million: what counts is how little it is, not whose is the least.
+bool is_tiny_distance(const Quantity& quantity) {
+  return is_distance_from_another(quantity) && quantity.unit == "ppm";
+}
+
+/// Leaves the curves of what the others are compared with out, unless there are no others.
+/// @return Whether there was one.
+bool drop_compared_with(std::vector<ErrorLine>& curves) {
+  const auto is_0 = [](const ErrorLine& curve) {
+    return std::ranges::any_of(curve.mean, is_known) &&
+           std::ranges::all_of(curve.mean,
+                               [](double mean) { return mean == 0.0 || std::isnan(mean); });
+  };
+  return !std::ranges::all_of(curves, is_0) && std::erase_if(curves, is_0) > 0;
+}
+
+/// The curves of a block, those without a value left out; many, or of few groups of runs, are drawn
+/// without bands, and those of many that are the same are joined.
+Curves curves_of(const ResultsView& view, const ResultsBlock& block, const Quantity& quantity) {
+  const std::vector<ResultsLine> lines = view.lines(block, quantity);
+  const bool is_log = scale_of(block.levels) == Scale::kLog;
+  Curves curves;
+  curves.has_bands = lines.size() <= kMethodStyles && view.has_groups_for_intervals();
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    ErrorLine curve = curve_of(view, block, quantity, lines[i], i);
+    if (std::ranges::none_of(curve.mean, is_known)) continue;
+    if (is_log) drop_level_0(curve);
+    curves.lines.push_back(std::move(curve));
+  }
+  if (is_distance_from_another(quantity))
+    curves.lacks_compared_with = drop_compared_with(curves.lines);
+  if (lines.size() > kMostApart) join_same(curves);
+  return curves;
+}
+
+/// In a unit in which the values of the curves need no power of ten; an MPE is in m everywhere.
+/// @return The quantity with that unit.
+Quantity scale_to_unit(const Quantity& quantity, Curves& curves, std::vector<ErrorPoint>& points) {
+  if (quantity.label == "MPE") return quantity;
+  double greatest = 0.0;
+  const auto for_each_value = [&](std::vector<ErrorLine>& lines, auto&& visit) {
+    for (ErrorLine& line : lines)
+      for (std::vector<double>* values : {&line.mean, &line.low, &line.high})
+        for (double& value : *values) visit(value);
+    for (ErrorPoint& point : points) visit(point.y);
+  };
+  std::vector<ErrorLine> shown_lines = drawn(curves);
+  for_each_value(shown_lines,
+                 [&](double& value) { greatest = std::max(greatest, std::abs(value)); });
+  const ScaledUnit unit = scaled_unit(quantity.unit, greatest);
+  for_each_value(curves.lines, [&](double& value) { value *= unit.factor; });
+  Quantity shown = quantity;
+  shown.unit = unit.unit;
+  return shown;
+}
+
+/// Which method is best over the axis; empty of a quantity that has no better side.
+std::string finding_of(const Curves& curves, const Quantity& quantity, const std::string& x_label) {
+  if (!has_better_side(quantity) || curves.lines.size() < 2) return "";
+  return best_over(curves.lines,
+                   {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower,
+                    curves.joined},
+                   line_axis(x_label));
+}
+
+/// What lines do where none of them is called the best: of one, how it goes from the first x to the
+/// last; of several, why they are not ranked and between which values they lie; of tiny distances,
+/// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
+/// @param unit         Of the lines' values.
+/// @param not_ranked   kIntervalsOverlap or kTooFewRuns.
+std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
+                      const std::string& unit, const std::string& not_ranked) {
+  std::vector<double> known;
+  for (const ErrorLine& line : lines)
+    std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
+  if (known.empty()) return "";
+  const auto words = [&](double value) {
+    if (const auto power = power_of(unit))
+      return quantity_text(value * std::pow(10.0, *power), quantity.unit);
+    return quantity_text(value, unit);
+  };
+  if (is_tiny_distance(quantity))
+    return fmt::format("{} is at most {}", in_sentence(quantity.label),
+                       words(std::ranges::max(known)));
+  const std::string first = words(known.front()), last = words(known.back());
+  if (lines.size() == 1)
+    return first == last ? fmt::format("{} stays at {}", in_sentence(quantity.label), first)
+           : ends_tie(lines.front())
+               ? fmt::format("{} has no clear trend, {} and {} at the ends",
+                             in_sentence(quantity.label), first, last)
+               : fmt::format("{} {} from {} to {}", in_sentence(quantity.label),
+                             known.back() < known.front() ? "falls" : "rises", first, last);
+  const auto [least, greatest] = std::ranges::minmax(known);
+  const std::string span = words(least) == words(greatest)
+                               ? words(least)
+                               : fmt::format("between {} and {}", words(least), words(greatest));
+  if (const auto aim = aim_of(quantity))
+    return fmt::format("{} {}, aimed at {}", in_sentence(quantity.label), span,
+                       with_unit(data_number(*aim), unit));
+  return fmt::format("{}{} {}", has_better_side(quantity) ? not_ranked : "",
+                     in_sentence(quantity.label), span);
+}
+
+/// The label of the curve that shows a line; empty if none does.
+std::string label_of_curve(const Curves& curves, const std::string& line) {
+  const auto joined = curves.joined_by_first.find(line);
+  const std::string& label = joined == curves.joined_by_first.end() ? line : joined->second;
+  return std::ranges::find(curves.lines, label, &ErrorLine::label) == curves.lines.end() ? ""
+                                                                                         : label;
+}
+
+/// The values of the runs that the curves are means of, if these are too few for intervals; none
+/// of more curves than have styles of their own.
+std::vector<ErrorPoint> runs_of(const ResultsView& view, const ResultsBlock& block,
+                                const Quantity& quantity, const Curves& curves) {
+  std::vector<ErrorPoint> points;
+  if (view.has_groups_for_intervals() || curves.lines.size() > kMethodStyles) return points;
+  const bool is_log = scale_of(block.levels) == Scale::kLog;
+  for (const ResultsLine& line : view.lines(block, quantity)) {
+    const std::string label = label_of_curve(curves, line.label);
+    if (label.empty()) continue;
+    for (std::size_t i = 0; i < block.levels.size(); ++i) {
+      const double x = std::get<double>(block.levels[i].value);
+      const auto values = view.numbers(block.conditions[i], line, quantity).values;
+      if (values.size() < 2 || (is_log && x == 0.0)) continue;
+      for (const auto& [run, value] : values)
+        points.push_back({.label = kSingleRuns,
+                          .line = label,
+                          .x = x,
+                          .y = value,
+                          .marker = Marker::kCircle,
+                          .size = 0.6});
+    }
+  }
+  return points;
+}
+
+/// The legend's sample of points of several lines is grey: else it would be that of one line alone.
+void add_sample_of_runs(Panel& panel, const std::vector<ErrorPoint>& points) {
+  const auto is_other = [&](const ErrorPoint& point) { return point.line != points[0].line; };
+  if (std::ranges::none_of(points, is_other)) return;
+  panel.layers.insert(panel.layers.begin(), Scatter{.label = points[0].label,
+                                                    .x = {kNaN},
+                                                    .y = {kNaN},
+                                                    .colour = ThemeColour::kMuted,
+                                                    .marker = points[0].marker,
+                                                    .filled = false,
+                                                    .size = points[0].size});
+}
+
+/// A line at the value that is aimed at, below the others.
+void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
+  const std::vector<double>& x = lines.front().x;
+  panel.layers.insert(panel.layers.begin(), Polyline{.label = "aimed at",
+                                                     .x = {x.front(), x.back()},
+                                                     .y = {aim, aim},
+                                                     .colour = ThemeColour::kMuted,
+                                                     .dash = Dash::kDotted});
+  if (!panel.y.limits) return;
+  Range& limits = *panel.y.limits;
+  const double margin = 0.05 * std::max(limits.high - aim, aim - limits.low);
+  limits = {std::min(limits.low, aim - margin), std::max(limits.high, aim + margin)};
+}
+
+/// Which method is best at most of the points of several panels: "ISOMAP has the lowest MPE at 7 of
+/// 9 points". Empty of a quantity that has no better side.
+/// @param joined  Labels of lines that are several.
+std::string most_often_best(const std::vector<std::vector<ErrorLine>>& panels,
+                            const Quantity& quantity, const std::vector<std::string>& joined) {
+  if (!has_better_side(quantity)) return "";
+  return best_of_points(panels, {in_sentence(quantity.label), quantity.unit,
+                                 quantity.better == Better::kLower, joined});
+}
+
+}  // namespace
+
+std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
+                                   const Quantity& quantity) {
+  LevelCurveSpec spec;
+  spec.id = figure_id(block.id, quantity.id);
+  spec.x_label = view.factor_label(block.factor);
+  spec.x_scale = scale_of(block.levels);
+  spec.quantity = quantity.label;
+  spec.great_errors = view.has_great_errors(quantity);
+  spec.has_runs = view.runs() > 1;
+  spec.record_ids = {record_of(block)};
+  Curves curves = curves_of(view, block, quantity);
+  if (!distinguishes(curves.lines)) return std::nullopt;
+  spec.points = runs_of(view, block, quantity, curves);
+  const Quantity shown = scale_to_unit(quantity, curves, spec.points);
+  spec.y_label = label_with_unit(shown);
+  if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
+  std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
+  if (finding.empty())
+    finding = course_of(curves.lines, quantity, shown.unit,
+                        view.has_groups_for_intervals() ? kIntervalsOverlap : kTooFewRuns);
+  spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
+  if (quantity.unit == "%") spec.log_from = HUGE_VAL;
+  spec.methods = drawn(std::move(curves));
+  Figure figure = level_curve_figure(spec);
+  add_sample_of_runs(figure.panels.front(), spec.points);
+  if (const auto aim = aim_of(quantity)) add_aim(figure.panels.front(), *aim, spec.methods);
+  if (spec.x_scale == Scale::kLog && std::get<double>(block.levels.front().value) == 0.0)
+    figure.caption += " The table has the level 0, which a logarithmic axis has not.";
+  if (curves.lacks_compared_with)
+    figure.caption += " What the others are compared with is at 0 and has no line.";
+  return figure;
+}
+
+std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOverview& overview,
+                                      const Quantity& quantity) {
+  const bool has_axes = std::ranges::all_of(overview.blocks, &ResultsBlock::has_axis);
+  if (!has_axes || overview.blocks.size() > kMostPanels) return std::nullopt;
+  ErrorLinesSpec spec;
+  spec.id = figure_id(overview.id, quantity.id);
+  spec.y_label = label_with_unit(quantity);
+  spec.quantity = quantity.label;
+  spec.great_errors = view.has_great_errors(quantity);
+  spec.has_runs = view.runs() > 1;
+  spec.record_ids = {record_of(*overview.blocks.front())};
+  std::vector<std::string> joined;
+  std::vector<std::vector<ErrorLine>> judged;
+  for (std::size_t i = 0; i < overview.blocks.size(); ++i) {
+    const ResultsBlock& block = *overview.blocks[i];
+    ErrorPanel& panel = spec.panels.emplace_back();
+    panel.title = overview.names[i];
+    panel.x.label = view.factor_label(block.factor);
+    panel.x.scale = scale_of(block.levels);
+    const Curves curves = curves_of(view, block, quantity);
+    judged.push_back(curves.lines);
+    panel.lines = drawn(curves);
+    joined.insert(joined.end(), curves.joined.begin(), curves.joined.end());
+    panel.points = runs_of(view, block, quantity, curves);
+    if (!panel.points.empty()) spec.remark = kSingleRunsRemark;
+  }
+  if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
+    return std::nullopt;
+  const std::string finding = most_often_best(judged, quantity, joined);
+  spec.title =
+      finding.empty()
+          ? fmt::format("{}: {}", overview.title, quantity.label)
+          : fmt::format("{}: {}", overview.title.substr(0, overview.title.find(": ")), finding);
+  spec.over = fmt::format(" over {} by {}", view.factor_label(overview.blocks.front()->factor),
+                          overview.factors);
+  Figure figure = error_lines_figure(spec);
+  for (std::size_t i = 0; i < spec.panels.size(); ++i)
+    add_sample_of_runs(figure.panels[i], spec.panels[i].points);
+  return figure;
+}
+
+std::string why_no_curve(const ResultsView& view, const ResultsBlock& block,
+                         const Quantity& quantity) {
+  const std::vector<ErrorLine> curves = curves_of(view, block, quantity).lines;
+  if (curves.empty())
+    return fmt::format("{}: there is no curve, since no run gave a value.", quantity.label);
+  if (distinguishes(curves)) return "";
+  const double mean = *std::ranges::find_if(curves.front().mean, is_known);
+  const std::string value = with_unit(fmt::format("{:.6g}", mean), quantity.unit);
+  const bool are_repeats = view.study().results.are_repeats;
+  return fmt::format("{}: there is no curve, since the {} is {} at every level{}.", quantity.label,
+                     are_repeats ? "mean" : "value", value,
+                     curves.size() == 1 ? ""
+                     : are_repeats      ? ", for every method"
+                                        : ", for every method and run");
+}
+
+}  // namespace mapproof

@@ -1,0 +1,49 @@
+#include "reports/sections/results/results_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/text/words.hpp"
+#include "render/figures/diagrams/value_dots.hpp"
+
+namespace mapproof {
+
+std::string figure_id(const std::string& block, std::string what) {
+  std::ranges::replace(what, '_', '-');
+  return block + "-" + what;
+}
+
+std::string key_of(std::size_t line) { return fmt::format("line-{}", line + 1); }
+
+std::string record_of(const ResultsBlock& block) { return block.conditions.front().setup; }
+
+bool spans_widely(const std::vector<double>& values) {
+  if (values.empty()) return false;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return least > 0.0 && greatest > kWideSpan * least;
+}
+
+bool is_known(double value) { return std::isfinite(value); }
+
+std::string in_sentence(std::string label) {
+  if (const std::size_t comma = label.find(", "); comma != std::string::npos)
+    label = fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
+  if (label.size() < 2 || lower_case(label.substr(1, 1)) != label.substr(1, 1)) return label;
+  return lower_case(label.substr(0, 1)) + label.substr(1);
+}
+
+std::optional<double> aim_of(const Quantity& quantity) {
+  return quantity.id.ends_with("_covered_percent") ? std::optional(95.0) : std::nullopt;
+}
+
+bool has_better_side(const Quantity& quantity) {
+  return quantity.better != Better::kNeither && !aim_of(quantity);
+}
+
+bool is_distance_from_another(const Quantity& quantity) {
+  return quantity.id.starts_with("gap_") || quantity.id.starts_with("greatest_gap_");
+}
+
+}  // namespace mapproof

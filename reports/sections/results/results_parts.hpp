@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/sections/results/results_view.hpp"
+
+namespace mapproof {
+
+/// More panels than these are too narrow to be read.
+inline constexpr std::size_t kMostPanels = 4;
+
+std::string figure_id(const std::string& block, std::string what);
+
+/// Of the line's marks.
+std::string key_of(std::size_t line);
+
+/// The subject of all results of the block's setup: a diff finds them by it.
+std::string record_of(const ResultsBlock& block);
+
+/// Whether the values need a logarithmic axis.
+bool spans_widely(const std::vector<double>& values);
+
+bool is_known(double value);
+
+/// "Regret with anchors" as "regret with anchors", but "MPE" as it is; "MOE, reflection allowed" as
+/// "MOE (reflection allowed)".
+std::string in_sentence(std::string label);
+
+/// The coverage that 95 % ellipses are meant to have [%]: more is as wrong as less. Nothing of
+/// other quantities.
+std::optional<double> aim_of(const Quantity& quantity);
+
+/// Whether one side of the quantity is better: findings then name methods.
+bool has_better_side(const Quantity& quantity);
+
+/// A distance from the results of another method, which are 0 of that method itself.
+bool is_distance_from_another(const Quantity& quantity);
+
+}  // namespace mapproof
