@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
+#include "reports/history/nightly_links.hpp"
 #include "reports/history/nightly_run.hpp"
 #include "reports/history/nightly_summary.hpp"
 #include "reports/history/trend_figures.hpp"
@@ -14,48 +15,8 @@
 
 namespace mapproof {
 
-/// Where the pages of a history lie, as seen from one of them: folders that end in '/', or empty
-/// for the page's own.
-struct HistoryFolders {
-  std::string pages = {};         ///< Of index.html and trends/.
-  std::string nightly_runs = {};  ///< Of nightly_runs/.
-};
-
-/// Links from one page of a history to the others, and what they are called.
-class NightlyLinks {
- public:
-  explicit NightlyLinks(HistoryFolders folders) : folders_(std::move(folders)) {}
-
-  Phrase index();
-  Phrase trends(const std::string& study);
-  /// The page that compares a study of two nightly runs.
-  Phrase comparison(int before, int after, const std::string& study);
-  /// The page of a commit; its digits alone if its address is not known.
-  Phrase commit(const NightlyFacts& nightly_run);
-  /// The page that compares the two commits; the range alone if its address is not known.
-  Phrase commits(const CommitRange& range);
-  Phrase feed();
-  Phrase badge();
-  Phrase report(int nightly_run, const std::string& study);
-  /// The folder of a nightly run of several studies.
-  Phrase folder(int nightly_run);
-
-  /// The text of every link that was requested, by its path (see HtmlOptions::link_words).
-  const std::map<std::string, std::string>& words() const { return words_; }
-
- private:
-  Phrase link(const std::string& path, const std::string& words);
-
-  HistoryFolders folders_;
-  std::map<std::string, std::string> words_;
-};
-
 /// Names of the studies by nightly run.
 using NightlyStudies = std::map<int, std::vector<std::string>>;
-
-/// "compare/0005-0006/STUDY.html": the page that compares a study of two nightly runs, from the
-/// folder of the index.
-std::string comparison_file(int before, int after, const std::string& study);
 
 /// One row per finding of those nightly runs, the last nightly run first.
 Table findings_table(const NightlyFindings& findings, const std::string& study);
