@@ -141,7 +141,8 @@ void stream(std::string_view bytes, const Stream& streamed, const Names& names_i
   // Of a stream that ends within a line, all before it counts, and it may hold nothing yet; such
   // files are refused.
   const bool has_steps = whole.starts_with('\n');
-  if (bytes.starts_with("# .PCD")) return;  // To a stream that is a remark, not a point cloud.
+  // To a stream these are a remark and a rule, not a point cloud and YAML.
+  if (bytes.starts_with("# .PCD") || bytes.starts_with("---")) return;
   if (!has_steps || whole.ends_with("[]") || !bytes.ends_with('\n')) return;
   std::string names;
   try {
