@@ -58,7 +58,6 @@ for (const table of document.querySelectorAll("main .table")) addTableTools(tabl
 for (const figure of figures) linkFiles(figure);
 addFigureColours();
 addEventListener("themechange", addOpeningImages);
-narrowPage.addEventListener("change", addOpeningImages);
 addCommands(figures);
 addThemeSwitch(document.querySelector(".masthead"));
 foldDetails();
@@ -71,3 +70,4 @@ followReading();
   () => addMethodList(document.querySelector(".search")));
 addSearch(document.querySelector(".contents"));
 addOpeningImages();  // As large as what is above them leaves room for.
+fitMainFigure();

@@ -23,6 +23,7 @@ function addFigureColours() {
     for (const name of ["fill", "stroke"]) {
       add(`[${name}="${light}"] { ${name}: light-dark(${light}, ${dark}); }`);
     }
+    add(`.cell-text[fill="${light}"] { fill: ${light}; }`);  // The cells below keep theirs, too.
   }
   add(".drawing { background: light-dark(#ffffff, #15181c); }");
 }
@@ -88,6 +89,6 @@ function inPageColours(text) {
   if (!isDarkPage()) return withoutDarkPalettes(text);
   return text.replace(/base64,([^"]*)" data-dark="([^"]*)"/g,
     (all, png, palette) => `base64,${inPalette(png, palette)}"`)
-    .replace(/(fill|stroke)="(#[0-9a-f]{6})"/g,
-      (all, name, colour) => `${name}="${kDarkColours[colour] ?? colour}"`);
+    .replace(/(class="cell-text" )?(fill|stroke)="(#[0-9a-f]{6})"/g,
+      (all, cell, name, colour) => (cell ? all : `${name}="${kDarkColours[colour] ?? colour}"`));
 }

@@ -148,19 +148,27 @@ function leastShare(svg, { left }) {
   return Math.min(1, Math.max(.3, ...shares));
 }
 
+// How low the frame of a panel can get that should be no higher than `height`.
+function lowestShare(svg, parts, i, height) {
+  const frame = parts.frames[i];
+  const beside = parts.axes.filter(
+    (label) => isUpright(label) && frameOfLabel(label, parts.frames) === frame);
+  const longest = Math.max(0, ...beside.map((label) => boxIn(svg, label).height));
+  return Math.max(Math.min(1, Math.max(height, longest) / frame.height),
+    leastShare(svg, tickLabelsOf(parts.panels[i], frame)));
+}
+
 // Makes frames so narrow that they need no more than `most` with what is around them; those whose
 // axes have scales of their own also as low as `height`, if that is less.
 function narrowFrames(svg, parts, rooms, most, height = Infinity) {
   widths.set(svg, { attributes: [], frames: parts.frames.map((frame) => ({ ...frame })) });
   const room = most - rooms.left - rooms.right;
+  // Frames that share an axis have its labels beside one of them: all get as low as that one can.
+  const owners = parts.axes.map((label) => frameOfLabel(label, parts.frames));  // Before any moves.
+  const lowest = Math.max(...parts.frames.map((frame, i) => lowestShare(svg, parts, i, height)));
   parts.frames.forEach((frame, i) => {
     const across = Math.min(1, room / frame.width), panel = parts.panels[i];
-    const beside = parts.axes.filter(
-      (label) => isUpright(label) && frameOfLabel(label, parts.frames) === frame);
-    const longest = Math.max(0, ...beside.map((label) => boxIn(svg, label).height));
-    const lower = () => Math.max(Math.min(1, Math.max(height, longest) / frame.height),
-      leastShare(svg, tickLabelsOf(panel, frame)));
-    const down = hasOneScale(panel, frame) ? across : height < frame.height ? lower() : 1;
+    const down = hasOneScale(panel, frame) ? across : height < frame.height ? lowest : 1;
     const before = { ...frame };
     const at = ({ x, y }) => ({ x: before.x + across * (x - before.x),
       y: before.y + down * (y - before.y) });
@@ -170,7 +178,7 @@ function narrowFrames(svg, parts, rooms, most, height = Infinity) {
     const { marks } = contentOf(panel, before);
     const change = { before, after, across, down, at,
       marks: marks.map(({ element, x, y }) => ({ element, x, y })) };
-    const axes = parts.axes.filter((label) => frameOfLabel(label, parts.frames) === frame)
+    const axes = parts.axes.filter((label, k) => owners[k] === frame)
       .map((label) => ({ label, box: boxIn(svg, label) }));
     for (const part of panel) narrowPart(svg, part, change);
     for (const { label, box } of axes) {

@@ -202,6 +202,18 @@ function addOpeningImages() {
   document.querySelector(".main-figure img")?.decode().then(placeThumbnails, () => {});
 }
 
+// The figure is arranged again whenever its box has another width, as when a phone is turned.
+function fitMainFigure() {
+  const box = document.querySelector(".main-figure");
+  if (!box) return;
+  let width = box.clientWidth;
+  new ResizeObserver(() => {
+    if (box.clientWidth === width || matchMedia("print").matches) return;
+    width = box.clientWidth;
+    addOpeningImages();
+  }).observe(box);
+}
+
 function addMainFigure() {
   const link = document.querySelector(".main-figure a");
   if (!link) return;

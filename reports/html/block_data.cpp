@@ -470,7 +470,7 @@ class BlockVisitor {
       data out;
       out.set("element", item.element);
       out.set("link", file_link(options_.root + item.page) + "#" + item.element);
-      out.set("title", item.title);
+      out.set("title", with_quantities_kept(item.title));
       items.push_back(std::move(out));
     }
     data out;

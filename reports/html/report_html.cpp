@@ -90,7 +90,7 @@ const FigureBlock* figure_of(const Report& report, const std::string& id) {
 data figure_link(const FigureBlock& figure) {
   data out;
   out.set("id", figure.id);
-  out.set("title", figure.title);
+  out.set("title", with_quantities_kept(figure.title));
   out.set("alt", figure.alt);
   return out;
 }

@@ -226,9 +226,10 @@ Highlights::Item warning_number(const MapReportInput& input,
   if (contradicted)
     details.push_back("anchor " + printable(contradicted->name, 40) + " is not where it was given");
   if (listed > 0) details.emplace_back("listed with their reasons");
-  return {"warnings and failures", fmt::format("{}", listed + (contradicted ? 1 : 0)),
+  const auto count = listed + (contradicted ? 1 : 0);
+  return {count == 1 ? "warning or failure" : "warnings and failures", fmt::format("{}", count),
           details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")),
-          contradicted && listed == 0 ? kPositions : kWarnings};
+          contradicted && listed == 0 ? kPositions : kWarnings, count > 0};
 }
 
 /// How good the map is comes first: its errors, or else whether the data fit it.

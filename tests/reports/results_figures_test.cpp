@@ -205,6 +205,8 @@ TEST(ResultsFigures, TwoFactorsOfNumbersGiveAHeatMapPerMethod) {
   EXPECT_DOUBLE_EQ(cells.values[0], 1.0);  // Noise 0.1 at size 10, in the upper row.
   EXPECT_DOUBLE_EQ(cells.values[5], 1.5);
   EXPECT_EQ(group.figures[1].notes.size(), 1U) << "a missing cell is said";
+  const auto& others = std::get<Cells>(group.figures[1].panels[0].layers.back());
+  EXPECT_EQ(cells.colour_scale.limits, others.colour_scale.limits) << "one scale for all methods";
 }
 
 TEST(ResultsFigures, HaveIdsOfTheirOwnWhereMethodsDifferByCaseAlone) {

@@ -160,6 +160,29 @@ TEST(ResultsComparison, IsThePairedTestOverGroupsCorrectedForTheMethods) {
   EXPECT_DOUBLE_EQ(found.ranks->mean_ranks[2], 3.0);
   EXPECT_EQ(sentence_of(found, view).substr(0, 55),
             "s: m1 has the lowest mean MPE, 1.10\u00A0m; m2 follows with");
+  EXPECT_TRUE(sentence_of(found, view).ends_with("; not compared, since values are missing: m4."))
+      << sentence_of(found, view);
+}
+
+TEST(ResultsView, CountsTheRunsAndGroupsOfEachSetup) {
+  ResultsStudy study = Rows()
+                           .add("m", "a1", 1.0)
+                           .add("n", "a1", 2.0)
+                           .add("m", "a2", 3.0)
+                           .add("m", "b1", 4.0)
+                           .study();
+  // One run elsewhere, which has the name of a run of the first setup.
+  Result elsewhere = study.results.rows.front();
+  elsewhere.at = condition("yard");
+  study.results.rows.push_back(elsewhere);
+  study.setups.push_back({"yard", "Yard"});
+  const ResultsView view(study);
+  EXPECT_EQ(view.runs(), 3U);
+  EXPECT_EQ(view.counts_of("s").runs, 3U);
+  EXPECT_EQ(view.counts_of("s").groups, 2U);
+  EXPECT_EQ(view.counts_of("yard").runs, 1U);
+  EXPECT_EQ(view.counts_of("yard").groups, 1U);
+  EXPECT_EQ(view.counts_of("nowhere").runs, 0U);
 }
 
 TEST(ResultsComparison, PairsAreOfTheRunsThatAllComparedMethodsHave) {

@@ -45,9 +45,10 @@ void hatch(double x, double y, Segments& lines) {
   }
 }
 
-/// The values from the least to the greatest; a little more where all are the same.
+/// The values from the least to the greatest, and what other maps need; a little more where all are
+/// the same.
 Range span_of(const HeatMapSpec& spec) {
-  Range range{HUGE_VAL, -HUGE_VAL};
+  Range range = spec.shared_span.value_or(Range{HUGE_VAL, -HUGE_VAL});
   for (const double value : spec.values) {
     if (!std::isfinite(value)) continue;
     range.low = std::min(range.low, value);
@@ -134,8 +135,9 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
     ++count;
   }
   figure.caption = fmt::format(
-      "Colours: {} over {} and {}, mean over runs{}.", spec.quantity, spec.x_label, spec.y_label,
-      cells.colour_scale.scale == Scale::kLog ? ", on a logarithmic scale" : "");
+      "Colours: {} over {} and {}, mean over runs{}{}.", spec.quantity, spec.x_label, spec.y_label,
+      cells.colour_scale.scale == Scale::kLog ? ", on a logarithmic scale" : "",
+      spec.shared_span ? ", the same for all methods" : "");
   if (count > 0) {
     figure.notes.push_back({"Hatched: " + spec.missing + ".", ThemeColour::kText});
     figure.caption += fmt::format(" Hatched, {}: {}.", counted(count, "cell"), spec.missing);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct HeatMapSpec {
   std::vector<std::string> x_names, y_names;  ///< Of their levels, ascending.
   /// One per combination: row by row, the rows in the order of `y_names`; NaN: missing.
   std::vector<double> values;
+  std::optional<Range> shared_span = {};  ///< Colours show these values, too, as other maps' do.
   /// Of the numbers in the cells: rounded_text(); of logarithmic colours, at most, and three
   /// digits.
   int decimals = 3;

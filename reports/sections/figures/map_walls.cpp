@@ -68,8 +68,13 @@ std::string in_two_lines(std::string name) {
 Figure wall_of(const MapsOfWorld& world, std::string id) {
   MapGridSpec spec{.id = std::move(id), .title = "", .maps = {}};
   const std::size_t cut = world.subject.empty() ? 0 : world.subject.size() + kOf.size();
+  // Where no map is usable, the title says so.
+  const bool marks = has_use(*world.maps.front().second);
   for (const auto& [name, map] : world.maps)
-    if (spec.maps.size() < kMostMaps) spec.maps.push_back({in_two_lines(name.substr(cut)), *map});
+    if (spec.maps.size() < kMostMaps)
+      spec.maps.push_back(
+          {in_two_lines(name.substr(cut)) + (marks && !has_use(*map) ? " (not usable)" : ""),
+           *map});
   const MapRecord& best = spec.maps.front().map;
   const std::string subject = world.subject.empty() ? "" : world.subject + std::string(kOf);
   if (has_use(best) && std::isfinite(error_or_infinity(best))) {

@@ -242,6 +242,15 @@ bool is_apart_by_ranks(const MethodComparison& comparison, std::size_t i) {
   return std::abs(ranks[i] - ranks[0]) >= critical_difference(comparison);
 }
 
+/// Labels of methods that some of the comparisons left out, each once.
+std::vector<std::string> left_out_of(const std::vector<const MethodComparison*>& comparisons) {
+  std::vector<std::string> labels;
+  for (const MethodComparison* comparison : comparisons)
+    for (const std::string& label : comparison->left_out)
+      if (std::ranges::find(labels, label) == labels.end()) labels.push_back(label);
+  return labels;
+}
+
 /// How often each method is the best by one quantity, and which are worse everywhere.
 std::string tally_of(const ResultsView& view, const Quantity& quantity,
                      const std::vector<const MethodComparison*>& comparisons) {
@@ -275,6 +284,9 @@ std::string tally_of(const ResultsView& view, const Quantity& quantity,
   if (!worse.empty())
     text += fmt::format("; significantly worse than the best wherever compared: {}",
                         listed(worse, kMostNamed));
+  if (const auto left_out = left_out_of(comparisons); !left_out.empty())
+    text +=
+        fmt::format("; not compared wherever values are missing: {}", listed(left_out, kMostNamed));
   return text + ".";
 }
 
@@ -338,7 +350,9 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));
-  if (!next.change) return text + ".";
+  const std::string left_out = left_out_words(comparison);
+  const std::string end = left_out.empty() ? "." : "; " + left_out + ".";
+  if (!next.change) return text + end;
   text +=
       fmt::format(" ({}, {} over {}",
                   is_significant(next) ? "a significant difference" : "no significant difference",
@@ -347,7 +361,14 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
     text +=
         fmt::format("; their mean ranks {}",
                     is_significant(next) ? "do not differ significantly" : "differ significantly");
-  return text + ").";
+  return text + ")" + end;
+}
+
+std::string left_out_words(const MethodComparison& comparison) {
+  constexpr std::size_t kMostNamed = 3;
+  return comparison.left_out.empty() ? ""
+                                     : fmt::format("not compared, since values are missing: {}",
+                                                   listed(comparison.left_out, kMostNamed));
 }
 
 bool has_rank_diagram(const MethodComparison& comparison) {

@@ -51,6 +51,9 @@ std::string where_of(const MethodComparison& comparison);
 /// "EKF has the lowest error, 0.12 m (...)": what a comparison came to, in a sentence.
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view);
 
+/// "not compared, since values are missing: EKF"; empty if no method is left out.
+std::string left_out_words(const MethodComparison& comparison);
+
 /// Whether there is a diagram of its mean ranks.
 bool has_rank_diagram(const MethodComparison& comparison);
 

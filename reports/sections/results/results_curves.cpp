@@ -207,9 +207,10 @@ std::string finding_of(const Curves& curves, const Quantity& quantity, const std
 /// last; of several, why they are not ranked and between which values they lie; of tiny distances,
 /// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
 /// @param unit         Of the lines' values.
-/// @param not_ranked   kIntervalsOverlap or kTooFewRuns.
+/// @param great_errors  See ResultsView::has_great_errors().
+/// @param not_ranked   Why, before what they do; kIntervalsOverlap or kTooFewRuns of one panel.
 std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
-                      const std::string& unit, const std::string& not_ranked) {
+                      const std::string& unit, bool great_errors, const std::string& not_ranked) {
   std::vector<double> known;
   for (const ErrorLine& line : lines)
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
@@ -217,7 +218,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   const auto words = [&](double value) {
     if (const auto power = power_of(unit))
       return quantity_text(value * std::pow(10.0, *power), quantity.unit);
-    return quantity_text(value, unit);
+    return unit == "m" && great_errors ? error_text(value) : quantity_text(value, unit);
   };
   if (is_tiny_distance(quantity))
     return fmt::format("{} is at most {}", in_sentence(quantity.label),
@@ -312,6 +313,19 @@ std::string most_often_best(const std::vector<std::vector<ErrorLine>>& panels,
                                  quantity.better == Better::kLower, joined});
 }
 
+/// What the lines of several panels do where none is the best: see course_of().
+std::string course_over(const std::vector<std::vector<ErrorLine>>& panels, const Quantity& quantity,
+                        bool great_errors) {
+  std::vector<ErrorLine> all;
+  bool has_rivals = false;
+  for (const std::vector<ErrorLine>& lines : panels) {
+    all.insert(all.end(), lines.begin(), lines.end());
+    has_rivals = has_rivals || lines.size() > 1;
+  }
+  return course_of(all, quantity, quantity.unit, great_errors,
+                   has_rivals ? "no method is best at most points, " : "");
+}
+
 }  // namespace
 
 std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& block,
@@ -332,7 +346,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
   std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
   if (finding.empty())
-    finding = course_of(curves.lines, quantity, shown.unit,
+    finding = course_of(curves.lines, quantity, shown.unit, view.has_great_errors(quantity),
                         view.has_groups_for_intervals() ? kIntervalsOverlap : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
@@ -375,7 +389,8 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
-  const std::string finding = most_often_best(judged, quantity, joined);
+  std::string finding = most_often_best(judged, quantity, joined);
+  if (finding.empty()) finding = course_over(judged, quantity, view.has_great_errors(quantity));
   spec.title =
       finding.empty()
           ? fmt::format("{}: {}", overview.title, quantity.label)

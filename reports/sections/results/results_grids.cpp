@@ -95,6 +95,14 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
   return lines;
 }
 
+/// From the least to the greatest; nothing where none is known.
+std::optional<Range> span_of_known(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !is_known(value); });
+  if (values.empty()) return std::nullopt;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return Range{least, greatest};
+}
+
 }  // namespace
 
 FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
@@ -111,6 +119,7 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
       for (const double mean : means_over(view, *grid, setup.id, line, quantity))
         all.push_back(mean);
     const int decimals = decimals_of(all);
+    const std::optional<Range> span = lines.size() > 1 ? span_of_known(all) : std::nullopt;
     for (const ResultsLine& line : lines) {
       HeatMapSpec spec;
       spec.id = fmt::format("{}-{}-{}", id, slug_of(quantity.id), slug_of(line.method));
@@ -119,6 +128,7 @@ FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
       spec.x_names = names_of(grid->x_levels);
       spec.y_names = names_of(grid->y_levels);
       spec.values = means_over(view, *grid, setup.id, line, quantity);
+      spec.shared_span = span;
       spec.decimals = decimals;
       spec.quantity = quantity.label;
       spec.unit = quantity.unit;

@@ -377,6 +377,8 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
       note += "not significantly better than any other method (paired test)";
     else
       note += fmt::format("significantly better than {} of {} (paired test)", worse, others);
+    if (const std::string left_out = left_out_words(comparison); !left_out.empty())
+      note += "; " + left_out;
     numbers.items.push_back(
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
          quantity_text(best.mean, comparison.quantity->unit), std::move(note),

@@ -99,16 +99,17 @@ int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
   return decimals_shown(view, quantity, std::move(means));
 }
 
-void add_note(const ResultsView& view, Table& table) {
+void add_note(const ResultsView& view, const std::string& setup, Table& table) {
   if (!has_repeats(view)) return;
+  const RunCounts counts = view.counts_of(setup);
   table.notes.insert(
       table.notes.begin(),
       fmt::format("Mean over runs and {}; {} in {}, a group is one independent unit.",
                   view.has_groups_for_intervals()
                       ? "its 95 % interval"
                       : "their least and greatest value, since groups are too few for an interval",
-                  counted(static_cast<long long>(view.runs()), "run"),
-                  counted(static_cast<long long>(view.groups()), "group")));
+                  counted(static_cast<long long>(counts.runs), "run"),
+                  counted(static_cast<long long>(counts.groups), "group")));
 }
 
 /// "SDE: not converged in 3 of 9 at noise 0.5.": one note per line and status.
@@ -155,7 +156,7 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
                 view.level_words(block.levels[i]));
     table.rows.push_back(std::move(row));
   }
-  add_note(view, table);
+  add_note(view, block.conditions.front().setup, table);
   add_status_notes(view, block, view.lines(block, quantity), table);
   return table;
 }
@@ -206,7 +207,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
                 quantities[i]->label);
     table.rows.push_back(std::move(row));
   }
-  add_note(view, table);
+  add_note(view, block.conditions.front().setup, table);
   add_status_notes(view, block, lines, table);
   return table;
 }
@@ -284,7 +285,7 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
         cells.add(row, overview.conditions[i], line, {quantity, places}, overview.names[i]);
       table.rows.push_back(std::move(row));
     }
-    add_note(view, table);
+    add_note(view, overview.conditions.front().setup, table);
     tables.push_back(std::move(table));
   }
   return tables;

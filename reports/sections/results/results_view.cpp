@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -83,7 +85,25 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
   make_overviews();
 }
 
+namespace {
+
+/// Names, each counted once per setup; the rows of a setup stand together.
+class CountOfSetup {
+ public:
+  void add(const Name& name, const Name& setup, std::size_t& count) {
+    if (name.id() >= last_.size()) last_.resize(name.id() + std::size_t{1}, kNone);
+    count += std::exchange(last_[name.id()], setup.id()) != setup.id();
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> last_;  ///< By Name::id(): the setup that has it last.
+};
+
+}  // namespace
+
 void ResultsView::take_rows() {
+  CountOfSetup runs, groups;
   const Rows rows = study_.results.rows;
   const auto key_of = [](const Result& row) { return Key{row.at, row.method, row.quantity}; };
   for (auto first = rows.begin(); first != rows.end();) {
@@ -93,7 +113,10 @@ void ResultsView::take_rows() {
     if (!rows_.emplace(key, Rows(first, end)).second)
       throw InvalidInput("the rows of a study are not in order");
     const auto scale = scales_.find(key.quantity);
+    RunCounts& counts = counts_[key.at.setup];
     for (; first != end; ++first) {
+      runs.add(first->run, key.at.setup, counts.runs);
+      groups.add(first->group, key.at.setup, counts.groups);
       groups_.set(first->run, first->group);
       const std::uint32_t group = first->group.id();
       if (group >= clusters_.size()) clusters_.resize(group + std::size_t{1}, -1);
@@ -106,6 +129,11 @@ void ResultsView::take_rows() {
       greatest = std::max(greatest, value);
     }
   }
+}
+
+RunCounts ResultsView::counts_of(const std::string& setup) const {
+  const auto found = counts_.find(Name(setup));
+  return found == counts_.end() ? RunCounts() : found->second;
 }
 
 ResultsView::Rows ResultsView::rows_of(const Condition& at, const Name& method,

@@ -62,6 +62,12 @@ struct StatusCounts {
   int runs = 0;                      ///< In all.
 };
 
+/// How many runs there are, and how many groups of them.
+struct RunCounts {
+  std::size_t runs = 0;
+  std::size_t groups = 0;
+};
+
 /// A study's results as figures and tables show them.
 class ResultsView {
  public:
@@ -75,6 +81,8 @@ class ResultsView {
   const std::vector<ResultsOverview>& overviews() const { return overviews_; }
   std::size_t runs() const { return groups_.size(); }
   std::size_t groups() const { return groups_in_all_; }
+  /// Of one setup alone; none of a setup without rows.
+  RunCounts counts_of(const std::string& setup) const;
   /// Otherwise an interval of a mean is a guess: figures and tables show the runs themselves.
   bool has_groups_for_intervals() const { return groups() >= kFewestGroups; }
 
@@ -146,6 +154,7 @@ class ResultsView {
   GroupsByRun groups_;
   std::vector<int> clusters_;  ///< By Name::id() of the group, in the order of rows.
   std::size_t groups_in_all_ = 0;
+  std::map<Name, RunCounts> counts_;                         ///< By setup.
   std::map<std::string, std::pair<double, double>> ranges_;  ///< By quantity.
   std::set<std::string> usual_errors_;  ///< Quantities that have a value of a usual error in m.
   std::map<std::string, std::string> slugs_;  ///< By setup.

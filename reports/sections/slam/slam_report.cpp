@@ -502,9 +502,11 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   add_run_numbers(study, opening.numbers);
   add_slope(study, opening.numbers);
   const std::vector<std::string> warnings = warnings_of(study);
-  opening.numbers.items.push_back({"warnings and failures", fmt::format("{}", warnings.size()),
-                                   warnings.empty() ? "none" : "each listed with its reason",
-                                   "slam-warnings"});
+  opening.numbers.items.push_back(
+      {warnings.size() == 1 ? "warning or failure" : "warnings and failures",
+       fmt::format("{}", warnings.size()),
+       warnings.empty() ? "none" : "each listed with its reason", "slam-warnings",
+       !warnings.empty()});
   opening.findings.push_back(what_was_done(study));
   if (is_of_paper(study))
     opening.findings.push_back(

@@ -46,9 +46,8 @@ std::vector<std::string> doubt_conclusions(const TopicStudy& study) {
     }
     const Condition at = condition_at(setup, 0.0);
     sentences.push_back(fmt::format(
-        "Of {} fault-free logs {:.1f} % have an alarm, and of {:.1f} % the verdict is that they do "
-        "not "
-        "fit. Of those that fit, {:.1f} % of the landmarks lie in their 95 % ellipse; the mean "
+        "Of {} fault-free logs {:.3g} % have an alarm, and of {:.3g} % the verdict is that they do "
+        "not fit. Of those that fit, {:.3g} % of the landmarks lie in their 95 % ellipse; the mean "
         "squared error over its variance is {:.2f}, where 2 is right.",
         topic_values(study, at, kFitTest, "alarm_percent").size(),
         topic_mean(study, at, kFitTest, "alarm_percent"),
@@ -76,7 +75,7 @@ TopicHeadline doubt_headline(const TopicStudy& study) {
   if (count == 0.0) return {};
   std::string detail;
   if (logs > 0.0)
-    detail = fmt::format("alarms in {:.1f}\u00a0% of {:g} fault-free logs", alarms, logs);
+    detail = fmt::format("alarms in {:.3g}\u00a0% of {:g} fault-free logs", alarms, logs);
   constexpr double kMostAlarms = 5.0;  // Percent, the level of the test.
   const bool is_over = alarms > kMostAlarms;
   return {fmt::format("{:.0f}\u00a0%", sum / count), "of faults in range-only logs reported",

@@ -39,6 +39,12 @@ double greatest_of(const TopicStudy& study, const Condition& at,
   return greatest;
 }
 
+constexpr double kNothing_ppm = 1e-3;
+
+std::string gap_words(double gap_ppm) {
+  return gap_ppm < kNothing_ppm ? "0.001 ppm" : significant(gap_ppm, 2) + " ppm";
+}
+
 std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   const std::vector<std::string> methods = carried_on(study.design);
@@ -50,10 +56,9 @@ std::vector<std::string> incremental_conclusions(const TopicStudy& study) {
     const double beyond = greatest_of(study, at, methods, "beyond_percent");
     sentences.push_back(fmt::format(
         "{}: up to {:g} observations no incremental map, whatever the method, was further than "
-        "{} ppm of its size from the map computed again{}; it goes through {:g} observations "
-        "for "
-        "its last update instead of {:g}.",
-        setup.title, last, significant(greatest, 2),
+        "{} of its size from the map computed again{}; it goes through {:g} observations for its "
+        "last update instead of {:g}.",
+        setup.title, last, gap_words(greatest),
         beyond > 0.0
             ? fmt::format("; beyond the stated bound in {:.2g} % of the updates of one run", beyond)
             : "",
@@ -74,11 +79,9 @@ TopicHeadline incremental_headline(const TopicStudy& study) {
   const double through =
       topic_mean(study, condition_at(first, last), methods[0], "steps_gone_through");
   if (std::isnan(through)) return {};
-  constexpr double kNothing_ppm = 1e-3, kSame_ppm = 1.0;
+  constexpr double kSame_ppm = 1.0;
   return {fmt::format("{:g} of {:g}", through, last), "observations used by an update of a map",
-          greatest < kNothing_ppm
-              ? std::string("less than 0.001 ppm from the map computed again")
-              : significant(greatest, 2) + " ppm at most from the map computed again",
+          gap_words(greatest) + " at most from the map computed again",
           greatest < kSame_ppm ? "the same map, for less work" : "not the same map",
           greatest >= kSame_ppm};
 }

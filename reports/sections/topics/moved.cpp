@@ -24,7 +24,7 @@ std::string means_text(const TopicStudy& study, const TopicSetup& setup, const c
   std::vector<std::string> means;
   for (const Condition& at : conditions_of(setup))
     if (const double mean = topic_mean(study, at, "permutations", quantity); !std::isnan(mean))
-      means.push_back(fmt::format("{:.0f}", mean));
+      means.push_back(fmt::format("{:.3g}", mean));
   return all_listed(means);
 }
 
@@ -47,7 +47,7 @@ std::vector<std::string> moved_conclusions(const TopicStudy& study) {
   const double still = named_without_move(study);
   if (!std::isnan(still))
     sentences.push_back(fmt::format(
-        "Where nothing moves, a landmark is named in {:.1f} % of the logs; the level is 5 %.",
+        "Where nothing moves, a landmark is named in {:.3g} % of the logs; the level is 5 %.",
         still));
   for (const TopicSetup& setup : study.design.setups) {
     std::vector<std::string> levels;
@@ -56,10 +56,12 @@ std::vector<std::string> moved_conclusions(const TopicStudy& study) {
               topic_mean(study, condition_at(setup, level), "permutations", "named_percent")))
         levels.push_back(fmt::format("{:g}", level));
     if (levels.empty()) continue;
+    const SetupFactor& factor = setup.factors.front();
     sentences.push_back(fmt::format(
-        "{}: at {} ({}) the moved landmark is named in {} % of the logs, another one in {:.1f} % "
-        "at most; the step is {:.0f} steps off on average at most.",
-        setup.title, all_listed(levels), label_with_unit(setup.factors.front()),
+        "{}: at {} {} the moved landmark is named in {} % of the logs, another one in {:.3g} % at "
+        "most; the step is {:.0f} steps off on average at most.",
+        setup.title, all_listed(levels),
+        factor.unit.empty() ? "(" + factor.label + ")" : factor.unit,
         means_text(study, setup, "named_percent"), greatest_mean(study, setup, "false_percent"),
         greatest_mean(study, setup, "step_error")));
   }
