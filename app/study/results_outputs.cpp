@@ -10,6 +10,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
+#include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 
 namespace mapproof {

@@ -9,6 +9,7 @@
 #include "core/records/studies/study_store.hpp"
 #include "core/records/studies/topic_store.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 

@@ -9,7 +9,6 @@
 #include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
-#include "reports/sections/results/results_grids.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "tests/reports/results_rows.hpp"
 

@@ -19,7 +19,7 @@
 #include "render/figures/curves/method_series.hpp"
 #include "render/figures/score_text.hpp"
 #include "render/figures/unit_scale.hpp"
-#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {

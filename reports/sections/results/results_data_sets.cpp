@@ -15,7 +15,7 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/method_series.hpp"
 #include "reports/sections/results/crossed_names.hpp"
-#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 
 namespace mapproof {
 namespace {

@@ -15,7 +15,7 @@
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
 #include "render/figures/score_text.hpp"
-#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/study_figures.hpp"
 
 namespace mapproof {

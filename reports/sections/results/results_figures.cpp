@@ -1,21 +1,111 @@
 #include "reports/sections/results/results_figures.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
+#include "core/base/text/slug.hpp"
+#include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
 #include "reports/sections/method_ranks.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_curves.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_distributions.hpp"
-#include "reports/sections/results/results_grids.hpp"
-#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {
+
+/// More cells than these have no names that a reader could follow.
+constexpr std::size_t kMostLevels = 40;
+
+/// A setup's conditions by two factors.
+struct Grid {
+  std::string x, y;                         ///< Factors.
+  std::vector<double> x_levels, y_levels;   ///< Ascending.
+  std::vector<const ResultsBlock*> blocks;  ///< Each along `x`, at one level of `y`.
+};
+
+/// The numbers that a factor has, ascending; empty if one of its levels is a text.
+std::vector<double> numbers_of(const std::vector<const ResultsBlock*>& blocks,
+                               const std::string& factor) {
+  std::set<double> numbers;
+  for (const ResultsBlock* block : blocks)
+    for (const Condition& at : block->conditions)
+      for (const Level& level : at.levels) {
+        if (level.factor != factor) continue;
+        const auto* number = std::get_if<double>(&level.value);
+        if (number == nullptr) return {};
+        numbers.insert(*number);
+      }
+  return {numbers.begin(), numbers.end()};
+}
+
+std::optional<Grid> grid_of(const ResultsView& view, const Label& setup) {
+  Grid grid;
+  for (const ResultsBlock& block : view.blocks()) {
+    if (block.conditions.front().setup != setup.id) continue;
+    if (!block.has_axis() || block.conditions.front().levels.size() != 2) return std::nullopt;
+    grid.blocks.push_back(&block);
+  }
+  if (grid.blocks.size() < 2) return std::nullopt;
+  grid.x = grid.blocks.front()->factor;
+  for (const Level& level : grid.blocks.front()->conditions.front().levels)
+    if (level.factor != grid.x) grid.y = level.factor;
+  for (const ResultsBlock* block : grid.blocks)
+    for (const Level& level : block->conditions.front().levels)
+      if (level.factor != grid.x && level.factor != grid.y) return std::nullopt;
+  grid.x_levels = numbers_of(grid.blocks, grid.x);
+  grid.y_levels = numbers_of(grid.blocks, grid.y);
+  if (grid.x_levels.size() < 2 || grid.y_levels.size() < 2 ||
+      std::max(grid.x_levels.size(), grid.y_levels.size()) > kMostLevels)
+    return std::nullopt;
+  return grid;
+}
+
+std::vector<std::string> names_of(const std::vector<double>& levels) {
+  std::vector<std::string> names;
+  for (const double level : levels) names.push_back(fmt::format("{:.6g}", level));
+  return names;
+}
+
+/// One per combination, row by row; NaN where there is none.
+std::vector<double> means_over(const ResultsView& view, const Grid& grid, const std::string& setup,
+                               const ResultsLine& line, const Quantity& quantity) {
+  std::vector<double> means;
+  for (const double y : grid.y_levels)
+    for (const double x : grid.x_levels) {
+      const auto mean = view.mean(condition(setup, {{grid.x, x}, {grid.y, y}}), line, quantity);
+      means.push_back(mean ? mean->mean : kNaN);
+    }
+  return means;
+}
+
+/// A method of a setup, whichever of its blocks has it.
+std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
+                                  const Quantity& quantity) {
+  std::vector<ResultsLine> lines;
+  for (const ResultsBlock* block : grid.blocks)
+    for (const ResultsLine& line : view.lines(*block, quantity))
+      if (std::ranges::find(lines, line.method, &ResultsLine::method) == lines.end())
+        lines.push_back(line);
+  std::ranges::sort(lines, {}, &ResultsLine::index);
+  return lines;
+}
+
+/// From the least to the greatest; nothing where none is known.
+std::optional<Range> span_of_known(std::vector<double> values) {
+  std::erase_if(values, [](double value) { return !is_known(value); });
+  if (values.empty()) return std::nullopt;
+  const auto [least, greatest] = std::ranges::minmax(values);
+  return Range{least, greatest};
+}
 
 /// Nothing where no two mean ranks can differ by the critical difference, as over few groups of
 /// runs, and of distances from one of the methods itself.
@@ -55,6 +145,44 @@ void make_ids_unique(StudyFigures& figures) {
 }
 
 }  // namespace
+
+FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
+  const std::string id = fmt::format("{}-{}-grid", view.study().name, view.setup_slug(setup.id));
+  FigureGroup group{id, setup.label, "", {}};
+  if (!view.study().results.are_repeats) return group;
+  const std::optional<Grid> grid = grid_of(view, setup);
+  if (!grid) return group;
+  for (const std::string& known : view.study().quantities) {
+    const Quantity& quantity = view.quantity(known);
+    const std::vector<ResultsLine> lines = lines_in(view, *grid, quantity);
+    std::vector<double> all;
+    for (const ResultsLine& line : lines)
+      for (const double mean : means_over(view, *grid, setup.id, line, quantity))
+        all.push_back(mean);
+    const int decimals = decimals_of(all);
+    const std::optional<Range> span = lines.size() > 1 ? span_of_known(all) : std::nullopt;
+    for (const ResultsLine& line : lines) {
+      HeatMapSpec spec;
+      spec.id = fmt::format("{}-{}-{}", id, slug_of(quantity.id), slug_of(line.method));
+      spec.x_label = view.factor_label(grid->x);
+      spec.y_label = view.factor_label(grid->y);
+      spec.x_names = names_of(grid->x_levels);
+      spec.y_names = names_of(grid->y_levels);
+      spec.values = means_over(view, *grid, setup.id, line, quantity);
+      spec.shared_span = span;
+      spec.decimals = decimals;
+      spec.quantity = quantity.label;
+      spec.unit = quantity.unit;
+      spec.missing = "no run gave a value";
+      spec.record_ids = {setup.id};
+      if (std::ranges::none_of(spec.values, is_known)) continue;
+      spec.title = fmt::format("{}, {}: {}", setup.label, line.label,
+                               heat_map_finding(spec, in_sentence(quantity.label)));
+      group.figures.push_back(heat_map_figure(spec));
+    }
+  }
+  return group;
+}
 
 std::string why_no_figure(const ResultsView& view, const ResultsBlock& block,
                           const Quantity& quantity) {

@@ -1,4 +1,4 @@
-#include "reports/sections/results/results_parts.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 
 #include <algorithm>
 #include <cmath>
