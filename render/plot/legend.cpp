@@ -17,6 +17,20 @@ constexpr double kLeastSample = 2.4;  // All in em.
 constexpr double kSampleGap = 0.6;
 constexpr double kColumnGap = 1.4;
 constexpr double kRowHeight = 1.45;
+constexpr double kLineHeight = 1.2;  // Of a further line of an entry.
+
+/// The label in lines of at most `most` em where titles are not drawn, on paper: a name is read
+/// whole. In one line, elided in its middle, where that is not enough, and on pages, which break
+/// lines themselves.
+std::vector<ShapedText> lines_of(const std::string& label, double most, const Theme& theme) {
+  constexpr std::size_t kMostLines = 3;
+  if (!theme.draws_title) {
+    auto lines = wrap_text(label, most, kMostLines, theme.font.get());
+    const auto is_cut = [](const ShapedText& line) { return line.text.ends_with("…"); };
+    if (std::ranges::none_of(lines, is_cut)) return lines;
+  }
+  return {shape_text_within(label, most, Elide::kMiddle, theme.font.get())};
+}
 
 /// In points, what a sample needs to show two periods of each dash of the panel, with a dash at
 /// either end: a marker in the middle then hides none of the two gaps.
@@ -164,12 +178,9 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
         same->in_colours |= std::get<Scatter>(**kind).colour != points->colour;
       continue;
     }
-    entries_.push_back(
-        {shape_text_within(label_in(theme, label), most_text, Elide::kMiddle, theme.font.get()),
-         label,
-         {&layer}});
-    const double width = (lead + entries_.back().text.advance) * em;
-    entry_width_ = std::max(entry_width_, width);
+    entries_.push_back({lines_of(label_in(theme, label), most_text, theme), label, {&layer}});
+    for (const ShapedText& line : entries_.back().lines)
+      entry_width_ = std::max(entry_width_, (lead + line.advance) * em);
   }
   // What stands for points comes before what stands for lines between them.
   std::ranges::stable_partition(entries_, [](const LegendEntry& entry) {
@@ -193,11 +204,22 @@ void Legend::order_by_ends(const std::vector<LineEnd>& ends) {
   for (std::size_t i = 0; i < lines.size(); ++i) entries_[indices[i]] = std::move(lines[i]);
 }
 
-Point Legend::size(std::size_t columns) const {
+std::vector<double> Legend::row_heights(std::size_t columns) const {
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  std::vector<double> heights(rows, row_height_);
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const auto further = static_cast<double>(entries_[i].lines.size() - 1);
+    heights[i % rows] =
+        std::max(heights[i % rows], row_height_ + further * kLineHeight * theme_.font_pt);
+  }
+  return heights;
+}
+
+Point Legend::size(std::size_t columns) const {
   const double gaps = static_cast<double>(columns - 1) * kColumnGap * theme_.font_pt;
+  const std::vector<double> heights = row_heights(columns);
   return {static_cast<double>(columns) * entry_width_ + gaps,
-          static_cast<double>(rows) * row_height_};
+          std::accumulate(heights.begin(), heights.end(), 0.0)};
 }
 
 std::size_t Legend::columns_within(double width) const {
@@ -235,22 +257,28 @@ void Legend::draw_box(const Box& position, std::size_t panel_index, Drawing& dra
 
 void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const {
   const double em = theme_.font_pt;
-  const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  const std::vector<double> heights = row_heights(columns);
+  double y = at.y;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const LegendEntry& entry = entries_[i];
-    const std::size_t column = i / rows, row = i % rows;
+    const std::size_t column = i / heights.size(), row = i % heights.size();
     const double x = at.x + static_cast<double>(column) * (entry_width_ + kColumnGap * em);
-    const double y = at.y + static_cast<double>(row) * row_height_;
+    y = row == 0 ? at.y : y + heights[row - 1];
     const double half = (row_height_ - 0.25 * em) / 2.0;
     const double middle = y + row_height_ / 2.0;
     draw_sample(entry, {x, middle - half, x + sample_width_, middle + half}, panel_index, drawing);
-    TextLine line{.shaped = entry.text,
-                  .whole = entry.text.text == entry.whole ? "" : entry.whole,
-                  .at = {x + sample_width_ + kSampleGap * em,
-                         middle + FontFacts::kXHeight / 2.0 * em + 0.06 * em},
-                  .size = em,
-                  .colour = theme_.text};
-    drawing.add(ItemClass::kLegendText, panel_index, std::move(line));
+    Point baseline{x + sample_width_ + kSampleGap * em,
+                   middle + FontFacts::kXHeight / 2.0 * em + 0.06 * em};
+    for (const ShapedText& line : entry.lines) {
+      const bool is_all = entry.lines.size() > 1 || line.text == entry.whole;
+      drawing.add(ItemClass::kLegendText, panel_index,
+                  TextLine{.shaped = line,
+                           .whole = is_all ? "" : entry.whole,
+                           .at = baseline,
+                           .size = em,
+                           .colour = theme_.text});
+      baseline.y += kLineHeight * em;
+    }
   }
 }
 

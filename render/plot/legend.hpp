@@ -9,9 +9,9 @@
 
 namespace mapproof {
 
-/// One line of a legend: all layers that share a label.
+/// An entry of a legend: all layers that share a label.
 struct LegendEntry {
-  ShapedText text;
+  std::vector<ShapedText> lines;
   std::string whole;
   std::vector<const Layer*> layers;
   bool in_colours = false;  ///< It stands for points of several colours: its sample is grey.
@@ -20,7 +20,8 @@ struct LegendEntry {
 /// A panel's legend before it has a position.
 class Legend {
  public:
-  /// @param most_width_pt  Of one entry; longer labels are elided.
+  /// @param most_width_pt  Of one entry; longer labels are broken into lines on paper, and elided
+  ///                       where they are too long even so. Pages break lines themselves.
   /// @param as_bars  Whether bands are drawn as bars.
   Legend(const Panel& panel, const Theme& theme, double most_width_pt, bool as_bars);
 
@@ -40,6 +41,8 @@ class Legend {
   void draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const;
 
  private:
+  /// Of the highest entry of each row.
+  std::vector<double> row_heights(std::size_t columns) const;
   void draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                    Drawing& drawing) const;
 
@@ -48,7 +51,7 @@ class Legend {
   std::vector<LegendEntry> entries_;
   double sample_width_ = 0.0;
   double entry_width_ = 0.0;
-  double row_height_ = 0.0;
+  double row_height_ = 0.0;  ///< Of an entry with one line.
 };
 
 }  // namespace mapproof

@@ -320,6 +320,17 @@ TEST(LineEnds, AreLabelledRightOfTheFrameInTheirOrder) {
   for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
 }
 
+TEST(Layout, BreaksLongNamesIntoLinesInTheLegendOfAJournalsColumn) {
+  const std::string name = "Grid-based FastSLAM 2.0 with adaptive resampling, variant ";
+  const Drawing drawing = lay_out(with_lines({1.0, 3.0, 2.9}, name), paper_theme(3.25));
+  std::string words;
+  for (const std::string& line : legend_words(drawing)) words += line + " ";
+  for (const char* variant : {"0 ", "1 ", "2 "})
+    EXPECT_NE(words.find(name + variant), std::string::npos) << words;
+  EXPECT_EQ(words.find("…"), std::string::npos) << words;
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+}
+
 TEST(Curves, HaveTheValuesOfTheirMarkersForPages) {
   Figure figure = with_lines({0.25});
   std::get<Polyline>(figure.panels[0].layers[0]).mark = {"line", {{"curve", "line 0"}}};
