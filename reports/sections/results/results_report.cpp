@@ -353,6 +353,8 @@ std::string name_with_poses(const ResultsReportInput& input, std::size_t method)
              : fmt::format("{} ({})", label.label, counted(poses->second, "pose"));
 }
 
+constexpr std::size_t kMostLeftOut = 2;  ///< Methods that a tile names as not compared.
+
 /// The best method's mean in the first comparisons, each of another quantity or setup.
 void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
   std::vector<std::string> shown;
@@ -366,7 +368,9 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     shown.push_back(stem);
     const ComparedMethod& best = comparison.methods.front();
     const auto worse = std::ranges::count_if(comparison.methods, is_significant);
-    const std::string others = counted(std::ssize(comparison.methods) - 1, "other method");
+    const auto others = std::ssize(comparison.methods) - 1;
+    const std::string left_out =
+        comparison.left_out.empty() ? "" : listed(comparison.left_out, kMostLeftOut);
     const ComparedMethod& next = comparison.methods[1];
     const bool is_one = input.view.runs() < 2;
     std::string note = name_with_poses(input, best.method) + "; ";
@@ -374,11 +378,14 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
       note += fmt::format("{} {}", name_with_poses(input, next.method),
                           quantity_text(next.mean, comparison.quantity->unit));
     else if (worse == 0)
-      note += "not significantly better than any other method (paired test)";
+      note += left_out.empty()
+                  ? "not significantly better than any other method (paired test)"
+                  : fmt::format("not significantly better than any compared (not {})", left_out);
     else
-      note += fmt::format("significantly better than {} of {} (paired test)", worse, others);
-    if (const std::string left_out = left_out_words(comparison); !left_out.empty())
-      note += "; " + left_out;
+      note += left_out.empty() ? fmt::format("significantly better than {} of {} (paired test)",
+                                             worse, counted(others, "other method"))
+                               : fmt::format("significantly better than {} of {} compared (not {})",
+                                             worse, others, left_out);
     numbers.items.push_back(
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
          quantity_text(best.mean, comparison.quantity->unit), std::move(note),
