@@ -453,6 +453,39 @@ test("a phone that is turned arranges its figures again", async () => {
   await close();
 });
 
+test("a page that gets narrower arranges the figure of its first screen again", async () => {
+  const { page, close } = await open({ viewport: { width: 560, height: 844 } });
+  const image = page.locator(".main-figure img");
+  const drawn = () => image.evaluate((one) => one.src);
+  const wide = await drawn();
+  await page.setViewportSize({ width: 390, height: 844 });
+  await until(page, (before) => document.querySelector(".main-figure img").src !== before, wide);
+  const words = await image.evaluate((one) => {
+    const text = decodeURIComponent(one.src.slice(one.src.indexOf(",") + 1));
+    const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+    return leastWords(svg) * one.getBoundingClientRect().width / svg.getAttribute("width");
+  });
+  assert.ok(words >= 9.9, `words of ${words} px`);
+  await close();
+});
+
+test("numbers in cells keep their colour in the dark, as the cells do", async () => {
+  const { page, close } = await open({ colorScheme: "dark" });
+  const found = await page.evaluate(() => {
+    const cell = '<g class="cell-text" fill="#ffffff">', words = '<g class="title" fill="#ffffff">';
+    const box = document.createElement("div");
+    box.innerHTML = `<svg>${cell}</g>${words}</g></svg>`;
+    document.body.append(box);
+    const colours = [...box.querySelectorAll("g")].map((one) => getComputedStyle(one).fill);
+    box.remove();
+    return { colours, cell: inPageColours(cell) === cell, words: inPageColours(words) === words };
+  });
+  assert.equal(found.colours[0], "rgb(255, 255, 255)");
+  assert.notEqual(found.colours[1], "rgb(255, 255, 255)");
+  assert.deepEqual([found.cell, found.words], [true, false]);
+  await close();
+});
+
 test("on a phone the panels of a figure stand below each other, and no figure is cut", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
   for (const id of ["published-errors", "forming-bearing", "maps-bearing"]) {
