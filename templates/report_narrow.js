@@ -148,11 +148,11 @@ function leastShare(svg, { left }) {
   return Math.min(1, Math.max(.3, ...shares));
 }
 
-// How low the frame of a panel can get that should be no higher than `height`.
-function lowestShare(svg, parts, i, height) {
+// How low the frame of a panel can get that should be no higher than `height`; `owners` are the
+// frames of the axis labels.
+function lowestShare(svg, parts, owners, i, height) {
   const frame = parts.frames[i];
-  const beside = parts.axes.filter(
-    (label) => isUpright(label) && frameOfLabel(label, parts.frames) === frame);
+  const beside = parts.axes.filter((label, k) => isUpright(label) && owners[k] === frame);
   const longest = Math.max(0, ...beside.map((label) => boxIn(svg, label).height));
   return Math.max(Math.min(1, Math.max(height, longest) / frame.height),
     leastShare(svg, tickLabelsOf(parts.panels[i], frame)));
@@ -163,9 +163,10 @@ function lowestShare(svg, parts, i, height) {
 function narrowFrames(svg, parts, rooms, most, height = Infinity) {
   widths.set(svg, { attributes: [], frames: parts.frames.map((frame) => ({ ...frame })) });
   const room = most - rooms.left - rooms.right;
-  // Frames that share an axis have its labels beside one of them: all get as low as that one can.
   const owners = parts.axes.map((label) => frameOfLabel(label, parts.frames));  // Before any moves.
-  const lowest = Math.max(...parts.frames.map((frame, i) => lowestShare(svg, parts, i, height)));
+  // Frames that share an axis have its labels beside one of them: all get as low as that one can.
+  const lowest = height === Infinity ? 1 : Math.max(
+    ...parts.frames.map((frame, i) => lowestShare(svg, parts, owners, i, height)));
   parts.frames.forEach((frame, i) => {
     const across = Math.min(1, room / frame.width), panel = parts.panels[i];
     const down = hasOneScale(panel, frame) ? across : height < frame.height ? lowest : 1;
