@@ -27,6 +27,11 @@ function strengthen(svg, keepsProportions) {
   svg.setAttribute("height", Number(svg.getAttribute("width")) / 2);  // As the box, see report.css.
 }
 
+// The axes of a view are lines and words over its image.
+function removeAround(image, svg) {
+  for (const group of svg.querySelectorAll("g")) if (!group.contains(image)) group.remove();
+}
+
 // The first panel of a figure or its image, without titles, axes and legend.
 function cropped(text) {
   const svg = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
@@ -38,7 +43,8 @@ function cropped(text) {
   svg.setAttribute("viewBox", box.join(" "));
   svg.setAttribute("width", box[2]);
   svg.setAttribute("height", box[3]);
-  if (panel.localName !== "image") strengthen(svg, isMap(panel.dataset, box));
+  if (panel.localName === "image") removeAround(panel, svg);
+  else strengthen(svg, isMap(panel.dataset, box));
   return new XMLSerializer().serializeToString(svg);
 }
 

@@ -368,15 +368,14 @@ Margins AxesLayout::overhang(const Box& frame) const {
   for (const Layer& layer : panel_.layers) {
     const auto* texts = std::get_if<Texts>(&layer);
     if (texts == nullptr) continue;
-    for (std::size_t i = 0; i < texts->x.size(); ++i) {
-      const auto line = placed_text(*texts, i, positions, theme_);
-      if (!line) continue;
-      const Box bounds = text_box(*line).grown(theme_.hairline_pt);
-      m.left = std::max(m.left, frame.x0 - bounds.x0);
-      m.top = std::max(m.top, frame.y0 - bounds.y0);
-      m.right = std::max(m.right, bounds.x1 - frame.x1);
-      m.bottom = std::max(m.bottom, bounds.y1 - frame.y1);
-    }
+    for (std::size_t i = 0; i < texts->x.size(); ++i)
+      for (const TextLine& line : placed_text(*texts, i, positions, theme_)) {
+        const Box bounds = text_box(line).grown(theme_.hairline_pt);
+        m.left = std::max(m.left, frame.x0 - bounds.x0);
+        m.top = std::max(m.top, frame.y0 - bounds.y0);
+        m.right = std::max(m.right, bounds.x1 - frame.x1);
+        m.bottom = std::max(m.bottom, bounds.y1 - frame.y1);
+      }
   }
   return m;
 }

@@ -125,8 +125,8 @@ class Painter {
 
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i)
-      if (auto line = placed_text(texts, i, map_, theme_))
-        drawing_.add(ItemClass::kMarkLabel, panel_, std::move(*line));
+      for (TextLine& line : placed_text(texts, i, map_, theme_))
+        drawing_.add(ItemClass::kMarkLabel, panel_, std::move(line));
   }
 
  private:

@@ -630,6 +630,23 @@ Drawing lay_out_rows(const Figure& figure, const Theme& theme) {
   return drawing;
 }
 
+/// Whether texts at points are closer than half an em; lines of one text may be.
+bool has_crowded_texts(const Drawing& drawing) {
+  constexpr double kGap = 0.25;  // Around a line, em.
+  std::vector<std::pair<Box, std::string>> lines;
+  for (const Item& item : drawing.items) {
+    if (item.item_class != ItemClass::kMarkLabel) continue;
+    const auto& line = std::get<TextLine>(item.what);
+    const Box box = text_box(line).grown(kGap * line.size);
+    if (std::ranges::any_of(lines, [&](const auto& other) {
+          return box.overlaps(other.first) && (line.whole.empty() || line.whole != other.second);
+        }))
+      return true;
+    lines.emplace_back(box, line.whole);
+  }
+  return false;
+}
+
 }  // namespace
 
 bool draws_notes(const Figure& figure, const Theme& theme) {
@@ -654,6 +671,12 @@ Drawing lay_out(const Figure& figure, const Theme& theme) {
       drawing = std::move(lower);
       break;
     }
+  // Names of several lines beside a diagram need higher rows.
+  for (double height = drawing.height * kHigher;
+       figure.panels[0].bare && !figure.panels[0].equal_aspect && height <= kHighestPage &&
+       has_crowded_texts(drawing);
+       height *= kHigher)
+    drawing = lay_out_on(figure, theme, height);
   // Below a frame of equal scales that is as wide as the page and lower, the page ends.
   const double end = lowest_drawn(drawing, 0) + theme.space_pt;
   if (figure.panels[0].equal_aspect && end < (1.0 - kMostFree) * drawing.height)

@@ -97,7 +97,8 @@ std::vector<Box> texts_in(const Panel& panel, const PanelMap& map, const Theme& 
     const auto* texts = std::get_if<Texts>(&layer);
     if (texts == nullptr) continue;
     for (std::size_t i = 0; i < texts->x.size(); ++i)
-      if (const auto line = placed_text(*texts, i, map, theme)) boxes.push_back(text_box(*line));
+      for (const TextLine& line : placed_text(*texts, i, map, theme))
+        boxes.push_back(text_box(line));
   }
   return boxes;
 }

@@ -85,8 +85,8 @@ class Collector {
 
   void operator()(const Texts& texts) {
     for (std::size_t i = 0; i < texts.x.size(); ++i)
-      if (const auto line = placed_text(texts, i, map_, theme_))
-        found_.boxes.push_back(text_box(*line));
+      for (const TextLine& line : placed_text(texts, i, map_, theme_))
+        found_.boxes.push_back(text_box(line));
   }
 
  private:

@@ -41,9 +41,9 @@ std::vector<Shape> cell_shapes(const Cells& cells, const PanelMap& map, const Th
 /// The texts of cells in black or white, whichever reads better; none if one of them does not fit.
 std::vector<TextLine> cell_texts(const Cells& cells, const PanelMap& map, const Theme& theme);
 
-/// The i-th text at its place, elided if wider than .37 of the page; empty if its cell holds a
-/// NaN.
-std::optional<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,
-                                    const Theme& theme);
+/// The i-th text at its place, no wider than .37 of the page: a longer one beside its point in up
+/// to three lines, else elided. Empty if its position holds a NaN.
+std::vector<TextLine> placed_text(const Texts& texts, std::size_t i, const PanelMap& map,
+                                  const Theme& theme);
 
 }  // namespace mapproof

@@ -335,6 +335,18 @@ bool may_end_line(std::string_view text, std::size_t blank) {
   return !is_number || std::ranges::find(kUnits, word) == kUnits.end();
 }
 
+/// The size of the longest start of a word that ends with a dash and fits; 0 if none does.
+std::size_t part_of_word(std::string_view word, double most, const Font* font) {
+  std::size_t size = 0;
+  for (const std::string_view dash : {"-", "\u2013"})
+    for (std::size_t at = word.find(dash, 1); at != std::string_view::npos;
+         at = word.find(dash, at + 1))
+      if (const std::size_t end = at + dash.size();
+          end > size && end < word.size() && shape_text(word.substr(0, end), font).advance <= most)
+        size = end;
+  return size;
+}
+
 }  // namespace
 
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
@@ -345,7 +357,8 @@ std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_
       wrapped.push_back(shape_text_within(text, most, Elide::kEnd, font));
       break;
     }
-    // The longest start that ends before a blank and fits; what never fits is elided.
+    // The longest start that ends before a blank and fits; a word that never fits ends behind a
+    // dash, or is elided.
     std::size_t end = std::string_view::npos;
     for (std::size_t blank = text.find(' '); blank != std::string_view::npos;
          blank = text.find(' ', blank + 1)) {
@@ -355,6 +368,12 @@ std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_
       if (!fits) break;
     }
     end = std::min(end, text.size());
+    if (shape_text(text.substr(0, end), font).advance > most)
+      if (const std::size_t part = part_of_word(text.substr(0, end), most, font); part > 0) {
+        wrapped.push_back(shape_text(text.substr(0, part), font));
+        text.remove_prefix(part);
+        continue;
+      }
     wrapped.push_back(shape_text_within(text.substr(0, end), most, Elide::kEnd, font));
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -97,7 +97,8 @@ ShapedText shape_text_within(std::string_view text, double most, Elide elide = E
                              const Font* font = nullptr);
 
 /// The words of `text` in lines no wider than `most`, at most `lines` of them, the last one elided.
-/// No line ends within "K = 7", or between a number and its unit.
+/// No line ends within "K = 7", or between a number and its unit; within a word only behind a dash,
+/// if the word is too wide.
 std::vector<ShapedText> wrap_text(std::string_view text, double most, std::size_t lines,
                                   const Font* font = nullptr);
 

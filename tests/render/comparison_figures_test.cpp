@@ -369,6 +369,25 @@ TEST(HeatMapFigure, HasLogarithmicColoursWhereErrorsSpanMuch) {
   EXPECT_EQ(scale(), Scale::kLinear);
 }
 
+TEST(HeatMapFigure, SaysWhichMapsDivergedAndLeavesTheirErrorsOutOfTheColours) {
+  HeatMapSpec spec = sample_heat(3, 1);
+  spec.unit = "m";
+  spec.values = {0.2, 6594.0, 0.4};
+  EXPECT_EQ(layers_of<Cells>(heat_map_figure(spec).panels[0]).at(0).text[1], "6594");
+  spec.great_errors = true;
+  const Figure figure = heat_map_figure(spec);
+  const Cells cells = layers_of<Cells>(figure.panels[0]).at(0);
+  EXPECT_EQ(cells.text[1], ">\u00A01\u00A0km");
+  EXPECT_EQ(cells.colour_scale.limits, (Range{0.2, 0.4}));
+  EXPECT_EQ(cells.colour_scale.scale, Scale::kLinear);
+  EXPECT_TRUE(contains(figure.alt, "greatest: over 1\u00A0km at")) << figure.alt;
+  const std::string finding = heat_map_finding(spec, "MPE");
+  EXPECT_TRUE(contains(finding, "highest over 1\u00A0km at")) << finding;
+  spec.values = {2000.0, 6594.0, 3000.0};
+  EXPECT_NO_THROW(heat_map_figure(spec));
+  EXPECT_EQ(heat_map_finding(spec, "MPE"), "MPE over 1\u00A0km everywhere");
+}
+
 TEST(HeatMapFigure, RefusesWhatIsNoMatrix) {
   HeatMapSpec spec = sample_heat(3, 2);
   spec.values.pop_back();

@@ -10,6 +10,7 @@
 #include "core/base/errors.hpp"
 #include "render/base/geometry.hpp"
 #include "render/cairo/cairo_backend.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/plot/axis_map.hpp"
 #include "render/plot/layers.hpp"
@@ -338,6 +339,26 @@ TEST(Curves, HaveTheValuesOfTheirMarkersForPages) {
   using Data = std::vector<std::pair<std::string, std::string>>;
   ASSERT_EQ(drawing.marks.size(), 1U);
   EXPECT_EQ(drawing.marks[0].data, (Data{{"curve", "line 0"}, {"points", "0, 0;1, 0.25"}}));
+}
+
+TEST(Layout, BreaksLongNamesBesideARankDiagramIntoLinesInAJournalsColumn) {
+  CriticalDifferenceSpec spec = sample_ranks(7);
+  spec.methods[0].label = "Batch Levenberg\u2013Marquardt from the true start";
+  spec.methods[1].label = "iSAM2, incremental smoothing and mapping with robust kernels";
+  spec.methods[5].label = "EKF-SLAM with joint compatibility branch and bound";
+  const Figure figure = critical_difference_figure(spec);
+  for (const Theme& theme : {report_theme(), paper_theme(3.25)}) {
+    const Drawing drawing = lay_out(figure, theme);
+    std::string words;
+    for (const TextLine& line : texts_of(drawing, ItemClass::kMarkLabel)) {
+      const std::string& text = line.shaped.text;
+      words += text.ends_with("\u2013") ? text : text + " ";
+    }
+    EXPECT_EQ(words.find("\u2026"), std::string::npos) << words;
+    for (const std::size_t i : {0, 1, 5})
+      EXPECT_NE(words.find(spec.methods[i].label), std::string::npos) << words;
+    for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+  }
 }
 
 TEST(LineEnds, ThatAreFarFromTheRightSideNeedALegend) {

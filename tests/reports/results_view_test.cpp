@@ -538,6 +538,63 @@ TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {
   EXPECT_EQ(first.detail, "m");
 }
 
+/// One method in each setup at these levels of noise and of light.
+ResultsStudy study_of_setups(const std::vector<std::string>& setups) {
+  ResultsStudy study;
+  study.name = "test";
+  for (const std::string& setup : setups)
+    for (const char* run : {"a", "b"})
+      for (const double noise : {0.2, 0.4})
+        for (const char* light : {"day", "dusk"})
+          study.results.rows.push_back(
+              {.at = condition(setup, {{"light", std::string(light)}, {"noise", noise}}),
+               .method = "m",
+               .quantity = "mpe_m",
+               .run = run,
+               .group = run,
+               .subject = "",
+               .value = (setup == setups.front() ? 0.001 : 1.0) * noise});
+  study.results.are_repeats = true;
+  sort_results(study.results);
+  EXPECT_EQ(complete(study), "");
+  return study;
+}
+
+TEST(ResultsReport, PutsTheSectionsOfSeveralSetupsUnderTheirNames) {
+  const auto sections_of = [](const ResultsStudy& study) {
+    const ResultsView view(study);
+    std::vector<std::string> sections;
+    for (const Section& section :
+         results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}})
+             .sections)
+      sections.push_back(section.group + " | " + section.title);
+    return sections;
+  };
+  EXPECT_EQ(
+      sections_of(study_of_setups({"indoors", "outdoors"})),
+      (std::vector<std::string>{"indoors | overview by light", "indoors | light day",
+                                "indoors | light dusk", "outdoors | overview by light",
+                                "outdoors | light day", "outdoors | light dusk", " | Provenance"}));
+  EXPECT_EQ(sections_of(study_of_setups({"indoors"})).at(1), " | indoors, light day");
+}
+
+TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
+  const ResultsStudy study = study_of_setups({"indoors", "outdoors"});
+  const ResultsView view(study);
+  EXPECT_EQ(view.decimals(mpe()), 5) << "two more than three digits of the median need";
+  std::vector<Table> tables;
+  for (const ResultsBlock& block : view.blocks())
+    for (Table& table : results_tables(view, block)) tables.push_back(std::move(table));
+  for (const ResultsOverview& overview : view.overviews())
+    for (Table& table : overview_tables(view, overview)) tables.push_back(std::move(table));
+  ASSERT_EQ(tables.size(), 6U);
+  for (const Table& table : tables)
+    for (const Cell& cell : table.rows.at(0).cells) {
+      if (const auto* number = std::get_if<NumberCell>(&cell))
+        EXPECT_EQ(number->decimals, view.decimals(mpe())) << table.id;
+    }
+}
+
 TEST(ResultsReport, OpensWithFiguresOfPathsInTheOrderOfTheirRuns) {
   const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
   const ResultsView view(study);

@@ -109,7 +109,10 @@ bool is_yaml(std::string_view text) {
                        (colon + 1 == line.size() || line[colon + 1] == ' ');
   constexpr std::string_view kOfKeys =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.\"'";
-  return is_pair && line.substr(0, colon).find_first_not_of(kOfKeys) == std::string_view::npos;
+  const std::string_view key = line.substr(0, is_pair ? colon : 0);
+  // A colon between quotes is one of a cell.
+  return is_pair && std::ranges::count(key, '"') % 2 == 0 &&
+         key.find_first_not_of(kOfKeys) == std::string_view::npos;
 }
 
 [[noreturn]] void refuse(const OtherKind& kind, const std::string& source) {

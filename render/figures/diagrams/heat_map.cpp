@@ -8,8 +8,10 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/layer_shapes.hpp"
 
@@ -20,7 +22,15 @@ constexpr double kWideRange = 10.0;  ///< Of greatest to least, from which colou
 constexpr int kCellDigits = 2;       ///< Of numbers that decimals do not show: cells are narrow.
 constexpr int kHatchLines = 5;       ///< Across a missing cell, each way of its diagonal.
 
+/// "over 1 km" in a cell.
+constexpr const char* kGreatCellText = ">\u00A01\u00A0km";
+
+bool is_great(const HeatMapSpec& spec, double value) {
+  return spec.great_errors && value > kGreatestError_m;
+}
+
 std::string with_unit_of(const HeatMapSpec& spec, double value) {
+  if (is_great(spec, value)) return kGreatErrorText;
   return with_plain_spaces(with_unit(rounded_text(value, spec.decimals), spec.unit));
 }
 
@@ -46,14 +56,15 @@ void hatch(double x, double y, Segments& lines) {
 }
 
 /// The values from the least to the greatest, and what other maps need; a little more where all are
-/// the same.
+/// the same. Without those of maps that diverged, unless all are.
 Range span_of(const HeatMapSpec& spec) {
   Range range = spec.shared_span.value_or(Range{HUGE_VAL, -HUGE_VAL});
   for (const double value : spec.values) {
-    if (!std::isfinite(value)) continue;
+    if (!std::isfinite(value) || is_great(spec, value)) continue;
     range.low = std::min(range.low, value);
     range.high = std::max(range.high, value);
   }
+  if (range.low > range.high) range = {kGreatestError_m, kGreatestError_m};
   if (range.low < range.high) return range;
   const double around = range.low == 0.0 ? 1.0 : 0.1 * std::abs(range.low);
   return {range.low - around, range.high + around};
@@ -61,6 +72,7 @@ Range span_of(const HeatMapSpec& spec) {
 
 std::string cell_text(const HeatMapSpec& spec, double value, Scale scale) {
   constexpr int kDigits = 3;
+  if (is_great(spec, value)) return kGreatCellText;
   if (scale == Scale::kLinear) return rounded_text(value, spec.decimals, kCellDigits);
   const int before = static_cast<int>(std::floor(std::log10(value))) + 1;
   return rounded_text(value, std::clamp(kDigits - before, 0, spec.decimals), kCellDigits);
@@ -153,12 +165,16 @@ Figure heat_map_figure(const HeatMapSpec& spec) {
 std::string heat_map_finding(const HeatMapSpec& spec, const std::string& quantity) {
   check_heat_map(spec);
   const auto words = [&](std::size_t cell) {
+    const double value = spec.values[cell];
     return fmt::format(
-        "{} at {} and {}", quantity_text(spec.values[cell], spec.unit),
+        "{} at {} and {}",
+        is_great(spec, value) ? kGreatErrorText : quantity_text(value, spec.unit),
         with_unit(spec.x_names[cell % spec.x_names.size()], line_axis(spec.x_label).unit),
         with_unit(spec.y_names[cell / spec.x_names.size()], line_axis(spec.y_label).unit));
   };
   const auto [least, most] = extreme_cells(spec);
+  if (is_great(spec, spec.values[least]))
+    return fmt::format("{} {} everywhere", quantity, kGreatErrorText);
   return fmt::format("lowest {} {}, highest {}", quantity, words(least), words(most));
 }
 

@@ -16,6 +16,9 @@ struct HeatMapSpec {
   std::vector<std::string> x_names, y_names;  ///< Of their levels, ascending.
   /// One per combination: row by row, the rows in the order of `y_names`; NaN: missing.
   std::vector<double> values;
+  /// Whether values above kGreatestError_m are of maps that diverged: their cells say so, and
+  /// colours go as far as those of the others need.
+  bool great_errors = false;
   std::optional<Range> shared_span = {};  ///< Colours show these values, too, as other maps' do.
   /// Of the numbers in the cells: rounded_text(); of logarithmic colours, at most, and three
   /// digits.

@@ -117,6 +117,8 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
 
 constexpr std::size_t kMostMethods = 30;
 constexpr double kBarStep = 0.4;  // Between bars, in rows of labels.
+constexpr std::size_t kColumnLabel = 17;  // Characters in a line of a label, in a journal's column.
+constexpr std::size_t kMostFurtherLines = 3;
 
 void require_consistent(const CriticalDifferenceSpec& spec) {
   const auto refuse = [&spec](const std::string& what) {
@@ -150,7 +152,8 @@ class Diagram {
     panel.bare = true;
     const double margin = 0.02 * (highest_ - 1.0);
     panel.x.limits = Range{1.0 - margin, highest_ + margin};
-    panel.y.limits = Range{-first_row() - static_cast<double>(left_count()) + 0.4, 2.9};
+    panel.y.limits =
+        Range{-first_row() - row_step() * static_cast<double>(left_count()) + 0.4, 2.9};
     panel.layers = {lines_, bars_, difference_, open_difference_, dots_, numbers_, left_, right_};
     std::erase_if(panel.layers, is_empty);
     return panel;
@@ -198,7 +201,7 @@ class Diagram {
     const double rank = methods_[i].mean_rank;
     const bool to_left = i < left_count();
     const auto row = static_cast<double>(to_left ? i : methods_.size() - 1 - i);
-    const double y = -first_row() - row;
+    const double y = -first_row() - row_step() * row;
     add_line(lines_, {rank, 0.0}, {rank, y});
     add_line(lines_, {rank, y}, {to_left ? 1.0 : highest_, y});
     add_point(dots_, {rank, 0.0});
@@ -213,6 +216,13 @@ class Diagram {
   }
 
   std::size_t left_count() const { return (methods_.size() + 1) / 2; }
+  /// From one row of labels to the next: they have several lines in a column of a journal.
+  double row_step() const {
+    std::size_t longest = 0;
+    for (const RankedMethod& method : methods_)
+      longest = std::max(longest, short_name(method.label).size());
+    return 1.0 + 0.5 * static_cast<double>(std::min(longest / kColumnLabel, kMostFurtherLines));
+  }
   /// Below all bars.
   double first_row() const { return kBarStep * static_cast<double>(groups_.size()) + 0.8; }
 

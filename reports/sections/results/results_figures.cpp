@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "render/figures/diagrams/heat_map.hpp"
 #include "render/figures/diagrams/method_comparison.hpp"
@@ -17,7 +18,6 @@
 #include "reports/sections/results/results_curves.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_distributions.hpp"
-#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {
@@ -100,8 +100,9 @@ std::vector<ResultsLine> lines_in(const ResultsView& view, const Grid& grid,
 }
 
 /// From the least to the greatest; nothing where none is known.
-std::optional<Range> span_of_known(std::vector<double> values) {
-  std::erase_if(values, [](double value) { return !is_known(value); });
+/// @param most  Values above it are those of maps that diverged.
+std::optional<Range> span_of_known(std::vector<double> values, double most) {
+  std::erase_if(values, [&](double value) { return !is_known(value) || value > most; });
   if (values.empty()) return std::nullopt;
   const auto [least, greatest] = std::ranges::minmax(values);
   return Range{least, greatest};
@@ -146,31 +147,41 @@ void make_ids_unique(StudyFigures& figures) {
 
 }  // namespace
 
+std::string heat_maps_id(const ResultsView& view, const std::string& setup) {
+  return fmt::format("{}-{}-grid", view.study().name, view.setup_slug(setup));
+}
+
 FigureGroup heat_maps(const ResultsView& view, const Label& setup) {
-  const std::string id = fmt::format("{}-{}-grid", view.study().name, view.setup_slug(setup.id));
-  FigureGroup group{id, setup.label, "", {}};
+  const std::string id = heat_maps_id(view, setup.id);
+  FigureGroup group{id, setup.label.empty() ? "Heat maps" : setup.label + ": heat maps", "", {}};
   if (!view.study().results.are_repeats) return group;
   const std::optional<Grid> grid = grid_of(view, setup);
   if (!grid) return group;
   for (const std::string& known : view.study().quantities) {
     const Quantity& quantity = view.quantity(known);
     const std::vector<ResultsLine> lines = lines_in(view, *grid, quantity);
+    const bool great_errors = view.has_great_errors(quantity);
+    std::vector<std::vector<double>> means;
     std::vector<double> all;
-    for (const ResultsLine& line : lines)
-      for (const double mean : means_over(view, *grid, setup.id, line, quantity))
-        all.push_back(mean);
-    const int decimals = decimals_of(all);
-    const std::optional<Range> span = lines.size() > 1 ? span_of_known(all) : std::nullopt;
     for (const ResultsLine& line : lines) {
+      means.push_back(means_over(view, *grid, setup.id, line, quantity));
+      all.insert(all.end(), means.back().begin(), means.back().end());
+    }
+    std::optional<Range> span;
+    if (lines.size() > 1)
+      span = span_of_known(std::move(all), great_errors ? kGreatestError_m : kInfinity);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const ResultsLine& line = lines[i];
       HeatMapSpec spec;
       spec.id = fmt::format("{}-{}-{}", id, slug_of(quantity.id), slug_of(line.method));
       spec.x_label = view.factor_label(grid->x);
       spec.y_label = view.factor_label(grid->y);
       spec.x_names = names_of(grid->x_levels);
       spec.y_names = names_of(grid->y_levels);
-      spec.values = means_over(view, *grid, setup.id, line, quantity);
+      spec.values = std::move(means[i]);
+      spec.great_errors = great_errors;
       spec.shared_span = span;
-      spec.decimals = decimals;
+      spec.decimals = view.decimals(quantity);
       spec.quantity = quantity.label;
       spec.unit = quantity.unit;
       spec.missing = "no run gave a value";

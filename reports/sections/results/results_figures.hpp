@@ -20,9 +20,12 @@ StudyFigures results_figures(const ResultsView& view,
                              const std::vector<MethodComparison>& comparisons);
 
 /// The group of heat maps of a setup whose conditions differ in two factors of numbers: one per
-/// quantity and method, the factor with more levels across. Its id is the setup's and "grid"; it is
-/// empty for other setups, and where runs are not repeats of each other.
+/// quantity and method, the factor with more levels across. It is empty for other setups, and where
+/// runs are not repeats of each other.
 FigureGroup heat_maps(const ResultsView& view, const Label& setup);
+
+/// The id of that group, and of its section.
+std::string heat_maps_id(const ResultsView& view, const std::string& setup);
 
 /// Why results_figures() has no figure of a quantity of a block, a sentence; empty where it has
 /// one, and where runs are not repeats of each other and there is no axis for a curve.

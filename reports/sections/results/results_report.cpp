@@ -200,11 +200,21 @@ Section overview_section(const ResultsReportInput& input, const ResultsOverview&
 /// The heat maps of a setup, if it has any.
 void add_grid_section(const ResultsReportInput& input, const std::string& setup,
                       std::vector<Section>& sections) {
-  const std::string id =
-      fmt::format("{}-{}-grid", input.view.study().name, input.view.setup_slug(setup));
+  const std::string id = heat_maps_id(input.view, setup);
   const auto group = std::ranges::find(input.figures.groups, id, &FigureGroup::id);
   if (group == input.figures.groups.end()) return;
   sections.push_back({id, group->title, {gallery_of(*group)}});
+}
+
+/// The setup that a section shows; nothing of one that is about the whole study.
+std::optional<std::string> setup_of(const ResultsView& view, const std::string& section) {
+  for (const ResultsBlock& block : view.blocks())
+    if (block.id == section) return block.conditions.front().setup;
+  for (const ResultsOverview& overview : view.overviews())
+    if (overview.id == section) return overview.conditions.front().setup;
+  for (const Label& setup : view.study().setups)
+    if (heat_maps_id(view, setup.id) == section) return setup.id;
+  return std::nullopt;
 }
 
 std::vector<Section> sections_of(const ResultsReportInput& input, bool has_opening) {
@@ -597,6 +607,30 @@ std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigur
   return ids;
 }
 
+/// A section's title without the setup's name, under which it stands: "noise 0.1 m" of "Indoors,
+/// noise 0.1 m".
+std::string title_within(const std::string& setup, const std::string& title) {
+  for (const std::string_view mark : {", ", ": "})
+    if (title.starts_with(setup + std::string(mark)))
+      return title.substr(setup.size() + mark.size());
+  return title;
+}
+
+/// Puts the sections of each of several setups under its name; a setup's only one stays alone.
+void put_under_setups(const ResultsView& view, std::vector<Section>& sections) {
+  if (view.study().setups.size() < 2) return;
+  std::map<std::string, std::vector<Section*>> of_setups;
+  for (Section& section : sections)
+    if (const auto setup = setup_of(view, section.id)) of_setups[*setup].push_back(&section);
+  for (const auto& [setup, own] : of_setups)
+    for (Section* section : own) {
+      const std::string label = label_of(view.study().setups, setup);
+      if (own.size() == 1 || label.empty()) continue;
+      section->title = title_within(label, section->title);
+      section->group = label;
+    }
+}
+
 }  // namespace
 
 std::vector<Section> results_sections(const ResultsReportInput& input) {
@@ -611,6 +645,7 @@ Report results_report(const ResultsReportInput& input) {
       "{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
       counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set"));
   report.sections = sections_of(input, true);
+  put_under_setups(input.view, report.sections);
   report.opening.question = study.question;
   if (input.conclusions.empty())
     for (std::string& headline : headlines_of(input.view, input.comparisons))

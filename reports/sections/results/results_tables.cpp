@@ -41,21 +41,15 @@ bool has_repeats(const ResultsView& view) {
   return view.study().results.are_repeats && view.runs() > 1;
 }
 
-struct ShownQuantity {
-  const Quantity& quantity;
-  int decimals = 0;
-};
-
 /// The cells of one condition, and the notes on them.
 class CellMaker {
  public:
   CellMaker(const ResultsView& view, Table& table) : view_(view), table_(table) {}
 
-  /// @param shown  A quantity with its decimals.
   /// @param where  The condition or quantity, for the notes.
-  void add(Row& row, const Condition& at, const ResultsLine& line, const ShownQuantity& shown,
+  void add(Row& row, const Condition& at, const ResultsLine& line, const Quantity& quantity,
            const std::string& where) {
-    const auto& [quantity, decimals] = shown;
+    const int decimals = view_.decimals(quantity);
     const auto mean = view_.mean(at, line, quantity);
     row.cells.push_back(mean_cell(mean, decimals));
     if (has_repeats(view_))
@@ -82,22 +76,6 @@ class CellMaker {
   const ResultsView& view_;
   Table& table_;
 };
-
-/// Without those of methods that diverged, of which a page shows no digits.
-int decimals_shown(const ResultsView& view, const Quantity& quantity, std::vector<double> means) {
-  if (view.has_great_errors(quantity))
-    std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
-  return decimals_of(std::move(means));
-}
-
-int decimals(const ResultsView& view, const std::vector<ResultsLine>& lines,
-             const std::vector<Condition>& conditions, const Quantity& quantity) {
-  std::vector<double> means;
-  for (const ResultsLine& line : lines)
-    for (const Condition& at : conditions)
-      if (const auto mean = view.mean(at, line, quantity)) means.push_back(mean->mean);
-  return decimals_shown(view, quantity, std::move(means));
-}
 
 void add_note(const ResultsView& view, const std::string& setup, Table& table) {
   if (!has_repeats(view)) return;
@@ -148,12 +126,10 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
   for (std::size_t i = 0; i < block.levels.size(); ++i)
     cells.add_column(quantity, column_title(block.levels[i]), view.factor_label(block.factor));
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
-  const int places = decimals(view, lines, block.conditions, quantity);
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
     for (std::size_t i = 0; i < block.levels.size(); ++i)
-      cells.add(row, block.conditions[i], line, {quantity, places},
-                view.level_words(block.levels[i]));
+      cells.add(row, block.conditions[i], line, quantity, view.level_words(block.levels[i]));
     table.rows.push_back(std::move(row));
   }
   add_note(view, block.conditions.front().setup, table);
@@ -195,16 +171,11 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
   CellMaker cells(view, table);
   const std::vector<const Quantity*> quantities = view.quantities(block);
   const std::vector<ResultsLine> lines = all_lines(view, block);
-  std::vector<int> places;
-  for (const Quantity* quantity : quantities) {
-    places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
-    cells.add_column(*quantity);
-  }
+  for (const Quantity* quantity : quantities) cells.add_column(*quantity);
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
-    for (std::size_t i = 0; i < quantities.size(); ++i)
-      cells.add(row, block.conditions.front(), line, {*quantities[i], places[i]},
-                quantities[i]->label);
+    for (const Quantity* quantity : quantities)
+      cells.add(row, block.conditions.front(), line, *quantity, quantity->label);
     table.rows.push_back(std::move(row));
   }
   add_note(view, block.conditions.front().setup, table);
@@ -224,21 +195,16 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
   table.columns.push_back({"Method", "", "", ""});
   if (!block.factor.empty()) table.columns.push_back({view.factor_label(block.factor), "", "", ""});
   const std::vector<const Quantity*> quantities = view.quantities(block);
-  std::vector<int> places;
   CellMaker cells(view, table);
-  for (const Quantity* quantity : quantities) {
-    places.push_back(decimals(view, view.lines(block, *quantity), block.conditions, *quantity));
-    cells.add_column(*quantity);
-  }
+  for (const Quantity* quantity : quantities) cells.add_column(*quantity);
   for (ResultsLine& line : lines) {
     line.label = view.study().methods[line.index].label;  // The caption names the run.
     for (std::size_t level = 0; level < block.conditions.size(); ++level) {
       Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
       if (!block.factor.empty())
         row.cells.emplace_back(TextCell{column_title(block.levels[level])});
-      for (std::size_t i = 0; i < quantities.size(); ++i)
-        cells.add(row, block.conditions[level], line, {*quantities[i], places[i]},
-                  quantities[i]->label);
+      for (const Quantity* quantity : quantities)
+        cells.add(row, block.conditions[level], line, *quantity, quantity->label);
       table.rows.push_back(std::move(row));
     }
   }
@@ -278,11 +244,10 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
     CellMaker cells(view, table);
     for (const std::string& name : overview.names)
       cells.add_column(quantity, name, overview.factors);
-    const int places = decimals(view, lines, overview.conditions, quantity);
     for (const ResultsLine& line : lines) {
       Row row{{TextCell{line.label, Emphasis::kData}}, "", false};
       for (std::size_t i = 0; i < overview.conditions.size(); ++i)
-        cells.add(row, overview.conditions[i], line, {quantity, places}, overview.names[i]);
+        cells.add(row, overview.conditions[i], line, quantity, overview.names[i]);
       table.rows.push_back(std::move(row));
     }
     add_note(view, overview.conditions.front().setup, table);
@@ -293,9 +258,7 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
 
 Table comparison_table(const ResultsView& view, const MethodComparison& comparison) {
   const Quantity& quantity = *comparison.quantity;
-  std::vector<double> means;
-  for (const ComparedMethod& method : comparison.methods) means.push_back(method.mean);
-  const int places = decimals_shown(view, quantity, means);
+  const int places = view.decimals(quantity);
   const bool errors_m = view.has_great_errors(quantity);
   Table table;
   table.id = table_id(comparison.id, "paired-" + quantity.id);

@@ -17,6 +17,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/method_series.hpp"
+#include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
 namespace {
@@ -83,6 +84,7 @@ ResultsView::ResultsView(const ResultsStudy& study) : study_(study) {
     outcomes_[{outcome.at, outcome.method}].push_back(&outcome);
   make_blocks();
   make_overviews();
+  set_decimals();
 }
 
 namespace {
@@ -270,6 +272,20 @@ std::optional<ResultsOverview> ResultsView::overview_of(
     overview.conditions.push_back(block->conditions[static_cast<std::size_t>(at)]);
   }
   return overview;
+}
+
+void ResultsView::set_decimals() {
+  for (const auto& [id, quantity] : quantities_) {
+    std::vector<double> means;
+    for (const ResultsBlock& block : blocks_)
+      for (const ResultsLine& line : lines(block, quantity))
+        for (const Condition& at : block.conditions)
+          if (const auto mean = this->mean(at, line, quantity)) means.push_back(mean->mean);
+    // Pages show no digits of those that diverged.
+    if (has_great_errors(quantity))
+      std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
+    decimals_[id] = decimals_of(std::move(means));
+  }
 }
 
 std::vector<const Quantity*> ResultsView::quantities(const ResultsBlock& block) const {

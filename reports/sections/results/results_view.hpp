@@ -93,6 +93,8 @@ class ResultsView {
   /// Whether large values of a quantity are those of methods that diverged: it is an error in m,
   /// and the least value of the study is a usual one.
   bool has_great_errors(const Quantity& quantity) const;
+  /// Of a quantity's means in all tables and figures; those of methods that diverged have none.
+  int decimals(const Quantity& quantity) const { return decimals_.at(quantity.id); }
   /// The lines that a block has of a quantity, in the order of methods and runs.
   std::vector<ResultsLine> lines(const ResultsBlock& block, const Quantity& quantity) const;
 
@@ -140,6 +142,7 @@ class ResultsView {
   void make_blocks();
   void add_setup(const Label& setup);
   void make_overviews();
+  void set_decimals();
   /// Without its id and title.
   std::optional<ResultsOverview> overview_of(const std::vector<const ResultsBlock*>& blocks) const;
   /// "noise 0.1 m", "grass": a text needs no name of its factor.
@@ -157,6 +160,7 @@ class ResultsView {
   std::map<Name, RunCounts> counts_;                         ///< By setup.
   std::map<std::string, std::pair<double, double>> ranges_;  ///< By quantity.
   std::set<std::string> usual_errors_;  ///< Quantities that have a value of a usual error in m.
+  std::map<std::string, int> decimals_;       ///< By quantity.
   std::map<std::string, std::string> slugs_;  ///< By setup.
   std::vector<ResultsBlock> blocks_;
   std::vector<ResultsOverview> overviews_;

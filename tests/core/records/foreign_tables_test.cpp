@@ -100,6 +100,9 @@ TEST(ForeignTables, WithTimesAsRowsAreRecognisedByHeaderOrFirstColumn) {
   expect_ranges("Unnamed: 0,door,desk,plant\n0,1.5,.25,7\n1,2,1,8\n2,NA,2,9\n3,4,3,10\n");
   expect_ranges(
       "Unnamed: 0\tdoor\tdesk\tplant\n0\t1.5\t.25\t7\n1\t2\t1\t8\n2\tNA\t2\t9\n3\t4\t3\t10\n");
+  // Each name in quotes, as by csv.QUOTE_NONNUMERIC.
+  expect_ranges(
+      "\"Unnamed: 0\",\"door\",\"desk\",\"plant\"\n0,1.5,.25,7\n1,2,1,8\n2,NA,2,9\n3,4,3,10\n");
   // Dates.
   expect_ranges(
       "stamp (UTC),door,desk,plant\n2026-11-03 09:15:00,1.5,0.25,7\n2026-11-03 09:15:01,2,1,8\n"
