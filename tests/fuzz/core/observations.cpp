@@ -141,8 +141,9 @@ void stream(std::string_view bytes, const Stream& streamed, const Names& names_i
   // Of a stream that ends within a line, all before it counts, and it may hold nothing yet; such
   // files are refused.
   const bool has_steps = whole.starts_with('\n');
-  // To a stream these are a remark and a rule, not a point cloud and YAML.
-  if (bytes.starts_with("# .PCD") || bytes.starts_with("---")) return;
+  // To a stream these are remarks and a rule, not a point cloud, a bag of ROS 1 and YAML.
+  for (const char* other : {"# .PCD", "#ROSBAG", "---"})
+    if (bytes.starts_with(other)) return;
   if (!has_steps || whole.ends_with("[]") || !bytes.ends_with('\n')) return;
   std::string names;
   try {
