@@ -107,12 +107,13 @@ bool is_yaml(std::string_view text) {
   const bool is_row = line.find_first_of(is_flow ? "\t;" : "\t;,") != std::string_view::npos;
   const bool is_pair = !is_row && colon != std::string_view::npos && colon > 0 &&
                        (colon + 1 == line.size() || line[colon + 1] == ' ');
+  std::string_view key = line.substr(0, is_pair ? colon : 0);
+  // In quotes as a whole or not at all: a colon between quotes is one of a cell.
+  if (key.size() > 1 && (key[0] == '"' || key[0] == '\'') && key.back() == key[0])
+    key = key.substr(1, key.size() - 2);
   constexpr std::string_view kOfKeys =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.\"'";
-  const std::string_view key = line.substr(0, is_pair ? colon : 0);
-  // A colon between quotes is one of a cell.
-  return is_pair && std::ranges::count(key, '"') % 2 == 0 &&
-         key.find_first_not_of(kOfKeys) == std::string_view::npos;
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  return is_pair && key.find_first_not_of(kOfKeys) == std::string_view::npos;
 }
 
 [[noreturn]] void refuse(const OtherKind& kind, const std::string& source) {
