@@ -144,6 +144,10 @@ void stream(std::string_view bytes, const Stream& streamed, const Names& names_i
   // To a stream these are remarks and a rule, not a point cloud, a bag of ROS 1 and YAML.
   for (const char* other : {"# .PCD", "#ROSBAG", "---"})
     if (bytes.starts_with(other)) return;
+  // Tabs in front of the first row are cells where tabs separate, which a stream does not yet know.
+  if (const std::size_t row = bytes.find_first_not_of(" \t\r\n");
+      row != std::string_view::npos && bytes.substr(0, row).find('\t') != std::string_view::npos)
+    return;
   if (!has_steps || whole.ends_with("[]") || !bytes.ends_with('\n')) return;
   std::string names;
   try {
