@@ -16,7 +16,7 @@ constexpr int kSlices = 8;
 constexpr int kShades = 32;
 constexpr int kLineShades = 64;
 constexpr double kTextShareOfPage = 0.37;  // The width of a text at a point.
-constexpr std::size_t kTextLines = 4;      // Of a text beside a point.
+constexpr std::size_t kTextLines = 5;      // Of a text beside a point.
 constexpr double kTextLineStep = 1.15;     // From one of them to the next, em.
 
 Point cubic_at(Point a, Point b, Point c, Point d, double t) {

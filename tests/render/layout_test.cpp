@@ -343,7 +343,7 @@ TEST(Curves, HaveTheValuesOfTheirMarkersForPages) {
 
 TEST(Layout, BreaksLongNamesBesideARankDiagramIntoLinesInAJournalsColumn) {
   CriticalDifferenceSpec spec = sample_ranks(7);
-  spec.methods[0].label = "Batch Levenberg\u2013Marquardt from the true start";
+  spec.methods[0].label = "Batch Levenberg\u2013Marquardt started at the true trajectory (oracle)";
   spec.methods[1].label = "iSAM2, incremental smoothing and mapping with robust kernels";
   spec.methods[5].label = "EKF-SLAM with joint compatibility branch and bound";
   const Figure figure = critical_difference_figure(spec);

@@ -578,6 +578,26 @@ TEST(ResultsReport, PutsTheSectionsOfSeveralSetupsUnderTheirNames) {
   EXPECT_EQ(sections_of(study_of_setups({"indoors"})).at(1), " | indoors, light day");
 }
 
+TEST(ResultsFigures, OfAnOverviewHaveTheLabelOfEqualAxesOnce) {
+  ResultsStudy study = study_of_setups({"indoors", "outdoors"});
+  std::erase_if(study.results.rows, [](const Result& row) {
+    return row.at == condition("outdoors", {{"light", "dusk"}, {"noise", 0.4}});
+  });
+  for (const Result& row : std::vector(study.results.rows)) {
+    study.results.rows.push_back(row);
+    study.results.rows.back().method = "other";
+    study.results.rows.back().value *= 2.0;
+  }
+  sort_results(study.results);
+  study.methods.push_back({"other", "other"});
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, {});
+  ASSERT_EQ(figures.groups.at(0).id, "test-overview-indoors");
+  EXPECT_TRUE(figures.groups.at(0).figures.at(0).shared_x);
+  ASSERT_EQ(figures.groups.at(1).id, "test-overview-outdoors");
+  EXPECT_FALSE(figures.groups.at(1).figures.at(0).shared_x) << "of other levels";
+}
+
 TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
   const ResultsStudy study = study_of_setups({"indoors", "outdoors"});
   const ResultsView view(study);

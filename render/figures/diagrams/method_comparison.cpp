@@ -118,7 +118,7 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
 constexpr std::size_t kMostMethods = 30;
 constexpr double kBarStep = 0.4;  // Between bars, in rows of labels.
 constexpr std::size_t kColumnLabel = 17;  // Characters in a line of a label, in a journal's column.
-constexpr std::size_t kMostFurtherLines = 3;
+constexpr std::size_t kMostFurtherLines = 4;
 
 void require_consistent(const CriticalDifferenceSpec& spec) {
   const auto refuse = [&spec](const std::string& what) {

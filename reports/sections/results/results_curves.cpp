@@ -398,6 +398,10 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   spec.over = fmt::format(" over {} by {}", view.factor_label(overview.blocks.front()->factor),
                           overview.factors);
   Figure figure = error_lines_figure(spec);
+  // The label of equal axes stands once, with more room.
+  figure.shared_x = std::ranges::all_of(overview.blocks, [&](const ResultsBlock* block) {
+    return block->levels == overview.blocks.front()->levels;
+  });
   for (std::size_t i = 0; i < spec.panels.size(); ++i)
     add_sample_of_runs(figure.panels[i], spec.panels[i].points);
   return figure;
