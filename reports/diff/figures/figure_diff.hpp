@@ -12,8 +12,8 @@ namespace mapproof {
 
 /// Compares two figures mark by mark. Layers are matched by kind and label, marks by id or else by
 /// their index in the layer. If both figures are marked `varies`, these are not judged: positions,
-/// numbers, limits, the alternative text, the number of nameless points of a layer, and the layer
-/// of a named point.
+/// numbers, "ms" and "µs" behind them, limits, the alternative text, the number of nameless points
+/// of a layer, and the layer of a named point.
 /// @note Time O(points), and quadratic in the layers of a panel.
 FigureDiff figure_diff(const Figure& baseline, const Figure& current,
                        const FigureOptions& options = {});

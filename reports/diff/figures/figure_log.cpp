@@ -1,9 +1,11 @@
 #include "reports/diff/figures/figure_log.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +21,23 @@ namespace mapproof {
 namespace {
 
 constexpr double kWritten = 2e-5;  // Relative: data-* hold six digits.
+
+/// A text of a figure that varies without what varies in it: its numbers, and "ms" and "µs", since
+/// times have the unit that fits them.
+std::string varying_words(std::string_view text) {
+  std::string words = without_numbers(text);
+  for (const std::string_view unit : {"ms", "µs"})
+    for (std::size_t at = words.find(unit); at != std::string::npos;
+         at = words.find(unit, at + 1)) {
+      const std::size_t end = at + unit.size();
+      const bool begins =
+          at > 0 && std::string_view("[ \xA0").find(words[at - 1]) != std::string::npos;
+      const bool ends =
+          end == words.size() || std::isalnum(static_cast<unsigned char>(words[end])) == 0;
+      if (begins && ends) words.replace(at, unit.size(), "s");
+    }
+  return words;
+}
 
 /// The name of one point.
 std::string point_text(const LayerView& layer, std::size_t point) {
@@ -87,7 +106,7 @@ bool FigureDiff::has(ChangeKind kind) const {
 void FigureLog::change(ChangeKind kind, const std::string& location, std::string_view what,
                        const std::string& baseline, const std::string& current) {
   if (baseline == current) return;
-  if (varies_ && what != kRecordsWord && without_numbers(baseline) == without_numbers(current)) {
+  if (varies_ && what != kRecordsWord && varying_words(baseline) == varying_words(current)) {
     ++diff_.masked;
     return;
   }

@@ -36,6 +36,18 @@ TEST(VaryingFigures, PassWhereTheFastestIsAnother) {
   EXPECT_NE(result.judgement.cause.find("varies from run to run"), std::string::npos);
 }
 
+TEST(VaryingFigures, PassWhereTimesHaveAnotherUnit) {
+  ParetoSpec later = costs();
+  for (CostedSetting& setting : later.settings) setting.seconds *= 1e-3;
+  const Figure before = pareto_figure(costs()), after = pareto_figure(later);
+  ASSERT_NE(before.panels[0].x.label, after.panels[0].x.label);
+  const DiffResult result = diff_of(before, after);
+  EXPECT_TRUE(result.passes) << result.judgement.cause;
+  Figure renamed = after;
+  renamed.panels[0].x.label = "time per landmark [µs]";
+  EXPECT_FALSE(diff_of(before, renamed).passes);
+}
+
 TEST(VaryingFigures, AreNotJudgedByImagesOfAnotherSize) {
   const Figure before = pareto_figure(costs());
   const TemporaryFolder folder;
