@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -206,30 +207,41 @@ void add_grid_section(const ResultsReportInput& input, const std::string& setup,
   sections.push_back({id, group->title, {gallery_of(*group)}});
 }
 
-/// The setup that a section shows; nothing of one that is about the whole study.
-std::optional<std::string> setup_of(const ResultsView& view, const std::string& section) {
-  for (const ResultsBlock& block : view.blocks())
-    if (block.id == section) return block.conditions.front().setup;
-  for (const ResultsOverview& overview : view.overviews())
-    if (overview.id == section) return overview.conditions.front().setup;
-  for (const Label& setup : view.study().setups)
-    if (heat_maps_id(view, setup.id) == section) return setup.id;
-  return std::nullopt;
+/// A section's title without the setup's name, under which it stands: "noise 0.1 m" of "Indoors,
+/// noise 0.1 m".
+std::string title_within(const std::string& setup, const std::string& title) {
+  for (const std::string_view mark : {", ", ": "})
+    if (title.starts_with(setup + std::string(mark)))
+      return title.substr(setup.size() + mark.size());
+  return title;
+}
+
+/// Puts a setup's sections under its name; its only one stays alone.
+void put_under(const std::string& setup, std::span<Section> sections) {
+  if (setup.empty() || sections.size() < 2) return;
+  for (Section& section : sections) {
+    section.title = title_within(setup, section.title);
+    section.group = setup;
+  }
 }
 
 std::vector<Section> sections_of(const ResultsReportInput& input, bool has_opening) {
   std::vector<Section> sections{summary_section(input, has_opening)};
   if (sections[0].blocks.empty()) sections.clear();
-  std::optional<std::string> setup;
-  for (const ResultsBlock& block : input.view.blocks()) {
-    if (const std::string& of = block.conditions.front().setup; of != setup) {
-      setup = of;
-      add_grid_section(input, of, sections);
-      for (const ResultsOverview& overview : input.view.overviews())
-        if (overview.conditions.front().setup == of)
-          sections.push_back(overview_section(input, overview));
-    }
-    sections.push_back(block_section(input, block));
+  const std::vector<Label>& setups = input.view.study().setups;
+  const std::vector<ResultsBlock>& blocks = input.view.blocks();
+  for (auto block = blocks.begin(); block != blocks.end();) {
+    const std::string setup = block->conditions.front().setup;
+    const std::size_t first = sections.size();
+    add_grid_section(input, setup, sections);
+    for (const ResultsOverview& overview : input.view.overviews())
+      if (overview.conditions.front().setup == setup)
+        sections.push_back(overview_section(input, overview));
+    for (; block != blocks.end() && block->conditions.front().setup == setup; ++block)
+      sections.push_back(block_section(input, *block));
+    // In a report of several studies, sections stand under the name of their study.
+    if (has_opening && setups.size() > 1)
+      put_under(label_of(setups, setup), std::span(sections).subspan(first));
   }
   const std::string maps = input.view.study().name + "-maps";
   const auto group = std::ranges::find(input.figures.groups, maps, &FigureGroup::id);
@@ -607,30 +619,6 @@ std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigur
   return ids;
 }
 
-/// A section's title without the setup's name, under which it stands: "noise 0.1 m" of "Indoors,
-/// noise 0.1 m".
-std::string title_within(const std::string& setup, const std::string& title) {
-  for (const std::string_view mark : {", ", ": "})
-    if (title.starts_with(setup + std::string(mark)))
-      return title.substr(setup.size() + mark.size());
-  return title;
-}
-
-/// Puts the sections of each of several setups under its name; a setup's only one stays alone.
-void put_under_setups(const ResultsView& view, std::vector<Section>& sections) {
-  if (view.study().setups.size() < 2) return;
-  std::map<std::string, std::vector<Section*>> of_setups;
-  for (Section& section : sections)
-    if (const auto setup = setup_of(view, section.id)) of_setups[*setup].push_back(&section);
-  for (const auto& [setup, own] : of_setups)
-    for (Section* section : own) {
-      const std::string label = label_of(view.study().setups, setup);
-      if (own.size() == 1 || label.empty()) continue;
-      section->title = title_within(label, section->title);
-      section->group = label;
-    }
-}
-
 }  // namespace
 
 std::vector<Section> results_sections(const ResultsReportInput& input) {
@@ -645,7 +633,6 @@ Report results_report(const ResultsReportInput& input) {
       "{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
       counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set"));
   report.sections = sections_of(input, true);
-  put_under_setups(input.view, report.sections);
   report.opening.question = study.question;
   if (input.conclusions.empty())
     for (std::string& headline : headlines_of(input.view, input.comparisons))

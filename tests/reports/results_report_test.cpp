@@ -1,0 +1,242 @@
+#include "reports/sections/results/results_report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "reports/sections/results/results_comparison.hpp"
+#include "reports/sections/results/results_figures.hpp"
+#include "reports/sections/results/results_tables.hpp"
+#include "tests/reports/results_rows.hpp"
+
+namespace mapproof {
+namespace {
+
+TEST(ResultsReport, OfRecordedDataOpensWithTheBestMethodOverAllSets) {
+  ResultsStudy study = Rows()
+                           .add("even", "a1", 0.2)
+                           .add("even", "b1", 0.1)
+                           .add("even", "c1", 0.3)
+                           .add("uneven", "a1", 0.05)
+                           .add("uneven", "b1", 0.9)
+                           .add("uneven", "c1", 0.8)
+                           .add("once", "a1", 0.01)
+                           .study(false);
+  study.runs = {{"a1", "a1"}, {"b1", "b1"}, {"c1", "c1"}};
+  const ResultsView view(study);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+  const Highlights::Item& first = report.opening.numbers.items.at(0);
+  EXPECT_EQ(first.value, "0.200\u00a0m");
+  EXPECT_EQ(first.label, "median MPE of the best method");
+  EXPECT_EQ(first.detail, "even, over 3 data sets");
+}
+
+TEST(ResultsReport, CrownsNoMethodForItsCoverageAndSaysItsPoses) {
+  Rows rows;
+  rows.add("few", "a1", 0.024).add("many", "a1", 0.0135);
+  ResultsStudy study = rows.study();
+  const Quantity associated =
+      study_quantity("associated_percent", "associated poses", "%", Better::kHigher);
+  EXPECT_FALSE(is_crowned(associated));
+  EXPECT_TRUE(is_crowned(mpe()));
+  const ResultsView view(study);
+  const Report report = results_report({.view = view,
+                                        .comparisons = compare_methods(view),
+                                        .figures = {},
+                                        .provenance = {},
+                                        .poses = {{"few", 32}, {"many", 785}}});
+  const Highlights::Item& best = report.opening.numbers.items.at(0);
+  EXPECT_TRUE(best.label.starts_with("best MPE, ")) << best.label;
+  EXPECT_EQ(best.detail, "many (785 poses); few (32 poses) 0.0240\u00a0m");
+}
+
+TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
+  const auto warns = [](double percent) {
+    Rows rows("associated_percent");
+    rows.declare(study_quantity("associated_percent", "associated poses", "%", Better::kHigher));
+    const ResultsStudy study = rows.add("m", "a1", percent).add("m", "b1", 99.0).study(true);
+    const ResultsView view(study);
+    const Report report = results_report(
+        {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+    for (const Paragraph& finding : report.opening.findings)
+      for (const Phrase& phrase : finding.phrases)
+        if (phrase.text.find("only 75.1\u00A0% (m, a1) of the poses") != std::string::npos)
+          return true;
+    return false;
+  };
+  EXPECT_TRUE(warns(75.14));
+  EXPECT_FALSE(warns(90.0));
+}
+
+TEST(ResultsReport, MarksTheTileOfFewAssociatedPoses) {
+  const auto falls_short = [](double percent) {
+    Rows rows("associated_percent");
+    rows.declare(study_quantity("associated_percent", "associated poses", "%", Better::kHigher));
+    const ResultsStudy study = rows.add("m", "a1", percent).study();
+    const ResultsView view(study);
+    const Report report =
+        results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
+    return report.opening.numbers.items.at(0).falls_short;
+  };
+  EXPECT_TRUE(falls_short(75.1));
+  EXPECT_FALSE(falls_short(99.0));
+}
+
+TEST(ResultsReport, OfOneRunHasNoMeansAndNoTests) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2, 0.3, 0.4})
+    rows.add("few", "a1", 0.024 + noise, {{"noise", noise}})
+        .add("many", "a1", 0.0135 + noise * noise, {{"noise", noise}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const std::vector<MethodComparison> comparisons = compare_methods(view);
+  ASSERT_FALSE(comparisons.empty());
+  EXPECT_EQ(sentence_of(comparisons[0], view).find("mean"), std::string::npos);
+  std::vector<Table> all = results_tables(view, view.blocks()[0]);
+  all.push_back(comparison_table(view, comparisons[0]));
+  for (const Table& table : all) {
+    EXPECT_TRUE(table.notes.empty() || table.notes[0].find("group") == std::string::npos)
+        << table.notes[0];
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      EXPECT_TRUE(std::ranges::any_of(
+          table.rows,
+          [&](const Row& row) { return !std::holds_alternative<MissingCell>(row.cells[i]); }))
+          << table.id << ": " << table.columns[i].title;
+  }
+  EXPECT_EQ(all.back().columns.size(), 2U);
+  const StudyFigures figures = results_figures(view, comparisons);
+  EXPECT_EQ(figures.groups.at(0).figures.at(0).caption.find("mean over runs"), std::string::npos);
+}
+
+TEST(ResultsReport, WarnsOfPathsWithFarFewerPosesThanAnother) {
+  const ResultsStudy study = Rows().add("few", "a1", 0.024).add("many", "a1", 0.0135).study();
+  const ResultsView view(study);
+  const auto warns = [&](long long few) {
+    const Report report = results_report({.view = view,
+                                          .comparisons = compare_methods(view),
+                                          .figures = {},
+                                          .provenance = {},
+                                          .poses = {{"few", few}, {"many", 785}}});
+    const std::string warning = fmt::format("few has {} poses, many 785", few);
+    return std::ranges::any_of(report.opening.findings, [&](const Paragraph& finding) {
+      return std::ranges::any_of(finding.phrases, [&](const Phrase& phrase) {
+        return phrase.text.find(warning) != std::string::npos;
+      });
+    });
+  };
+  EXPECT_TRUE(warns(32));
+  EXPECT_TRUE(warns(392));
+  EXPECT_FALSE(warns(393));
+}
+
+TEST(ResultsReport, OfOneMethodOpensWithItsMeans) {
+  const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
+  const ResultsView view(study);
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = {}, .provenance = {}});
+  const Highlights::Item& first = report.opening.numbers.items.at(0);
+  EXPECT_EQ(first.value, "0.150\u00a0m");
+  EXPECT_EQ(first.label, "MPE");
+  EXPECT_EQ(first.detail, "m");
+}
+
+/// One method in each setup at these levels of noise and of light.
+ResultsStudy study_of_setups(const std::vector<std::string>& setups) {
+  ResultsStudy study;
+  study.name = "test";
+  for (const std::string& setup : setups)
+    for (const char* run : {"a", "b"})
+      for (const double noise : {0.2, 0.4})
+        for (const char* light : {"day", "dusk"})
+          study.results.rows.push_back(
+              {.at = condition(setup, {{"light", std::string(light)}, {"noise", noise}}),
+               .method = "m",
+               .quantity = "mpe_m",
+               .run = run,
+               .group = run,
+               .subject = "",
+               .value = (setup == setups.front() ? 0.001 : 1.0) * noise});
+  study.results.are_repeats = true;
+  sort_results(study.results);
+  EXPECT_EQ(complete(study), "");
+  return study;
+}
+
+TEST(ResultsReport, PutsTheSectionsOfSeveralSetupsUnderTheirNames) {
+  const auto sections_of = [](const ResultsStudy& study) {
+    const ResultsView view(study);
+    std::vector<std::string> sections;
+    for (const Section& section :
+         results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}})
+             .sections)
+      sections.push_back(section.group + " | " + section.title);
+    return sections;
+  };
+  EXPECT_EQ(
+      sections_of(study_of_setups({"indoors", "outdoors"})),
+      (std::vector<std::string>{"indoors | overview by light", "indoors | light day",
+                                "indoors | light dusk", "outdoors | overview by light",
+                                "outdoors | light day", "outdoors | light dusk", " | Provenance"}));
+  EXPECT_EQ(sections_of(study_of_setups({"indoors"})).at(1), " | indoors, light day");
+}
+
+TEST(ResultsFigures, OfAnOverviewHaveTheLabelOfEqualAxesOnce) {
+  ResultsStudy study = study_of_setups({"indoors", "outdoors"});
+  std::erase_if(study.results.rows, [](const Result& row) {
+    return row.at == condition("outdoors", {{"light", "dusk"}, {"noise", 0.4}});
+  });
+  for (const Result& row : std::vector(study.results.rows)) {
+    study.results.rows.push_back(row);
+    study.results.rows.back().method = "other";
+    study.results.rows.back().value *= 2.0;
+  }
+  sort_results(study.results);
+  study.methods.push_back({"other", "other"});
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, {});
+  ASSERT_EQ(figures.groups.at(0).id, "test-overview-indoors");
+  EXPECT_TRUE(figures.groups.at(0).figures.at(0).shared_x);
+  ASSERT_EQ(figures.groups.at(1).id, "test-overview-outdoors");
+  EXPECT_FALSE(figures.groups.at(1).figures.at(0).shared_x) << "of other levels";
+}
+
+TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
+  const ResultsStudy study = study_of_setups({"indoors", "outdoors"});
+  const ResultsView view(study);
+  EXPECT_EQ(view.decimals(mpe()), 5) << "two more than three digits of the median need";
+  std::vector<Table> tables;
+  for (const ResultsBlock& block : view.blocks())
+    for (Table& table : results_tables(view, block)) tables.push_back(std::move(table));
+  for (const ResultsOverview& overview : view.overviews())
+    for (Table& table : overview_tables(view, overview)) tables.push_back(std::move(table));
+  ASSERT_EQ(tables.size(), 6U);
+  for (const Table& table : tables)
+    for (const Cell& cell : table.rows.at(0).cells)
+      if (const auto* number = std::get_if<NumberCell>(&cell)) {
+        EXPECT_EQ(number->decimals, view.decimals(mpe())) << table.id;
+      }
+}
+
+TEST(ResultsReport, OpensWithFiguresOfPathsInTheOrderOfTheirRuns) {
+  const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
+  const ResultsView view(study);
+  StudyFigures figures;
+  for (const char* id : {"curves", "errors-first", "maps", "errors-second", "errors-third"})
+    figures.groups.push_back(
+        {.id = std::string("test-") + id,
+         .title = id,
+         .words = "",
+         .figures = {{.id = std::string("test-") + id + "-1", .title = id, .panels = {Panel{}}}}});
+  const Report report = results_report(
+      {.view = view, .comparisons = compare_methods(view), .figures = figures, .provenance = {}});
+  std::vector<std::string> shown = report.opening.figure_ids;
+  if (!report.opening.main_figure.empty()) shown.insert(shown.begin(), report.opening.main_figure);
+  EXPECT_EQ(shown,
+            (std::vector<std::string>{"test-errors-first-1", "test-errors-second-1",
+                                      "test-errors-third-1", "test-maps-1", "test-curves-1"}));
+}
+
+}  // namespace
+}  // namespace mapproof
