@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <ctime>
 #include <map>
@@ -22,6 +21,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
+#include "core/experiment/external_input.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/studies/results_of.hpp"
@@ -152,9 +152,8 @@ ResultsStudy results_with(const Study& study, const std::vector<ExternalMap>& ma
   for (const ExternalMap& map : maps) add_rows(map, result.results.rows);
   for (const char* score : kScores) result.quantities.emplace_back(score);
   for (const SensorStudy& sensor : study.experiment.sensors) {
-    std::string title(name(sensor.sensor.sensor));
-    title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-    result.setups.push_back({std::string(name(sensor.sensor.sensor)), title});
+    const std::string setup(name(sensor.sensor.sensor));
+    result.setups.push_back({setup, capitalised(setup)});
   }
   result.factors.push_back({std::string(kStepsFactor), "observations"});
   sort_results(result.results);

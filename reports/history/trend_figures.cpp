@@ -293,10 +293,8 @@ Figure drawn(ErrorLinesSpec spec, ErrorPanel panel, bool varies) {
 
 /// A setup as a title or a sentence begins with it; a label of the study stays as it is.
 std::string first_setup(const StudyLabels& labels, const std::string& sensor) {
-  std::string setup = shown_setup(labels, sensor);
-  if (!setup.empty() && !labels.setups.contains(sensor) && setup[0] >= 'a' && setup[0] <= 'z')
-    setup[0] = static_cast<char>(setup[0] - 'a' + 'A');
-  return setup;
+  const std::string setup = shown_setup(labels, sensor);
+  return labels.setups.contains(sensor) ? setup : capitalised(setup);
 }
 
 /// Of what has no finding: that an error has not got worse; of seconds, which may not be judged

@@ -179,12 +179,6 @@ std::string cause_words(const FitCause& cause) {
   return words.empty() ? map_cause_words(cause) : words;
 }
 
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-    text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
-
 /// A test that found nothing names no landmarks.
 std::string of_landmarks(const char* what, const std::string& names) {
   return names.empty() ? what : what + (" of " + names);
@@ -262,9 +256,9 @@ std::string verdict_text(const Fit& fit) {
 }
 
 std::string cause_text(const FitCause& cause) {
-  return capital(fmt::format("{} (statistic {}, bound {}{}).", cause_words(cause),
-                             significant(cause.statistic), significant(cause.bound),
-                             cause.is_small ? "; the map hardly changes" : ""));
+  return capitalised(fmt::format("{} (statistic {}, bound {}{}).", cause_words(cause),
+                                 significant(cause.statistic), significant(cause.bound),
+                                 cause.is_small ? "; the map hardly changes" : ""));
 }
 
 std::string limit_text(const FitTest& test) {
@@ -295,7 +289,7 @@ std::string limit_text(const FitTest& test) {
           names, amount);
     default:
       return fmt::format("{}: less than {} could not be seen in these data.",
-                         capital(test_label(test.code, test.landmarks)), amount);
+                         capitalised(test_label(test.code, test.landmarks)), amount);
   }
 }
 

@@ -4,13 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/words.hpp"
+
 namespace mapproof {
 
-std::string title_of(Sensor sensor) {
-  std::string text(name(sensor));
-  text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
+std::string title_of(Sensor sensor) { return capitalised(std::string(name(sensor))); }
 
 std::string_view meaning(StatusCode code) {
   switch (code) {

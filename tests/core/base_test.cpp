@@ -274,6 +274,8 @@ TEST(Words, AreTrimmedOfWhatIsNamed) {
   EXPECT_EQ(trimmed(" \t "), "");
   EXPECT_EQ(trimmed(""), "");
   EXPECT_EQ(lower_case("ABC xyz \u00C4 1"), "abc xyz \u00C4 1");
+  EXPECT_EQ(capitalised("to a sentence"), "To a sentence");
+  for (const char* text : {"", "ISOMAP", "3-D", "\u00E4"}) EXPECT_EQ(capitalised(text), text);
 }
 
 }  // namespace

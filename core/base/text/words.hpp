@@ -13,6 +13,9 @@ std::string counted(long long count, std::string_view noun);
 /// A to Z as small letters, all else as it is.
 std::string lower_case(std::string_view text);
 
+/// With A to Z for a to z at its start, as a sentence begins.
+std::string capitalised(std::string text);
+
 /// What C's isspace() takes for blank in any locale.
 inline constexpr std::string_view kWhiteSpace = " \t\r\n\f\v";
 

@@ -1,7 +1,6 @@
 #include "render/figures/curves/convergence.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <set>
 
@@ -119,9 +118,8 @@ std::string noise_title(std::span<const ConvergenceCurve> curves) {
   });
   if (known.empty()) return kPlain;
   const ConvergenceCurve* least = *std::ranges::min_element(known, {}, by_error);
-  std::string noise = most->title.substr(0, most->title.find(','));
-  noise[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(noise[0])));
-  return fmt::format("{} makes landmarks err {} times as much as {}", noise,
+  return fmt::format("{} makes landmarks err {} times as much as {}",
+                     capitalised(most->title.substr(0, most->title.find(','))),
                      significant(error_of(*most) / error_of(*least), 2),
                      least->title.substr(0, least->title.find(',')));
 }

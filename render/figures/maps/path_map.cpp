@@ -373,11 +373,6 @@ class PathMap {
     return text;
   }
 
-  static std::string capitalised(std::string text) {
-    text[0] = static_cast<char>(text[0] - 'a' + 'A');
-    return text;
-  }
-
   std::string alt() const {
     std::string text =
         fmt::format("Map of {} and {} of {}.", counted(std::ssize(view_.shown), "path"),

@@ -249,13 +249,10 @@ std::string subtitle(const SlamStudy& study) {
 
 /// The title of a section in a report on this paper alone: without the words that distinguish
 /// papers.
-std::string alone(std::string title) {
+std::string alone(const std::string& title) {
   constexpr std::string_view kPrefix = "Range-only SLAM: ";
   if (!title.starts_with(kPrefix)) return title;
-  title.erase(0, kPrefix.size());
-  if (!title.empty() && title[0] >= 'a' && title[0] <= 'z')
-    title[0] = static_cast<char>(title[0] - 'a' + 'A');
-  return title;
+  return capitalised(title.substr(kPrefix.size()));
 }
 
 void add_statuses(const std::string& where, const std::string& id,
