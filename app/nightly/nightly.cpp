@@ -36,6 +36,7 @@
 #include "reports/history/history_prune.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_links.hpp"
+#include "reports/history/nightly_report.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/nightly_summary.hpp"

@@ -8,8 +8,8 @@
 
 #include "app/console.hpp"
 #include "app/nightly/nightly_study.hpp"
-#include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/index_facts.hpp"
 
 namespace mapproof {
 

@@ -1,11 +1,8 @@
 #include "reports/history/history_pages.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <string>
@@ -13,67 +10,18 @@
 
 #include <fmt/format.h>
 
-#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
-#include "reports/history/accuracy_rule.hpp"
+#include "reports/history/history_blocks.hpp"
+#include "reports/history/history_tables.hpp"
 #include "reports/history/nightly_standing.hpp"
-#include "reports/history/shown_names.hpp"
-#include "reports/history/study_course.hpp"
-#include "reports/model/format.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
 namespace {
 
-TextCell text(std::string words) { return {std::move(words), Emphasis::kPlain}; }
-
-Cell number(double value, int decimals) {
-  if (!std::isfinite(value)) return MissingCell{};
-  return NumberCell{value, decimals};
-}
-
-/// @param verdict  Without the findings that are known.
-std::string words_of(const NightlyFacts& nightly_run, NightlyVerdict verdict) {
-  switch (verdict) {
-    case NightlyVerdict::kPassed:
-      return nightly_run.verdict == NightlyVerdict::kPassed ? std::string(verdict_word(nightly_run))
-                                                            : "nothing new";
-    case NightlyVerdict::kCost:
-      return "slower or larger";
-    default:
-      return "accuracy worse";
-  }
-}
-
-/// The last step of each method, of what is an error or shown.
-std::vector<SeriesId> last_steps(const StudyTrend& trend) {
-  std::vector<SeriesId> last;
-  for (const auto& [id, values] : trend.medians) {
-    const NightlyRule rule = rule_of(id, trend.quantities, trend.medians);
-    if (!is_accuracy(rule) && rule != NightlyRule::kShown) continue;
-    const auto later = std::ranges::find_if(last, [&](const SeriesId& other) {
-      return method_of(other) == method_of(id) && other.quantity == id.quantity;
-    });
-    if (later == last.end())
-      last.push_back(id);
-    else
-      *later = id;
-  }
-  return last;
-}
-
 /// Figures of the index: its reader sees the course at a glance, the trends have all.
 constexpr std::size_t kMostOnIndex = 2;
-
-/// Small figures of a first screen.
-constexpr std::size_t kMostSmall = 6;
-
-/// Groups of findings in a section at most; the trends list all.
-constexpr std::size_t kMostGroups = 30;
-
-/// Links to nightly runs in one sentence at most; the index lists all.
-constexpr std::size_t kMostLinked = 10;
 
 FigureBlock block_of(const Figure& figure) {
   return {figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
@@ -85,34 +33,12 @@ Gallery gallery_of(const std::vector<Figure>& figures) {
   return gallery;
 }
 
-/// The findings of a nightly run.
-std::span<const NightlyFinding> found_on(int nightly_run, const NightlyFindings& findings) {
-  const auto found = findings.find(nightly_run);
-  return found == findings.end() ? std::span<const NightlyFinding>{} : found->second;
-}
-
 /// Which nightly runs the page shows.
 Paragraph nightly_runs_shown(const StudyTrend& trend) {
   return {{{fmt::format(
       "{} from nightly run {} on are shown: those with the same settings as the last.",
       counted(static_cast<long long>(trend.nightly_runs.size()), "nightly run"),
       trend.nightly_runs.front().number)}}};
-}
-
-/// "all nightly runs, trends of tiny, report of nightly run 9, which it was compared with".
-Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
-  Paragraph all{{{"See "}}};
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    if (i > 0) all.phrases.push_back({", "});
-    all.phrases.push_back(std::move(to[i]));
-  }
-  if (reference) {
-    all.phrases.push_back({", "});
-    all.phrases.push_back(*reference);
-    all.phrases.push_back({", which it was compared with"});
-  }
-  all.phrases.push_back({"."});
-  return all;
 }
 
 /// The last nightly run's studies, those that have findings first.
@@ -171,101 +97,12 @@ std::optional<Callout> reported_of(const LostNightlyRuns& lost) {
                  {{{text}}}};
 }
 
-/// A course as a cell of a table, and its curve.
-/// @param without  What the cell says where there is no course.
-void add_course(const std::optional<Course>& course, const std::string& without, Row& row) {
-  row.cells.emplace_back(text(course ? course->words : without));
-  if (!course || course->curve.changes.empty()) return;
-  row.curves.push_back(course->curve);
-  row.curves.back().cell = row.cells.size() - 1;
-}
-
-/// One line per study of the last nightly run.
-Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
-  const NightlyFacts& this_run = facts.nightly_runs.back();
-  Table table{
-      .id = "studies",
-      .caption = "Change of each study over its nightly runs.",
-      .columns = {{"Study", "", "", ""},
-                  {"Worse", "", "",
-                   "The greatest change for the worse against the reference run, or the one "
-                   "before what got worse; red where it is a finding, grey where it is none"},
-                  {"Better", "", "",
-                   "The greatest change for the better of 1 % or half a point at least; it "
-                   "is not tested"},
-                  {"Trends", "", "", ""},
-                  {"Report", "", "", ""}},
-      .rows = {},
-      .notes = {}};
-  for (const StudyTrend& trend : facts.trends) {
-    const Phrase report = links.report(this_run.number, trend.name);
-    const Phrase trends = links.trends(trend.name);
-    Row row{{text(trend.name)},
-            fmt::format("{} to {}", counted(std::ssize(trend.nightly_runs), "nightly run"),
-                        this_run.number)};
-    const std::string without = trend.nightly_runs.size() < 2 ? "not compared" : "none";
-    add_course(worst_course(trend, facts.findings, facts.notes), without, row);
-    add_course(best_course(trend, facts.findings), without, row);
-    row.cells.emplace_back(TextCell{trends.text, trends.emphasis});
-    row.cells.emplace_back(TextCell{report.text, report.emphasis});
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-/// What got worse in one group, and where to find it.
-/// @param to  Links to pages on it.
-FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, NightlyLinks& links) {
-  const CommitRange& commits = group.commits;
-  FindingBlock block;
-  block.title = group.headline();
-  block.details = group.sentences;
-  block.known = group.known.has_value();
-  block.command = block.known ? "" : commits.bisect();
-  auto& phrases = block.text.phrases;
-  phrases.push_back({group.study, Emphasis::kData});
-  if (!group.setup.empty()) phrases.push_back({", " + group.setup});
-  if (const std::string count = group.count_text(); !count.empty())
-    phrases.push_back({", " + count});
-  phrases.push_back({fmt::format(", since nightly run {}", commits.since.number)});
-  if (!commits.since.started_utc.empty())
-    phrases.push_back({" (" + local_time(commits.since) + ")"});
-  if (commits.has_commits()) {
-    phrases.push_back({", commits "});
-    phrases.push_back(links.commits(commits));
-  } else if (!commits.since.commit.empty() && commits.since.commit == commits.before.commit) {
-    phrases.push_back({", commit "});
-    phrases.push_back(links.commit(commits.since));
-    phrases.push_back({" as before it"});
-  }
-  phrases.push_back({". "});
-  for (Phrase& phrase : ways(std::move(to), std::nullopt).phrases)
-    phrases.push_back(std::move(phrase));
-  if (group.known) {
-    phrases.push_back({" Known: "});
-    phrases.push_back({group.known->text, Emphasis::kData});
-  }
-  return block;
-}
-
 /// "7.1 7.2": the findings of a group as commands name them.
 std::string keys_of(const FindingGroup& group, int nightly_run) {
   std::string keys;
   for (const int number : group.numbers)
     keys += fmt::format("{}{}.{}", keys.empty() ? "" : " ", nightly_run, number);
   return keys;
-}
-
-/// Those of its groups of findings that a page shows.
-std::span<const FindingGroup> shown_groups(std::span<const FindingGroup> groups) {
-  return groups.first(std::min(groups.size(), kMostGroups));
-}
-
-/// That others are with the findings of the trends; nothing if there are none.
-void add_rest(std::size_t groups, Section& section) {
-  if (groups > kMostGroups)
-    section.blocks.emplace_back(Paragraph{
-        {{fmt::format("And {} more, among the findings of the trends.", groups - kMostGroups)}}});
 }
 
 bool is_on(const NightlyNote& note, const FindingGroup& group) {
@@ -345,28 +182,6 @@ Section lost_section(const LostNightlyRuns& lost, NightlyLinks& links) {
   return {"lost", "Nightly runs of a damaged history", {std::move(list)}};
 }
 
-Cell commit_cell(const NightlyFacts& nightly_run, NightlyLinks& links) {
-  if (nightly_run.commit.empty()) return MissingCell{};
-  const Phrase commit = links.commit(nightly_run);
-  return TextCell{commit.text, commit.emphasis};
-}
-
-/// "accepted: better maps; 2 known: broken sensor".
-Cell notes_cell(int nightly_run, std::span<const NightlyNote> notes) {
-  std::map<std::pair<NoteKind, std::string>, int> said;
-  for (const NightlyNote& note : notes_on(nightly_run, notes)) ++said[{note.kind, note.text}];
-  std::string all;
-  for (const auto& [what, count] : said) {
-    const auto& [kind, words] = what;
-    if (!all.empty()) all += "; ";
-    if (kind == NoteKind::kKnown) all += fmt::format("{} known: ", count);
-    if (kind == NoteKind::kAccepted) all += "accepted: ";
-    all += words;
-  }
-  if (all.empty()) return MissingCell{};
-  return TextCell{all, Emphasis::kData};
-}
-
 }  // namespace
 
 NightlySummary last_summary(const IndexFacts& facts) {
@@ -380,92 +195,6 @@ NightlySummary last_summary(const IndexFacts& facts) {
   summary.notes = notes_on(summary.facts.number, facts.notes);
   summary.all_notes = facts.notes;
   return summary;
-}
-
-Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
-  Table table{
-      .id = "nightly-runs",
-      .caption = "Every nightly run, the last one first.",
-      .columns = {{"Run", "", "", "Its number: the order of nightly runs, whatever clocks say"},
-                  {"Started", "", "", "By the clock of the place where it ran"},
-                  {"Commit", "", "", "Of what was under test"},
-                  {"Verdict", "", "", "Without findings that are known"},
-                  {"Findings", "", "", "How many"},
-                  {"Compared with", "", "", "The nightly run it was compared with"},
-                  {"Host", "", "", "The machine; seconds are compared between runs on one machine"},
-                  {"Report", "", "",
-                   "The report of that nightly run; its folder if there are several"},
-                  {"Note", "", "", "What was noted on it"}},
-      .rows = {},
-      .notes = {}};
-  for (const NightlyFacts& nightly_run : facts.nightly_runs | std::views::reverse) {
-    const auto found = found_on(nightly_run.number, facts.findings);
-    const NightlyVerdict verdict = verdict_of(new_findings(found, facts.notes));
-    const auto made = facts.studies.find(nightly_run.number);
-    const Phrase place = made != facts.studies.end() && made->second.size() == 1
-                             ? links.report(nightly_run.number, made->second.front())
-                             : links.folder(nightly_run.number);
-    // What got worse is marked by weight as well, not by its text alone.
-    const Emphasis weight =
-        verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
-    const Cell against =
-        nightly_run.reference ? Cell{number(*nightly_run.reference, 0)} : Cell{MissingCell{}};
-    table.rows.push_back(
-        {{number(nightly_run.number, 0), text(local_time(nightly_run)),
-          commit_cell(nightly_run, links),
-          TextCell{words_of(nightly_run, verdict) + (nightly_run.pinned ? ", reference" : ""),
-                   weight},
-          number(static_cast<double>(found.size()), 0), against,
-          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis},
-          notes_cell(nightly_run.number, facts.notes)},
-         fmt::format("nightly run {}", nightly_run.number)});
-  }
-  return table;
-}
-
-Table findings_table(const NightlyFindings& findings, const std::string& study) {
-  Table table{.id = "findings",
-              .caption = "What got worse, the last nightly run first.",
-              .columns = {{"Run", "", "", ""},
-                          {"Since", "", "",
-                           "The nightly run in which it began, as far as can be determined"},
-                          {"Rule", "", "", "The rule that found it"},
-                          {"Finding", "", "", ""}},
-              .rows = {},
-              .notes = {}};
-  for (const auto& [nightly_run, of_nightly_run] : findings | std::views::reverse)
-    for (const NightlyFinding& finding : of_nightly_run)
-      if (finding.study == study)
-        table.rows.push_back({{number(nightly_run, 0), number(finding.since, 0),
-                               text(std::string(name(finding.rule))), text(finding.sentence)},
-                              fmt::format("nightly run {}", nightly_run)});
-  return table;
-}
-
-Table accuracy_table(const StudyTrend& trend) {
-  const std::vector<SeriesId> shown = last_steps(trend);
-  const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
-  Table table{.id = "accuracy-now",
-              .caption = has_steps ? "Medians over the runs at the last step of each method."
-                                   : "Medians over the runs.",
-              .columns = {{"Method", "", "", ""},
-                          {"Quantity", "", "", ""},
-                          {"Unit", "", "", ""},
-                          {"First", "", "", "The first of the nightly runs shown"},
-                          {"Before", "", "", "The nightly run before the last"},
-                          {"Last", "", "", "The last nightly run"}},
-              .rows = {},
-              .notes = {}};
-  for (const SeriesId& id : shown) {
-    const Quantity& quantity = trend.quantities.at(id.quantity);
-    const std::vector<double>& values = trend.medians.at(id);
-    const double before = values.size() > 1 ? values[values.size() - 2] : kNaN;
-    table.rows.push_back(
-        {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
-          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
-         "medians over runs"});
-  }
-  return table;
 }
 
 /// The first figure is that of the first screen, others are small ones.
@@ -605,96 +334,6 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
-}
-
-namespace {
-
-/// What got worse of a study, at the head of its report.
-Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
-  Section section{"worse", "What got worse", {}};
-  std::size_t count = 0;
-  for (const FindingGroup& group : study.groups) {
-    if (group.study != study.name || ++count > kMostGroups) continue;
-    std::vector<Phrase> to;
-    const int before = group.commits.before.number, since = group.commits.since.number;
-    if (study.comparisons.contains(comparison_file(before, since, group.study)))
-      to.push_back(links.comparison(before, since, group.study));
-    to.push_back(links.trends(group.study));
-    section.blocks.emplace_back(finding_block(group, std::move(to), links));
-  }
-  add_rest(count, section);
-  return section;
-}
-
-/// Puts what got worse before everything else: its section, then in each study of the report the
-/// sections that show it.
-void put_regressed_first(Report& report, Section worse) {
-  std::vector<Section>& sections = report.sections;
-  for (auto begin = sections.begin(); begin != sections.end();) {
-    const auto end = std::find_if(begin, sections.end(), [&](const Section& section) {
-      return section.group != begin->group;
-    });
-    std::stable_partition(begin, end, shows_regression);
-    begin = end;
-  }
-  if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
-}
-
-/// Makes a figure of what got worse, of the first finding if one shows it, the one of the first
-/// screen; the one that was is a small one.
-void show_regressed(Report& report, std::span<const FindingGroup> groups) {
-  Opening& opening = report.opening;
-  const auto all = figures(report);
-  std::string first = groups.empty() ? "" : groups.front().headline();
-  const auto is_worse = [&](const FigureBlock* figure) {
-    return !figure->regressed.empty() && figure->regressed.find(first) != std::string::npos;
-  };
-  if (std::ranges::none_of(all, is_worse)) first.clear();  // Then any that got worse.
-  const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
-  const auto worse = std::ranges::find_if(all, is_worse);
-  if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;
-  std::erase(opening.figure_ids, (*worse)->id);
-  if (!opening.main_figure.empty())
-    opening.figure_ids.insert(opening.figure_ids.begin(), opening.main_figure);
-  opening.main_figure = (*worse)->id;
-  if (opening.figure_ids.size() > kMostSmall) opening.figure_ids.resize(kMostSmall);
-}
-
-}  // namespace
-
-void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links) {
-  const NightlyRun& nightly_run = study.nightly_run;
-  const LostNightlyRuns& lost = study.lost;
-  Opening& opening = report.opening;
-  report.subtitle +=
-      fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
-  opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
-  mark_regressed(report, study.figures, study.groups, study.name);
-  show_regressed(report, study.groups);
-  put_regressed_first(report, worse_of_study(study, links));
-  std::optional<Phrase> reference;
-  if (study.is_compared && nightly_run.facts.reference)
-    reference = links.report(*nightly_run.facts.reference, study.name);
-  std::vector<Paragraph> head = {ways({links.index(), links.trends(study.name)}, reference)};
-  if (!lost.kept_as.empty()) {
-    opening.standing->worse = true;
-    opening.standing->sentences.push_back(
-        fmt::format("The history was damaged. It is kept as {}, and a new one begins with this "
-                    "nightly run: there is none before it to compare with.",
-                    lost.kept_as.back()));
-    std::vector<Phrase> reports;
-    for (const auto& [number, studies] : lost.reports)
-      if (std::ranges::find(studies, study.name) != studies.end())
-        reports.push_back(links.report(number, study.name));
-    if (reports.size() > kMostLinked)
-      reports.erase(reports.begin(), reports.end() - static_cast<long>(kMostLinked));
-    if (!reports.empty()) {
-      head.push_back(ways(std::move(reports), std::nullopt));
-      head.back().phrases.front().text = "Reports from before that are still there: ";
-    }
-  }
-  opening.findings.insert(opening.findings.begin(), std::make_move_iterator(head.begin()),
-                          std::make_move_iterator(head.end()));
 }
 
 }  // namespace mapproof

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/records/studies/results_study_json.hpp"
-#include "reports/history/history_pages.hpp"
+#include "reports/history/history_tables.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -10,6 +10,8 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/history_tables.hpp"
+#include "reports/history/nightly_report.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/shown_names.hpp"
 #include "tests/reports/history/sample_nightly_runs.hpp"

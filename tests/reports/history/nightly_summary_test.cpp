@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reports/history/history_pages.hpp"
+#include "reports/history/nightly_report.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/study_course.hpp"
 

@@ -1,0 +1,212 @@
+#include "reports/history/history_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <ranges>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
+#include "reports/history/accuracy_rule.hpp"
+#include "reports/history/shown_names.hpp"
+#include "reports/history/study_course.hpp"
+
+namespace mapproof {
+namespace {
+
+TextCell text(std::string words) { return {std::move(words), Emphasis::kPlain}; }
+
+Cell number(double value, int decimals) {
+  if (!std::isfinite(value)) return MissingCell{};
+  return NumberCell{value, decimals};
+}
+
+/// @param verdict  Without the findings that are known.
+std::string words_of(const NightlyFacts& nightly_run, NightlyVerdict verdict) {
+  switch (verdict) {
+    case NightlyVerdict::kPassed:
+      return nightly_run.verdict == NightlyVerdict::kPassed ? std::string(verdict_word(nightly_run))
+                                                            : "nothing new";
+    case NightlyVerdict::kCost:
+      return "slower or larger";
+    default:
+      return "accuracy worse";
+  }
+}
+
+/// The last step of each method, of what is an error or shown.
+std::vector<SeriesId> last_steps(const StudyTrend& trend) {
+  std::vector<SeriesId> last;
+  for (const auto& [id, values] : trend.medians) {
+    const NightlyRule rule = rule_of(id, trend.quantities, trend.medians);
+    if (!is_accuracy(rule) && rule != NightlyRule::kShown) continue;
+    const auto later = std::ranges::find_if(last, [&](const SeriesId& other) {
+      return method_of(other) == method_of(id) && other.quantity == id.quantity;
+    });
+    if (later == last.end())
+      last.push_back(id);
+    else
+      *later = id;
+  }
+  return last;
+}
+
+/// A course as a cell of a table, and its curve.
+/// @param without  What the cell says where there is no course.
+void add_course(const std::optional<Course>& course, const std::string& without, Row& row) {
+  row.cells.emplace_back(text(course ? course->words : without));
+  if (!course || course->curve.changes.empty()) return;
+  row.curves.push_back(course->curve);
+  row.curves.back().cell = row.cells.size() - 1;
+}
+
+Cell commit_cell(const NightlyFacts& nightly_run, NightlyLinks& links) {
+  if (nightly_run.commit.empty()) return MissingCell{};
+  const Phrase commit = links.commit(nightly_run);
+  return TextCell{commit.text, commit.emphasis};
+}
+
+/// "accepted: better maps; 2 known: broken sensor".
+Cell notes_cell(int nightly_run, std::span<const NightlyNote> notes) {
+  std::map<std::pair<NoteKind, std::string>, int> said;
+  for (const NightlyNote& note : notes_on(nightly_run, notes)) ++said[{note.kind, note.text}];
+  std::string all;
+  for (const auto& [what, count] : said) {
+    const auto& [kind, words] = what;
+    if (!all.empty()) all += "; ";
+    if (kind == NoteKind::kKnown) all += fmt::format("{} known: ", count);
+    if (kind == NoteKind::kAccepted) all += "accepted: ";
+    all += words;
+  }
+  if (all.empty()) return MissingCell{};
+  return TextCell{all, Emphasis::kData};
+}
+
+}  // namespace
+
+Table studies_table(const IndexFacts& facts, NightlyLinks& links) {
+  const NightlyFacts& this_run = facts.nightly_runs.back();
+  Table table{
+      .id = "studies",
+      .caption = "Change of each study over its nightly runs.",
+      .columns = {{"Study", "", "", ""},
+                  {"Worse", "", "",
+                   "The greatest change for the worse against the reference run, or the one "
+                   "before what got worse; red where it is a finding, grey where it is none"},
+                  {"Better", "", "",
+                   "The greatest change for the better of 1 % or half a point at least; it "
+                   "is not tested"},
+                  {"Trends", "", "", ""},
+                  {"Report", "", "", ""}},
+      .rows = {},
+      .notes = {}};
+  for (const StudyTrend& trend : facts.trends) {
+    const Phrase report = links.report(this_run.number, trend.name);
+    const Phrase trends = links.trends(trend.name);
+    Row row{{text(trend.name)},
+            fmt::format("{} to {}", counted(std::ssize(trend.nightly_runs), "nightly run"),
+                        this_run.number)};
+    const std::string without = trend.nightly_runs.size() < 2 ? "not compared" : "none";
+    add_course(worst_course(trend, facts.findings, facts.notes), without, row);
+    add_course(best_course(trend, facts.findings), without, row);
+    row.cells.emplace_back(TextCell{trends.text, trends.emphasis});
+    row.cells.emplace_back(TextCell{report.text, report.emphasis});
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links) {
+  Table table{
+      .id = "nightly-runs",
+      .caption = "Every nightly run, the last one first.",
+      .columns = {{"Run", "", "", "Its number: the order of nightly runs, whatever clocks say"},
+                  {"Started", "", "", "By the clock of the place where it ran"},
+                  {"Commit", "", "", "Of what was under test"},
+                  {"Verdict", "", "", "Without findings that are known"},
+                  {"Findings", "", "", "How many"},
+                  {"Compared with", "", "", "The nightly run it was compared with"},
+                  {"Host", "", "", "The machine; seconds are compared between runs on one machine"},
+                  {"Report", "", "",
+                   "The report of that nightly run; its folder if there are several"},
+                  {"Note", "", "", "What was noted on it"}},
+      .rows = {},
+      .notes = {}};
+  for (const NightlyFacts& nightly_run : facts.nightly_runs | std::views::reverse) {
+    const auto found = found_on(nightly_run.number, facts.findings);
+    const NightlyVerdict verdict = verdict_of(new_findings(found, facts.notes));
+    const auto made = facts.studies.find(nightly_run.number);
+    const Phrase place = made != facts.studies.end() && made->second.size() == 1
+                             ? links.report(nightly_run.number, made->second.front())
+                             : links.folder(nightly_run.number);
+    // What got worse is marked by weight as well, not by its text alone.
+    const Emphasis weight =
+        verdict == NightlyVerdict::kPassed ? Emphasis::kPlain : Emphasis::kStrong;
+    const Cell against =
+        nightly_run.reference ? Cell{number(*nightly_run.reference, 0)} : Cell{MissingCell{}};
+    table.rows.push_back(
+        {{number(nightly_run.number, 0), text(local_time(nightly_run)),
+          commit_cell(nightly_run, links),
+          TextCell{words_of(nightly_run, verdict) + (nightly_run.pinned ? ", reference" : ""),
+                   weight},
+          number(static_cast<double>(found.size()), 0), against,
+          TextCell{nightly_run.host, Emphasis::kData}, TextCell{place.text, place.emphasis},
+          notes_cell(nightly_run.number, facts.notes)},
+         fmt::format("nightly run {}", nightly_run.number)});
+  }
+  return table;
+}
+
+Table findings_table(const NightlyFindings& findings, const std::string& study) {
+  Table table{.id = "findings",
+              .caption = "What got worse, the last nightly run first.",
+              .columns = {{"Run", "", "", ""},
+                          {"Since", "", "",
+                           "The nightly run in which it began, as far as can be determined"},
+                          {"Rule", "", "", "The rule that found it"},
+                          {"Finding", "", "", ""}},
+              .rows = {},
+              .notes = {}};
+  for (const auto& [nightly_run, of_nightly_run] : findings | std::views::reverse)
+    for (const NightlyFinding& finding : of_nightly_run)
+      if (finding.study == study)
+        table.rows.push_back({{number(nightly_run, 0), number(finding.since, 0),
+                               text(std::string(name(finding.rule))), text(finding.sentence)},
+                              fmt::format("nightly run {}", nightly_run)});
+  return table;
+}
+
+Table accuracy_table(const StudyTrend& trend) {
+  const std::vector<SeriesId> shown = last_steps(trend);
+  const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
+  Table table{.id = "accuracy-now",
+              .caption = has_steps ? "Medians over the runs at the last step of each method."
+                                   : "Medians over the runs.",
+              .columns = {{"Method", "", "", ""},
+                          {"Quantity", "", "", ""},
+                          {"Unit", "", "", ""},
+                          {"First", "", "", "The first of the nightly runs shown"},
+                          {"Before", "", "", "The nightly run before the last"},
+                          {"Last", "", "", "The last nightly run"}},
+              .rows = {},
+              .notes = {}};
+  for (const SeriesId& id : shown) {
+    const Quantity& quantity = trend.quantities.at(id.quantity);
+    const std::vector<double>& values = trend.medians.at(id);
+    const double before = values.size() > 1 ? values[values.size() - 2] : kNaN;
+    table.rows.push_back(
+        {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
+          number(values.front(), 4), number(before, 4), number(values.back(), 4)},
+         "medians over runs"});
+  }
+  return table;
+}
+
+}  // namespace mapproof

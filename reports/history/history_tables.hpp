@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "reports/history/index_facts.hpp"
+#include "reports/history/nightly_links.hpp"
+#include "reports/history/trend_figures.hpp"
+#include "reports/model/report.hpp"
+
+namespace mapproof {
+
+/// One row per study of the last nightly run, with what changed over its nightly runs.
+Table studies_table(const IndexFacts& facts, NightlyLinks& links);
+
+/// One row per nightly run, the last one first.
+Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links);
+
+/// One row per finding of those nightly runs, the last nightly run first.
+Table findings_table(const NightlyFindings& findings, const std::string& study);
+
+/// The values of each method in the last nightly run, in the one before and in the first.
+Table accuracy_table(const StudyTrend& trend);
+
+}  // namespace mapproof
