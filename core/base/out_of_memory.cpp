@@ -63,10 +63,10 @@ double of_control_groups() {
 
 }  // namespace
 
-OutOfMemory::OutOfMemory(const std::string& path) noexcept {
+OutOfMemory::OutOfMemory(const std::string& path, const char* remark) noexcept {
   std::string words = kOutOfMemory;
   try {
-    words += ": " + printable(path, words_.size() / 2);
+    words += ": " + printable(path, words_.size() / 2) + remark;
   } catch (const std::bad_alloc&) {
     words = kOutOfMemory;  // Without the path.
   }

@@ -9,10 +9,10 @@ namespace mapproof {
 /// The message of std::bad_alloc, also of mapproof-scenes and mapproof-animation to mapproof.
 inline constexpr const char* kOutOfMemory = "out of memory";
 
-/// Memory ran out while a file was drawn: "out of memory: <path>".
+/// Memory ran out while a file was read or drawn: "out of memory: <path><remark>".
 class OutOfMemory : public std::bad_alloc {
  public:
-  explicit OutOfMemory(const std::string& path) noexcept;
+  explicit OutOfMemory(const std::string& path, const char* remark = "") noexcept;
   const char* what() const noexcept override { return words_.data(); }
 
  private:

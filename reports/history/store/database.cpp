@@ -10,6 +10,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/paths.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/out_of_memory.hpp"
 
 namespace mapproof {
 namespace {
@@ -172,7 +173,8 @@ std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handl
 void Database::fail() const {
   if (handle_ == nullptr) throw std::bad_alloc();
   const int code = sqlite3_extended_errcode(handle_);
-  if (is_out_of_memory(code)) throw std::bad_alloc();
+  if (is_out_of_memory(code))
+    throw OutOfMemory(path_.string(), "; SQLite says so of some damaged files, too");
   if (is_full(code))
     throw IoError(path_.string(), "cannot be written: the disk is full; what it held is untouched");
   if ((code & 0xFF) == SQLITE_BUSY) throw IoError(path_.string(), "is in use by another process");

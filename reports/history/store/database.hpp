@@ -71,7 +71,8 @@ class Database {
   /// file between two nightly runs, on any file system, and a nightly run is a single transaction.
   /// @throws DamagedFile if it is not a database or not a whole one; IoError if it cannot be
   /// opened;
-  ///         std::bad_alloc, as all below do, if SQLite ran out of memory.
+  ///         OutOfMemory, as all below do, if SQLite ran out of memory, or says so of a damaged
+  ///         file.
   Database(const std::filesystem::path& path, Access access);
   ~Database();
   Database(const Database&) = delete;
