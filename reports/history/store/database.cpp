@@ -18,6 +18,8 @@ namespace {
 constexpr int kBusyMilliseconds = 10'000;
 /// Bytes of a text, or of a row: a command line has at most 2 MiB on Linux.
 constexpr int kLongestValue = 1 << 22;
+/// Bytes that SQLite may take, of which it needs 2 MiB: a damaged file of 2 kB may ask for 2 GB.
+constexpr sqlite3_int64 kMostMemory = 64 << 20;
 
 /// SQLite reports a write that fails for want of room as either.
 bool is_full(int code) {
@@ -128,6 +130,7 @@ bool Statement::is_null(int column) const {
 
 Database::Database(const std::filesystem::path& path, Access access) : path_(path) {
   const std::string real = unlinked_path(path);
+  sqlite3_hard_heap_limit64(kMostMemory);
   const int flags = SQLITE_OPEN_NOFOLLOW | SQLITE_OPEN_READWRITE |
                     (access == Access::kCreate ? SQLITE_OPEN_CREATE : 0);
   // A reader opens for writing too, where it may: a killed writer's journal has to be rolled back.

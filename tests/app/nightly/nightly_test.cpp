@@ -287,6 +287,22 @@ TEST(Nightly, RefusesADamagedHistoryUntilAPersonSetsItAside) {
   }
 }
 
+/// A record of its schema says that it is larger than memory, which SQLite calls out of memory.
+TEST(Nightly, NamesAHistoryThatSqliteHasNoMemoryFor) {
+  const TemporaryFolder folder;
+  const fs::path store = folder / "history", file = store / "history.sqlite";
+  ASSERT_EQ(nightly_run(store).exit_code, 0);
+  fs::copy_file(fs::path(MAPPROOF_TEST_DATA) / "../fuzz/corpus/history/record-beyond-memory", file,
+                fs::copy_options::overwrite_existing);
+  const auto before = contents(store);
+  for (const Outcome& outcome : {mapproof({"history", store}), nightly_run(store)}) {
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.out;
+    EXPECT_EQ(outcome.error, "mapproof: out of memory: " + file.string() +
+                                 "; SQLite says so of some damaged files, too\n");
+  }
+  EXPECT_EQ(contents(store), before);
+}
+
 TEST(Nightly, KilledAtAnyTimeLosesNoFinishedNightlyRun) {
   const TemporaryFolder folder;
   const fs::path store = folder / "history";

@@ -4,8 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
+#include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "core/base/out_of_memory.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
 #include "tests/fuzz/properties.hpp"
@@ -51,6 +54,18 @@ void read_all(HistoryStore store) {
   export_history_json(store, ignore);
 }
 
+/// As read_all. SQLite says that it is out of memory where a record says that it is larger.
+void read_or_name(HistoryStore (*open)(const fs::path&), const fs::path& folder) {
+  try {
+    read_all(open(folder));
+  } catch (const OutOfMemory& error) {
+    const std::string file = history_file(folder).string();
+    if (std::string_view(error.what()).find(file) == std::string_view::npos)
+      found("what SQLite has no memory for is named", error.what());
+    throw IoError(file, error.what());
+  }
+}
+
 /// A store that is read stays as it is; one that is opened to be written to is migrated or refused.
 void read_history(std::string_view bytes) {
   static const Folder folder;
@@ -58,13 +73,13 @@ void read_history(std::string_view bytes) {
   for (const auto& entry : fs::directory_iterator(folder.path)) fs::remove_all(entry.path());
   write_file(file, bytes);
   try {
-    read_all(HistoryStore::open_existing(folder.path));
+    read_or_name(HistoryStore::open_existing, folder.path);
   } catch (const IoError&) {
     expect_equal("a store that is refused stays as it is", read_file(file), bytes);
   }
-  read_all(HistoryStore::open(folder.path));
+  read_or_name(HistoryStore::open, folder.path);
 }
-const Added kHistory({.name = "history", .run = read_history});
+const Added kHistory({.name = "history", .run = read_history, .memory = std::size_t{96} << 20});
 
 }  // namespace
 }  // namespace mapproof::fuzz
