@@ -11,6 +11,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_report.hpp"
+#include "reports/sections/results/topic_records.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
 namespace mapproof {

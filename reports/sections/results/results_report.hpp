@@ -1,12 +1,9 @@
 #pragma once
 
 #include <map>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "core/model/topic_study.hpp"
 #include "reports/model/report.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_figures.hpp"
@@ -45,20 +42,5 @@ Report results_report(const ResultsReportInput& input);
 
 /// Its sections alone, for a report with others: ids begin with the study's name.
 std::vector<Section> results_sections(const ResultsReportInput& input);
-
-/// The maps of the study of a topic, and the distances of the pairs that they were made of.
-/// @param prefix  Begins the ids: "missing" gives "missing-map-ID", "missing-pairs-ID".
-FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
-
-/// Seconds of each series on each data set; empty for a simulated study, or without any.
-std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix);
-
-/// "2 of 5 runs are done; ..."; empty if all are.
-std::string topic_incomplete(const TopicStudy& study);
-
-/// What was asked for, and what made it.
-/// @param command  The one that makes the study and its report again.
-std::vector<Block> topic_provenance(const TopicStudy& study, std::span<const Session> sessions,
-                                    const std::string& command, const std::string& prefix);
 
 }  // namespace mapproof

@@ -2,7 +2,7 @@
 
 #include "core/topics/topics.hpp"
 #include "core/topics/uncertainty.hpp"
-#include "reports/sections/results/results_report.hpp"
+#include "reports/sections/results/topic_records.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 #include "tests/reports/topics/simulated_part.hpp"
 
