@@ -179,8 +179,7 @@ Legend::Legend(const Panel& panel, const Theme& theme, double most_width_pt, boo
       continue;
     }
     entries_.push_back({lines_of(label_in(theme, label), most_text, theme), label, {&layer}});
-    for (const ShapedText& line : entries_.back().lines)
-      entry_width_ = std::max(entry_width_, (lead + line.advance) * em);
+    entry_width_ = std::max(entry_width_, width_of(entries_.back()));
   }
   // What stands for points comes before what stands for lines between them.
   std::ranges::stable_partition(entries_, [](const LegendEntry& entry) {
@@ -204,35 +203,66 @@ void Legend::order_by_ends(const std::vector<LineEnd>& ends) {
   for (std::size_t i = 0; i < lines.size(); ++i) entries_[indices[i]] = std::move(lines[i]);
 }
 
-std::vector<double> Legend::row_heights(std::size_t columns) const {
+double Legend::width_of(const LegendEntry& entry) const {
+  double widest = 0.0;
+  for (const ShapedText& line : entry.lines) widest = std::max(widest, line.advance);
+  return sample_width_ + (kSampleGap + widest) * theme_.font_pt;
+}
+
+double Legend::height_of(const LegendEntry& entry) const {
+  return row_height_ + static_cast<double>(entry.lines.size() - 1) * kLineHeight * theme_.font_pt;
+}
+
+LegendArrangement Legend::in_columns(std::size_t columns) const {
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
+  const double gap = kColumnGap * theme_.font_pt;
   std::vector<double> heights(rows, row_height_);
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const auto further = static_cast<double>(entries_[i].lines.size() - 1);
-    heights[i % rows] =
-        std::max(heights[i % rows], row_height_ + further * kLineHeight * theme_.font_pt);
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    heights[i % rows] = std::max(heights[i % rows], height_of(entries_[i]));
+  LegendArrangement found;
+  const auto count = static_cast<double>(columns);
+  found.size.x = count * entry_width_ + (count - 1.0) * gap;
+  std::vector<double> tops;
+  for (const double height : heights) {
+    tops.push_back(found.size.y);
+    found.size.y += height;
   }
-  return heights;
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    found.at.push_back({static_cast<double>(i / rows) * (entry_width_ + gap), tops[i % rows]});
+  return found;
 }
 
-Point Legend::size(std::size_t columns) const {
-  const double gaps = static_cast<double>(columns - 1) * kColumnGap * theme_.font_pt;
-  const std::vector<double> heights = row_heights(columns);
-  return {static_cast<double>(columns) * entry_width_ + gaps,
-          std::accumulate(heights.begin(), heights.end(), 0.0)};
+LegendArrangement Legend::in_rows(double width) const {
+  LegendArrangement found;
+  double x = 0.0, height = 0.0;
+  for (const LegendEntry& entry : entries_) {
+    if (x > 0.0 && x + width_of(entry) > width) {
+      found.size.y += height;
+      x = height = 0.0;
+    }
+    found.at.push_back({x, found.size.y});
+    found.size.x = std::max(found.size.x, x + width_of(entry));
+    height = std::max(height, height_of(entry));
+    x += width_of(entry) + kColumnGap * theme_.font_pt;
+  }
+  found.size.y += height;
+  return found;
 }
 
-std::size_t Legend::columns_within(double width) const {
+LegendArrangement Legend::within(double width) const {
   std::size_t columns = std::max<std::size_t>(entries_.size(), 1);
-  while (columns > 1 && size(columns).x > width) --columns;
+  while (columns > 1 && in_columns(columns).size.x > width) --columns;
   // As few columns as the same number of rows allows.
   const std::size_t rows = (entries_.size() + columns - 1) / columns;
   while (columns > 1 && (entries_.size() + columns - 2) / (columns - 1) == rows) --columns;
-  return columns;
+  LegendArrangement found = in_columns(columns);
+  if (theme_.draws_title) return found;
+  LegendArrangement rowwise = in_rows(width);
+  return rowwise.size.y < found.size.y ? std::move(rowwise) : std::move(found);
 }
 
 std::optional<Box> Legend::free_place(const Box& frame, const Obstacles& data) const {
-  const Point extent = size(1);
+  const Point extent = in_one_column().size;
   const double gap = theme_.space_pt;
   const Box room = frame.grown(-gap);
   if (extent.x > 0.8 * room.width() || extent.y > 0.8 * room.height()) return std::nullopt;
@@ -255,15 +285,12 @@ void Legend::draw_box(const Box& position, std::size_t panel_index, Drawing& dra
   drawing.add(ItemClass::kLegendBox, panel_index, std::move(box));
 }
 
-void Legend::draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const {
+void Legend::draw(Point at, const LegendArrangement& arrangement, std::size_t panel_index,
+                  Drawing& drawing) const {
   const double em = theme_.font_pt;
-  const std::vector<double> heights = row_heights(columns);
-  double y = at.y;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const LegendEntry& entry = entries_[i];
-    const std::size_t column = i / heights.size(), row = i % heights.size();
-    const double x = at.x + static_cast<double>(column) * (entry_width_ + kColumnGap * em);
-    y = row == 0 ? at.y : y + heights[row - 1];
+    const double x = at.x + arrangement.at[i].x, y = at.y + arrangement.at[i].y;
     const double half = (row_height_ - 0.25 * em) / 2.0;
     const double middle = y + row_height_ / 2.0;
     draw_sample(entry, {x, middle - half, x + sample_width_, middle + half}, panel_index, drawing);

@@ -17,6 +17,12 @@ struct LegendEntry {
   bool in_colours = false;  ///< It stands for points of several colours: its sample is grey.
 };
 
+/// Where the entries of a legend stand, from its upper left corner.
+struct LegendArrangement {
+  std::vector<Point> at;  ///< The upper left corner of each entry.
+  Point size;             ///< Width and height of all.
+};
+
 /// A panel's legend before it has a position.
 class Legend {
  public:
@@ -29,20 +35,25 @@ class Legend {
   void order_by_ends(const std::vector<LineEnd>& ends);
 
   bool empty() const { return entries_.empty(); }
-  /// Width and height of the legend in so many columns.
-  Point size(std::size_t columns) const;
-  /// The most columns that are not wider than `width`; at least 1.
-  std::size_t columns_within(double width) const;
+  /// One entry below the other.
+  LegendArrangement in_one_column() const { return in_columns(1); }
+  /// In as few rows as a width allows: in columns of equal width, at least one; on paper also one
+  /// entry after the other, if that takes fewer rows.
+  LegendArrangement within(double width) const;
   /// A corner or edge inside `frame` where no data is covered; the corners first. Empty if all are.
   std::optional<Box> free_place(const Box& frame, const Obstacles& data) const;
   /// Hides the grid behind a legend inside the frame, and separates it from the data by a border.
   void draw_box(const Box& position, std::size_t panel_index, Drawing& drawing) const;
   /// @param at  The upper left corner.
-  void draw(Point at, std::size_t columns, std::size_t panel_index, Drawing& drawing) const;
+  void draw(Point at, const LegendArrangement& arrangement, std::size_t panel_index,
+            Drawing& drawing) const;
 
  private:
-  /// Of the highest entry of each row.
-  std::vector<double> row_heights(std::size_t columns) const;
+  double width_of(const LegendEntry& entry) const;
+  double height_of(const LegendEntry& entry) const;
+  LegendArrangement in_columns(std::size_t columns) const;
+  /// One entry after the other in rows of at most this width.
+  LegendArrangement in_rows(double width) const;
   void draw_sample(const LegendEntry& entry, const Box& position, std::size_t panel_index,
                    Drawing& drawing) const;
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "core/base/not_finite.hpp"
 #include "render/plot/layers.hpp"
 #include "render/plot/legend.hpp"
 #include "render/plot/line_ends.hpp"
@@ -68,6 +69,15 @@ std::vector<Panel> with_shared_limits(const Figure& figure) {
   return panels;
 }
 
+bool have_one_x_axis(const std::vector<Panel>& panels) {
+  const Range limits = panel_limits(panels.front()).x;
+  return std::ranges::all_of(panels, [&](const Panel& panel) {
+    const Range own = panel_limits(panel).x;
+    return panel.x.label == panels.front().x.label && own.low == limits.low &&
+           own.high == limits.high;
+  });
+}
+
 class SharedGrid {
  public:
   SharedGrid(const Figure& figure, const Box& room, const Theme& theme, double stretch,
@@ -78,14 +88,15 @@ class SharedGrid {
         stretch_(stretch),
         drawing_(drawing),
         panels_(with_shared_limits(figure)),
-        columns_(columns_within(figure, room.width(), theme)) {
+        columns_(columns_within(figure, room.width(), theme)),
+        has_one_x_label_(figure.shared_x || (columns_ > 1 && have_one_x_axis(panels_))) {
     for (std::size_t p = 0; p < panels_.size(); ++p) {
       const bool lowest = p + columns_ >= panels_.size();
       const bool leftmost = p % columns_ == 0;
       AxisLabels shown;
       shown.x_ticks = !figure.shared_x || lowest;
       shown.y_ticks = !figure.shared_y || leftmost;
-      shown.x_label = !figure.shared_x;
+      shown.x_label = !has_one_x_label_;
       shown.y_label = !figure.shared_y;
       layouts_.emplace_back(panels_[p], theme, shown);
       for (const Layer& layer : panels_[p].layers) all_.layers.push_back(layer);
@@ -105,14 +116,15 @@ class SharedGrid {
     }
     top -= 1.5 * theme_.space_pt;
     const double left = room_.x0 + outer_left_, right = left + grid_width();
-    if (figure_.shared_x && !panels_.front().x.label.empty()) {
-      const ShapedText text = shape_text_within(panels_.front().x.label, room_.width() / em,
-                                                Elide::kEnd, theme_.font.get());
+    if (has_one_x_label_ && !panels_.front().x.label.empty()) {
+      const std::string label = axis_title(panels_.front().x, first_axes().x.ticks);
+      const ShapedText text =
+          shape_text_within(label, room_.width() / em, Elide::kEnd, theme_.font.get());
       const double start = std::max(room_.x0, (left + right - text.advance * em) / 2.0);
       top += 0.5 * em;
       drawing_.add_text(ItemClass::kAxisLabel, 0,
                         {.shaped = text,
-                         .whole = panels_.front().x.label,
+                         .whole = label,
                          .at = {start, top + FontFacts::kAscent * em},
                          .size = em,
                          .colour = theme_.text});
@@ -130,36 +142,66 @@ class SharedGrid {
     for (int pass = 0; pass < 4; ++pass) {
       height_ = frame_height();
       if (panels_.front().equal_aspect) width_ = height_ * aspect();
-      const double right = measure_margins();
+      measure_margins();
       const double gaps = static_cast<double>(columns_ - 1) * inner_left_;
       const double widest =
-          (room_.width() - outer_left_ - right - gaps) / static_cast<double>(columns_);
+          (room_.width() - outer_left_ - right_ - gaps) / static_cast<double>(columns_);
       if (pass < 3 || width_ > widest) width_ = widest;
     }
     height_ = panels_.front().equal_aspect ? width_ / aspect() : frame_height();
+    spread();
   }
 
-  /// What labels need left of the frames. @return What they need right of the last one.
-  double measure_margins() {
-    double first = 0.0, inner = 0.0, right = 0.0;
+  /// Frames that are narrower than their columns stand as far apart as their titles need.
+  void spread() {
+    const auto columns = static_cast<double>(columns_);
+    const double free = room_.width() - outer_left_ - right_ - grid_width();
+    constexpr double kRounding = 0.5;  // In points.
+    if (free > 0.0 && columns_ > 1)
+      inner_left_ +=
+          std::min(free / columns, std::max(0.0, widest_title() + kRounding - title_width()));
+  }
+
+  /// What the longest line of a title needs.
+  double widest_title() const {
+    double widest = 0.0;
+    for (const Panel& panel : panels_)
+      for (const TitleLine& line : title_lines(panel.title, kInfinity, theme_.font.get()))
+        widest = std::max(widest, line.shaped.advance * theme_.font_pt);
+    return widest;
+  }
+
+  /// What it may take: as far as the next column.
+  double title_width() const {
+    return columns_ == 1 ? room_.width() - outer_left_
+                         : std::max(width_, width_ + inner_left_ - 2.0 * theme_.space_pt);
+  }
+
+  /// What labels need left of the frames, and right of the last one.
+  void measure_margins() {
+    double first = 0.0, inner = 0.0;
+    right_ = 0.0;
     for (std::size_t p = 0; p < panels_.size(); ++p) {
       const Margins m = layouts_[p].margins(layouts_[p].in({0.0, 0.0, width_, height_}));
       double& left = p % columns_ == 0 ? first : inner;
       left = std::max(left, m.left);
-      right = std::max(right, m.right);
+      right_ = std::max(right_, m.right);
     }
     outer_left_ = y_label_width() + first;
-    inner_left_ = inner + right + theme_.space_pt;
-    return right;
+    inner_left_ = inner + right_ + theme_.space_pt;
   }
+
+  /// Of the first frame, whose ticks all have where axes are shared.
+  Axes first_axes() const { return layouts_.front().in({0.0, 0.0, width_, height_}); }
+
+  std::string y_title() const { return axis_title(panels_.front().y, first_axes().y.ticks); }
 
   double y_label_width() const {
     if (!figure_.shared_y || panels_.front().y.label.empty()) return 0.0;
     const std::size_t whole_rows = (panels_.size() + columns_ - 1) / columns_;
     const auto rows = static_cast<double>(whole_rows);
     const double em = theme_.font_pt;
-    return 1.5 * em +
-           further_lines(upward_lines(panels_.front().y.label, rows * height_, theme_), em);
+    return 1.5 * em + further_lines(upward_lines(y_title(), rows * height_, theme_), em);
   }
 
   double aspect() const {
@@ -187,9 +229,9 @@ class SharedGrid {
     for (std::size_t p = begin; p < end; ++p)
       if (!panels_[p].title.empty())
         lines = std::max(
-            lines,
-            static_cast<double>(
-                title_lines(panels_[p].title, width_ / theme_.font_pt, theme_.font.get()).size()));
+            lines, static_cast<double>(title_lines(panels_[p].title, title_width() / theme_.font_pt,
+                                                   theme_.font.get())
+                                           .size()));
     return lines * FontFacts::kLine * theme_.font_pt + 0.4 * theme_.tick_font_pt;
   }
 
@@ -201,7 +243,7 @@ class SharedGrid {
     const Axes axes = layouts_[p].in(frame);
     const std::size_t first = p - p % columns_;
     const double title_top = top - title_height(first, std::min(first + columns_, panels_.size()));
-    draw_panel_title(panels_[p], p, {left, title_top, left + width_, top}, theme_, drawing_);
+    draw_panel_title(panels_[p], p, {left, title_top, left + title_width(), top}, theme_, drawing_);
     draw_panel(layouts_[p], p, axes, drawing_);
     const PanelMap map = layouts_[p].map(frame);
     draw_mark_labels(layouts_[p], p, frame, data_obstacles(panels_[p], map, theme_), drawing_);
@@ -211,7 +253,7 @@ class SharedGrid {
   void draw_y_label() {
     const double em = theme_.font_pt;
     const double top = drawing_.frames.front().y0, bottom = drawing_.frames.back().y1;
-    const std::string& label = panels_.front().y.label;
+    const std::string label = y_title();
     double x = room_.x0 + FontFacts::kAscent * em;
     for (const ShapedText& line : upward_lines(label, bottom - top, theme_)) {
       drawing_.add_text(ItemClass::kAxisLabel, 0,
@@ -233,17 +275,16 @@ class SharedGrid {
     if (legend.empty()) return top;
     const double space = 2.0 * theme_.space_pt;
     const Box& last = drawing_.frames.back();
-    const Point single = legend.size(1);
+    const LegendArrangement single = legend.in_one_column();
     const double free_x = last.x1 + space;
-    if (free_x + single.x <= room_.x1 && single.y <= last.height()) {
-      legend.draw({free_x, last.y0}, 1, 0, drawing_);
+    if (free_x + single.size.x <= room_.x1 && single.size.y <= last.height()) {
+      legend.draw({free_x, last.y0}, single, 0, drawing_);
       return top;
     }
-    const std::size_t columns = legend.columns_within(room_.width());
-    const Point size = legend.size(columns);
-    const double x = std::clamp(left, room_.x0, std::max(room_.x0, room_.x1 - size.x));
-    legend.draw({x, top + 0.5 * space}, columns, 0, drawing_);
-    return top + 0.5 * space + size.y;
+    const LegendArrangement arrangement = legend.within(room_.width());
+    const double x = std::clamp(left, room_.x0, std::max(room_.x0, room_.x1 - arrangement.size.x));
+    legend.draw({x, top + 0.5 * space}, arrangement, 0, drawing_);
+    return top + 0.5 * space + arrangement.size.y;
   }
 
   const Figure& figure_;
@@ -253,11 +294,13 @@ class SharedGrid {
   Drawing& drawing_;
   std::vector<Panel> panels_;
   std::size_t columns_;
+  bool has_one_x_label_;
   std::vector<AxesLayout> layouts_;
   Panel all_;                          ///< All layers, for the legend.
   double width_ = 0.0, height_ = 0.0;  ///< Of each frame.
   double outer_left_ = 0.0;            ///< From the room's edge to the first frame.
   double inner_left_ = 0.0;            ///< From a frame to the next one.
+  double right_ = 0.0;                 ///< What labels need right of the last frame.
 };
 
 constexpr double kInGrid = 1.1;       // Height of panels at most, of the theme's;

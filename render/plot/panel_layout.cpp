@@ -146,7 +146,7 @@ constexpr double kLeastBeside = 0.5;  // Of the room's width, for a frame beside
 struct Arrangement {
   Axes axes;
   std::optional<Point> legend_at;
-  std::size_t legend_columns = 1;
+  LegendArrangement legend;
 };
 
 /// Tries the legend inside, where it covers no data, then beside and below the frame, whichever
@@ -170,7 +170,7 @@ class Arranger {
 
  private:
   Arrangement choose(const Box& room) const {
-    Arrangement inside{layout_.within(room), std::nullopt, 1};
+    Arrangement inside{layout_.within(room), std::nullopt, {}};
     if (legend_.empty()) return inside;
     Arrangement right = beside(room);
     if (area(right) >= 0.97 * area(inside)) return right;
@@ -178,6 +178,7 @@ class Arranger {
     if (const auto position = legend_.free_place(inside.axes.frame, data);
         position && !has_image(panel_)) {
       inside.legend_at = Point{position->x0, position->y0};
+      inside.legend = legend_.in_one_column();
       return inside;
     }
     const Arrangement under = below(room);
@@ -188,8 +189,7 @@ class Arranger {
   void centre(Arrangement& found, const Box& room) const {
     Box& frame = found.axes.frame;
     double end = frame.x1 + bar_room(frame);
-    if (found.legend_at)
-      end = std::max(end, found.legend_at->x + legend_.size(found.legend_columns).x);
+    if (found.legend_at) end = std::max(end, found.legend_at->x + found.legend.size.x);
     const double shift = std::max(0.0, (room.x1 - end) / 2.0);
     frame.x0 += shift;
     frame.x1 += shift;
@@ -209,10 +209,11 @@ class Arranger {
 
   Arrangement beside(const Box& room) const {
     const double gap = 2.0 * theme_.space_pt;
-    const Point size = legend_.size(1);
+    LegendArrangement legend = legend_.in_one_column();
+    const Point size = legend.size;
     Box rest = room;
     rest.x1 -= size.x + gap;
-    Arrangement found{layout_.within(rest), std::nullopt, 1};
+    Arrangement found{layout_.within(rest), std::nullopt, std::move(legend)};
     const Box& frame = found.axes.frame;
     found.legend_at = Point{frame.x1 + bar_room(frame) + beside_frame_ + gap, frame.y0};
     const bool is_narrow = !panel_.equal_aspect && frame.width() < kLeastBeside * room.width();
@@ -221,11 +222,11 @@ class Arranger {
   }
 
   Arrangement below(const Box& room) const {
-    const std::size_t columns = legend_.columns_within(0.9 * room.width());
-    const Point size = legend_.size(columns);
+    LegendArrangement legend = legend_.within(0.9 * room.width());
+    const Point size = legend.size;
     Box rest = room;
     rest.y1 -= size.y + theme_.space_pt;
-    Arrangement found{layout_.within(rest), std::nullopt, columns};
+    Arrangement found{layout_.within(rest), std::nullopt, std::move(legend)};
     const Box& frame = found.axes.frame;
     const double left = std::min(frame.x0, room.x1 - size.x);
     found.legend_at = Point{std::max(left, room.x0),
@@ -318,10 +319,10 @@ void lay_out_panel(const Panel& panel, std::size_t panel_index, const Box& cell,
   Obstacles taken = data_obstacles(panel, map, theme);
   if (arrangement.legend_at) {
     const Point at = *arrangement.legend_at;
-    const Point extent = legend.size(arrangement.legend_columns);
+    const Point extent = arrangement.legend.size;
     const Box position{at.x, at.y, at.x + extent.x, at.y + extent.y};
     if (frame.overlaps(position)) legend.draw_box(position, panel_index, drawing);
-    legend.draw(at, arrangement.legend_columns, panel_index, drawing);
+    legend.draw(at, arrangement.legend, panel_index, drawing);
     taken.boxes.push_back(position);
   }
   if (at_ends) ends.draw(frame, panel_index, drawing);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -90,23 +91,82 @@ TEST(PanelGrid, HasALegendOnceOfPanelsWithTheSameNames) {
   EXPECT_EQ(legend_texts("another line"), 2U);
 }
 
+/// Maps of one world.
+Figure wall(std::size_t count, const std::string& title, double height_m) {
+  Figure figure = grid(count, true);
+  for (Panel& panel : figure.panels) {
+    panel.equal_aspect = true;
+    panel.title = title;
+    panel.layers = {Scatter{.label = "landmark", .x = {0.0, 2.0}, .y = {0.0, height_m}}};
+  }
+  return figure;
+}
+
+void expect_two_thirds(const Figure& figure) {
+  const Drawing drawing = lay_out(figure, paper_theme(3.25));
+  double frames = 0.0, end = 0.0;
+  for (const Box& frame : drawing.frames) {
+    frames += std::max(0.0, frame.y1 - std::max(frame.y0, end));
+    end = std::max(end, frame.y1);
+  }
+  EXPECT_GE(frames, 0.65 * drawing.height);
+  EXPECT_LE(drawing.height, 9.5 * 72.0);
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
+}
+
 TEST(PanelGrid, GivesMapsTwoThirdsOfTheHeightOfAPrintedPage) {
   for (const std::size_t count : {2U, 3U, 4U, 10U, 11U}) {
-    Figure figure = grid(count, true);
-    for (Panel& panel : figure.panels) {
-      panel.equal_aspect = true;
-      panel.title += "\nMPE 0.1 m";
-      panel.layers = {Scatter{.label = "landmark", .x = {0.0, 2.0}, .y = {0.0, 1.7}}};
-    }
-    const Drawing drawing = lay_out(figure, paper_theme(3.25));
-    double frames = 0.0, end = 0.0;
-    for (const Box& frame : drawing.frames) {
-      frames += std::max(0.0, frame.y1 - std::max(frame.y0, end));
-      end = std::max(end, frame.y1);
-    }
-    EXPECT_GE(frames, 0.65 * drawing.height) << count;
-    EXPECT_LE(drawing.height, 9.5 * 72.0) << count;
+    SCOPED_TRACE(count);
+    expect_two_thirds(wall(count, "panel\nMPE 0.1 m", 1.7));
   }
+}
+
+TEST(PanelGrid, GivesThemAsMuchBelowLongTitles) {
+  for (const double height_m : {2.2, 2.7, 3.2}) {
+    SCOPED_TRACE(height_m);
+    expect_two_thirds(wall(9, "Range and bearing\nCMDS (not usable)\nMPE 22.7 m", height_m));
+  }
+}
+
+TEST(PanelGrid, SaysOnceWhatEqualAxesShow) {
+  const auto labels_of_x = [](double end) {
+    Figure figure = grid(4, false);
+    figure.shared_y = true;
+    for (Panel& panel : figure.panels)
+      panel.layers = {Polyline{.label = "line", .x = {1e6, end}, .y = {0.0, 1.0}}};
+    std::get<Polyline>(figure.panels[1].layers[0]).x[1] = 5e6;
+    std::vector<std::string> labels;
+    for (const Item& item : lay_out(figure, report_theme()).items)
+      if (const auto* text = std::get_if<TextLine>(&item.what);
+          text != nullptr && item.item_class == ItemClass::kAxisLabel && !text->upward)
+        labels.push_back(text->shaped.text);
+    return labels;
+  };
+  const std::vector<std::string> of_equal = labels_of_x(5e6);
+  ASSERT_EQ(of_equal.size(), 1U);
+  EXPECT_EQ(of_equal[0].substr(0, 2), "x ") << "and the factor of their ticks";
+  EXPECT_EQ(labels_of_x(4e6).size(), 4U);
+}
+
+TEST(PanelGrid, HasTheEntriesOfALegendInFewRowsOnPaper) {
+  Figure figure = grid(1, false);
+  figure.panels[0].layers.clear();
+  Scatter everywhere;  // No legend has room inside the frame.
+  for (int i = 0; i < 100; ++i) {
+    everywhere.x.push_back(i % 10);
+    everywhere.y.push_back(i / 10);
+  }
+  for (const char* label : {"short", "one with a longer name", "tiny", "a third one, longer"}) {
+    everywhere.label = label;
+    figure.panels[0].layers.emplace_back(everywhere);
+  }
+  std::set<double> rows;
+  const Drawing drawing = lay_out(figure, paper_theme(3.25));
+  for (const Item& item : drawing.items)
+    if (item.item_class == ItemClass::kLegendText)
+      rows.insert(std::round(std::get<TextLine>(item.what).at.y));
+  EXPECT_EQ(rows.size(), 2U);
+  for (const std::string& flaw : flaws(drawing)) ADD_FAILURE() << flaw;
 }
 
 TEST(PanelGrid, IsCleanInEveryTheme) {
