@@ -7,7 +7,7 @@ const kMostRead = 100;  // Figures whose curves name the methods: a page may hol
 
 // "SMACOF, kNN weights, K = 5" is a curve of "SMACOF, kNN weights".
 function methodOf(label) {
-  return label.replaceAll("\u00a0", " ").replace(/(, \S+ = \S+( × \S+)?|, \S+=\S+( \S+=\S+)*)$/, "");
+  return label.replaceAll("\u00a0", " ").replace(/, \S+ = \S+( × \S+)?$/, "");
 }
 
 function keyOfMethod(name) {

@@ -8,7 +8,15 @@
 
 namespace mapproof {
 
-/// What a study itself calls its setups and methods, by their ids.
+/// What a study calls a factor, and the unit of its levels; empty: none.
+struct LabelWithUnit {
+  std::string label;
+  std::string unit = {};
+
+  bool operator==(const LabelWithUnit&) const = default;
+};
+
+/// What a study itself calls its setups, methods and factors, by their ids.
 struct StudyLabels {
   std::map<std::string, std::string> setups = {};
   /// Of every method that is not one of mapproof's own, its id where the study has no other word
@@ -17,6 +25,7 @@ struct StudyLabels {
   /// The ids of `methods` in the order of the study, which their styles in figures depend on; ids
   /// that are not here come last, as they sort.
   std::vector<std::string> order = {};
+  std::map<std::string, LabelWithUnit> factors = {};
 
   /// Adds a method, or another label of one that is there; its place in the order is the last.
   void add_method(const std::string& id, const std::string& label) {
@@ -38,6 +47,7 @@ struct StudyLabels {
   void add(const StudyLabels& later) {
     for (const auto& [id, label] : later.setups) setups[id] = label;
     for (const auto& [id, label] : later.methods) methods[id] = label;
+    for (const auto& [id, label] : later.factors) factors[id] = label;
     std::vector<std::string> all = later.ordered();
     for (const std::string& id : order)
       if (!later.methods.contains(id)) all.push_back(id);
@@ -45,7 +55,8 @@ struct StudyLabels {
   }
 
   bool operator==(const StudyLabels& other) const {
-    return setups == other.setups && methods == other.methods && ordered() == other.ordered();
+    return setups == other.setups && methods == other.methods && factors == other.factors &&
+           ordered() == other.ordered();
   }
 };
 

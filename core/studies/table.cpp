@@ -15,6 +15,8 @@ void read_table(const fs::path& folder, const std::string&, const ContentsAsked&
   for (const Label& setup : study.setups)
     if (!setup.label.empty()) contents.labels.setups[setup.id] = setup.label;
   for (const Label& method : study.methods) contents.labels.add_method(method.id, method.label);
+  for (const Label& factor : study.factors)
+    contents.labels.factors[factor.id] = {factor.label, factor.unit};
   contents.runs = GroupsByRun(study.results.rows);
   contents.results = std::move(study.results);
   contents.draws_groups = true;

@@ -100,8 +100,11 @@ void read_topic_parts(const fs::path& folder, const std::string& text, const Con
                       StudyContents& contents) {
   TopicStudy study = parse_topic_study(text, (folder / "study.json").string());
   contents.provenance = study.provenance;
-  for (const TopicSetup& setup : study.design.setups)
+  for (const TopicSetup& setup : study.design.setups) {
     contents.labels.setups[setup.id] = setup.title;
+    for (const SetupFactor& factor : setup.factors)
+      contents.labels.factors[factor.id] = {factor.label, factor.unit};
+  }
   for (const StudiedMethod& method : study.design.methods)
     contents.labels.add_method(method.id, method.label);
   for (const fs::path& path : part_files(folder)) {

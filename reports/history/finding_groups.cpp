@@ -7,14 +7,15 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 #include <fmt/format.h>
 
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
-#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 namespace {
@@ -53,6 +54,18 @@ bool is_time_unit(const std::string& unit) {
   return std::ranges::find(kUnits, unit) != kUnits.end();
 }
 
+/// @param shown  What stands behind the method's name.
+FindingSetting setting_of(const StudyLabels& labels, const std::string& method,
+                          const std::string& shown) {
+  constexpr std::string_view kIs = " = ";
+  FindingSetting setting{.shown = shown, .levels = levels_of(labels, method)};
+  if (const std::size_t is = shown.find(kIs); is != std::string::npos) {
+    const std::size_t value = is + kIs.size();
+    setting.parameter = {shown.substr(0, is), shown.substr(value, shown.find(", ", value) - value)};
+  }
+  return setting;
+}
+
 /// One finding as a group.
 FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   FindingGroup group{.study = finding.study,
@@ -78,7 +91,8 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   group.series.push_back(*series);
   group.method = shown_method(trend->labels, base_method(trend->labels, series->method));
   if (shown.starts_with(group.method + ", "))
-    group.settings.push_back(shown.substr(group.method.size() + 2));
+    group.settings.push_back(
+        setting_of(trend->labels, series->method, shown.substr(group.method.size() + 2)));
   else
     group.method = shown;
   group.family = group.settings.empty() ? without_last_number(group.method) : group.method;
@@ -109,30 +123,28 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// The part before the value that settings differ in: "K = " of "K = 6", "noise=" of "noise=0.1";
-/// empty where there is more than one value.
-std::string head_of(const std::string& setting) {
-  for (const std::string_view is : {" = ", "="}) {
-    const std::size_t at = setting.find(is);
-    if (at == std::string::npos) continue;
-    const std::string value = setting.substr(at + is.size());
-    return value.find(" ") == std::string::npos ? setting.substr(0, at + is.size()) : "";
-  }
-  return "";
+/// The only thing that a setting consists of; nothing if there are several.
+std::optional<ShownLevel> only_level(const FindingSetting& setting) {
+  if (setting.levels.empty()) return setting.parameter;
+  if (setting.parameter || setting.levels.size() > 1) return std::nullopt;
+  return setting.levels.front();
 }
 
-/// "K = 6 and 8" of "K = 6" and "K = 8", "noise=0.1 and 0.2" of two levels.
-std::string settings_text(const std::vector<std::string>& settings) {
+/// "K = 6 and 8" of "K = 6" and "K = 8", "range noise 0.1 and 0.2 m" of two levels.
+std::string settings_text(const std::vector<FindingSetting>& settings) {
   constexpr std::size_t kMost = 6;
   std::vector<std::string> values;
-  const std::string head = head_of(settings.front());
-  for (const std::string& setting : settings)
-    if (!head.empty() && head_of(setting) == head) values.push_back(setting.substr(head.size()));
-  if (values.size() == settings.size()) return head + listed(values, kMost);
+  const std::optional<ShownLevel> first = only_level(settings.front());
+  for (const FindingSetting& setting : settings)
+    if (const auto level = only_level(setting); level && first && level->name == first->name)
+      values.push_back(level->value);
+  if (first && values.size() == settings.size())
+    return first->name + (settings.front().parameter ? " = " : " ") +
+           with_unit(listed(values, kMost), first->unit);
   // Settings with levels hold commas of their own.
   std::string text;
   for (std::size_t i = 0; i < std::min(settings.size(), kMost); ++i)
-    text += (i > 0 ? "; " : "") + settings[i];
+    text += (i > 0 ? "; " : "") + settings[i].shown;
   if (settings.size() > kMost) text += fmt::format("; and {} more", settings.size() - kMost);
   return text;
 }

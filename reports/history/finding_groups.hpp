@@ -7,6 +7,7 @@
 
 #include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
+#include "reports/history/shown_names.hpp"
 
 namespace mapproof {
 
@@ -37,6 +38,13 @@ std::string short_commit(const std::string& commit);
 /// address is not known, or not an http or https one.
 std::string commit_url(const std::string& repository, const std::string& commit);
 
+/// A setting of a method: its parameter and the levels of factors.
+struct FindingSetting {
+  std::string shown;  ///< "K = 6", "range noise 0.1 m", "K = 6, share missing 40 %".
+  std::optional<ShownLevel> parameter = {};  ///< "K" and "6", for what has one.
+  std::vector<ShownLevel> levels = {};
+};
+
 /// Findings of one nightly run on the settings of one method: by the same rule, of the same
 /// quantity, begun in the same nightly run.
 struct FindingGroup {
@@ -45,7 +53,7 @@ struct FindingGroup {
   std::string setup = {};                  ///< As shown; may be empty.
   std::string method = {};                 ///< "ISOMAP", "all methods", "isomap-K6 and isomap-K8".
   std::string family = {};                 ///< `method` but for the number at its end: "isomap-K".
-  std::vector<std::string> settings = {};  ///< "K = 6"; none: the method has none.
+  std::vector<FindingSetting> settings = {};  ///< None: the method has none.
   std::string quantity = {};               ///< Its label.
   std::string quantity_id = {};
   std::vector<double> changes = {};  ///< NightlyFinding::change, those that are known.

@@ -78,17 +78,19 @@ Quantities read_quantities(Database& database, std::int64_t study) {
   return quantities;
 }
 
-/// What a study called its setups and methods.
+/// What a study called its setups, methods and factors.
 StudyLabels read_labels(Database& database, std::int64_t study) {
   StudyLabels labels;
   Statement rows(database,
                  "SELECT kind, id, label FROM labels WHERE study = ? ORDER BY position, id");
   rows.bind(study);
-  while (rows.step())
-    if (rows.text(0) == "method")
-      labels.add_method(rows.text(1), rows.text(2));
-    else
-      labels.setups[rows.text(1)] = rows.text(2);
+  while (rows.step()) {
+    const std::string kind = rows.text(0), id = rows.text(1);
+    if (kind == "method") labels.add_method(id, rows.text(2));
+    if (kind == "setup") labels.setups[id] = rows.text(2);
+    if (kind == "factor") labels.factors[id].label = rows.text(2);
+    if (kind == "unit") labels.factors[id].unit = rows.text(2);
+  }
   return labels;
 }
 
@@ -375,6 +377,10 @@ void HistoryStore::append_study(int nightly_run, const NightlyStudy& study) {
                  "INSERT INTO labels (study, kind, id, label, position) VALUES (?, ?, ?, ?, ?)");
   for (const auto& [setup, label] : study.labels.setups)
     call.bind(id).bind("setup").bind(setup).bind(label).bind(0).run();
+  for (const auto& [factor, of] : study.labels.factors) {
+    call.bind(id).bind("factor").bind(factor).bind(of.label).bind(0).run();
+    call.bind(id).bind("unit").bind(factor).bind(of.unit).bind(0).run();
+  }
   int position = 0;
   for (const std::string& method : study.labels.ordered())
     call.bind(id)

@@ -109,15 +109,6 @@ std::vector<std::string> texts_of(const Row& row) {
   return texts;
 }
 
-/// The values of a setting's levels: "0.1" and "2" of "noise=0.1 pace=2"; none of "K = 6".
-std::vector<std::string> level_values(const std::string& setting) {
-  std::vector<std::string> values;
-  for (std::size_t is = setting.find('='); is != std::string::npos; is = setting.find('=', is + 1))
-    if (is > 0 && setting[is - 1] != ' ')
-      values.push_back(setting.substr(is + 1, setting.find(' ', is) - is - 1));
-  return values;
-}
-
 /// Whether a text has the value as a word of its own: "noise 0.1" has "0.1", "noise 0.15" has not.
 bool has_word(const std::string& text, const std::string& value) {
   constexpr std::string_view kEnds = " ,:;=()[]\u00A0";
@@ -129,14 +120,17 @@ bool has_word(const std::string& text, const std::string& value) {
   return false;
 }
 
+bool has_column(const Table& table, const std::string& title) {
+  return std::ranges::find(table.columns, title, &Column::title) != table.columns.end();
+}
+
 /// Whether a table shows a setting's levels: in a cell of the row, as the title of a column, or in
 /// its caption.
 bool shows_levels(const Table& table, const std::vector<std::string>& row,
-                  const std::string& setting) {
-  const std::vector<std::string> values = level_values(setting);
-  return !values.empty() && std::ranges::all_of(values, [&](const std::string& value) {
-    return holds(row, value) || has_word(table.caption, value) ||
-           std::ranges::find(table.columns, value, &Column::title) != table.columns.end();
+                  const FindingSetting& setting) {
+  return !setting.levels.empty() && std::ranges::all_of(setting.levels, [&](const auto& level) {
+    return holds(row, level.value) || has_word(table.caption, level.value) ||
+           has_column(table, level.value);
   });
 }
 
@@ -147,16 +141,15 @@ bool names_method(const Table& table, const Row& row, const FindingGroup& group)
   const auto is_there = [&](const std::string& text) { return holds(texts, text); };
   if (std::ranges::any_of(group.lines, is_there)) return true;
   return is_there(group.method) && std::ranges::any_of(group.settings, [&](const auto& setting) {
-           return is_there(setting) || shows_levels(table, texts, setting);
+           return is_there(setting.shown) || shows_levels(table, texts, setting);
          });
 }
 
 /// Whether the table's columns are levels, of which a row has several.
 bool has_level_columns(const Table& table, const FindingGroup& group) {
-  return std::ranges::any_of(group.settings, [&](const std::string& setting) {
-    return std::ranges::any_of(level_values(setting), [&](const std::string& value) {
-      return std::ranges::find(table.columns, value, &Column::title) != table.columns.end();
-    });
+  return std::ranges::any_of(group.settings, [&](const FindingSetting& setting) {
+    return std::ranges::any_of(setting.levels,
+                               [&](const auto& level) { return has_column(table, level.value); });
   });
 }
 
@@ -190,25 +183,6 @@ void mark_table(Table& table, const FindingGroup& group) {
   }
 }
 
-/// A name and its value: "K" and "6".
-using Assignment = std::pair<std::string, std::string>;
-
-/// "K" and "6", "noise" and "0.1", "pace" and "2" of "K = 6, noise=0.1 pace=2".
-std::vector<Assignment> assignments_of(const std::string& setting) {
-  std::vector<Assignment> all;
-  for (std::size_t at = 0; at < setting.size();) {
-    const std::size_t is = setting.find('=', at);
-    if (is == std::string::npos) break;
-    const bool has_blanks = is > at && setting[is - 1] == ' ';
-    const std::size_t value = std::min(is + (has_blanks ? 2 : 1), setting.size());
-    const std::size_t end = std::min(setting.find_first_of(" ,", value), setting.size());
-    all.emplace_back(setting.substr(at, is - at - (has_blanks ? 1 : 0)),
-                     setting.substr(value, end - value));
-    at = std::min(setting.find_first_not_of(" ,", end), setting.size());
-  }
-  return all;
-}
-
 /// Whether an axis is that of a parameter or factor: "K", "noise [m]", "laser noise [m]" of noise.
 bool is_axis_of(const Axis& axis, const std::string& name) {
   const std::string of = axis.label.substr(0, axis.label.find(" ["));
@@ -217,18 +191,20 @@ bool is_axis_of(const Axis& axis, const std::string& name) {
 
 /// Where the settings are on a curve over one of their parameters, in a panel that shows the values
 /// of all others; empty if they are not on it.
-std::vector<double> points_of(const std::vector<std::string>& settings, const Figure& figure,
+std::vector<double> points_of(const std::vector<FindingSetting>& settings, const Figure& figure,
                               const Panel& panel) {
   std::vector<double> points;
-  for (const std::string& setting : settings) {
+  for (const FindingSetting& setting : settings) {
+    std::vector<ShownLevel> all = setting.levels;
+    if (setting.parameter) all.push_back(*setting.parameter);
     std::optional<double> x;
     bool shows_others = true;
-    for (const auto& [name, value] : assignments_of(setting)) {
-      if (is_axis_of(panel.x, name))
-        x = number_in(value);
+    for (const ShownLevel& level : all) {
+      if (is_axis_of(panel.x, level.name))
+        x = number_in(level.value);
       else
-        shows_others =
-            shows_others && (has_word(panel.title, value) || has_word(figure.title, value));
+        shows_others = shows_others &&
+                       (has_word(panel.title, level.value) || has_word(figure.title, level.value));
     }
     if (x && shows_others) points.push_back(*x);
   }

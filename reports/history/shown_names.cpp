@@ -1,7 +1,12 @@
 #include "reports/history/shown_names.hpp"
 
+#include <algorithm>
+#include <map>
+#include <string_view>
+
 #include <fmt/format.h>
 
+#include "core/base/text/unit_text.hpp"
 #include "core/model/method.hpp"
 #include "core/model/slam/slam_study.hpp"
 
@@ -32,6 +37,12 @@ std::size_t declared_size(const StudyLabels& labels, const std::string& method) 
   return size;
 }
 
+/// The size of the id that a SeriesId::method begins with; its levels follow.
+std::size_t id_size(const StudyLabels& labels, const std::string& method) {
+  const std::size_t declared = declared_size(labels, method);
+  return declared > 0 ? declared : levels_begin(method);
+}
+
 std::string label_in(const std::map<std::string, std::string>& labels, const std::string& id) {
   const auto found = labels.find(id);
   return found == labels.end() ? id : found->second;
@@ -54,18 +65,42 @@ std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
   return label_in(labels.setups, setup);
 }
 
+std::vector<ShownLevel> levels_of(const StudyLabels& labels, const std::string& method) {
+  constexpr std::string_view kOf = " of ";
+  std::vector<ShownLevel> levels;
+  for (std::size_t at = id_size(labels, method); at < method.size();) {
+    const std::size_t is = method.find('=', at);
+    if (is == std::string::npos || method[at] != ' ') break;
+    const std::string id = method.substr(at + 1, is - at - 1);
+    // A value may hold blanks: the next level begins at the last one before its "=".
+    const std::size_t next = method.find('=', is + 1);
+    const std::size_t end = next == std::string::npos ? method.size() : method.rfind(' ', next);
+    std::string value = method.substr(is + 1, end - is - 1);
+    value.resize(std::min(value.find(kOf), value.size()));
+    const auto known = labels.factors.find(id);
+    const bool has_label = known != labels.factors.end() && !known->second.label.empty();
+    levels.push_back({has_label ? known->second.label : id, value,
+                      known == labels.factors.end() ? "" : known->second.unit});
+    at = end;
+  }
+  return levels;
+}
+
 std::string shown_method(const StudyLabels& labels, const std::string& method) {
-  const std::size_t declared = declared_size(labels, method);
-  const std::size_t size = declared > 0 ? declared : levels_begin(method);
+  const std::size_t declared = declared_size(labels, method), size = id_size(labels, method);
   const std::string id = method.substr(0, size), rest = method.substr(size);
   // A study of results labels its setups; what it does not declare is not a method of mapproof.
   const bool is_of_mapproof = labels.methods.empty() || labels.setups.empty();
-  const std::string shown = declared > 0     ? labels.methods.at(id)
-                            : is_of_mapproof ? shown_setting(id)
-                                             : id;
-  // Levels, or whom it is of.
-  return rest.empty() || rest.starts_with(" of ") ? shown + rest : shown + ", " + rest.substr(1);
+  std::string shown = declared > 0     ? labels.methods.at(id)
+                      : is_of_mapproof ? shown_setting(id)
+                                       : id;
+  for (const ShownLevel& level : levels_of(labels, method)) shown += ", " + level.words();
+  // Whom it is of.
+  const std::size_t of = rest.find(" of ");
+  return of == std::string::npos ? shown : shown + rest.substr(of);
 }
+
+std::string ShownLevel::words() const { return name + " " + with_unit(value, unit); }
 
 std::string shown_method_of(const StudyLabels& labels, const SeriesId& series) {
   const std::string setup = shown_setup(labels, series.sensor);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reports/history/nightly_run.hpp"
 
@@ -17,8 +18,21 @@ std::string base_method(const StudyLabels& labels, const std::string& method);
 /// Its label; the id if it has none.
 std::string shown_setup(const StudyLabels& labels, const std::string& setup);
 
-/// "My EKF, noise=0.1" of "ekf noise=0.1"; without labels "ISOMAP, K = 6" of "isomap-K6". A text
-/// that is not a method stays as it is.
+/// A level of a factor, by the factor's label and unit; the id is the label where there is none.
+struct ShownLevel {
+  std::string name;   ///< "range noise".
+  std::string value;  ///< "0.1", as in the id.
+  std::string unit = {};
+
+  /// "range noise 0.1 m".
+  std::string words() const;
+};
+
+/// The levels in a SeriesId::method: "noise" 0.1 and "pace" 2 of "ekf noise=0.1 pace=2".
+std::vector<ShownLevel> levels_of(const StudyLabels& labels, const std::string& method);
+
+/// "My EKF, range noise 0.1 m" of "ekf noise=0.1"; without labels "ISOMAP, K = 6" of "isomap-K6".
+/// A text that is not a method stays as it is.
 std::string shown_method(const StudyLabels& labels, const std::string& method);
 
 /// method_of() as shown, "bearing, ISOMAP, K = 6"; of a setup without a name the method alone.

@@ -141,7 +141,7 @@ TEST(ForeignNightlyRuns, AFewLostResultsAreRemarkedOn) {
   ASSERT_FALSE(remarks.empty());
   EXPECT_EQ(
       remarks[0],
-      "mine: 2 results of nightly run 1 no longer come out, of indoors, gamma, noise=0.4; too few "
+      "mine: 2 results of nightly run 1 no longer come out, of indoors, gamma, noise 0.4; too few "
       "of each to be judged");
 }
 
@@ -187,7 +187,7 @@ TEST(ForeignNightlyRuns, FindingsAndRemarksHaveTheLabelsOfTheStudyAndKeepItsIds)
   ASSERT_EQ(worse.findings.size(), 1U);
   EXPECT_EQ(worse.findings[0].subject, "indoors, scan matching noise=0.4");
   EXPECT_TRUE(
-      worse.findings[0].sentence.starts_with("In the hall, My ICP, faster, noise=0.4: ATE "))
+      worse.findings[0].sentence.starts_with("In the hall, My ICP, faster, noise 0.4: ATE "))
       << worse.findings[0].sentence;
 
   ForeignNightlyRun gone{.labels = labels};

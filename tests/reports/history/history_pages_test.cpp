@@ -311,7 +311,7 @@ TEST(HistoryPages, NameMethodsAsTheStudysReportDoes) {
   EXPECT_EQ(shown_method(own, "isomap-K6"), "ISOMAP, K = 6");
   EXPECT_EQ(shown_method(own, "smacof-knn-K6"), "SMACOF, kNN weights, K = 6");
   EXPECT_EQ(shown_method(own, "kpca-gaussian-sigma2-10"), "KPCA, Gaussian, σ² = 10");
-  EXPECT_EQ(shown_method(own, "isomap-K6 anchor-count=5"), "ISOMAP, K = 6, anchor-count=5");
+  EXPECT_EQ(shown_method(own, "isomap-K6 anchor-count=5"), "ISOMAP, K = 6, anchor-count 5");
   EXPECT_EQ(shown_method(own, "dead-reckoning"), "dead reckoning");
   EXPECT_EQ(shown_method(own, "factorization-of-9"), "factorization-of-9");
   EXPECT_EQ(shown_subject(own, {"bearing", "lpca", 150}), "bearing, LPCA, 150 steps");
@@ -322,15 +322,17 @@ TEST(HistoryPages, NameMethodsAsTheirStudyLabelsThem) {
                            .methods = {{"ekf", "My EKF"},
                                        {"ekf slow", "My EKF, slower"},
                                        {"spectral", "spectral"},
-                                       {"isomap-K6", "Walk"}}};
+                                       {"isomap-K6", "Walk"}},
+                           .factors = {{"noise", {"range noise", "m"}}}};
   EXPECT_EQ(shown_method(labels, "ekf"), "My EKF");
-  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 pace=2"), "My EKF, noise=0.1 pace=2");
-  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 of robot 2"), "My EKF, noise=0.1 of robot 2");
+  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 pace=2"), "My EKF, range noise 0.1\u00a0m, pace 2");
+  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 of robot 2"),
+            "My EKF, range noise 0.1\u00a0m of robot 2");
   EXPECT_EQ(shown_method(labels, "ekf of robot 2"), "My EKF of robot 2");
-  EXPECT_EQ(shown_method(labels, "ekf slow noise=0.1"), "My EKF, slower, noise=0.1");
+  EXPECT_EQ(shown_method(labels, "ekf slow noise=0.1"), "My EKF, slower, range noise 0.1\u00a0m");
   EXPECT_EQ(shown_method(labels, "spectral"), "spectral");
   EXPECT_EQ(shown_method(labels, "isomap-K6"), "Walk");
-  EXPECT_EQ(shown_method(labels, "isomap-K7 noise=0.1"), "isomap-K7, noise=0.1");
+  EXPECT_EQ(shown_method(labels, "isomap-K7 noise=0.1"), "isomap-K7, range noise 0.1\u00a0m");
   EXPECT_EQ(shown_subject(labels, {"hall", "ekf", 20}),
             "Indoors, at nightly run, My EKF, 20 steps");
   EXPECT_EQ(shown_subject(labels, {"", "ekf", 0}), "My EKF") << "there is one setup, without name";

@@ -126,7 +126,7 @@ TEST(HistoryStore, OfVersion2GivesOtherNumbersTheirNamesBack) {
             std::vector<double>{0.25});
 }
 
-TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsAndMethods) {
+TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsMethodsAndFactors) {
   const TemporaryFolder folder;
   HistoryStore store = HistoryStore::open(folder.path());
   const auto append = [&](int number, const StudyLabels& labels) {
@@ -135,12 +135,14 @@ TEST(HistoryStore, KeepsWhatAStudyCallsItsSetupsAndMethods) {
     store.append(nightly_run);
   };
   const StudyLabels first{.setups = {{"bearing", "Compass"}},
-                          .methods = {{"lpca", "Mine"}, {"smacof", "Gone later"}}};
+                          .methods = {{"lpca", "Mine"}, {"smacof", "Gone later"}},
+                          .factors = {{"noise", {"range noise", "m"}}, {"pace", {"pace"}}}};
   append(1, first);
-  append(2, {.setups = {}, .methods = {{"lpca", "Mine, renamed"}}});
+  append(2, {.methods = {{"lpca", "Mine, renamed"}}, .factors = {{"pace", {"pace", "m/s"}}}});
   EXPECT_EQ(store.studies(1)[0].labels, first);
   const StudyLabels both{.setups = {{"bearing", "Compass"}},
-                         .methods = {{"lpca", "Mine, renamed"}, {"smacof", "Gone later"}}};
+                         .methods = {{"lpca", "Mine, renamed"}, {"smacof", "Gone later"}},
+                         .factors = {{"noise", {"range noise", "m"}}, {"pace", {"pace", "m/s"}}}};
   EXPECT_EQ(store.trend("sample", "d", 60, 2).labels, both);
   EXPECT_EQ(store.trend("sample", "d", 60, 1).labels, first);
   StudyLabels unsorted;
@@ -182,7 +184,7 @@ TEST(HistoryStore, OfVersion3CallsMethodsThatAStudyDeclaresByTheirIds) {
             (std::map<std::string, std::string>{
                 {"K=6", "K=6"}, {"isomap-K6", "isomap-K6"}, {"scan matching", "scan matching"}}));
   EXPECT_EQ(shown_method(theirs, "scan matching noise=0.1 pace=2"),
-            "scan matching, noise=0.1 pace=2");
+            "scan matching, noise 0.1, pace 2");
   EXPECT_EQ(store.trend("ours", "d", 60, 1).labels, StudyLabels());
   EXPECT_EQ(store.trend("topic", "d", 60, 1).labels.methods.count("isomap-K6"), 1U);
 }

@@ -345,14 +345,22 @@ TEST(RegressionMarks, ComeFirstInTheReportOfANightlyRun) {
   EXPECT_EQ(report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
 }
 
+FindingSetting setting_of(const std::vector<ShownLevel>& levels) {
+  FindingSetting setting{.levels = levels};
+  for (const ShownLevel& level : levels)
+    setting.shown += (setting.shown.empty() ? "" : ", ") + level.words();
+  return setting;
+}
+
 TEST(RegressionMarks, AreOnTheRowsOfTablesWhoseColumnsAreLevels) {
-  const FindingGroup group{.study = "mine",
-                           .setup = "indoors",
-                           .method = "MCL",
-                           .settings = {"noise=0.1", "noise=0.2"},
-                           .quantity = "error",
-                           .changes = {18.0},
-                           .lines = {"MCL, noise=0.1", "MCL, noise=0.2"}};
+  const FindingGroup group{
+      .study = "mine",
+      .setup = "indoors",
+      .method = "MCL",
+      .settings = {setting_of({{"noise", "0.1", "m"}}), setting_of({{"noise", "0.2", "m"}})},
+      .quantity = "error",
+      .changes = {18.0},
+      .lines = {"MCL, noise 0.1 m", "MCL, noise 0.2 m"}};
   const auto of_levels = [](const std::string& caption, const std::string& level) {
     Table table{.id = "t", .caption = caption, .columns = {{"Method", "", "", ""}}};
     table.columns.push_back({level, "", "noise", ""});
@@ -370,7 +378,7 @@ TEST(RegressionMarks, AreOnTheRowsOfTablesWhoseColumnsAreLevels) {
   const auto marks = [&](std::size_t block, std::size_t row) {
     return std::get<Table>(report.sections[0].blocks[block]).rows[row].regressed;
   };
-  EXPECT_EQ(marks(0, 0), "error +18.0\u00a0% (noise=0.1 and 0.2)");
+  EXPECT_EQ(marks(0, 0), "error +18.0\u00a0% (noise 0.1 and 0.2\u00a0m)");
   EXPECT_EQ(marks(0, 1), "");
   EXPECT_EQ(marks(1, 0), "") << "another level";
   EXPECT_EQ(marks(2, 0), "error +18.0\u00a0%");
@@ -458,14 +466,16 @@ TEST(RegressionMarks, AreWhereTheXAxisIsTheParameterOfTheSettings) {
   };
   EXPECT_EQ(marked("", "K"), at({6.0, 8.0}));
   EXPECT_TRUE(marked("", "observations (steps)").empty());
-  group.settings = {"noise=0.1 pace=2", "noise=1e-5 pace=2"};
+  const ShownLevel pace{"pace", "2"};
+  group.settings = {setting_of({{"noise", "0.1"}, pace}), setting_of({{"noise", "1e-5"}, pace})};
   EXPECT_EQ(marked("pace 2", "noise [m]"), at({0.1, 1e-5}));
   EXPECT_EQ(marked("pace 2", "laser noise [m]"), at({0.1, 1e-5}));
   EXPECT_TRUE(marked("pace 3", "noise [m]").empty());
   EXPECT_TRUE(marked("pace 2", "noise floor").empty());
-  group.settings = {"K = 6, noise=0.1"};
+  group.settings = {setting_of({{"noise", "0.1"}})};
+  group.settings[0].parameter = {"K", "6"};
   EXPECT_EQ(marked("noise 0.1", "K"), at({6.0}));
-  group.settings = {"fast"};
+  group.settings = {FindingSetting{.shown = "fast"}};
   EXPECT_TRUE(marked("", "K").empty()) << "it is not on the axis";
   group.settings = {};
   EXPECT_EQ(marked("", "K"), at({})) << "all points are of the method";
