@@ -192,6 +192,31 @@ TEST(FilmStripFigure, RefusesNoMapsAndMapsInDifferentFrames) {
   EXPECT_THROW(map_pair_figure(spec), InvalidInput);
 }
 
+TEST(MapWallFigure, HasTheLimitsOfTheFirstMapsAndArrowsToThem) {
+  MapGridSpec spec = sample_maps(3);
+  const Figure whole = map_wall_figure(spec);
+  EXPECT_FALSE(labelled<Segments>(whole.panels[0], "estimate outside"));
+  // A map twice as large, of which no point is far off.
+  spec.maps[2].map.estimate *= 2.0;
+  spec.framing = 2;
+  const Figure figure = map_wall_figure(spec);
+  const Range x = figure.panels[0].x.limits.value(), y = figure.panels[0].y.limits.value();
+  for (const Panel& panel : figure.panels) {
+    EXPECT_EQ(panel.x.limits->high, x.high);
+    EXPECT_EQ(panel.y.limits->low, y.low);
+  }
+  EXPECT_FALSE(labelled<Segments>(figure.panels[1], "estimate outside"));
+  const auto arrows = labelled<Segments>(figure.panels[2], "estimate outside").value();
+  EXPECT_GE(arrows.x1.size(), 10U);
+  for (std::size_t i = 0; i < arrows.x1.size(); ++i) {
+    EXPECT_LE(arrows.x1[i], x.high);
+    EXPECT_LE(arrows.y1[i], y.high);
+  }
+  const auto inside = labelled<Scatter>(figure.panels[2], "estimate").value();
+  EXPECT_EQ(inside.x.size() + arrows.x1.size(), 50U);
+  EXPECT_LE(std::ranges::max(inside.x), x.high);
+}
+
 TEST(MapPairFigure, TitlesNameTheRunAndBothErrors) {
   MapGridSpec spec = sample_maps(2);
   spec.maps[0].title = "Median, layout 4";

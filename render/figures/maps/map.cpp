@@ -8,6 +8,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "render/base/geometry.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/score_text.hpp"
@@ -102,6 +103,13 @@ void find_outside(const MapRecord& record, MapView& view) {
   if (!view.outside.empty()) view.limits = shown.grown(0.08 * shown.side());
 }
 
+void find_outside(const MapRecord& record, const PanelBox& limits, MapView& view) {
+  view.limits = limits;
+  for (Eigen::Index i = 0; i < record.estimate.rows(); ++i)
+    if (view.has_estimate[i] && !limits.holds(record.estimate(i, 0), record.estimate(i, 1)))
+      view.outside.push_back(i);
+}
+
 void find_worst(MapView& view) {
   for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(view.error_m.size()); ++i)
     if (view.error_m[i] > 0.0 && !view.is_anchor[i]) view.worst.push_back(i);
@@ -134,9 +142,10 @@ std::string names_of(const MapRecord& record, const std::vector<Eigen::Index>& r
 
 class MapFigure {
  public:
-  MapFigure(const MapRecord& record, const std::string& id, const std::string& what)
+  MapFigure(const MapRecord& record, const std::string& id, const std::string& what,
+            const std::optional<PanelBox>& limits = std::nullopt)
       : record_(record),
-        view_(view_of(record)),
+        view_(view_of(record, limits)),
         what_(what),
         every_(record.estimate.rows() > kMostDrawn ? record.estimate.rows() / kDrawnOfMore : 1) {
     figure_.id = id;
@@ -358,7 +367,7 @@ class MapFigure {
 
 }  // namespace
 
-MapView view_of(const MapRecord& record) {
+MapView view_of(const MapRecord& record, const std::optional<PanelBox>& limits) {
   require_consistent(record);
   const Eigen::Index rows = record.estimate.rows();
   MapView view;
@@ -375,7 +384,10 @@ MapView view_of(const MapRecord& record) {
     if (!mapped) view.unmapped.push_back(i);
   }
   find_worst(view);
-  find_outside(record, view);
+  if (limits)
+    find_outside(record, *limits, view);
+  else
+    find_outside(record, view);
   return view;
 }
 
@@ -383,8 +395,9 @@ Figure map_figure(const MapRecord& record, const std::string& id, const std::str
   return MapFigure(record, id, what).make();
 }
 
-Panel map_panel(const MapRecord& record, const std::string& prefix) {
-  Panel panel = MapFigure(record, "panel", "").panel();
+Panel map_panel(const MapRecord& record, const std::string& prefix,
+                const std::optional<PanelBox>& limits) {
+  Panel panel = MapFigure(record, "panel", "", limits).panel();
   prefix_mark_ids(panel, prefix);
   return panel;
 }

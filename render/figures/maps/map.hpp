@@ -32,8 +32,9 @@ struct MapView {
   std::optional<PanelBox> limits;      ///< Set if some estimates are too far off to be shown.
 };
 
+/// @param limits  Of the figure; unset: all but estimates that are too far off.
 /// @throws InvalidInput if the record's parts disagree in size or hold infinities.
-MapView view_of(const MapRecord& record);
+MapView view_of(const MapRecord& record, const std::optional<PanelBox>& limits = std::nullopt);
 
 /// One map: ground truth as open circles, estimates as dots, joined by lines; anchors as squares;
 /// the worst landmarks labelled. Estimates far outside the room become arrows at the frame, and the
@@ -48,7 +49,9 @@ MapView view_of(const MapRecord& record);
 Figure map_figure(const MapRecord& record, const std::string& id, const std::string& what = "");
 
 /// The panel of map_figure, for figures of several maps: each mark's id begins with `prefix`.
+/// @param limits  As of view_of().
 /// @throws InvalidInput as map_figure.
-Panel map_panel(const MapRecord& record, const std::string& prefix);
+Panel map_panel(const MapRecord& record, const std::string& prefix,
+                const std::optional<PanelBox>& limits = std::nullopt);
 
 }  // namespace mapproof

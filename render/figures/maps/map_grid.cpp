@@ -1,6 +1,7 @@
 #include "render/figures/maps/map_grid.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/score_text.hpp"
+#include "render/plot/axis_map.hpp"
 
 namespace mapproof {
 namespace {
@@ -68,15 +70,32 @@ void make_small(Panel& panel) {
     if (auto* points = std::get_if<Scatter>(&layer)) points->size *= kSmall;
 }
 
+/// The limits of all panels, where estimates are outside of them: those that the first maps need.
+std::optional<PanelBox> limits_of(const MapGridSpec& spec,
+                                  const std::vector<const TitledMap*>& maps) {
+  std::optional<PanelBox> limits;
+  bool any_outside = spec.framing < maps.size();
+  for (std::size_t i = 0; i < std::min(maps.size(), spec.framing); ++i) {
+    const Panel panel = map_panel(maps[i]->map, "");
+    any_outside = any_outside || panel.x.limits.has_value();
+    const auto [x, y] = panel_limits(panel);
+    if (!limits) limits = PanelBox{x, y};
+    limits = PanelBox{{std::min(limits->x.low, x.low), std::max(limits->x.high, x.high)},
+                      {std::min(limits->y.low, y.low), std::max(limits->y.high, y.high)}};
+  }
+  return any_outside ? limits : std::nullopt;
+}
+
 Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& maps, bool named) {
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
   figure.shared_x = figure.shared_y = true;
+  const std::optional<PanelBox> limits = limits_of(spec, maps);
   std::vector<std::string> without_position;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MapRecord& record = maps[i]->map;
-    Panel panel = map_panel(record, fmt::format("map-{}-", i + 1));
+    Panel panel = map_panel(record, fmt::format("map-{}-", i + 1), limits);
     panel.title = maps[i]->title + "\n" + in_lines(scored(*maps[i], named));
     if (!named) make_small(panel);
     figure.panels.push_back(std::move(panel));

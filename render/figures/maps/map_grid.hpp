@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,8 @@ struct MapGridSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
   std::vector<TitledMap> maps;  ///< All in the frame of the ground truth, or none.
+  /// The limits are those of the first so many; arrows of others' estimates may end at them.
+  std::size_t framing = std::numeric_limits<std::size_t>::max();
 };
 
 /// One run's map at each checkpoint, at most ten of them, all with the same limits.

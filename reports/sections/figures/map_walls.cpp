@@ -80,6 +80,8 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
   if (has_use(best) && std::isfinite(error_or_infinity(best))) {
     const auto useless =
         std::ranges::count_if(spec.maps, [](const TitledMap& one) { return !has_use(one.map); });
+    // Those that are of no use would make the others small.
+    spec.framing = spec.maps.size() - static_cast<std::size_t>(useless);
     spec.title = fmt::format(
         "{} is best, {} off; {}", world.maps.front().first, error_text(error_or_infinity(best)),
         useless == 0 ? "the others in the order of their errors"
