@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/disclosure.hpp"
-#include "reports/history/history_pages.hpp"
 #include "reports/history/history_store.hpp"
+#include "reports/history/pages/history_pages.hpp"
 #include "reports/html/templates.hpp"
 
 namespace mapproof {

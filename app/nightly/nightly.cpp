@@ -35,11 +35,10 @@
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_prune.hpp"
 #include "reports/history/judge_nightly_run.hpp"
-#include "reports/history/nightly_links.hpp"
-#include "reports/history/nightly_report.hpp"
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/nightly_summary.hpp"
+#include "reports/history/pages/nightly_links.hpp"
 #include "reports/history/store/object_folder.hpp"
 
 namespace mapproof {

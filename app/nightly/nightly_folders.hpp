@@ -9,7 +9,7 @@
 #include "app/console.hpp"
 #include "app/nightly/nightly_study.hpp"
 #include "reports/history/history_store.hpp"
-#include "reports/history/index_facts.hpp"
+#include "reports/history/pages/index_facts.hpp"
 
 namespace mapproof {
 

@@ -13,8 +13,8 @@
 #include "core/base/files/output_folder.hpp"
 #include "reports/diff/folder_diff.hpp"
 #include "reports/diff/records/record_diff.hpp"
-#include "reports/history/nightly_links.hpp"
 #include "reports/history/nightly_standing.hpp"
+#include "reports/history/pages/nightly_links.hpp"
 #include "reports/html/diff/diff_html.hpp"
 #include "reports/html/diff/shown_images.hpp"
 

@@ -1,26 +1,32 @@
 #include "reports/sections/results/results_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/evaluate/evaluation_rows.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_figures.hpp"
-#include "reports/sections/results/results_opening.hpp"
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/sections/results/results_view.hpp"
+#include "reports/sections/results/topic_records.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -211,6 +217,281 @@ std::vector<Block> given_provenance(const ResultsView& view, const std::string& 
   return blocks;
 }
 
+namespace {
+
+constexpr std::size_t kMostNumbers = 3;  ///< Comparisons shown by their best value.
+
+/// "ORB (32 poses)": an error of few poses is not that of many.
+std::string name_with_poses(const ResultsReportInput& input, std::size_t method) {
+  const Label& label = input.view.study().methods[method];
+  const auto poses = input.poses.find(label.id);
+  return poses == input.poses.end()
+             ? label.label
+             : fmt::format("{} ({})", label.label, counted(poses->second, "pose"));
+}
+
+constexpr std::size_t kMostLeftOut = 2;  ///< Methods that a tile names as not compared.
+
+/// The best method's mean in the first comparisons, each of another quantity or setup.
+void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
+  std::vector<std::string> shown;
+  for (const MethodComparison& comparison : input.comparisons) {
+    if (!is_crowned(*comparison.quantity)) continue;
+    const std::string label = comparison.quantity->label;
+    // "ATE, RMSE", "ATE, mean" and "ATE, median" are one thing.
+    const std::string stem = label.substr(0, label.find(','));
+    if (numbers.items.size() == kMostNumbers || std::ranges::find(shown, stem) != shown.end())
+      continue;
+    shown.push_back(stem);
+    const ComparedMethod& best = comparison.methods.front();
+    const auto worse = std::ranges::count_if(comparison.methods, is_significant);
+    const auto others = std::ssize(comparison.methods) - 1;
+    const std::string left_out =
+        comparison.left_out.empty() ? "" : listed(comparison.left_out, kMostLeftOut);
+    const ComparedMethod& next = comparison.methods[1];
+    const bool is_one = input.view.runs() < 2;
+    std::string note = name_with_poses(input, best.method) + "; ";
+    if (comparison.groups < 2)
+      note += fmt::format("{} {}", name_with_poses(input, next.method),
+                          quantity_text(next.mean, comparison.quantity->unit));
+    else if (worse == 0)
+      note += left_out.empty()
+                  ? "not significantly better than any other method (paired test)"
+                  : fmt::format("not significantly better than any compared (not {})", left_out);
+    else
+      note += left_out.empty() ? fmt::format("significantly better than {} of {} (paired test)",
+                                             worse, counted(others, "other method"))
+                               : fmt::format("significantly better than {} of {} compared (not {})",
+                                             worse, others, left_out);
+    numbers.items.push_back(
+        {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
+         quantity_text(best.mean, comparison.quantity->unit), std::move(note),
+         comparison.block->id});
+  }
+}
+
+/// The method that is the best over data sets that are no repeats of each other.
+struct BestOverRuns {
+  const Quantity* quantity = nullptr;
+  std::size_t method = 0;
+  double median = kNaN;
+  std::string run = {};  ///< Where it is best.
+};
+
+/// The values of each method, by run, in the study's first block.
+std::map<std::size_t, ValuesByRun> values_over_runs(const ResultsView& view,
+                                                    const Quantity& quantity) {
+  std::map<std::size_t, ValuesByRun> values;
+  const ResultsBlock& block = view.blocks().front();
+  for (const ResultsLine& line : view.lines(block, quantity))
+    for (const Condition& at : block.conditions)
+      values[line.index].merge(view.numbers(at, line, quantity).values);
+  return values;
+}
+
+/// By the median of its values; only methods with a value in as many runs as any.
+/// @return Empty where runs are repeats, or no quantity has a better way.
+std::optional<BestOverRuns> best_over_runs(const ResultsView& view) {
+  const ResultsStudy& study = view.study();
+  if (study.runs.empty() || view.blocks().empty()) return std::nullopt;
+  const auto id = std::ranges::find_if(study.quantities, [&](const std::string& one) {
+    return view.quantity(one).better != Better::kNeither;
+  });
+  if (id == study.quantities.end()) return std::nullopt;
+  BestOverRuns best{.quantity = &view.quantity(*id)};
+  const double sign = best.quantity->better == Better::kLower ? 1.0 : -1.0;
+  std::size_t most = 1;
+  for (const auto& [method, values] : values_over_runs(view, *best.quantity)) {
+    if (values.size() < most) continue;
+    std::vector<double> numbers;
+    for (const auto& [run, value] : values) numbers.push_back(value);
+    const double middle = median(numbers);
+    if (values.size() == most && !(std::isnan(best.median) || sign * middle < sign * best.median))
+      continue;
+    most = values.size();
+    best.method = method;
+    best.median = middle;
+    best.run = std::ranges::min_element(values, {}, [sign](const auto& one) {
+                 return sign * one.second;
+               })->first;
+  }
+  return std::isnan(best.median) ? std::nullopt : std::optional(best);
+}
+
+/// Its median as the first number.
+void add_best_over_runs(const ResultsReportInput& input, Highlights& numbers) {
+  const auto best = best_over_runs(input.view);
+  if (!best) return;
+  const ResultsStudy& study = input.view.study();
+  const std::string& unit = best->quantity->unit;
+  numbers.items.push_back({fmt::format("median {} of the best method", best->quantity->label),
+                           quantity_text(best->median, unit),
+                           fmt::format("{}, over {}", study.methods[best->method].label,
+                                       counted(std::ssize(study.runs), "data set")),
+                           input.view.blocks().front().id});
+}
+
+/// "only 75.1 % of the poses are associated (orb, desk)"; empty if there are enough of each path.
+std::string few_associated(const ResultsStudy& study) {
+  std::vector<std::string> few;
+  for (const Result& row : study.results.rows)
+    if (row.quantity == kAssociatedPercent && row.value < kFewAssociated_percent)
+      few.push_back(fmt::format("{} ({}, {})", quantity_text(row.value, "%"),
+                                label_of(study.methods, row.method), row.run));
+  constexpr std::size_t kMostNamed = 3;
+  return few.empty() ? ""
+                     : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
+}
+
+/// Where nothing is compared: the first method's means of the quantities that a study judges by,
+/// where they are judged first.
+void add_means(const ResultsView& view, Highlights& numbers) {
+  const ResultsStudy& study = view.study();
+  std::vector<std::string> shown;
+  for (const ResultsBlock& block : view.blocks())
+    for (const Quantity* quantity : view.quantities(block)) {
+      const std::vector<ResultsLine> lines = view.lines(block, *quantity);
+      const std::string stem = quantity->label.substr(0, quantity->label.find(','));
+      if (numbers.items.size() == kMostNumbers || quantity->better == Better::kNeither ||
+          lines.empty() || std::ranges::find(shown, stem) != shown.end())
+        continue;
+      const std::size_t last = block.conditions.size() - 1;
+      const auto mean = view.mean(block.conditions[last], lines.front(), *quantity);
+      if (!mean) continue;
+      shown.push_back(stem);
+      numbers.items.push_back(
+          {quantity->label + (block.factor.empty() ? "" : ", " + view.words_of(block, last)),
+           quantity_text(mean->mean, quantity->unit), study.methods[lines.front().index].label,
+           block.id, quantity->id == kAssociatedPercent && !few_associated(study).empty()});
+    }
+}
+
+/// "ORB has 32 poses, DSO 785", of the methods with fewest and with most; empty if none has less
+/// than half as many as another.
+std::string unequal_poses(const ResultsReportInput& input) {
+  if (input.poses.size() < 2) return "";
+  const auto [fewest, most] = std::ranges::minmax_element(
+      input.poses, {}, &std::pair<const std::string, long long>::second);
+  if (2 * fewest->second >= most->second) return "";
+  const std::vector<Label>& methods = input.view.study().methods;
+  return fmt::format("errors are of different poses: {} has {}, {} {}",
+                     label_of(methods, fewest->first), counted(fewest->second, "pose"),
+                     label_of(methods, most->first), most->second);
+}
+
+/// What is missing or lost, and what whoever knows the study says.
+std::vector<std::string> warnings_of(const ResultsReportInput& input) {
+  std::vector<std::string> warnings = input.warnings;
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) warnings.push_back(text);
+  };
+  if (!input.incomplete.empty()) add("incomplete: " + input.incomplete);
+  add(losses_of(input.view));
+  add(few_associated(input.view.study()));
+  add(unequal_poses(input));
+  return warnings;
+}
+
+Highlights numbers_of(const ResultsReportInput& input, const std::vector<std::string>& warnings) {
+  const ResultsStudy& study = input.view.study();
+  Highlights numbers;
+  if (!input.headline.value.empty()) {
+    numbers.items.push_back(input.headline);
+    if (!input.view.blocks().empty()) numbers.items.back().section = input.view.blocks().front().id;
+  } else {
+    add_best_values(input, numbers);
+    if (numbers.items.empty()) add_best_over_runs(input, numbers);
+    if (numbers.items.empty()) add_means(input.view, numbers);
+  }
+  if (numbers.items.empty())
+    numbers.items.push_back({study.methods.size() == 1 ? "method" : "methods",
+                             fmt::format("{}", study.methods.size()),
+                             counted(static_cast<long long>(input.view.runs()),
+                                     study.runs.empty() ? "run" : "data set")});
+  const std::string provenance = study.name + "-provenance";
+  if (!warnings.empty())
+    numbers.items.push_back({warnings.size() == 1 ? "warning" : "warnings",
+                             fmt::format("{}", warnings.size()), warnings.front(), provenance,
+                             true});
+  else if (const auto rows = std::ssize(study.results.rows); rows > 0)
+    numbers.items.push_back({fmt::format("of {} have no value", counted(rows, "result")), "0",
+                             "nothing was lost", provenance});
+  return numbers;
+}
+
+/// What is wrong, in one paragraph.
+Paragraph warnings_paragraph(const std::vector<std::string>& warnings) {
+  std::string text = warnings.empty() ? "none; every result has a value." : "";
+  for (const std::string& one : warnings) text += (text.empty() ? "" : "; ") + one;
+  if (!text.ends_with('.')) text += '.';
+  return {{strong("Warnings"), phrase(": " + text)}};
+}
+
+/// Those that stand for a group in the opening: the first one, and others spread over the rest, so
+/// that neighbours, which are of one data set, do not fill it. Maps that are of no use are left
+/// out.
+std::vector<std::string> spread(const std::vector<Figure>& figures) {
+  std::vector<std::string> usable, ids;
+  for (const Figure& figure : figures)
+    if (figure.title.find(kNoUsableMap) == std::string::npos) usable.push_back(figure.id);
+  constexpr std::size_t kMost = 6;
+  const std::size_t step = std::max<std::size_t>(1, usable.size() / kMost);
+  for (std::size_t i = 0; i < usable.size(); i += step) ids.push_back(usable[i]);
+  return ids;
+}
+
+/// First what the study is judged by: the errors of all systems together, or the values on all data
+/// sets, or the first figure. Then what a reader wants to open: the best method's map where it is
+/// best, the best map in space, other maps and paths, and curves; groups take turns.
+std::vector<std::string> figure_ids_of(const ResultsView& view, const StudyFigures& figures) {
+  const ResultsStudy& study = view.study();
+  std::vector<std::string> ids;
+  if (const auto best = best_over_runs(view)) {
+    ids.push_back(data_sets_figure_id(view.blocks().front(), *best->quantity));
+    ids.push_back(fmt::format("{}-map-{}-{}", study.name, slug_of(study.methods[best->method].id),
+                              slug_of(best->run)));
+  }
+  std::vector<std::vector<std::string>> groups;
+  std::vector<std::string> scenes;
+  std::ptrdiff_t paths = 0;  // The first of them.
+  std::vector<std::string> maps;
+  for (const FigureGroup& group : figures.groups) {
+    for (const Scene& scene : group.scenes) scenes.push_back(scene.id);
+    std::vector<std::string> own = spread(group.figures);
+    const bool is_of_paths = group.id.starts_with(path_error_prefix(study));
+    if (is_of_paths && study.methods.size() > 1) own.insert(own.begin(), group.id + "-curves");
+    if (group.id == study.name + "-maps") {
+      maps = std::move(own);
+      continue;
+    }
+    groups.insert(is_of_paths ? groups.begin() + paths++ : groups.end(), std::move(own));
+  }
+  if (!groups.empty() && !groups.front().empty()) ids.push_back(groups.front().front());
+  if (!maps.empty() && paths == 0) ids.push_back(maps.front());
+  ids.insert(ids.end(), scenes.begin(), scenes.end());
+  groups.insert(groups.begin() + paths, std::move(maps));
+  std::ranges::move(in_turns(groups), std::back_inserter(ids));
+  return ids;
+}
+
+Opening opening_of(const ResultsReportInput& input) {
+  Opening opening;
+  opening.question = input.view.study().question;
+  if (input.conclusions.empty())
+    for (std::string& headline : headlines_of(input.view, input.comparisons))
+      opening.findings.push_back(plain(std::move(headline)));
+  else
+    for (const std::string& conclusion : input.conclusions)
+      if (opening.findings.size() < kFewComparisons) opening.findings.push_back(plain(conclusion));
+  const std::vector<std::string> warnings = warnings_of(input);
+  opening.numbers = numbers_of(input, warnings);
+  opening.findings.insert(opening.findings.begin(), warnings_paragraph(warnings));
+  choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening);
+  return opening;
+}
+
+}  // namespace
+
 std::vector<Section> results_sections(const ResultsReportInput& input) {
   return sections_of(input, false);
 }
@@ -223,7 +504,7 @@ Report results_report(const ResultsReportInput& input) {
       "{}, {}", counted(static_cast<long long>(study.methods.size()), "method"),
       counted(static_cast<long long>(input.view.runs()), study.runs.empty() ? "run" : "data set"));
   report.sections = sections_of(input, true);
-  report.opening = results_opening(input);
+  report.opening = opening_of(input);
   report.footer = input.footer;
   report.date = input.date;
   return report;

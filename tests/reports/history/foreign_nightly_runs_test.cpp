@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "core/records/studies/results_study_json.hpp"
-#include "reports/history/history_tables.hpp"
 #include "reports/history/judge_nightly_run.hpp"
 #include "reports/history/nightly_scores.hpp"
+#include "reports/history/pages/history_tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof::test {

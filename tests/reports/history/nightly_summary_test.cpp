@@ -5,10 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "reports/history/history_pages.hpp"
-#include "reports/history/nightly_report.hpp"
 #include "reports/history/nightly_standing.hpp"
-#include "reports/history/study_course.hpp"
+#include "reports/history/pages/history_pages.hpp"
+#include "reports/history/pages/study_course.hpp"
 
 namespace mapproof::test {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "reports/history/index_facts.hpp"
-#include "reports/history/nightly_links.hpp"
-#include "reports/history/trend_figures.hpp"
+#include "reports/history/pages/index_facts.hpp"
+#include "reports/history/pages/nightly_links.hpp"
+#include "reports/history/pages/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {

@@ -1,4 +1,4 @@
-#include "reports/history/trend_figures.hpp"
+#include "reports/history/pages/trend_figures.hpp"
 
 #include <algorithm>
 #include <cmath>

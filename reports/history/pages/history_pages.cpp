@@ -1,24 +1,95 @@
-#include "reports/history/history_pages.hpp"
+#include "reports/history/pages/history_pages.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
-#include "reports/history/history_blocks.hpp"
-#include "reports/history/history_tables.hpp"
+#include "reports/history/nightly_run.hpp"
 #include "reports/history/nightly_standing.hpp"
+#include "reports/history/pages/history_tables.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
 namespace {
+
+/// What pages show at most: groups of findings in a section, whose rest the trends have; links to
+/// nightly runs in one sentence, whose rest the index has; small figures on a first screen.
+constexpr std::size_t kMostGroups = 30, kMostLinked = 10, kMostSmall = 6;
+
+/// "See all nightly runs, trends of tiny, report of nightly run 9, which it was compared with."
+/// @param reference  What it was compared with, if anything.
+Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
+  Paragraph all{{{"See "}}};
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    if (i > 0) all.phrases.push_back({", "});
+    all.phrases.push_back(std::move(to[i]));
+  }
+  if (reference) {
+    all.phrases.push_back({", "});
+    all.phrases.push_back(*reference);
+    all.phrases.push_back({", which it was compared with"});
+  }
+  all.phrases.push_back({"."});
+  return all;
+}
+
+/// What got worse in one group, and where to find it.
+/// @param to  Links to pages on it.
+FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, NightlyLinks& links) {
+  const CommitRange& commits = group.commits;
+  FindingBlock block;
+  block.title = group.headline();
+  block.details = group.sentences;
+  block.known = group.known.has_value();
+  block.command = block.known ? "" : commits.bisect();
+  auto& phrases = block.text.phrases;
+  phrases.push_back({group.study, Emphasis::kData});
+  if (!group.setup.empty()) phrases.push_back({", " + group.setup});
+  if (const std::string count = group.count_text(); !count.empty())
+    phrases.push_back({", " + count});
+  phrases.push_back({fmt::format(", since nightly run {}", commits.since.number)});
+  if (!commits.since.started_utc.empty())
+    phrases.push_back({" (" + local_time(commits.since) + ")"});
+  if (commits.has_commits()) {
+    phrases.push_back({", commits "});
+    phrases.push_back(links.commits(commits));
+  } else if (!commits.since.commit.empty() && commits.since.commit == commits.before.commit) {
+    phrases.push_back({", commit "});
+    phrases.push_back(links.commit(commits.since));
+    phrases.push_back({" as before it"});
+  }
+  phrases.push_back({". "});
+  for (Phrase& phrase : ways(std::move(to), std::nullopt).phrases)
+    phrases.push_back(std::move(phrase));
+  if (group.known) {
+    phrases.push_back({" Known: "});
+    phrases.push_back({group.known->text, Emphasis::kData});
+  }
+  return block;
+}
+
+/// Those of its groups of findings that a page shows.
+std::span<const FindingGroup> shown_groups(std::span<const FindingGroup> groups) {
+  return groups.first(std::min(groups.size(), kMostGroups));
+}
+
+/// Adds that others are with the findings of the trends; nothing if a page shows all.
+/// @param groups  How many there are in all.
+void add_rest(std::size_t groups, Section& section) {
+  if (groups > kMostGroups)
+    section.blocks.emplace_back(Paragraph{
+        {{fmt::format("And {} more, among the findings of the trends.", groups - kMostGroups)}}});
+}
 
 /// Figures of the index: its reader sees the course at a glance, the trends have all.
 constexpr std::size_t kMostOnIndex = 2;
@@ -334,6 +405,96 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
+}
+
+namespace {
+
+/// What got worse of a study, at the head of its report.
+Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
+  Section section{"worse", "What got worse", {}};
+  std::size_t count = 0;
+  for (const FindingGroup& group : study.groups) {
+    if (group.study != study.name || ++count > kMostGroups) continue;
+    std::vector<Phrase> to;
+    const int before = group.commits.before.number, since = group.commits.since.number;
+    if (study.comparisons.contains(comparison_file(before, since, group.study)))
+      to.push_back(links.comparison(before, since, group.study));
+    to.push_back(links.trends(group.study));
+    section.blocks.emplace_back(finding_block(group, std::move(to), links));
+  }
+  add_rest(count, section);
+  return section;
+}
+
+/// Puts what got worse before everything else: its section, then in each study of the report the
+/// sections that show it.
+void put_regressed_first(Report& report, Section worse) {
+  std::vector<Section>& sections = report.sections;
+  for (auto begin = sections.begin(); begin != sections.end();) {
+    const auto end = std::find_if(begin, sections.end(), [&](const Section& section) {
+      return section.group != begin->group;
+    });
+    std::stable_partition(begin, end, shows_regression);
+    begin = end;
+  }
+  if (!worse.blocks.empty()) sections.insert(sections.begin(), std::move(worse));
+}
+
+/// Makes a figure of what got worse, of the first finding if one shows it, the one of the first
+/// screen; the one that was is a small one.
+void show_regressed(Report& report, std::span<const FindingGroup> groups) {
+  Opening& opening = report.opening;
+  const auto all = figures(report);
+  std::string first = groups.empty() ? "" : groups.front().headline();
+  const auto is_worse = [&](const FigureBlock* figure) {
+    return !figure->regressed.empty() && figure->regressed.find(first) != std::string::npos;
+  };
+  if (std::ranges::none_of(all, is_worse)) first.clear();  // Then any that got worse.
+  const auto main_figure = std::ranges::find(all, opening.main_figure, &FigureBlock::id);
+  const auto worse = std::ranges::find_if(all, is_worse);
+  if (worse == all.end() || (main_figure != all.end() && is_worse(*main_figure))) return;
+  std::erase(opening.figure_ids, (*worse)->id);
+  if (!opening.main_figure.empty())
+    opening.figure_ids.insert(opening.figure_ids.begin(), opening.main_figure);
+  opening.main_figure = (*worse)->id;
+  if (opening.figure_ids.size() > kMostSmall) opening.figure_ids.resize(kMostSmall);
+}
+
+}  // namespace
+
+void add_nightly_run(Report& report, const StudyOfNightlyRun& study, NightlyLinks& links) {
+  const NightlyRun& nightly_run = study.nightly_run;
+  const LostNightlyRuns& lost = study.lost;
+  Opening& opening = report.opening;
+  report.subtitle +=
+      fmt::format("{}{}", report.subtitle.empty() ? "" : "; ", dated_name(nightly_run.facts));
+  opening.standing = study_standing(nightly_run.facts, study.groups, study.name, study.is_compared);
+  mark_regressed(report, study.figures, study.groups, study.name);
+  show_regressed(report, study.groups);
+  put_regressed_first(report, worse_of_study(study, links));
+  std::optional<Phrase> reference;
+  if (study.is_compared && nightly_run.facts.reference)
+    reference = links.report(*nightly_run.facts.reference, study.name);
+  std::vector<Paragraph> head = {ways({links.index(), links.trends(study.name)}, reference)};
+  if (!lost.kept_as.empty()) {
+    opening.standing->worse = true;
+    opening.standing->sentences.push_back(
+        fmt::format("The history was damaged. It is kept as {}, and a new one begins with this "
+                    "nightly run: there is none before it to compare with.",
+                    lost.kept_as.back()));
+    std::vector<Phrase> reports;
+    for (const auto& [number, studies] : lost.reports)
+      if (std::ranges::find(studies, study.name) != studies.end())
+        reports.push_back(links.report(number, study.name));
+    if (reports.size() > kMostLinked)
+      reports.erase(reports.begin(), reports.end() - static_cast<long>(kMostLinked));
+    if (!reports.empty()) {
+      head.push_back(ways(std::move(reports), std::nullopt));
+      head.back().phrases.front().text = "Reports from before that are still there: ";
+    }
+  }
+  opening.findings.insert(opening.findings.begin(), std::make_move_iterator(head.begin()),
+                          std::make_move_iterator(head.end()));
 }
 
 }  // namespace mapproof

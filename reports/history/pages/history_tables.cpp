@@ -1,4 +1,4 @@
-#include "reports/history/history_tables.hpp"
+#include "reports/history/pages/history_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,8 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/history/accuracy_rule.hpp"
+#include "reports/history/pages/study_course.hpp"
 #include "reports/history/shown_names.hpp"
-#include "reports/history/study_course.hpp"
 
 namespace mapproof {
 namespace {

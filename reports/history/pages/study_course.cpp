@@ -1,4 +1,4 @@
-#include "reports/history/study_course.hpp"
+#include "reports/history/pages/study_course.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
-#include "reports/history/trend_figures.hpp"
+#include "reports/history/pages/trend_figures.hpp"
 
 namespace mapproof {
 

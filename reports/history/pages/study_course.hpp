@@ -7,7 +7,7 @@
 #include "reports/history/finding_groups.hpp"
 #include "reports/history/nightly_notes.hpp"
 #include "reports/history/nightly_run.hpp"
-#include "reports/history/trend_figures.hpp"
+#include "reports/history/pages/trend_figures.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {

@@ -1,4 +1,4 @@
-#include "reports/history/nightly_links.hpp"
+#include "reports/history/pages/nightly_links.hpp"
 
 #include <fmt/format.h>
 
