@@ -38,6 +38,7 @@
 #include "reports/history/nightly_scores.hpp"
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/nightly_summary.hpp"
+#include "reports/history/pages/history_pages.hpp"
 #include "reports/history/pages/nightly_links.hpp"
 #include "reports/history/store/object_folder.hpp"
 
