@@ -111,9 +111,10 @@ std::string understood_line(const RangeLog& log) {
   std::vector<std::string> table = {column_words(log.columns), separator_words(log.separator)};
   std::erase(table, "");
   return fmt::format(
-      "{}: {} landmarks, {} ranges [m], {} motions of odometry [m, rad], ground truth of the path: "
+      "{}: {}, {} [m], {} of odometry [m, rad], ground truth of the path: "
       "{}{}{}",
-      log.name, log.landmarks.size(), log.ranges.size(), log.odometry.size(),
+      log.name, counted(std::ssize(log.landmarks), "landmark"),
+      counted(std::ssize(log.ranges), "range"), counted(std::ssize(log.odometry), "motion"),
       log.ground_truth ? "yes" : "no", table.empty() ? "" : "; ", fmt::join(table, ", "));
 }
 

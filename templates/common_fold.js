@@ -1,6 +1,6 @@
 // What few readers need is folded on the screen, and whole on paper and without a script.
 
-const kMostOnPaper = 12;  // Lists of affected runs; more of them stay folded on paper, too.
+const kMostOnPaper = 60;  // Runs in lists of affected ones; of more all lists stay folded on paper, too.
 
 // Opens an element and all that is folded around it.
 function unfold(element) {
@@ -28,7 +28,8 @@ function foldDetails() {
   unfoldTarget();
   let closed = [];
   addEventListener("beforeprint", () => {
-    closed = [...folds, ...(affected.length <= kMostOnPaper ? affected : [])]
+    const runs = document.querySelectorAll(".affected code").length;
+    closed = [...folds, ...(runs <= kMostOnPaper ? affected : [])]
       .filter((details) => !details.open);
     for (const details of closed) details.open = true;
   });

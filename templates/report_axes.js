@@ -110,11 +110,12 @@ function hasAxes(svg) {
   return panels.length > 0 && frames.every(({ axes }) => axes[0] || axes[1]);
 }
 
-// A frame's part [x, y, width, height] under a view, as a mapping of points.
-function mappingOf(frame, { x, y, width, height }) {
-  const scale = 1 / width;
-  const right = frame.x - scale * (frame.x + x * frame.width);
-  const down = frame.y - scale * (frame.y + y * frame.height);
+// A frame's part [x, y, width, height] under a view, as a mapping of points to where the frame is
+// shown, which may be larger.
+function mappingOf(frame, shown, { x, y, width, height }) {
+  const scale = shown.width / frame.width / width;
+  const right = shown.x - scale * (frame.x + x * frame.width);
+  const down = shown.y - scale * (frame.y + y * frame.height);
   return {
     scale, transform: `matrix(${scale} 0 0 ${scale} ${right} ${down})`,
     at: (point) => ({ x: scale * point.x + right, y: scale * point.y + down }),
@@ -218,7 +219,7 @@ function placesOf(axis, start, end, at, isFree = () => true) {
 }
 
 // Whether a tick's words, left of a frame, do not reach the label of the axis.
-function isBesideLabel({ frame, label, words: { size, gap } }) {
+function isBesideLabel({ shown: frame, label, words: { size, gap } }) {
   const kWidthOfDigit = .64;
   return ({ at, words }) => !label || at + size < label.y || at - size > label.y + label.height ||
     frame.x - gap - kWidthOfDigit * size * words.length > label.x + label.width;
@@ -259,10 +260,10 @@ function addTicks(svg, part, side, frame, places) {
 }
 
 function zoomTicks(svg, part, view, mapping) {
-  const { frame, panel } = part, { x, y, width, height } = view;
+  const { shown: frame, panel } = part, { x, y, width, height } = view;
   part.layer?.remove();
   part.grid?.remove();
-  const isZoomed = width < 1;
+  const isZoomed = mapping.scale !== 1;
   for (const each of panel.filter((one) => /^(grid|tick|tick-label)$/.test(kindOf(one)))) {
     each.classList.toggle("unzoomed", isZoomed);
   }
@@ -301,7 +302,7 @@ function readZoomedParts(svg) {
   });
   const hasAll = () => svg.querySelector(":scope > .step-axes") !== null;
   return panels.map((panel, i) => ({
-    panel, frame: frames[i], labels: labels[i], content: contentOf(panel, frames[i]),
+    panel, frame: frames[i], shown: frames[i], labels: labels[i], content: contentOf(panel, frames[i]),
     ends: endsOf(parts, frames[i], panel),
     label: axes.filter(isUpright)
       .filter((label) => frameOfLabel(label, frames)?.x === frames[i].x)
@@ -313,13 +314,42 @@ function readZoomedParts(svg) {
 
 function applyAxes(svg, view) {
   for (const part of zoomedParts.get(svg)) {
-    const mapping = mappingOf(part.frame, view.now);
+    const mapping = mappingOf(part.frame, part.shown, view.now);
     zoomShapes(part.frame, part.content, mapping);
-    zoomMarks(part.frame, part.content, mapping);
+    zoomMarks(part.shown, part.content, mapping);
     zoomTicks(svg, part, view.now, mapping);
     if (!svg.parentElement.classList.contains("stacked")) zoomEnds(part.frame, part.ends, mapping);
   }
-  svg.classList.toggle("zoomed-axes", view.isZoomed);
+  for (const { panel, frame, shown } of zoomedParts.get(svg)) {
+    for (const part of panel.filter((each) => kindOf(each) === "frame")) {
+      placeFrame(part, shown, shown.width / frame.width);
+    }
+  }
+  const isEnlarged = zoomedParts.get(svg).some(({ frame, shown }) => shown !== frame);
+  svg.classList.toggle("zoomed-axes", view.isZoomed || isEnlarged);
+}
+
+// The border of a frame that is shown so many times as large.
+function placeFrame(part, { x, y }, scale) {
+  part.dataset.zoom = scale === 1 ? ""
+    : `matrix(${scale} 0 0 ${scale} ${x * (1 - scale)} ${y * (1 - scale)})`;
+  part.style.strokeWidth = scale === 1 ? "" : part.getAttribute("stroke-width") / scale;
+  placePart(part);
+}
+
+// Shows the frames `factor` times as large, from their upper left corners; lines, marks and words keep
+// their size.
+function enlargeFrames(svg, factor) {
+  if (!zoomedParts.has(svg)) return;
+  for (const part of zoomedParts.get(svg)) {
+    part.shown = factor === 1 ? part.frame : enlarged(part.frame, factor);
+  }
+  applyAxes(svg, viewOf(svg));
+}
+
+function enlarged(frame, factor) {
+  const width = factor * frame.width, height = factor * frame.height;
+  return { ...frame, width, height, right: frame.x + width, bottom: frame.y + height };
 }
 
 // What the axes of the first frame count in a view, for whoever cannot see them.
@@ -336,7 +366,7 @@ function wordsOfView(svg, { x, y, width, height }) {
 // The frame under a pointer, or the nearest one, where it is shown.
 function frameAt(svg, point) {
   const shown = zoomedParts.get(svg).filter(({ panel }) => !panel[0].classList.contains("off"))
-    .map(({ panel, frame }) => {
+    .map(({ panel, shown: frame }) => {
       const { x, y } = shifts.get(panel[0]) ?? kNoShift;
       return { ...frame, x: frame.x + x, y: frame.y + y };
     });

@@ -143,10 +143,11 @@ function readNamedMethods(figures, rows) {
 function addMethodList(before) {
   const figures = [...document.querySelectorAll("figure[data-id]")].slice(0, kMostRead);
   figures.forEach(readMethods);
-  // Other curves, such as published ones or kinds of noise, are not in columns of methods.
+  // Other curves, such as published ones or kinds of noise, are not in columns of methods. A further
+  // page of a report may have no tables.
   const rows = new Set(namedMethods());
   for (const [key, name] of methods) {
-    if (![...rows].some((row) => row === name || row.startsWith(`${name}, `))) methods.delete(key);
+    if (rows.size > 0 && ![...rows].some((row) => row === name || row.startsWith(`${name}, `))) methods.delete(key);
   }
   if (methods.size === 0) readNamedMethods(figures, rows);
   namesOfLabels.clear();

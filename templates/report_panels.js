@@ -182,7 +182,8 @@ function axisLabelsOf(svg, parts, frame) {
 }
 
 // The labels of the axes that a panel shares with others, moved to this panel.
-function sharedAxes(svg, parts, step, shift = kNoShift) {
+// `shown`: its frame as it is shown, which may be larger.
+function sharedAxes(svg, parts, step, shift = kNoShift, shown = parts.frames[step]) {
   const layer = document.createElementNS(svg.namespaceURI, "g");
   layer.setAttribute("class", "step-axes");
   const { frames } = parts, frame = frames[step];
@@ -197,8 +198,8 @@ function sharedAxes(svg, parts, step, shift = kNoShift) {
   }
   for (const { label, upright, middle } of axisLabelsOf(svg, parts, frame)) {
     const from = frameOfLabel(label, frames);
-    addCopy(layer, label, upright ? frame.x - from.x : frame.x + frame.width / 2 - middle.x,
-      upright ? frame.y + frame.height / 2 - middle.y : frame.bottom - from.bottom);
+    addCopy(layer, label, upright ? shown.x - from.x : shown.x + shown.width / 2 - middle.x,
+      upright ? shown.y + shown.height / 2 - middle.y : shown.bottom - from.bottom);
   }
   shifts.set(layer, shift);
   placePart(layer);

@@ -11,23 +11,35 @@ function stepBox({ left, above, right, below }, frame) {
 
 // Shows one panel alone, or with -1 all of them.
 function showStep(svg, parts, rooms, whole, step) {
+  enlargeFrames(svg, 1);
   if (step < 0) return showWhole(svg, whole);
   unstack(svg, parts);
   const others = [...parts.rest, ...parts.axes.map((name) => name.parentElement)];
   for (const part of [...parts.panels.flat(), ...others]) part.classList.remove("off");
-  const labels = sharedAxes(svg, parts, step);  // Measures what is shown.
+  const factor = narrowPage.matches ? 1 : factorOfStep(rooms, parts.frames[step], whole);
+  const frame = enlarged(parts.frames[step], factor);
+  const labels = sharedAxes(svg, parts, step, kNoShift, frame);  // Measures what is shown.
   parts.panels.forEach((panel, i) => panel.forEach(
     (part) => part.classList.toggle("off", i !== step)));
   for (const part of others) part.classList.add("off");
   svg.append(labels);
-  const box = stepBox(rooms, parts.frames[step]);
+  enlargeFrames(svg, factor);
+  const box = stepBox(rooms, frame);
   if (narrowPage.matches) {
     fillWidth(svg, box);
   } else {  // The box of all panels is too flat for one.
     svg.parentElement.classList.add("stepped");
     svg.parentElement.style.setProperty("--step", box.width / box.height);
   }
-  return setHome(svg, box, parts.frames[step]);
+  return setHome(svg, box, frame);
+}
+
+// How many times as large the frame of a step is as that of its panel: the step is as wide as the
+// drawing or as high as the box, with words of the same size.
+function factorOfStep({ left, above, right, below }, frame, whole) {
+  const kHighest = 480;  // In units of the drawing.
+  return Math.max(1, Math.min((whole.width - left - right) / frame.width,
+    (kHighest - above - below) / frame.height));
 }
 
 // Goes through the steps from the one that is shown, or from the first one, and stops at the last.

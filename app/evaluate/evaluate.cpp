@@ -260,9 +260,9 @@ std::string text_of(const std::vector<EvaluatedRun>& runs) {
     text += fmt::format("{}, {}:", run.method, run.run);
     if (run.path) {
       const ErrorStatistics errors = error_statistics(run.path->poses.error_m);
-      text += fmt::format(" ATE {} RMSE, {} mean, {} median, {} greatest; {} poses",
-                          metres(errors.rmse), metres(errors.mean), metres(errors.median),
-                          metres(errors.maximum), run.path->poses.size());
+      text += fmt::format(" ATE {} RMSE, {} mean, {} median, {} greatest; {}", metres(errors.rmse),
+                          metres(errors.mean), metres(errors.median), metres(errors.maximum),
+                          counted(static_cast<long long>(run.path->poses.size()), "pose"));
       if (run.path->alignment.scale != 1.0)
         text += fmt::format("; scale {}", significant(run.path->alignment.scale, 5));
     }

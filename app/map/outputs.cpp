@@ -18,6 +18,7 @@
 #include "core/base/files/input_file.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_ellipses.hpp"
@@ -169,9 +170,9 @@ std::string map_text(const MapResult& map, const fs::path& out) {
   const MapRecord& record = map.record;
   const bool is_chosen =
       std::ranges::any_of(map.members, [](const auto& member) { return member.name == "choice"; });
-  std::string text =
-      fmt::format("Method: {}{}, {}, {} steps", method_label(record),
-                  is_chosen ? " (chosen, see the report)" : "", sensor_label(record), record.step);
+  std::string text = fmt::format("Method: {}{}, {}, {}", method_label(record),
+                                 is_chosen ? " (chosen, see the report)" : "", sensor_label(record),
+                                 counted(record.step, "step"));
   if (record.score)
     if (const std::string score = score_text(*record.score); !score.empty()) {
       const std::string scored = scored_landmarks_text(record);

@@ -75,8 +75,9 @@ void list_sources(const Sources& sources, MapResult& result) {
     const auto missing = static_cast<double>(source.history.values.array().isNaN().count());
     result.read.emplace_back(
         "Sensor " + sensor,
-        fmt::format("{}: {}, {} steps, {:.1f} % missing", source.path,
-                    counted(source.history.landmarks(), "landmark"), source.history.steps(),
+        fmt::format("{}: {}, {}, {:.1f} % missing", source.path,
+                    counted(source.history.landmarks(), "landmark"),
+                    counted(source.history.steps(), "step"),
                     100.0 * missing / static_cast<double>(source.history.values.size())));
     for (const std::string& remark : source.remarks)
       if (std::ranges::find(result.remarks, remark) == result.remarks.end())

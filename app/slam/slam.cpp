@@ -142,7 +142,7 @@ std::optional<std::string> graph_of(const SlamRun& run, const SlamRecord& best) 
     way_m += std::hypot(motion.distance_m, motion.sideways_m);
   const double root = std::sqrt(way_m / static_cast<double>(run.log.odometry.size()));
   const double forward_m = std::max(number("fit_forward_sigma_m") * root, 1e-9);
-  const double heading_change_rad = std::max(number("fit_heading_change_sigma_rad") * root, 1e-9);
+  const double heading_change_rad = std::max(number("fit_heading_sigma_rad") * root, 1e-9);
   if (!(number("fit_range_sigma_m") > 0.0) ||
       best.estimate.path.size() != std::ssize(run.log.odometry) + 1 ||
       best.estimate.path.heading_rad.size() == 0)

@@ -4,6 +4,7 @@
 
 #include "app/result_json.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
 
@@ -29,8 +30,8 @@ std::string slam_record_text(const SlamRecord& record) {
            (record.estimate.statuses.empty() ? ""
                                              : ": " + status_text(record.estimate.statuses.back()));
   if (record.errors.empty())
-    return method + fmt::format("  {} poses, no ground truth to compare them with",
-                                record.estimate.path.size());
+    return method + fmt::format("  {}, no ground truth to compare them with",
+                                counted(record.estimate.path.size(), "pose"));
   const TrajectoryError& error = record.errors.front();
   return method + fmt::format("  mean error {}, alignment {}", error_text(error.mean_m),
                               name(error.alignment));

@@ -17,6 +17,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/parallel.hpp"
+#include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
 #include "core/records/studies/study_store.hpp"
 #include "render/output/write_figure.hpp"
@@ -119,8 +120,8 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
 }
 
-/// How many of the studies that aim at something came out so, and which did not; none if no study
-/// has an aim.
+/// How many of the studies that expect a result gave it, and which did not; none if no study
+/// expects one.
 std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& parts) {
   std::ptrdiff_t judged = 0;
   std::vector<std::string> short_of;
@@ -132,8 +133,9 @@ std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& part
   if (judged == 0) return std::nullopt;
   const std::ptrdiff_t open = std::ssize(parts) - judged;
   std::string detail = short_of.empty() ? "" : "not: " + listed(short_of, 4);
-  if (open > 0) detail += fmt::format("{}{} more without an aim", detail.empty() ? "" : "; ", open);
-  return Highlights::Item{.label = "studies came out as aimed at",
+  if (open > 0)
+    detail += fmt::format("{}{} more without an expected result", detail.empty() ? "" : "; ", open);
+  return Highlights::Item{.label = "studies gave the expected result",
                           .value = fmt::format("{} of {}", judged - std::ssize(short_of), judged),
                           .detail = std::move(detail),
                           .falls_short = !short_of.empty()};

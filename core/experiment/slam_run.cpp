@@ -269,10 +269,10 @@ void scale_fit(Fit& fit, double factor) {
   for (FitNumber& number : fit.numbers) {
     // Densities are per length.
     if (number.quantity.ends_with("held_out_nats")) number.value -= std::log(factor);
-    const double power = number.quantity == "fit_range_sigma_m"              ? 1.0
-                         : number.quantity == "fit_forward_sigma_m"          ? 0.5
-                         : number.quantity == "fit_heading_change_sigma_rad" ? -0.5
-                                                                             : 0.0;
+    const double power = number.quantity == "fit_range_sigma_m"       ? 1.0
+                         : number.quantity == "fit_forward_sigma_m"   ? 0.5
+                         : number.quantity == "fit_heading_sigma_rad" ? -0.5
+                                                                      : 0.0;
     number.value *= std::pow(factor, power);
   }
 }

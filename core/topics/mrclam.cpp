@@ -200,9 +200,9 @@ constexpr const char* kAssociation = "association";
 /// Series of scans with wrong data association, as they are and corrected.
 constexpr std::pair<const char*, const char*> kFaults[] = {
     {"swapped", "Two landmark IDs swapped in half of the scans"},
-    {"swapped-corrected", "The same, corrected"},
+    {"swapped-corrected", "Correction of the swapped IDs"},
     {"misnamed", "One landmark called by another's name in all scans"},
-    {"misnamed-corrected", "The name corrected"}};
+    {"misnamed-corrected", "Correction of the wrong name"}};
 
 /// One strategy from a set's scans to a map.
 struct MrclamMethod {

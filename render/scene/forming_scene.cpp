@@ -15,7 +15,6 @@
 namespace mapproof {
 namespace {
 
-constexpr std::size_t kColumns = 3;
 constexpr double kFormingAspect = 1.4;
 
 void require_usable(const FormingSceneSpec& spec) {
@@ -40,6 +39,11 @@ void require_usable(const FormingSceneSpec& spec) {
   }
 }
 
+/// Three, but four views two by two.
+std::size_t columns_of(std::size_t views) {
+  return views == 4 ? 2 : std::min<std::size_t>(3, views);
+}
+
 class Forming {
  public:
   explicit Forming(const FormingSceneSpec& spec) : spec_(spec), side_(spec.world.side_m) {
@@ -56,7 +60,7 @@ class Forming {
   /// Views of those maps; with the path, that up to the last of them.
   Scene make(std::string id, const std::vector<std::size_t>& shown, bool with_path) const {
     Scene scene{.id = std::move(id), .title = spec_.title, .lights = usual_lights()};
-    scene.columns = std::min(kColumns, shown.size());
+    scene.columns = columns_of(shown.size());
     scene.parts = {floor_of(side_), walls_of(side_), anchors(),
                    rings(spec_.world.landmarks_m, rows(true), pillar_radius_m(spec_.world))};
     if (with_path) add_path(spec_.maps[shown.back()].step, scene);

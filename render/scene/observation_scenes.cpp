@@ -141,8 +141,7 @@ class MeasurementScene {
           fmt::format("L{}: {}", named[i] + 1, degrees(m_.bearings_rad(named[i]))));
     }
     const auto known = m_.bearings_rad.array().isFinite().count();
-    scene_.title =
-        fmt::format("Bearing-only measurement: the angles to {}", counted(known, "landmark"));
+    scene_.title = "Bearing-only measurement: " + bearings_text(m_);
     scene_.caption = fmt::format(
         "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
         "{}.",
@@ -231,7 +230,8 @@ class MeasurementScene {
          arc_points(robot_, radius, m_.heading_rad, m_.heading_rad + m_.bearings_rad(row)))
       arc.points.push_back(lifted(p, eye()));
     scene_.parts.emplace_back(std::move(arc));
-    scene_.parts.emplace_back(Rods{.from = {lifted(robot_, eye())},
+    scene_.parts.emplace_back(Rods{.label = fmt::format("bearing of L{}", row + 1),
+                                   .from = {lifted(robot_, eye())},
                                    .to = {position(row, eye())},
                                    .radius = 0.003 * seen_m_,
                                    .style = style});

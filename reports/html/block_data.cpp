@@ -160,7 +160,8 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const bool is_file = !link.empty();
   out.set("value",
           is_file ? link_words(text->text, options) : page_cell(cell, table.columns[index]));
-  out.set("curve", curve_data(row, index));
+  const data curve = curve_data(row, index);
+  out.set("curve", curve);
   out.set("heads", index == 0);
   out.set("worse", index == 0 ? text_or_false(row.regressed) : data(false));
   out.set("is_text", text != nullptr || holds_text(table, index));
@@ -170,7 +171,8 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const bool is_strong = emphasis == Emphasis::kStrong;
   out.set("strong", is_strong);
   out.set("data", emphasis != Emphasis::kCode && !is_file && !is_strong);
-  out.set("long", text != nullptr && text->text.size() > kLongCell);
+  // What stands above a curve is read whole.
+  out.set("long", text != nullptr && text->text.size() > kLongCell && curve.is_false());
   const std::string key = std::visit(SortKey{}, cell);
   out.set("sort", text == nullptr ? data("key", key) : data(false));
   const bool begins = index > 0 && table.columns[index - 1].group != table.columns[index].group;

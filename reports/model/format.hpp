@@ -11,8 +11,8 @@ namespace mapproof {
 inline constexpr const char* kMissingText = "\u2013";
 
 /// `value` with `decimals` places and a true minus (U+2212); "–" if it is not a finite number. Zero
-/// carries no sign. With an exponent from 1e9 on, and where six places or more show zeros
-/// alone of a value that is none.
+/// carries no sign. Without places it has its thousands apart, "25,700". With an exponent from 1e9
+/// on, and where six places or more show zeros alone of a value that is none.
 std::string format_number(double value, int decimals, bool with_sign = false);
 
 /// As a reader sees it: "0.219", "0.191–0.247", "–".

@@ -96,6 +96,8 @@ struct Column {
   /// Whether cells are errors in metres, of which a page says "over 1 km" if they are larger;
   /// unset: if the unit is m.
   std::optional<bool> errors_m = std::nullopt;
+  /// The number that the title shows to readers; files of comma-separated values have its digits.
+  std::optional<double> number = std::nullopt;
 };
 
 /// By how much something got worse over time, as a small curve beside a cell; pages alone show it.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 
 namespace mapproof {
@@ -83,7 +84,8 @@ std::string described(const SharedId& shared, const std::string& first, const st
       "{} stands at two positions {:.2f} m apart ({} and {} detections): another landmark has "
       "its "
       "landmark ID{}: loss {:.3f} -> {:.3f} m",
-      printable(first), shared.apart_m, shared.first_detections, shared.second_detections,
+      printable(first), shared.apart_m, count_text(shared.first_detections),
+      count_text(shared.second_detections),
       second.empty() ? "" : ", likely " + printable(second) + ", which has no detection",
       shared.loss_before_m, shared.loss_after_m);
 }

@@ -49,7 +49,7 @@ Paragraph best_finding(std::span<const SettingSummary> methods) {
   const SettingSummary& best = *best_of(methods);
   Paragraph text;
   text.phrases.push_back(strong(title_of(best.sensor)));
-  text.phrases.push_back(phrase(fmt::format(": after {} observations ", best.step)));
+  text.phrases.push_back(phrase(fmt::format(": after {} ", counted(best.step, "observation"))));
   text.phrases.push_back(strong(label(best.setting)));
   text.phrases.push_back(phrase(fmt::format(
       " is the most accurate of {}: MPE {}, MOE {}.", counted(std::ssize(methods), "method"),

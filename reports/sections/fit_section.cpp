@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/results/quantity.hpp"
 #include "render/figures/diagrams/fit.hpp"
@@ -23,14 +24,16 @@ bool is_cause(const Fit& fit, const FitTest& test) {
 }
 
 KeyValues number_items(const Fit& fit) {
+  constexpr int kDigits = 4;
   KeyValues items;
   for (const FitNumber& number : fit.numbers) {
     const Quantity* quantity = find_quantity(number.quantity);
     const std::string label = quantity == nullptr ? number.quantity : label_with_unit(*quantity);
     items.items.push_back(
         {label,
-         {number.bound ? fmt::format("{:.4g} (bound {:.4g})", number.value, *number.bound)
-                       : fmt::format("{:.4g}", number.value)}});
+         {number.bound ? fmt::format("{} (bound {})", significant(number.value, kDigits),
+                                     significant(*number.bound, kDigits))
+                       : significant(number.value, kDigits)}});
   }
   return items;
 }

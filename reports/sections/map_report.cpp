@@ -148,7 +148,7 @@ std::string caption_of(const MapRecord& record, const std::vector<Index>& rows) 
     which = are_known ? "The {} largest errors of {} landmarks; map.csv lists all"
                       : "{} of {} landmarks, those of known errors first; map.csv lists all";
   }
-  return fmt::format(fmt::runtime(which), rows.size(), landmarks);
+  return fmt::format(fmt::runtime(which), count_text(std::ssize(rows)), count_text(landmarks));
 }
 
 Table landmarks_table(const MapRecord& record) {

@@ -11,6 +11,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/findings.hpp"
@@ -138,16 +139,14 @@ std::string frequent_warnings(const Study& study) {
   for (const Run& run : study.runs)
     for (const RunRecord& record : run.records) {
       std::set<std::string> codes;
-      for (const Status& status : record.statuses) codes.insert(std::string(name(status.code)));
+      for (const Status& status : record.statuses) codes.insert(words_of(status.code));
       for (const std::string& code : codes) ++maps[code];
     }
   std::vector<std::pair<std::string, int>> order(maps.begin(), maps.end());
   std::ranges::stable_sort(order, std::greater(), &std::pair<std::string, int>::second);
   std::vector<std::string> names;
-  for (auto& [code, count] : order) {
-    std::ranges::replace(code, '_', ' ');
+  for (const auto& [code, count] : order)
     names.push_back(fmt::format("{} ({})", code, counted(count, "map")));
-  }
   return listed(names, 3);
 }
 
@@ -198,8 +197,8 @@ std::string smaller_than_paper(const Experiment& experiment) {
                         counted(kPaperPoses, "initial pose"));
   for (const SensorStudy& sensor : experiment.sensors)
     if (last_step(sensor) < kPaperSteps)
-      text += fmt::format("{} stops at {} observations, the paper at {}. ",
-                          title_of(sensor.sensor.sensor), last_step(sensor), kPaperSteps);
+      text += fmt::format("{} stops at {}, the paper at {}. ", title_of(sensor.sensor.sensor),
+                          counted(last_step(sensor), "observation"), kPaperSteps);
   if (experiment.world.landmarks != kPaperLandmarks)
     text += fmt::format("{} where the paper had {}. ",
                         counted(experiment.world.landmarks, "landmark"), kPaperLandmarks);
@@ -235,7 +234,7 @@ void choose_figures(const std::vector<std::string>& ids, const StudyFigures& fig
   // One that found something, if there is any.
   const auto found_nothing = [&](const std::string& id) {
     return std::ranges::any_of(all_figures(figures), [&](const Figure* figure) {
-      return figure->id == id && (figure->title.find(kIntervalsOverlap) != std::string::npos ||
+      return figure->id == id && (figure->title.find(kNoneIsBest) != std::string::npos ||
                                   figure->title.find(kTooFewRuns) != std::string::npos);
     });
   };

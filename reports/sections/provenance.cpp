@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
@@ -21,7 +22,7 @@ Phrase data(std::string text) { return {std::move(text), Emphasis::kData}; }
 
 std::string join(const std::vector<int>& values) {
   std::string text;
-  for (const int value : values) text += fmt::format("{}{}", text.empty() ? "" : ", ", value);
+  for (const int value : values) text += (text.empty() ? "" : ", ") + count_text(value);
   return text;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
@@ -16,6 +17,7 @@
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/study_counts.hpp"
+#include "reports/sections/tables/cells.hpp"
 #include "reports/sections/tables/method_tables.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
@@ -30,7 +32,8 @@ std::string subtitle(const Study& study) {
                      counted(experiment.world.landmarks, "landmark"), experiment.world.side_m);
 }
 
-void add_half(const SensorStudy& sensor, const HalfChoices& choices, Section& section) {
+void add_half(const SensorStudy& sensor, const HalfChoices& choices, int decimals,
+              Section& section) {
   if (choices.halves == Halves::kNone) {
     section.blocks.emplace_back(
         plain("The parameter cannot be chosen on one half of the runs and judged on the other: "
@@ -42,12 +45,13 @@ void add_half(const SensorStudy& sensor, const HalfChoices& choices, Section& se
         "Choosing the parameter by the very runs that are then reported, as the paper does, is "
         "optimistic: " +
         words));
-  section.blocks.emplace_back(half_table(sensor, choices));
+  section.blocks.emplace_back(half_table(sensor, choices, decimals));
 }
 
-void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, Section& section) {
+void add_ranks(const SensorStudy& sensor, const MethodRanks& ranks, int decimals,
+               Section& section) {
   if (ranks.test)
-    section.blocks.emplace_back(rank_table(sensor, ranks));
+    section.blocks.emplace_back(rank_table(sensor, ranks, decimals));
   else
     section.blocks.emplace_back(
         plain(fmt::format("Methods cannot be ranked by a test: {} scored by {} in common; two of "
@@ -128,8 +132,10 @@ void add_ends(const Study& study, BulletList& findings) {
                 ": of {}, {}{} with warnings, all listed below with the "
                 "reason.",
                 maps,
-                counts.unscored == 0 ? "" : fmt::format("{} without a score and ", counts.unscored),
-                counts.with_status);
+                counts.unscored == 0
+                    ? ""
+                    : fmt::format("{} without a score and ", count_text(counts.unscored)),
+                count_text(counts.with_status));
   findings.items.push_back({{strong("Failures"), phrase(text)}});
 }
 
@@ -149,8 +155,8 @@ std::vector<Callout> caveats(const Study& study) {
 std::string mapping_incomplete(const Study& study) {
   const long planned = static_cast<long>(study.experiment.layouts) * study.experiment.poses;
   if (static_cast<long>(study.runs.size()) >= planned) return "";
-  return fmt::format("{} of {} are done; every number below rests on these.", study.runs.size(),
-                     counted(planned, "run"));
+  return fmt::format("{} of {} are done; every number below rests on these.",
+                     count_text(std::ssize(study.runs)), counted(planned, "run"));
 }
 
 Report study_report(const StudyReportInput& input) {
@@ -181,24 +187,25 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   const std::vector<SettingSummary> all = summarize(study, sensor, last_step(sensor));
   const std::vector<SettingSummary> best = best_of_each_method(all);
   const bool grid = all.size() > best.size();
+  const int decimals = mpe_decimals(study);
   Section section;
   section.interest = Interest::kMost;
   section.id = fmt::format("methods-{}", name(sensor.sensor.sensor));
   section.title = title_of(sensor.sensor.sensor) + ": methods";
   section.blocks.emplace_back(plain(fmt::format(
-      "Maps after {} observations, aligned to {} by the affine map of {}. Smaller is better.",
-      last_step(sensor), counted(study.experiment.anchors, "anchor"),
+      "Maps after {}, aligned to {} by the affine map of {}. Smaller is better.",
+      counted(last_step(sensor), "observation"), counted(study.experiment.anchors, "anchor"),
       label(study.experiment.affine_fit))));
-  section.blocks.emplace_back(accuracy_table(sensor, best, grid));
+  section.blocks.emplace_back(accuracy_table(sensor, best, grid, decimals));
   const std::size_t main_blocks = section.blocks.size();
   if (!sensor.published.values.empty())
-    section.blocks.emplace_back(paper_parameter_table(sensor, all));
+    section.blocks.emplace_back(paper_parameter_table(sensor, all, decimals));
   if (!sensor.published.orderings.empty())
-    section.blocks.emplace_back(ordering_table(sensor, ordering_claims(study, sensor)));
-  if (grid) add_half(sensor, half_choices(study, sensor), section);
-  if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), section);
-  section.blocks.emplace_back(spread_table(sensor, best));
-  if (grid) section.blocks.emplace_back(parameter_table(sensor, all));
+    section.blocks.emplace_back(ordering_table(sensor, ordering_claims(study, sensor), decimals));
+  if (grid) add_half(sensor, half_choices(study, sensor), decimals, section);
+  if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), decimals, section);
+  section.blocks.emplace_back(spread_table(sensor, best, decimals));
+  if (grid) section.blocks.emplace_back(parameter_table(sensor, all, decimals));
   for (std::size_t i = main_blocks; i < section.blocks.size(); ++i)
     if (auto* table = std::get_if<Table>(&section.blocks[i])) table->secondary = true;
   return section;
@@ -218,12 +225,13 @@ Section statuses_section(const Study& study) {
   }
   std::vector<std::string> parts;
   if (counts.with_status > 0)
-    parts.push_back(
-        fmt::format("{} ha{} warnings", counts.with_status, counts.with_status == 1 ? "s" : "ve"));
+    parts.push_back(fmt::format("{} ha{} warnings", count_text(counts.with_status),
+                                counts.with_status == 1 ? "s" : "ve"));
   if (counts.unscored > 0)
-    parts.push_back(
-        fmt::format("{} ha{} no score", counts.unscored, counts.unscored == 1 ? "s" : "ve"));
-  if (counts.failed > 0) parts.push_back(fmt::format("{} could not be made", counts.failed));
+    parts.push_back(fmt::format("{} ha{} no score", count_text(counts.unscored),
+                                counts.unscored == 1 ? "s" : "ve"));
+  if (counts.failed > 0)
+    parts.push_back(fmt::format("{} could not be made", count_text(counts.failed)));
   section.blocks.emplace_back(plain(fmt::format(
       "Of {}, {}. The numbers above include every map that could be scored, with or without "
       "warnings.",

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <span>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/sections/run_scores.hpp"
 #include "reports/sections/tables/cells.hpp"
 #include "reports/sections/wording.hpp"
@@ -35,7 +42,7 @@ Shown shown(const Variation& variation) {
     case Factor::kSmacofKnnFall:
       return {"relative fall of the stress at which SMACOF stops"};
     case Factor::kOnlySeenTogether:
-      return {"neighbours (0: any pair, 1: only covisible pairs)"};
+      return {"pairs that may be neighbours"};
     case Factor::kSide:
     case Factor::kLandmarks:
     case Factor::kDiameter:
@@ -46,17 +53,64 @@ Shown shown(const Variation& variation) {
   return {};
 }
 
-/// "SDE, K = 7: uncertified in 11 of 25 runs at 10, in 25 of 25 at 20.", one sentence per status.
-std::vector<std::string> status_notes(const Variation& variation, const VariedSetting& setting) {
-  std::map<StatusCode, std::string> places;
-  for (std::size_t level = 0; level < variation.levels.size(); ++level)
-    for (const auto& [code, count] : setting.statuses[level])
-      places[code] +=
-          fmt::format("{}in {} of {} at {:.6g}", places[code].empty() ? "" : ", ", count,
-                      setting.runs[level], shown_level(variation, variation.levels[level]));
+/// "at", or "with" of a choice.
+std::string_view at_word(const Variation& variation) {
+  return variation.factor == Factor::kOnlySeenTogether ? "with" : "at";
+}
+
+/// A level as a number; none of a choice.
+std::optional<double> number_of(const Variation& variation, double level) {
+  if (variation.factor == Factor::kOnlySeenTogether) return std::nullopt;
+  return shown_level(variation, level);
+}
+
+/// "in 4 of 25 runs at 10 and 20, 11 at 40": levels of the same count together.
+std::string places_of(const Variation& variation, const VariedSetting& setting, StatusCode code) {
+  struct Place {
+    int count, runs;
+    std::vector<std::string> levels;
+  };
+  std::vector<Place> places;
+  for (std::size_t i = 0; i < variation.levels.size(); ++i) {
+    const auto found = setting.statuses[i].find(code);
+    if (found == setting.statuses[i].end()) continue;
+    const int count = found->second, runs = setting.runs[i];
+    auto place = std::ranges::find_if(
+        places, [&](const Place& p) { return p.count == count && p.runs == runs; });
+    if (place == places.end()) place = places.insert(places.end(), {count, runs, {}});
+    place->levels.push_back(level_text(variation, variation.levels[i]));
+  }
+  std::vector<std::string> words;
+  int runs = 0;  // Of the place before.
+  for (const Place& place : places) {
+    const std::string of =
+        place.runs == runs ? "" : fmt::format(" of {}", counted(place.runs, "run"));
+    runs = place.runs;
+    words.push_back(fmt::format("{}{} {} {}", place.count, of, at_word(variation),
+                                listed(place.levels, place.levels.size())));
+  }
+  return fmt::format("in {}", fmt::join(words, ", "));
+}
+
+/// "LLE, K = 8; HLLE, K = 8: arbitrary neighbours in 4 of 25 runs at 10 and 20.": one sentence per
+/// status and places, which settings may share.
+std::vector<std::string> status_notes(const Variation& variation,
+                                      std::span<const VariedSetting> settings) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;  // With the labels.
+  for (const VariedSetting& setting : settings) {
+    std::set<StatusCode> codes;
+    for (const auto& of_level : setting.statuses)
+      for (const auto& [code, count] : of_level) codes.insert(code);
+    for (const StatusCode code : codes) {
+      const std::string what = words_of(code) + " " + places_of(variation, setting, code);
+      auto at = std::ranges::find(found, what, [](const auto& note) { return note.first; });
+      if (at == found.end()) at = found.insert(found.end(), {what, {}});
+      at->second.push_back(label(setting.setting));
+    }
+  }
   std::vector<std::string> notes;
-  for (const auto& [code, where] : places)
-    notes.push_back(fmt::format("{}: {} {}.", label(setting.setting), name(code), where));
+  for (const auto& [what, labels] : found)
+    notes.push_back(fmt::format("{}: {}.", fmt::join(labels, "; "), what));
   return notes;
 }
 
@@ -103,37 +157,43 @@ double shown_level(const Variation& variation, double level) {
   return level * shown(variation).factor;
 }
 
+std::string level_text(const Variation& variation, double level) {
+  if (variation.factor != Factor::kOnlySeenTogether)
+    return level_number_text(shown_level(variation, level));
+  return level > 0.0 ? "covisible pairs only" : "any pair";
+}
+
 std::string level_words(const Variation& variation) { return shown(variation).words; }
 
 Table variation_table(const Study& study, const Variation& variation) {
   const std::vector<VariedSetting> settings = summarize(study, variation);
+  const int decimals = mpe_decimals(study);
   Table table;
   table.id = "variation-" + variation.id;
-  table.caption = fmt::format("{}: MPE [m] after {} observations, by {}",
-                              title_of(variation.sensor), variation.step, level_words(variation));
+  table.caption = fmt::format("{}: MPE [m] after {}, by {}", title_of(variation.sensor),
+                              counted(variation.step, "observation"), level_words(variation));
   if (variation.placement)
     table.caption += fmt::format("; anchors placed by {}", name(*variation.placement));
   table.columns.push_back({"Method", "", "", ""});
   table.columns.push_back({"Parameter", "", "", ""});
   for (const double level : variation.levels)
-    table.columns.push_back(
-        {fmt::format("{:.6g}", shown_level(variation, level)), "", level_words(variation), ""});
+    table.columns.push_back({level_text(variation, level), "", level_words(variation), "",
+                             std::nullopt, number_of(variation, level)});
   for (const VariedSetting& setting : settings) {
     Row row{{method_cell(setting.setting.method), parameter_cell(setting.setting)}, "", false};
-    for (const auto& estimate : setting.mpe_m) row.cells.push_back(mean_cell(estimate, 3));
+    for (const auto& estimate : setting.mpe_m) row.cells.push_back(mean_cell(estimate, decimals));
     table.rows.push_back(std::move(row));
   }
   table.notes.push_back("Mean over the runs that could be scored.");
   for (std::size_t i = 0; i < settings.size(); ++i)
     for (std::size_t level = 0; level < variation.levels.size(); ++level)
       if (settings[i].scored[level] < settings[i].runs[level])
-        table.notes.push_back(fmt::format("{} at {:.6g}: {} of {} runs scored.",
-                                          label(settings[i].setting),
-                                          shown_level(variation, variation.levels[level]),
+        table.notes.push_back(fmt::format("{} {} {}: {} of {} runs scored.",
+                                          label(settings[i].setting), at_word(variation),
+                                          level_text(variation, variation.levels[level]),
                                           settings[i].scored[level], settings[i].runs[level]));
-  for (const VariedSetting& setting : settings)
-    for (std::string& note : status_notes(variation, setting))
-      table.notes.push_back(std::move(note));
+  for (std::string& note : status_notes(variation, settings))
+    table.notes.push_back(std::move(note));
   return table;
 }
 

@@ -27,6 +27,9 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
 /// A level as a reader takes it: degrees for bearing noise, percent for shares.
 double shown_level(const Variation& variation, double level);
 
+/// A level as a text, "0.5"; one that is a choice by its name, "covisible pairs only".
+std::string level_text(const Variation& variation, double level);
+
 /// "bearing noise [°]": what the levels are, with their unit.
 std::string level_words(const Variation& variation);
 

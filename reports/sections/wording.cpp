@@ -48,6 +48,12 @@ std::string_view meaning(StatusCode code) {
   return "";
 }
 
+std::string words_of(StatusCode code) {
+  std::string words(name(code));
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
 std::string paper_number(std::string_view id) {
   const auto with = [&](std::string_view prefix, std::string_view word) {
     return id.starts_with(prefix) ? fmt::format("{} {}", word, id.substr(prefix.size())) : "";

@@ -17,6 +17,9 @@ std::string title_of(Sensor sensor);
 /// One sentence on what a status means.
 std::string_view meaning(StatusCode code);
 
+/// The status' name as words: "arbitrary neighbours".
+std::string words_of(StatusCode code);
+
 /// "Fig. 4" of "fig-4" and "Table 1" of "table-1"; empty for other ids.
 std::string paper_number(std::string_view id);
 

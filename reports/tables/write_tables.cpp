@@ -199,6 +199,16 @@ std::string cell_text(const Cell& cell) {
 
 }  // namespace
 
+namespace {
+
+/// With the digits of a number for its title.
+Column plain_column(Column column) {
+  if (column.number) column.title = fmt::format("{:.6g}", *column.number);
+  return column;
+}
+
+}  // namespace
+
 std::string joined(const TableLines& lines) {
   std::string text = lines.head;
   for (const std::string& row : lines.rows) text += row;
@@ -226,7 +236,7 @@ TableLines csv_lines(const Table& table) {
   std::vector<bool> intervals;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     intervals.push_back(holds_intervals(table, i));
-    const std::string title = with_plain_spaces(full_heading(table.columns[i]));
+    const std::string title = with_plain_spaces(full_heading(plain_column(table.columns[i])));
     if (i > 0) lines.head += ',';
     lines.head += intervals[i] ? harmless(title + ", low") + "," + harmless(title + ", high")
                                : harmless(title);

@@ -39,9 +39,9 @@ TEST(JoinedReport, CountsStudiesThatAimAtSomethingAlone) {
   std::vector<FolderReport> parts = studies(StudyOrigin::kTopic, 9);
   for (std::size_t i = 0; i < 4; ++i) parts[i].reached_aim = i != 2;
   const Highlights::Item first = joined(parts).opening.numbers.items.at(0);
-  EXPECT_EQ(first.label, "studies came out as aimed at");
+  EXPECT_EQ(first.label, "studies gave the expected result");
   EXPECT_EQ(first.value, "3 of 4");
-  EXPECT_EQ(first.detail, "not: Study 2; 5 more without an aim");
+  EXPECT_EQ(first.detail, "not: Study 2; 5 more without an expected result");
   EXPECT_TRUE(first.falls_short);
 }
 

@@ -240,16 +240,27 @@ test("the step slider shows one panel at a time", async () => {
   const shown = await figure(page, kFilm);
   const slider = shown.getByRole("slider");
   const heightOf = () => shown.locator(".drawing").evaluate((box) => box.clientHeight);
-  const whole = await heightOf(), heights = new Set();
+  const whole = await heightOf(), heights = new Set(), sizes = [];
+  // Of words and of the frame of the panel that is shown.
+  const seeSizes = async () => sizes.push(await shown.locator("svg").evaluate((svg) => {
+    const sizeOf = (kind) => [...svg.querySelectorAll(`:scope > .${kind}`)]
+      .find((part) => getComputedStyle(part).display !== "none").getBoundingClientRect();
+    return { words: sizeOf("panel-title").height, frame: sizeOf("frame").height };
+  }));
+  await seeSizes();
   assert.equal(await shown.locator(".step output").textContent(), "All steps side by side");
   const seen = [];
   await slider.focus();
   for (let step = 1; step <= 3; ++step) {
     await page.keyboard.press("ArrowRight");
     seen.push(`${await shown.locator(".step output").textContent()}`);
-    const [, , width] = await viewBox(shown);
-    assert.ok(width < 300, `step ${step}: ${width}`);
     heights.add(await heightOf());
+    await seeSizes();
+  }
+  // The panel fills the box, and its words stay as large as they were.
+  for (const { words, frame } of sizes.slice(1)) {
+    assert.ok(frame > 3 * sizes[0].frame, `${frame} of ${sizes[0].frame}`);
+    assert.ok(words < 1.3 * sizes[0].words, `${words} of ${sizes[0].words}`);
   }
   assert.ok(seen[0].startsWith("500 steps") && seen[2].startsWith("2000 steps"), seen.join());
   // The box grows to what one panel fills, and then stays.
@@ -265,7 +276,7 @@ test("the step slider shows one panel at a time", async () => {
     };
     const seen = (kind) => [...svg.querySelectorAll(`:scope > .${kind}`)]
       .filter((part) => getComputedStyle(part).display !== "none");
-    const kinds = ["panel-title", "frame", "tick-label", "step-axes"];
+    const kinds = ["panel-title", "frame", "zoom-ticks", "step-axes"];
     const whole = kinds.map((kind) => seen(kind).map(isWhole));
     return { whole: whole.map(String), others: seen("title").length + seen("legend-text").length,
       axes: svg.querySelectorAll(".step-axes > g").length };

@@ -242,9 +242,30 @@ TEST(Version, IsStated) {
   EXPECT_EQ(solver_digest().size(), 64U);
 }
 
+TEST(Numbers, OfFiveDigitsAndMoreHaveTheirThousandsApart) {
+  EXPECT_EQ(count_text(9658), "9658");
+  EXPECT_EQ(count_text(25'700), "25,700");
+  EXPECT_EQ(count_text(-123'456), "\u2212123,456");
+  EXPECT_EQ(count_text(1'000'000), "1,000,000");
+  EXPECT_EQ(quantity_text(23'944.0, ""), "23,944");
+}
+
+TEST(Numbers, ThatLabelSomethingAreShortAndSmallOnesArePowersOfTen) {
+  EXPECT_EQ(level_number_text(1e-6), "10⁻⁶");
+  EXPECT_EQ(level_number_text(1e-4), "10⁻⁴");
+  EXPECT_EQ(level_number_text(2.5e-4), "2.5×10⁻⁴");
+  EXPECT_EQ(level_number_text(-1e-7), "\u221210⁻⁷");
+  EXPECT_EQ(level_number_text(0.001), "0.001");
+  EXPECT_EQ(level_number_text(-0.5), "\u22120.5");
+  EXPECT_EQ(level_number_text(0.0), "0");
+  EXPECT_EQ(level_number_text(2000.0), "2000");
+  EXPECT_EQ(level_number_text(30'000.0), "30,000");
+}
+
 TEST(Words, CountAndListAsASentenceDoes) {
   EXPECT_EQ(counted(0, "run"), "0 runs");
   EXPECT_EQ(counted(1, "run"), "1 run");
+  EXPECT_EQ(counted(25'700, "map"), "25,700 maps");
   EXPECT_EQ(listed({}, 3), "");
   EXPECT_EQ(listed({"a", "b", "c"}, 5), "a, b and c");
   EXPECT_EQ(listed({"a", "b", "c", "d"}, 3), "a, b and 2 more");

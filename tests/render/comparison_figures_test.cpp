@@ -106,6 +106,17 @@ TEST(EllipseMapFigure, JoinsTheGroundTruthToTheMean) {
   EXPECT_TRUE(contains(figure.caption, "20 landmarks over 5 runs"));
 }
 
+TEST(EllipseMapFigure, HasAFindingOfErrorAndScatter) {
+  EllipseMapSpec spec = sample_runs(20, 4);
+  for (Points& run : spec.estimates_m) {
+    run = spec.ground_truth_m;
+    run.col(0).array() += 0.5;
+  }
+  EXPECT_EQ(scatter_finding(spec),
+            "mean positions 0.500 m off, 95\u00A0% ellipses of 0 m (half the long axis)");
+  EXPECT_EQ(scatter_finding(sample_runs(20, 2)), "");
+}
+
 TEST(EllipseMapFigure, NamesALandmarkEvenIfAllRunsAgree) {
   EllipseMapSpec spec = sample_runs(20, 4);
   for (Points& run : spec.estimates_m) run = spec.estimates_m.front();
@@ -166,6 +177,8 @@ TEST(SpectrumFigure, StatesTheGapBetweenTheSecondAndTheThirdEigenvalue) {
 TEST(SpectrumFigure, LeavesIterativeMethodsOutAndNamesThem) {
   const Figure figure = spectrum_figure(sample_spectra(6));
   EXPECT_EQ(figure.panels.size(), 4u);
+  EXPECT_FALSE(contains(figure.panels[0].title, "smallest first"));
+  EXPECT_TRUE(contains(spectrum_figure(sample_spectra(8)).panels.back().title, "smallest first"));
   EXPECT_TRUE(contains(figure.caption, "SMACOF and SMACOF, kNN"));
   EXPECT_EQ(labelled<Scatter>(figure.panels[0], "axis of the map").value().x.size(), 2u);
   EXPECT_EQ(labelled<Scatter>(figure.panels[0], "other eigenvalue").value().x.size(), 8u);

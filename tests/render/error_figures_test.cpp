@@ -250,14 +250,15 @@ TEST(BestLine, IsNotTheBestWhereverTheyDifferWhereItsMeanIsBeaten) {
             "A has the lowest MPE wherever they differ");
 }
 
-TEST(BestLine, TiesWithWhoeverTiesWithTheBest) {
+TEST(BestLine, TiesWithTheBestNotWithWhatTiesWithIt) {
   const ErrorLine a = three_points("A", {1, 1, 1}, 0.1),
                   b = three_points("B", {1.15, 1.15, 1.15}, 0.1);
   const ErrorLine c = three_points("C", {1.3, 1.3, 1.3}, 0.1),
                   d = three_points("D", {4, 4, 4}, 0.1);
   EXPECT_EQ(best_over({a, c, d}, {}, {"noise"}), "A has the lowest MPE throughout");
-  EXPECT_EQ(best_over({a, b, c, d}, {}, {"noise"}), "A, B and C have the lowest MPE throughout");
-  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "");
+  EXPECT_EQ(best_over({a, b, c, d}, {}, {"noise"}), "A and B have the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "A and B have the lowest MPE throughout");
+  EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "");
 }
 
 TEST(BestLine, IsNobodyWhereAllTieEvenIfFewAreKnownThere) {

@@ -232,6 +232,8 @@ TEST(FormingScene, IsAFilmStripOfOneCameraFromTheFirstToTheLastMap) {
     EXPECT_TRUE(arrows.arrow);
     EXPECT_TRUE(arrows.tones.values.empty());
   }
+  EXPECT_EQ(scene.columns, 3U);
+  EXPECT_EQ(forming_scene(forming_spec(4)).columns, 2U);
   EXPECT_EQ(forming_scene(forming_spec(1)).views.size(), 1U);
 }
 

@@ -17,7 +17,7 @@ Fit late_fit() {
                       .statistic = 812.0,
                       .bound = 20.0,
                       .figure = "fit"}},
-          .numbers = {{"fit_chi2_ratio", 3.5, 1.1}},
+          .numbers = {{"fit_chi2_ratio", 3.5, 1.1}, {"fit_heading_sigma_rad", 6.035e-4}},
           .tests = {{.code = FitCode::kTimeOffset, .statistic = 812.0, .bound = 20.0},
                     {.code = FitCode::kCommonOffset,
                      .statistic = 2.0,
@@ -64,6 +64,10 @@ TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {
   const auto& callout = std::get<Callout>(section.blocks.at(0));
   EXPECT_EQ(callout.title, "Verdict: does not fit");
   EXPECT_EQ(callout.tone, Callout::Tone::kWarning);
+  const auto& numbers = std::get<KeyValues>(section.blocks.at(2)).items;
+  EXPECT_EQ(numbers.at(0).value.text, "3.500 (bound 1.100)");
+  EXPECT_EQ(numbers.at(1).key, "noise of the heading after 1 m [rad]");
+  EXPECT_EQ(numbers.at(1).value.text, "0.0006035");
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ TEST(MapWalls, HaveTheBestMapFirstAndUselessOnesLast) {
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_EQ(walls[0].id, "s-world-1");
   EXPECT_EQ(titles_of(walls[0]), (std::vector<std::string>{"C", "A", "B (not usable)"}));
-  EXPECT_EQ(walls[0].title, "hall: C is best, 0.100 m off; 1 of 3 maps are not usable");
+  EXPECT_EQ(walls[0].title, "hall: C is best, 0.100 m off; 1 of 3 maps is not usable");
   EXPECT_TRUE(walls[0].shared_x && walls[0].shared_y) << "one scale";
 }
 

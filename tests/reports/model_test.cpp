@@ -19,6 +19,7 @@ TEST(FormatNumber, RoundsAndSignsAsAReaderExpects) {
   EXPECT_EQ(format_number(-1.5, 1), "\u22121.5");
   EXPECT_EQ(format_number(1.5, 1, true), "+1.5");
   EXPECT_EQ(format_number(12, 0), "12");
+  EXPECT_EQ(format_number(30000, 0), "30,000");
 }
 
 TEST(FormatNumber, GivesZeroNoSign) {

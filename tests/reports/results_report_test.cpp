@@ -219,6 +219,13 @@ TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
       }
 }
 
+TEST(ResultsTables, HaveTwoDecimalsOfMoeAtMost) {
+  const ResultsStudy study =
+      Rows("moe_percent").add("m", "a1", 0.22).add("n", "a1", 45.934).study();
+  const ResultsView view(study);
+  EXPECT_EQ(view.decimals(known_quantity("moe_percent")), 2);
+}
+
 TEST(ResultsReport, OpensWithFiguresOfPathsInTheOrderOfTheirRuns) {
   const ResultsStudy study = Rows().add("m", "a1", 0.2).add("m", "b1", 0.1).study(true);
   const ResultsView view(study);

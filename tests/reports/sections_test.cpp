@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "core/experiment/run.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/study_report.hpp"
+#include "reports/sections/variation_summary.hpp"
 #include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
 #include "tests/support/samples/worlds.hpp"
@@ -129,6 +131,55 @@ TEST(AccuracySection, ShowsOursAtThePapersParameterToo) {
   EXPECT_TRUE(std::holds_alternative<MissingCell>(isomap.cells[2]));
   EXPECT_EQ(std::get<NumberCell>(isomap.cells[4]).value, 0.177);
   EXPECT_EQ(isomap.source, "");
+}
+
+TEST(AccuracySection, HasOnePrecisionOfMpeForAllSensorsAndThePapersOwnDigits) {
+  const Study study = synthetic_study();
+  std::vector<std::string> printed;
+  for (const SensorStudy& sensor : study.experiment.sensors) {
+    const Table& table = table_named(accuracy_section(study, sensor),
+                                     fmt::format("accuracy-{}", name(sensor.sensor.sensor)));
+    for (const Row& row : table.rows) {
+      EXPECT_EQ(std::get<NumberCell>(row.cells[3]).decimals, 4) << table.caption;
+      EXPECT_EQ(std::get<NumberCell>(row.cells[7]).decimals, 2) << table.caption;
+      printed.push_back(format_cell(row.cells[5]) + " " + format_cell(row.cells[9]));
+    }
+  }
+  EXPECT_EQ(printed,
+            (std::vector<std::string>{"1.055 18.19", "0.421 5.86", "0.206 4.83", "0.177 4.11",
+                                      "0.168 2.33", "0.101 1.38", "0.0609 1.00", "0.0979 1.83"}));
+}
+
+TEST(VariationTable, NamesLevelsAndWarningsInWordsAndSaysARepeatedThingOnce) {
+  Study study = synthetic_study();
+  const std::vector<MethodSetting> settings = {{Method::kSmacofKnn, 5}, {Method::kIsomap, 6}};
+  const Variation stop{.id = "stop",
+                       .sensor = Sensor::kBearing,
+                       .factor = Factor::kSmacofKnnFall,
+                       .levels = {1e-6, 1e-4, 0.1},
+                       .step = 2000,
+                       .placement = std::nullopt,
+                       .settings = settings};
+  study.experiment.variations = {stop};
+  for (auto& run : study.runs)
+    for (const double level : stop.levels)
+      for (const MethodSetting& setting : settings) {
+        VariationRecord record{.variation = "stop",
+                               .level = level,
+                               .setting = setting,
+                               .statuses = {},
+                               .score = Score{0.1, 2.0, 0.1, 2.0}};
+        if (level == 0.1 || run.id == study.runs.front().id)
+          record.statuses = {status_with_message(StatusCode::kNotConverged, "")};
+        run.variations.push_back(std::move(record));
+      }
+  const Table table = variation_table(study, stop);
+  EXPECT_EQ(table.columns[2].title, "10⁻⁶");
+  EXPECT_EQ(table.columns[3].title, "10⁻⁴");
+  EXPECT_EQ(table.columns[4].title, "0.1");
+  EXPECT_EQ(table.notes.back(),
+            "SMACOF, kNN weights, K = 5; ISOMAP, K = 6: not converged in 1 of 10 runs at 10⁻⁶ and "
+            "10⁻⁴, 10 at 0.1.");
 }
 
 TEST(AccuracySection, SaysWhyAPrintedValueCannotBeMatched) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "reports/model/format.hpp"
 #include "reports/sections/study_report.hpp"
 #include "tests/reports/section_text.hpp"
 #include "tests/reports/synthetic_study.hpp"
@@ -192,7 +193,9 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   const SlamStudy study = sample_slam_study();
   const Opening opening = slam_opening(study, slam_figures(study, {}));
   const std::string all = words(opening);
-  EXPECT_TRUE(all.starts_with("0.123 m mean position error, Plaza 1 (dead reckoning ")) << all;
+  EXPECT_TRUE(
+      all.starts_with("0.123 m mean position error, Plaza 1 (refined, scale free; dead reckoning "))
+      << all;
   EXPECT_NE(all.find("spectral, 4-D 0.411 m; over "), std::string::npos) << all;
   EXPECT_NE(all.find("power of the measurements: the model error falls"), std::string::npos) << all;
   EXPECT_NE(all.find("theory: \u22121/2"), std::string::npos) << all;
@@ -325,6 +328,24 @@ TEST(SlamReport, ShowsRemarksOfReadersAndMarksSecondsAsVarying) {
   const Table& seconds = table_named(sections[7], "slam-seconds");
   EXPECT_EQ(seconds.rows.size(), 3u);
   EXPECT_TRUE(seconds.caption.ends_with("(varies)"));
+}
+
+TEST(SlamSecondsTable, HasTheUnitAndTheDigitsThatItsTimesNeed) {
+  const SlamStudy study = sample_slam_study();
+  const auto shown = [&](const std::vector<double>& seconds) {
+    std::vector<SlamTiming> timings;
+    for (const double time : seconds)
+      timings.push_back({study.runs[1].id, SlamMethod::kRefined, time});
+    const Table table = *slam_seconds_table(study, timings);
+    std::string text = table.columns[2].unit;
+    for (const Row& row : table.rows) text += " " + format_cell(row.cells[2]);
+    return text;
+  };
+  EXPECT_EQ(shown({0.0082, 0.4}), "ms 8.2 400.0");
+  EXPECT_EQ(shown({0.016, 0.4, 0.00002}), "ms 16.0 400.0 < 0.1");
+  EXPECT_EQ(shown({0.016, 0.4}), "ms 16 400");
+  EXPECT_EQ(shown({2.5, 12.0}), "s 2.5 12.0");
+  EXPECT_EQ(shown({0.0002, 12.0}), "s < 0.001 12.000");
 }
 
 TEST(SlamReport, OfNothingIsAReport) {

@@ -35,6 +35,13 @@ TEST(CsvTable, KeepsEveryDigitAndQuotesAsRfc4180Asks) {
             "plain,,,\r\n");
 }
 
+TEST(CsvTable, HasTheDigitsOfANumberForATitle) {
+  Table table = with_name("a");
+  table.columns.front() = {"10⁻⁶", "", "stops at", "", std::nullopt, 1e-6};
+  EXPECT_EQ(table_csv(table), "stops at: 1e-06\r\na\r\n");
+  EXPECT_TRUE(table_markdown(table).find("10⁻⁶") != std::string::npos);
+}
+
 TEST(CsvTable, KeepsALineBreakWithinItsField) {
   EXPECT_EQ(table_csv(with_name("a\nb")), "Name\r\n\"a\nb\"\r\n");
 }

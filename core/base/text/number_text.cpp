@@ -25,6 +25,35 @@ std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
 
 std::string power_of_ten(int exponent) { return "×" + ten_to_the(exponent); }
 
+std::string count_text(long long count) {
+  constexpr std::size_t kFewest = 5, kGroup = 3;
+  std::string text = std::to_string(count);
+  std::string sign;
+  if (count < 0) {
+    sign = "−";
+    text.erase(0, 1);
+  }
+  if (text.size() >= kFewest)
+    for (std::size_t at = text.size() - kGroup; at > 0; at = at > kGroup ? at - kGroup : 0)
+      text.insert(at, 1, ',');
+  return sign + text;
+}
+
+std::string level_number_text(double value) {
+  constexpr double kGreatestCount = 1e15;
+  if (value == std::floor(value) && std::abs(value) < kGreatestCount)
+    return count_text(std::llround(value));
+  constexpr int kLeastExponent = -3;
+  const int exponent = std::isfinite(value) ? rounded_exponent(value, 6) : 0;
+  if (exponent >= kLeastExponent) {
+    const std::string text = fmt::format("{:.6g}", value);
+    return text[0] == '-' ? "−" + text.substr(1) : text;
+  }
+  const std::string factor = fmt::format("{:.6g}", std::abs(value) / std::pow(10.0, exponent));
+  return (value < 0.0 ? "−" : "") +
+         (factor == "1" ? ten_to_the(exponent) : factor + power_of_ten(exponent));
+}
+
 std::string number_text(double value, int decimals) {
   std::string text = fmt::format("{:.{}f}", value, decimals);
   if (text[0] != '-') return text;
@@ -53,7 +82,7 @@ std::string quantity_text(double value, std::string_view unit) {
   constexpr double kGreatestCount = 1e6;
   const bool is_count =
       unit.empty() && value == std::floor(value) && std::abs(value) < kGreatestCount;
-  return is_count ? number_text(value, 0) : with_unit(significant(value), unit);
+  return is_count ? count_text(std::llround(value)) : with_unit(significant(value), unit);
 }
 
 std::string error_text(double error_m) {

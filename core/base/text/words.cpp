@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
+
 namespace mapproof {
 
 std::string counted(long long count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+  return fmt::format("{} {}{}", count_text(count), noun, count == 1 ? "" : "s");
 }
 
 std::string lower_case(std::string_view text) {
@@ -34,7 +36,8 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
     const bool last = i + 1 == names.size();
     text += (i == 0 ? "" : last ? " and " : ", ") + names[i];
   }
-  if (shown < names.size()) text += fmt::format(" and {} more", names.size() - shown);
+  if (shown < names.size())
+    text += fmt::format(" and {} more", count_text(static_cast<long long>(names.size() - shown)));
   return text;
 }
 

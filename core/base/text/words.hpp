@@ -7,7 +7,7 @@
 
 namespace mapproof {
 
-/// "1 run", "25 runs".
+/// "1 run", "25 runs", "25,700 runs" (see count_text).
 std::string counted(long long count, std::string_view noun);
 
 /// A to Z as small letters, all else as it is.

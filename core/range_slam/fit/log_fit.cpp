@@ -226,7 +226,7 @@ LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
                         {"fit_outliers_percent", 100.0 * plain_.noise.outlier_share},
                         {"fit_range_sigma_m", plain_.noise.range_m},
                         {"fit_forward_sigma_m", plain_.noise.way_m},
-                        {"fit_heading_change_sigma_rad", plain_.noise.heading_per_metre}};
+                        {"fit_heading_sigma_rad", plain_.noise.heading_per_metre}};
   if (!options_.only_tests) finish(result);
   return result;
 }

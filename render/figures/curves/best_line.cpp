@@ -124,8 +124,7 @@ bool tie(const At& a, const At& b, const LineQuantity& quantity) {
   return texts[0] == texts[1];
 }
 
-/// Those that tie with the best, or with one that does, the best first, and the others, ascending
-/// from the best on.
+/// Those that tie with the best, the best first, and the others, ascending from the best on.
 struct Contest {
   std::vector<At> equal, others;
 };
@@ -136,9 +135,7 @@ Contest contest_of(std::vector<At> known, const LineQuantity& quantity) {
   });
   Contest contest;
   for (const At& at : known) {
-    const bool is_equal =
-        contest.equal.empty() ||
-        std::ranges::any_of(contest.equal, [&](const At& one) { return tie(at, one, quantity); });
+    const bool is_equal = contest.equal.empty() || tie(at, contest.equal.front(), quantity);
     (is_equal ? contest.equal : contest.others).push_back(at);
   }
   return contest;

@@ -29,11 +29,11 @@ LineAxis line_axis(const std::string& label);
 std::string with_article(const std::string& label);
 
 /// Which line is best at the last x, as a title: "SDE has the lowest MPE after 2000 observations,
-/// 0.14 m". Lines that tie with it, or with one that does, by their intervals or by the digits
-/// shown, are named with it; where they are more than three, or all there are, between which
-/// values: "after 2000 observations, 4 of 5 methods have an MPE of 0.19 m to 0.23 m, LEM 0.40 m". A
-/// family is named: "of these 5, SDE has the lowest MPE". Names are short, without parameters that
-/// tell no two lines apart. Empty if nothing is known.
+/// 0.14 m". Lines that tie with it, by their intervals or by the digits shown, are named with it;
+/// where they are more than three, or all there are, between which values: "after 2000
+/// observations, 4 of 5 methods have an MPE of 0.19 m to 0.23 m, LEM 0.40 m". A family is named:
+/// "of these 5, SDE has the lowest MPE". Names are short, without parameters that tell no two lines
+/// apart. Empty if nothing is known.
 ///
 /// @param where  "after {} observations", with {} for x.
 std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,

@@ -83,6 +83,11 @@ Panel panel_of(const SingularValues& one, std::size_t index, const Range& y, dou
 constexpr double kFloor = 1e-4;  // Of the greatest; smaller shares stand at the foot.
 constexpr std::size_t kMostShown = 10;
 
+/// Whether the least eigenvalues make the map.
+bool ascends(const std::vector<double>& eigenvalues) {
+  return eigenvalues.size() > 1 && eigenvalues.front() < eigenvalues.back();
+}
+
 double greatest_of(const SpectrumPanel& method) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(method.eigenvalues.size(), kMostShown); ++i)
@@ -110,6 +115,7 @@ Panel panel_of(const SpectrumPanel& method, std::size_t index, double foot) {
   const double gap = spectral_gap(method.eigenvalues);
   panel.title = method.title;
   if (std::isfinite(gap)) panel.title += "\ngap " + significant(gap, 2);
+  if (ascends(method.eigenvalues)) panel.title += "\nsmallest first";
   const std::size_t count = std::min(method.eigenvalues.size(), kMostShown);
   const double most = greatest_of(method);
   Segments stems{.colour = ThemeColour::kMuted, .width = 0.7};
@@ -180,7 +186,7 @@ double spectral_gap(const std::vector<double>& eigenvalues) {
   if (eigenvalues.size() < 3) return kNaN;
   const double second = eigenvalues[1], third = eigenvalues[2];
   if (!(second > 0.0) || !(third > 0.0)) return kNaN;
-  return eigenvalues.front() >= eigenvalues.back() ? second / third : third / second;
+  return ascends(eigenvalues) ? third / second : second / third;
 }
 
 Figure spectrum_figure(const SpectrumSpec& spec) {
@@ -219,8 +225,8 @@ Figure spectrum_figure(const SpectrumSpec& spec) {
   }
   figure.caption =
       "Leading eigenvalues of each method in shares of the greatest; filled: those of the map's "
-      "axes; gap: the ratio of the second and the third. Where the least eigenvalues make the map, "
-      "they ascend.";
+      "axes; gap: the ratio of the second and the third. The greatest come first, unless the panel "
+      "has \u201csmallest first\u201d: there the least make the map.";
   if (!without.empty())
     figure.caption += " Without eigenvalues, since iterative: " + listed(without, 6) + ".";
   require_valid(figure);

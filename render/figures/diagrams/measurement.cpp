@@ -175,8 +175,7 @@ class MeasurementFigure {
     panel_.layers.push_back(robot());
     panel_.layers.push_back(labels);
     const auto known = static_cast<std::size_t>((m_.bearings_rad.array().isFinite()).count());
-    figure_.title =
-        fmt::format("Bearing-only measurement: the angles to {}", counted(known, "landmark"));
+    figure_.title = "Bearing-only measurement: " + bearings_text(m_);
     figure_.caption = fmt::format(
         "Bearings at step {} of layout {}, pose {}: the angle from the heading (arrow) to each of "
         "{}.",
@@ -248,7 +247,7 @@ class MeasurementFigure {
   void add_angle(Eigen::Index row, std::size_t n) {
     const ThemeColour colour = series_colour(n);
     const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
-    Polyline ray{.colour = colour, .dash = dash};
+    Polyline ray{.label = fmt::format("bearing of L{}", row + 1), .colour = colour, .dash = dash};
     add_point(ray, robot_);
     add_point(ray, position(row));
     Polyline arc{.colour = colour, .dash = dash};

@@ -9,6 +9,8 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
+#include "render/base/span.hpp"
 
 namespace mapproof {
 namespace {
@@ -54,6 +56,16 @@ std::vector<Point> arc_points(Point centre, double radius, double begin_rad, dou
 }
 
 std::string degrees(double angle_rad) { return number_text(angle_rad / kDegree, 0) + "°"; }
+
+std::string bearings_text(const Measurement& m) {
+  Span span;
+  for (const double bearing_rad : m.bearings_rad) span.see(bearing_rad);
+  if (!span.known()) return "no landmark";
+  const auto known = static_cast<long long>(m.bearings_rad.array().isFinite().count());
+  const std::string low = degrees(span.low), high = degrees(span.high);
+  return fmt::format("{} at {} from the heading", counted(known, "landmark"),
+                     low == high ? low : low + " to " + high);
+}
 
 std::vector<std::vector<Point>> shadow_outlines(const Measurement& m) {
   const Point robot{m.robot_m.x(), m.robot_m.y()};

@@ -70,20 +70,23 @@ void make_small(Panel& panel) {
     if (auto* points = std::get_if<Scatter>(&layer)) points->size *= kSmall;
 }
 
-/// The limits of all panels, where estimates are outside of them: those that the first maps need.
+/// The limits of all panels, where estimates are outside of them: those that the first maps need,
+/// without those that have estimates far off.
 std::optional<PanelBox> limits_of(const MapGridSpec& spec,
                                   const std::vector<const TitledMap*>& maps) {
-  std::optional<PanelBox> limits;
-  bool any_outside = spec.framing < maps.size();
+  std::vector<PanelBox> whole, cut;
   for (std::size_t i = 0; i < std::min(maps.size(), spec.framing); ++i) {
     const Panel panel = map_panel(maps[i]->map, "");
-    any_outside = any_outside || panel.x.limits.has_value();
     const auto [x, y] = panel_limits(panel);
-    if (!limits) limits = PanelBox{x, y};
-    limits = PanelBox{{std::min(limits->x.low, x.low), std::max(limits->x.high, x.high)},
-                      {std::min(limits->y.low, y.low), std::max(limits->y.high, y.high)}};
+    (panel.x.limits ? cut : whole).push_back({x, y});
   }
-  return any_outside ? limits : std::nullopt;
+  if (whole.size() == maps.size()) return std::nullopt;
+  const std::vector<PanelBox>& framing = whole.empty() ? cut : whole;
+  PanelBox limits = framing.front();
+  for (const auto& [x, y] : framing)
+    limits = {{std::min(limits.x.low, x.low), std::max(limits.x.high, x.high)},
+              {std::min(limits.y.low, y.low), std::max(limits.y.high, y.high)}};
+  return limits;
 }
 
 Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& maps, bool named) {

@@ -175,6 +175,22 @@ ScatterEllipse scatter_ellipse(const std::vector<Points>& estimates_m, Eigen::In
   return ellipse;
 }
 
+std::string scatter_finding(const EllipseMapSpec& spec) {
+  double bias_m = 0.0, axis_m = 0.0;
+  int landmarks = 0;
+  for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i) {
+    if (std::ranges::find(spec.anchors, i) != spec.anchors.end()) continue;
+    const ScatterEllipse ellipse = scatter_ellipse(spec.estimates_m, i);
+    if (!std::isfinite(ellipse.a_m)) continue;
+    bias_m += (ellipse.mean_m - spec.ground_truth_m.row(i)).norm();
+    axis_m += ellipse.a_m;
+    ++landmarks;
+  }
+  if (landmarks == 0) return "";
+  return fmt::format("mean positions {} off, 95\u00A0% ellipses of {} (half the long axis)",
+                     error_text(bias_m / landmarks), error_text(axis_m / landmarks));
+}
+
 Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   require_consistent(spec);
   EllipseLayers layers;

@@ -1,17 +1,21 @@
 #include "reports/sections/figures/figure_builders.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
+#include "reports/sections/figures/line_findings.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "reports/sections/wording.hpp"
@@ -50,9 +54,39 @@ bool has_grids(const Variation& variation) {
 }
 
 std::string level_title(const Variation& variation, double level) {
-  if (variation.factor != Factor::kOnlySeenTogether)
-    return fmt::format("{}: {:g}", level_words(variation), shown_level(variation, level));
-  return level > 0.0 ? "only covisible pairs" : "all pairs";
+  if (variation.factor == Factor::kOnlySeenTogether) return level_text(variation, level);
+  return fmt::format("{}: {}", level_words(variation), level_text(variation, level));
+}
+
+bool is_of_fall(const Variation& variation) {
+  return variation.factor == Factor::kSmacofKnnFall || variation.factor == Factor::kSmacofFall;
+}
+
+/// What a sentence calls the last level, "at 40° bearing noise", and the first, "at 0°".
+std::pair<std::string, std::string> ends_of(const Variation& variation) {
+  const double first = variation.levels.front(), last = variation.levels.back();
+  if (variation.factor == Factor::kOnlySeenTogether)
+    return {"with " + level_text(variation, last), "with " + level_text(variation, first)};
+  const LineAxis axis = line_axis(level_words(variation));
+  const auto value = [&](double level) {
+    return with_unit(data_number(shown_level(variation, level)), axis.unit);
+  };
+  return {axis.unit.empty() ? fmt::format("at {} = {}", axis.name, value(last))
+                            : fmt::format("at {} {}", value(last), axis.name),
+          "at " + value(first)};
+}
+
+/// What came out over the levels; empty if nothing did.
+std::string level_finding(const Variation& variation, const std::vector<ErrorLine>& lines) {
+  const LineAxis axis = line_axis(level_words(variation));
+  if (lines.size() == 1)
+    if (std::string flat = flat_finding(
+            lines.front(), {}, is_of_fall(variation) ? "wherever it stops" : "at any " + axis.name);
+        !flat.empty())
+      return flat;
+  if (std::string best = best_over(lines, {}, axis); !best.empty()) return best;
+  const auto [last, first] = ends_of(variation);
+  return change_finding(lines, {}, last, first);
 }
 
 /// "K" where all methods are tuned by it; "parameter" where they differ.
@@ -65,6 +99,25 @@ std::string parameter_words(const Variation& variation) {
     words = shown;
   }
   return words;
+}
+
+/// Each method's least error over its parameter, over the levels, with its interval.
+std::vector<ErrorLine> best_lines(const Variation& variation, const ErrorLinesSpec& spec) {
+  std::vector<ErrorLine> lines;
+  for (std::size_t level = 0; level < spec.panels.size(); ++level)
+    for (std::size_t k = 0; k < spec.panels[level].lines.size(); ++k) {
+      const ErrorLine& from = spec.panels[level].lines[k];
+      if (lines.size() == k) lines.push_back({.label = from.label, .key = from.key});
+      ErrorLine& line = lines[k];
+      line.x.push_back(shown_level(variation, variation.levels[level]));
+      std::size_t best = 0;
+      for (std::size_t i = 1; i < from.mean.size(); ++i)
+        if (!(from.mean[best] <= from.mean[i]) && !std::isnan(from.mean[i])) best = i;
+      line.mean.push_back(from.mean[best]);
+      line.low.push_back(from.low[best]);
+      line.high.push_back(from.high[best]);
+    }
+  return lines;
 }
 
 /// One panel per level, error over the parameter.
@@ -89,6 +142,11 @@ Figure grid_figure(const Study& study, const Variation& variation) {
     }
     spec.panels.push_back(std::move(panel));
   }
+  const auto [last, first] = ends_of(variation);
+  if (const std::string change = change_finding(best_lines(variation, spec), {}, last, first);
+      !change.empty())
+    spec.title = fmt::format("{}, at each method\u2019s best {}: {}", title_of(variation.sensor),
+                             parameter_words(variation), change);
   spec.record_ids = {record_of(variation)};
   return error_lines_figure(spec);
 }
@@ -103,19 +161,19 @@ bool is_flat(const LevelCurveSpec& spec) {
 
 /// Empty if there is nothing to be seen.
 std::optional<Figure> level_figure(const Study& study, const Variation& variation) {
-  if (has_grids(variation)) return grid_figure(study, variation);
+  // The levels of a choice are names, which titles of panels show and an axis does not.
+  if (has_grids(variation) || variation.factor == Factor::kOnlySeenTogether)
+    return grid_figure(study, variation);
   LevelCurveSpec spec;
   spec.id = "level-" + variation.id;
   spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
   spec.x_label = level_words(variation);
   for (const VariedSetting& setting : summarize(study, variation))
     spec.methods.push_back(line_over_levels(study.experiment, variation, setting));
-  if (const std::string best = best_over(spec.methods, {}, line_axis(spec.x_label)); !best.empty())
-    spec.title = fmt::format("{}: {}", title_of(variation.sensor), best);
+  if (const std::string finding = level_finding(variation, spec.methods); !finding.empty())
+    spec.title = fmt::format("{}: {}", title_of(variation.sensor), finding);
   spec.record_ids = {record_of(variation)};
-  const bool is_fall =
-      variation.factor == Factor::kSmacofKnnFall || variation.factor == Factor::kSmacofFall;
-  if (is_fall && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
+  if (is_of_fall(variation) && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
   if (is_flat(spec)) return std::nullopt;
   return level_curve_figure(spec);
 }
@@ -141,7 +199,10 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
     }
     spec.record_ids.push_back(record_of(variation));
   }
-  if (!spec.panels.empty()) figures.push_back(anchor_count_figure(spec));
+  if (spec.panels.empty()) return;
+  if (const std::string finding = placement_finding(spec.panels); !finding.empty())
+    spec.title = fmt::format("{}: {}", title_of(sensor), finding);
+  figures.push_back(anchor_count_figure(spec));
 }
 
 }  // namespace

@@ -209,7 +209,11 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
     spec.estimates_m.push_back(map->estimate);
     spec.record_ids.push_back(map->id);
   }
-  if (spec.estimates_m.size() >= 3) figures.push_back(ellipse_map_figure(spec));
+  if (spec.estimates_m.size() < 3) return;
+  if (const std::string finding = scatter_finding(spec); !finding.empty())
+    spec.title = fmt::format("{}, {}, layout {}: {}", title_of(best.sensor),
+                             short_label(best.setting), median->layout, finding);
+  figures.push_back(ellipse_map_figure(spec));
 }
 
 }  // namespace

@@ -85,7 +85,8 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
     spec.title = fmt::format(
         "{} is best, {} off; {}", world.maps.front().first, error_text(error_or_infinity(best)),
         useless == 0 ? "the others in the order of their errors"
-                     : fmt::format("{} of {} maps are not usable", useless, spec.maps.size()));
+                     : fmt::format("{} of {} maps {} not usable", useless, spec.maps.size(),
+                                   useless == 1 ? "is" : "are"));
   } else {
     spec.title = subject + (best.score ? "no map is usable" : "maps of one world");
   }

@@ -9,6 +9,7 @@
 #include "core/base/text/words.hpp"
 #include "render/figures/curves/best_line.hpp"
 #include "render/figures/curves/error_curve.hpp"
+#include "reports/sections/figures/line_findings.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -46,11 +47,13 @@ ParameterLine parameter_line(const Experiment& experiment,
   return line;
 }
 
-/// Which method is best, and at which value.
-std::string best_setting(const ParameterGroup& group, bool of_mpe) {
+/// Which method is best, and at which value; where several are, how much they depend on it.
+std::string finding_of(const ParameterGroup& group, bool of_mpe) {
   std::vector<ErrorLine> lines;
   for (const ParameterLine& method : group.methods) lines.push_back(method.line);
-  return best_of_all(lines, of_mpe ? LineQuantity{} : LineQuantity{"MOE", "%"}, {group.symbol});
+  const LineQuantity quantity = of_mpe ? LineQuantity{} : LineQuantity{"MOE", "%"};
+  const std::string best = best_of_all(lines, quantity, {group.symbol});
+  return best.empty() ? dependence_finding(lines, quantity, group.symbol, of_mpe) : best;
 }
 
 /// "; above 25 m at 8 of 9 values"; empty if none is above.
@@ -103,8 +106,8 @@ std::optional<Figure> parameter_figure(const FigureSource& source, const SensorS
     for (const SettingSummary& value : values) spec.record_ids.push_back(source_of(value));
   }
   if (group.methods.empty()) return std::nullopt;
-  if (const std::string best = best_setting(group, of_mpe); !best.empty())
-    spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), best);
+  if (const std::string finding = finding_of(group, of_mpe); !finding.empty())
+    spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor), finding);
   if (of_mpe) {
     spec.ceiling = kOffTheRoom * source.study().experiment.world.side_m;
     spec.title += above_words(group, spec.ceiling);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/slug.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/score_text.hpp"
@@ -59,7 +60,7 @@ Figure path_figure(const GivenPath& path, std::string id) {
         path_line("ground truth", *path.ground_truth, ThemeColour::kText, 0.6));
   panel.layers.emplace_back(path_line("estimate", path.path, ThemeColour::kSeries1, 1.0));
   figure.caption =
-      fmt::format("The path {} of {} poses{}{}.", path.id, path.path.size(),
+      fmt::format("The path {} of {}{}{}.", path.id, counted(path.path.size(), "pose"),
                   path.ground_truth ? " and its ground truth" : "", alignment_words(path));
   constexpr double kMicrometres = 1e6;  // Below, a distance is rounding alone.
   if (path.rms_m)

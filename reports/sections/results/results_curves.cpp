@@ -208,7 +208,7 @@ std::string finding_of(const Curves& curves, const Quantity& quantity, const std
 /// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
 /// @param unit         Of the lines' values.
 /// @param great_errors  See ResultsView::has_great_errors().
-/// @param not_ranked   Why, before what they do; kIntervalsOverlap or kTooFewRuns of one panel.
+/// @param not_ranked   Why, before what they do; kNoneIsBest or kTooFewRuns of one panel.
 std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
                       const std::string& unit, bool great_errors, const std::string& not_ranked) {
   std::vector<double> known;
@@ -347,7 +347,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
   if (finding.empty())
     finding = course_of(curves.lines, quantity, shown.unit, view.has_great_errors(quantity),
-                        view.has_groups_for_intervals() ? kIntervalsOverlap : kTooFewRuns);
+                        view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   spec.methods = drawn(std::move(curves));

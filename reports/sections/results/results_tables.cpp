@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/tables/cells.hpp"
@@ -28,7 +29,7 @@ std::string table_id(const std::string& block, std::string what) {
 
 std::string column_title(const Level& level) {
   const auto* number = std::get_if<double>(&level.value);
-  return number == nullptr ? level_text(level) : fmt::format("{:.6g}", *number);
+  return number == nullptr ? level_text(level) : level_number_text(*number);
 }
 
 Cell interval_cell_of(const std::optional<Interval>& interval, int decimals) {
@@ -123,8 +124,12 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
                               view.factor_label(block.factor));
   table.columns.push_back({"Method", "", "", ""});
   CellMaker cells(view, table);
-  for (std::size_t i = 0; i < block.levels.size(); ++i)
-    cells.add_column(quantity, column_title(block.levels[i]), view.factor_label(block.factor));
+  for (const Level& level : block.levels) {
+    const std::size_t index = table.columns.size();
+    cells.add_column(quantity, column_title(level), view.factor_label(block.factor));
+    if (const auto* number = std::get_if<double>(&level.value))
+      table.columns[index].number = *number;
+  }
   const std::vector<ResultsLine> lines = view.lines(block, quantity);
   for (const ResultsLine& line : lines) {
     Row row{{TextCell{line.label, Emphasis::kData}}, "", false};

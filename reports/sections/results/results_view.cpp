@@ -13,6 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -284,7 +285,8 @@ void ResultsView::set_decimals() {
     // Pages show no digits of those that diverged.
     if (has_great_errors(quantity))
       std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
-    decimals_[id] = decimals_of(std::move(means));
+    const int decimals = decimals_of(std::move(means));
+    decimals_[id] = id.starts_with("moe_") ? std::min(decimals, kMoeDecimals) : decimals;
   }
 }
 
@@ -411,7 +413,7 @@ StatusCounts ResultsView::statuses(const Condition& at, const ResultsLine& line)
 std::string ResultsView::level_words(const Level& level) const {
   const auto found = std::ranges::find(study_.factors, level.factor, &Label::id);
   const std::string text =
-      is_number(level) ? fmt::format("{:.6g}", std::get<double>(level.value)) : level_text(level);
+      is_number(level) ? level_number_text(std::get<double>(level.value)) : level_text(level);
   if (found == study_.factors.end()) return level.factor + " " + text;
   return found->label + " " + with_unit(text, found->unit);
 }

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/maps/path_styles.hpp"
+#include "render/figures/unit_scale.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/tables/cells.hpp"
 
@@ -85,6 +87,15 @@ void add_score(const RangeHistoryMap* map, Row& row) {
   row.cells.push_back(scored ? Cell{NumberCell{map->score->mpe_all_fitted_m, 4}} : MissingCell{});
   row.cells.push_back(scored ? Cell{NumberCell{map->score->moe_unmirrored_percent, kMoeDecimals}}
                              : MissingCell{});
+}
+
+/// Those that give the least of some times two digits, but 1 ms is the finest beside seconds and a
+/// tenth beside other units.
+int time_decimals(const ScaledUnit& unit, double least_s) {
+  if (!std::isfinite(least_s)) return 0;
+  const int most = unit.unit == "s" ? 3 : 1;
+  const int power = static_cast<int>(std::floor(std::log10(unit.factor * least_s)));
+  return std::clamp(1 - power, 0, most);
 }
 
 }  // namespace
@@ -226,19 +237,29 @@ std::optional<Table> slam_seconds_table(const SlamStudy& study,
   Table table;
   table.id = "slam-seconds";
   table.caption = "How long the methods took (varies)";
-  table.columns = {{"Data set", "", "", ""}, {"Method", "", "", ""}, {"Seconds", "s", "", ""}};
+  double least = kInfinity, greatest = 0.0;
+  for (const SlamTiming& timing : timings) {
+    if (timing.seconds > 0.0) least = std::min(least, timing.seconds);
+    greatest = std::max(greatest, timing.seconds);
+  }
+  const ScaledUnit unit = scaled_unit("s", greatest);
+  const int decimals = time_decimals(unit, least);
+  table.columns = {{"Data set", "", "", ""}, {"Method", "", "", ""}, {"Time", unit.unit, "", ""}};
   for (const SlamTiming& timing : timings) {
     const auto run = std::ranges::find(study.runs, timing.run, &SlamRun::id);
     table.rows.push_back(
         {{TextCell{run == study.runs.end() ? timing.run : title_of(*run), Emphasis::kData},
-          TextCell{method_label(timing.method)}, NumberCell{timing.seconds, 3}},
+          TextCell{method_label(timing.method)},
+          NumberCell{.value = unit.factor * timing.seconds,
+                     .decimals = decimals,
+                     .least = std::pow(10.0, -decimals)}},
          "",
          false});
   }
   table.notes = {
-      "A method's own seconds, without the choice of windows and without the estimate it "
+      "A method's own time, without the choice of windows and without the estimate it "
       "starts from.",
-      "Seconds vary from run to run and are not part of any comparison."};
+      "Times vary from run to run and are not part of any comparison."};
   return table;
 }
 
@@ -276,8 +297,9 @@ Table slam_convergence_table(std::span<const ConvergenceCurve> curves) {
 Table slam_history_table(const RangeHistoryStudy& study) {
   Table table;
   table.id = "slam-histories";
-  table.caption = fmt::format("Maps of {} landmarks from {} steps of ranges",
-                              study.landmarks_m.rows(), study.steps);
+  table.caption =
+      fmt::format("Maps of {} from {} of ranges", counted(study.landmarks_m.rows(), "landmark"),
+                  counted(study.steps, "step"));
   table.columns = {
       {"Method", "", "", ""},
       {"MPE", "m", "Ranges", "After the affine map that fits all landmarks best."},
@@ -308,8 +330,9 @@ Table slam_history_table(const RangeHistoryStudy& study) {
 Table slam_space_table(const SpaceRun& run) {
   Table table;
   table.id = "slam-space";
-  table.caption = fmt::format("{} in space from {} steps of ranges",
-                              counted(run.landmarks_m.rows(), "landmark"), run.positions_m.rows());
+  table.caption =
+      fmt::format("{} in space from {} of ranges", counted(run.landmarks_m.rows(), "landmark"),
+                  counted(run.positions_m.rows(), "step"));
   table.columns = {
       {"Known landmarks", "", "", ""},
       {"Landmarks", "m", "Mean error", ""},

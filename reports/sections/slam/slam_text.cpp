@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/words.hpp"
 #include "core/model/slam/method_record.hpp"
 #include "render/figures/curves/log_log.hpp"
 
@@ -55,17 +56,18 @@ std::vector<std::pair<std::string, std::string>> simulation_facts(
          fmt::format("steps of {:g} m, the heading changes by {:g} rad (1 \u03C3) per step",
                      world.step_m, world.heading_change_sigma_rad)}};
   if (const auto& example = experiment.example)
-    facts.emplace_back("Example",
-                       fmt::format("{} steps, {}", example->steps, example->noise.title));
-  if (const auto& convergence = experiment.convergence)
-    facts.emplace_back("Convergence", fmt::format("{} pairs of world and path, up to {} steps; {}",
-                                                  convergence->pairs, convergence->steps.back(),
-                                                  redrawn_words(*convergence)));
-  if (const auto& histories = experiment.histories)
     facts.emplace_back(
-        "Mapping methods on ranges",
-        fmt::format("{} landmarks, {} steps, {}, K = {}", histories->landmarks, histories->steps,
-                    histories->noise.title, histories->neighbours));
+        "Example", fmt::format("{}, {}", counted(example->steps, "step"), example->noise.title));
+  if (const auto& convergence = experiment.convergence)
+    facts.emplace_back(
+        "Convergence",
+        fmt::format("{} of world and path, up to {}; {}", counted(convergence->pairs, "pair"),
+                    counted(convergence->steps.back(), "step"), redrawn_words(*convergence)));
+  if (const auto& histories = experiment.histories)
+    facts.emplace_back("Mapping methods on ranges",
+                       fmt::format("{}, {}, {}, K = {}", counted(histories->landmarks, "landmark"),
+                                   counted(histories->steps, "step"), histories->noise.title,
+                                   histories->neighbours));
   if (const auto& space = experiment.space)
     facts.emplace_back(
         "Flight in space",

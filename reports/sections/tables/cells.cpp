@@ -3,12 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/error_text.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
+namespace {
+
+constexpr int kSignificant = 3;
+
+/// Before the point: 2 of 12.3, −1 of 0.0123.
+int digits_before(double size) { return static_cast<int>(std::floor(std::log10(size))) + 1; }
+
+}  // namespace
 
 Cell method_cell(Method method) { return TextCell{std::string(info(method).label)}; }
 
@@ -36,14 +46,11 @@ Cell difference_interval_cell(const std::optional<MeanEstimate>& estimate, int d
 }
 
 int decimals_of(std::vector<double> sizes) {
-  constexpr int kSignificant = 3, kMostMore = 2;
+  constexpr int kMostMore = 2;
   constexpr int kMost = 6;
   std::erase_if(sizes, [](double size) { return !std::isfinite(size) || size == 0.0; });
   for (double& size : sizes) size = std::abs(size);
   if (std::ranges::all_of(sizes, [](double size) { return size == std::floor(size); })) return 0;
-  const auto digits_before = [](double size) {
-    return static_cast<int>(std::floor(std::log10(size))) + 1;
-  };
   const int decimals = kSignificant - digits_before(median(sizes));
   const int of_least = kSignificant - digits_before(std::ranges::min(sizes));
   return std::clamp(std::clamp(of_least, decimals, decimals + kMostMore), 0, kMost);
@@ -55,13 +62,22 @@ int error_decimals(std::vector<double> errors_m) {
   return std::max(decimals_of(std::move(errors_m)), kFewest);
 }
 
-int mpe_decimals(std::span<const SettingSummary> summaries) {
+int mpe_decimals(const Study& study) {
   std::vector<double> errors;
-  for (const SettingSummary& summary : summaries) {
-    if (summary.mpe_m) errors.push_back(summary.mpe_m->mean);
-    if (summary.published) errors.push_back(summary.published->mpe_m);
-  }
+  for (const SensorStudy& sensor : study.experiment.sensors)
+    for (const SettingSummary& summary :
+         best_of_each_method(summarize(study, sensor, last_step(sensor)))) {
+      if (summary.mpe_m) errors.push_back(summary.mpe_m->mean);
+      if (summary.published) errors.push_back(summary.published->mpe_m);
+    }
   return error_decimals(std::move(errors));
+}
+
+int printed_decimals(double printed) {
+  if (!std::isfinite(printed) || printed == 0.0) return 0;
+  const std::string text = fmt::format("{:f}", printed);
+  const auto needed = static_cast<int>(text.find_last_not_of('0') - text.find('.'));
+  return std::max(kSignificant - digits_before(std::abs(printed)), needed);
 }
 
 int position_decimals(const Points& positions) {

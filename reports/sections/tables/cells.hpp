@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "core/model/method.hpp"
@@ -37,8 +36,13 @@ int decimals_of(std::vector<double> sizes);
 /// The same of errors in m, but at least 3; those of maps that diverged have no digits.
 int error_decimals(std::vector<double> errors_m);
 
-/// The same of the MPE of some settings and of those that a paper printed for them.
-int mpe_decimals(std::span<const SettingSummary> summaries);
+/// The same of the MPE of a study, one number for all of its tables: by the best of each method
+/// with each sensor and by what a paper printed for it.
+int mpe_decimals(const Study& study);
+
+/// Decimals of a number that a paper printed: those that it needs, or those of three significant
+/// digits, which papers print at least.
+int printed_decimals(double printed);
 
 /// Of positions, by their extent: 3, or as many as show a thousandth of it.
 int position_decimals(const Points& positions);

@@ -54,10 +54,7 @@ std::string test_note(const MethodRanks& ranks) {
       f);
 }
 
-void add_rank_rows(Table& table, const MethodRanks& ranks) {
-  std::vector<double> means;
-  for (const auto& of_method : ranks.mpe_m.colwise()) means.push_back(of_method.mean());
-  const int decimals = error_decimals(std::move(means));
+void add_rank_rows(Table& table, const MethodRanks& ranks, int mpe_decimals) {
   std::vector<int> order(ranks.methods.size());
   std::iota(order.begin(), order.end(), 0);
   const auto& mean_ranks = ranks.test->mean_ranks;
@@ -68,7 +65,7 @@ void add_rank_rows(Table& table, const MethodRanks& ranks) {
     const std::string letters = group_letters(ranks, method);
     table.rows.push_back(
         {{method_cell(ranks.methods[i].method), parameter_cell(ranks.methods[i]),
-          NumberCell{mean_ranks[i], 2}, NumberCell{ranks.mpe_m.col(method).mean(), decimals},
+          NumberCell{mean_ranks[i], 2}, NumberCell{ranks.mpe_m.col(method).mean(), mpe_decimals},
           letters.empty() ? Cell{MissingCell{}} : Cell{TextCell{letters}}},
          "",
          method == order.front()});
@@ -107,13 +104,13 @@ void add_error_columns(std::vector<Column>& columns, bool published) {
 }
 
 void add_error_cells(std::vector<Cell>& cells, const SettingSummary& s, bool published,
-                     int decimals) {
+                     int mpe_decimals) {
   const double paper_mpe = s.published ? s.published->mpe_m : kNaN;
   const double paper_moe = s.published ? s.published->moe_percent : kNaN;
-  cells.push_back(mean_cell(s.mpe_m, decimals));
-  cells.push_back(interval_cell(s.mpe_m, decimals));
+  cells.push_back(mean_cell(s.mpe_m, mpe_decimals));
+  cells.push_back(interval_cell(s.mpe_m, mpe_decimals));
   if (published) {
-    cells.push_back(NumberCell{paper_mpe, decimals});
+    cells.push_back(NumberCell{paper_mpe, printed_decimals(paper_mpe)});
     // By how much a map diverged says nothing.
     const bool diverged = s.mpe_m && s.mpe_m->mean > kGreatestError_m;
     cells.push_back(diverged ? Cell{MissingCell{}}
@@ -122,7 +119,7 @@ void add_error_cells(std::vector<Cell>& cells, const SettingSummary& s, bool pub
   cells.push_back(mean_cell(s.moe_percent, kMoeDecimals));
   cells.push_back(interval_cell(s.moe_percent, kMoeDecimals));
   if (published) {
-    cells.push_back(NumberCell{paper_moe, kMoeDecimals});
+    cells.push_back(NumberCell{paper_moe, printed_decimals(paper_moe)});
     cells.push_back(NumberCell{moe_difference_percent(s), kMoeDecimals, true});
   }
 }
@@ -155,7 +152,7 @@ std::string optima_at_an_end(const SensorStudy& sensor, std::span<const SettingS
 
 }  // namespace
 
-Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
+Table half_table(const SensorStudy& sensor, const HalfChoices& choices, int mpe_decimals) {
   const std::string chosen = "Parameter chosen on the";
   const std::string mpe = "MPE";
   const std::string moe = "MOE";
@@ -175,19 +172,15 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
                    {"Its 95 % interval", "m", mpe, ""},
                    {"Other half", "%", moe, other},
                    {"95 % interval", "%", moe, ""}};
-  std::vector<double> errors;
-  for (const HalfChoice& choice : choices.methods)
-    if (choice.mpe_m) errors.push_back(choice.mpe_m->mean);
-  const int decimals = error_decimals(std::move(errors));
   bool any_interval = false;
   for (const HalfChoice& c : choices.methods) {
     any_interval = any_interval || interval_of(c.mpe_m);
     table.rows.push_back(
         {{method_cell(c.method), parameter_cell(c.chosen[0]), parameter_cell(c.chosen[1]),
-          mean_cell(c.mpe_m, decimals), interval_cell(c.mpe_m, decimals),
-          mean_cell(c.same_runs_mpe_m, decimals),
-          c.has_choice ? mean_cell(c.optimism_m, decimals, true) : Cell{MissingCell{}},
-          c.has_choice ? difference_interval_cell(c.optimism_m, decimals) : Cell{MissingCell{}},
+          mean_cell(c.mpe_m, mpe_decimals), interval_cell(c.mpe_m, mpe_decimals),
+          mean_cell(c.same_runs_mpe_m, mpe_decimals),
+          c.has_choice ? mean_cell(c.optimism_m, mpe_decimals, true) : Cell{MissingCell{}},
+          c.has_choice ? difference_interval_cell(c.optimism_m, mpe_decimals) : Cell{MissingCell{}},
           mean_cell(c.moe_percent, kMoeDecimals), interval_cell(c.moe_percent, kMoeDecimals)},
          "",
          false});
@@ -197,7 +190,7 @@ Table half_table(const SensorStudy& sensor, const HalfChoices& choices) {
   return table;
 }
 
-Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks) {
+Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks, int mpe_decimals) {
   Table table;
   table.id = fmt::format("friedman-{}", name(sensor.sensor.sensor));
   table.caption = title_of(sensor.sensor.sensor) + ": methods ranked by MPE over layouts";
@@ -207,7 +200,7 @@ Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks) {
                    {"MPE", "m", "", "Mean over layouts."},
                    {"Alike", "", "", "Methods that share a letter do not differ significantly."}};
   if (!ranks.test) return table;
-  add_rank_rows(table, ranks);
+  add_rank_rows(table, ranks, mpe_decimals);
   table.notes.push_back(test_note(ranks));
   table.notes.push_back(fmt::format(
       "Methods that share a letter do not differ significantly by Nemenyi\u2019s test at {} %: "
@@ -223,7 +216,8 @@ Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks) {
   return table;
 }
 
-Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> claims) {
+Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> claims,
+                     int mpe_decimals) {
   Table table;
   table.id = fmt::format("orderings-{}", name(sensor.sensor.sensor));
   table.caption = title_of(sensor.sensor.sensor) + ": the paper\u2019s orderings";
@@ -233,10 +227,6 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
                    {"Difference", "m", "", "The second method\u2019s MPE less the first\u2019s."},
                    {"95 % interval", "m", "", "Layouts are the units."},
                    {"Layouts", "", "", "Where it holds in the mean over poses."}};
-  const bool any_small = std::ranges::any_of(claims, [](const OrderingClaim& claim) {
-    return claim.difference_m && std::abs(claim.difference_m->mean) < 0.1;
-  });
-  const int decimals = any_small ? 4 : 3;
   bool any_interval = false;
   for (const OrderingClaim& claim : claims) {
     any_interval = any_interval || (claim.difference_m && claim.difference_m->half_width);
@@ -245,8 +235,8 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
       holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
                           claim.is_significant() ? "" : ", not significant");
     table.rows.push_back({{method_cell(claim.less), method_cell(claim.more), TextCell{holds},
-                           mean_cell(claim.difference_m, decimals, true),
-                           difference_interval_cell(claim.difference_m, decimals),
+                           mean_cell(claim.difference_m, mpe_decimals, true),
+                           difference_interval_cell(claim.difference_m, mpe_decimals),
                            claim.layouts > 0 ? Cell{TextCell{fmt::format(
                                                    "{} of {}", claim.layouts_where, claim.layouts)}}
                                              : Cell{MissingCell{}}},
@@ -266,14 +256,16 @@ std::string paper_table_id(const SensorStudy& sensor, std::string_view kind) {
   return kind == "accuracy" ? table : fmt::format("{}-{}", table, kind);
 }
 
-Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> best, bool grid) {
+Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> best, bool grid,
+                     int mpe_decimals) {
   const bool published = any_published(best);
   Table table;
   table.id = paper_table_id(sensor, "accuracy");
   const std::string number = paper_number(table.id);
-  table.caption = fmt::format(
-      "{}{}: mean position error (MPE) and mean orientation error (MOE) after {} observations",
-      number.empty() ? "" : number + ". ", title_of(sensor.sensor.sensor), last_step(sensor));
+  table.caption =
+      fmt::format("{}{}: mean position error (MPE) and mean orientation error (MOE) after {}",
+                  number.empty() ? "" : number + ". ", title_of(sensor.sensor.sensor),
+                  counted(last_step(sensor), "observation"));
   table.columns = {{"Method", "", "", ""}};
   const std::string chosen = "The one of least mean MPE among those tried.";
   if (published) {
@@ -283,12 +275,11 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
     table.columns.push_back({"Parameter", "", "", chosen});
   }
   add_error_columns(table.columns, published);
-  const int decimals = mpe_decimals(best);
   for (const SettingSummary& s : best) {
     std::vector<Cell> cells = {method_cell(s.setting.method), parameter_cell(s.setting)};
     if (published)
       cells.push_back(s.published ? parameter_cell(s.published->setting) : Cell{MissingCell{}});
-    add_error_cells(cells, s, published, decimals);
+    add_error_cells(cells, s, published, mpe_decimals);
     table.rows.push_back({std::move(cells), source_of(s), false});
   }
   mark_best(table, best);
@@ -304,7 +295,8 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
   return table;
 }
 
-Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all) {
+Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all,
+                            int mpe_decimals) {
   Table table;
   table.id = paper_table_id(sensor, "paper");
   table.caption = title_of(sensor.sensor.sensor) + ": errors at the paper\u2019s parameters";
@@ -314,7 +306,6 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
       {"Printed MPE within", "", "",
        "Whether the printed MPE lies in the 95 % interval of ours; not where a note says that the "
        "two cannot be compared."});
-  const int decimals = mpe_decimals(all);
   for (const PublishedValue& value : sensor.published.values) {
     SettingSummary s;
     for (const SettingSummary& tried : all)
@@ -322,7 +313,7 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
     s.setting = value.setting;
     s.published = value;
     std::vector<Cell> cells = {method_cell(value.setting.method), parameter_cell(value.setting)};
-    add_error_cells(cells, s, true, decimals);
+    add_error_cells(cells, s, true, mpe_decimals);
     const auto interval = interval_of(s.mpe_m);
     if (interval && value.note.empty())
       cells.emplace_back(
@@ -338,7 +329,8 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
   return table;
 }
 
-Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> best) {
+Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> best,
+                   int mpe_decimals) {
   const std::string free = "Free of the choice of anchors";
   Table table;
   table.id = fmt::format("behind-{}", name(sensor.sensor.sensor));
@@ -351,11 +343,10 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
                    {"All", "", "Runs", ""},
                    {"Scored", "", "Runs", "Their map could be scored."},
                    {"With warning", "", "Runs", "A warning or a failure."}};
-  const int decimals = mpe_decimals(best);
   for (const SettingSummary& s : best)
     table.rows.push_back(
         {{method_cell(s.setting.method), parameter_cell(s.setting),
-          NumberCell{s.mpe_median_m, decimals}, NumberCell{s.mpe_all_fitted_m, decimals},
+          NumberCell{s.mpe_median_m, mpe_decimals}, NumberCell{s.mpe_all_fitted_m, mpe_decimals},
           NumberCell{s.moe_unmirrored_percent, kMoeDecimals},
           NumberCell{static_cast<double>(s.runs), 0}, NumberCell{static_cast<double>(s.scored), 0},
           NumberCell{static_cast<double>(s.with_status), 0}},
@@ -367,7 +358,8 @@ Table spread_table(const SensorStudy& sensor, std::span<const SettingSummary> be
   return table;
 }
 
-Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all) {
+Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary> all,
+                      int mpe_decimals) {
   Table table;
   table.id = fmt::format("parameters-{}", name(sensor.sensor.sensor));
   table.caption = title_of(sensor.sensor.sensor) + ": every parameter tried";
@@ -378,12 +370,11 @@ Table parameter_table(const SensorStudy& sensor, std::span<const SettingSummary>
                    {"MOE", "%", "", "Mean over runs."},
                    {"Scored", "", "", ""},
                    {"With warning", "", "", ""}};
-  const int decimals = mpe_decimals(all);
   for (const SettingSummary& s : all)
     table.rows.push_back(
-        {{method_cell(s.setting.method), parameter_cell(s.setting), mean_cell(s.mpe_m, decimals),
-          interval_cell(s.mpe_m, decimals), mean_cell(s.moe_percent, kMoeDecimals),
-          NumberCell{static_cast<double>(s.scored), 0},
+        {{method_cell(s.setting.method), parameter_cell(s.setting),
+          mean_cell(s.mpe_m, mpe_decimals), interval_cell(s.mpe_m, mpe_decimals),
+          mean_cell(s.moe_percent, kMoeDecimals), NumberCell{static_cast<double>(s.scored), 0},
           NumberCell{static_cast<double>(s.with_status), 0}},
          source_of(s),
          false});

@@ -102,9 +102,9 @@ std::vector<std::string> mixed_conclusions(const TopicStudy& study) {
   return sentences;
 }
 
-/// "better than", "no better than", "better, in one layout, than".
+/// "better than", "not significantly better than", "better, in one layout, than".
 std::string comparative(const std::string& verdict) {
-  if (verdict.starts_with("not")) return "no better than";
+  if (verdict.starts_with("not")) return "not significantly better than";
   return verdict + (verdict.find(',') == std::string::npos ? " than" : ", than");
 }
 

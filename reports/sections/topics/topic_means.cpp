@@ -8,6 +8,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 
@@ -59,7 +60,7 @@ std::string level_words(const TopicSetup& setup, const Condition& at) {
     const auto level = std::ranges::find(at.levels, factor.id, &Level::factor);
     if (level == at.levels.end()) continue;
     words.push_back(factor.label + " " +
-                    with_unit(fmt::format("{:g}", std::get<double>(level->value)), factor.unit));
+                    with_unit(level_number_text(std::get<double>(level->value)), factor.unit));
   }
   return fmt::format("{}", fmt::join(words, ", "));
 }

@@ -11,6 +11,7 @@
 #include "core/base/random.hpp"
 #include "core/experiment/slam_run.hpp"
 #include "core/range_slam/fit/chain_system.hpp"
+#include "core/results/quantity.hpp"
 #include "core/simulate/range_world.hpp"
 #include "tests/support/plaza.hpp"
 
@@ -104,6 +105,8 @@ TEST(LogFit, OfASoundLogFitsAndFindsMapAndNoise) {
   EXPECT_EQ(fit.fit.verdict, FitVerdict::kFits);
   EXPECT_TRUE(fit.fit.causes.empty());
   EXPECT_NEAR(fit.noise.range_m, 0.5, 0.05);
+  for (const FitNumber& number : fit.fit.numbers)
+    EXPECT_NE(find_quantity(number.quantity), nullptr) << number.quantity << " has no label";
   const Points true_landmarks_m = Points(fit_similarity(
       *log.true_landmarks, fit.estimate.landmarks_m, Alignment::kRigid)(*log.true_landmarks));
   EXPECT_LT((true_landmarks_m - fit.estimate.landmarks_m).rowwise().norm().mean(), 0.25);
