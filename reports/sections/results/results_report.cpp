@@ -14,6 +14,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
 #include "core/base/text/unit_text.hpp"
@@ -263,6 +264,8 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
                                              worse, counted(others, "other method"))
                                : fmt::format("significantly better than {} of {} compared (not {})",
                                              worse, others, left_out);
+    // Means of tables are over all runs of each method.
+    if (!comparison.has_all_runs) note += "; over the " + counted(comparison.runs, "common run");
     numbers.items.push_back(
         {fmt::format("{} {}, {}", is_one ? "best" : "best mean of", label, where_of(comparison)),
          quantity_text(best.mean, comparison.quantity->unit), std::move(note),
@@ -379,6 +382,26 @@ std::string unequal_poses(const ResultsReportInput& input) {
                      label_of(methods, most->first), most->second);
 }
 
+/// "DSO: ATE over 1 km (outdoors)": methods whose maps or paths diverged in the mean; empty if none
+/// did.
+std::string diverged_methods(const ResultsView& view) {
+  std::vector<std::string> found;
+  for (const ResultsBlock& block : view.blocks())
+    for (const Quantity* quantity : view.quantities(block)) {
+      if (!view.has_great_errors(*quantity)) continue;
+      for (const ResultsLine& line : view.lines(block, *quantity)) {
+        const auto has_diverged = [&](const Condition& at) {
+          const auto mean = view.mean(at, line, *quantity);
+          return mean && mean->mean > kGreatestError_m;
+        };
+        if (std::ranges::any_of(block.conditions, has_diverged))
+          found.push_back(fmt::format("{}: {} {} ({})", view.study().methods[line.index].label,
+                                      quantity->label, error_text(kInfinity), block.title));
+      }
+    }
+  return listed(found, kMostLeftOut);
+}
+
 /// What is missing or lost, and what whoever knows the study says.
 std::vector<std::string> warnings_of(const ResultsReportInput& input) {
   std::vector<std::string> warnings = input.warnings;
@@ -386,6 +409,7 @@ std::vector<std::string> warnings_of(const ResultsReportInput& input) {
     if (!text.empty()) warnings.push_back(text);
   };
   if (!input.incomplete.empty()) add("incomplete: " + input.incomplete);
+  add(diverged_methods(input.view));
   add(losses_of(input.view));
   add(few_associated(input.view.study()));
   add(unequal_poses(input));
