@@ -259,6 +259,10 @@ TEST(BestLine, TiesWithTheBestNotWithWhatTiesWithIt) {
   EXPECT_EQ(best_over({a, b, c, d}, {}, {"noise"}), "A and B have the lowest MPE throughout");
   EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "A and B have the lowest MPE throughout");
   EXPECT_EQ(best_over({a, b}, {}, {"noise"}), "");
+  // Another one ties with A at each.
+  const ErrorLine e = three_points("E", {1.15, 4, 1.15}, 0.1),
+                  f = three_points("F", {4, 1.15, 4}, 0.1);
+  EXPECT_EQ(best_over({a, e, f}, {}, {"noise"}), "A ties for the lowest MPE throughout");
 }
 
 TEST(BestLine, IsNobodyWhereAllTieEvenIfFewAreKnownThere) {

@@ -299,7 +299,13 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
       return one.size() == throughout.size() && has_others(one);
     });
     const auto of_all = std::ssize(best) - std::ranges::count_if(best, has_others);
-    if (alone == 0) return "";
+    if (of_all == std::ssize(best)) return "";
+    if (alone == 0) {
+      const bool several = throughout.size() > 1 || is_plural(*throughout.front().line, quantity);
+      return fmt::format("{} {} for the {} {} throughout", listed_names(throughout, lines),
+                         several ? "tie" : "ties", quantity.lower_is_better ? "lowest" : "highest",
+                         quantity.label);
+    }
     if (alone == std::ssize(best)) return finding(throughout) + " throughout";
     return alone + of_all == std::ssize(best) ? wherever_they_differ(throughout)
                                               : where_alone(throughout);

@@ -42,8 +42,8 @@ std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
 /// Which line is best over the whole axis: "ISOMAP has the lowest MPE throughout", "LPCA has the
 /// lowest MPE at noise = 0, HLLE at 20"; of one line, where it is best. Lines tie where their
 /// intervals overlap or their digits shown are equal: "ISOMAP has the lowest MPE at 10°; elsewhere
-/// it ties with others". Empty if nothing is known, if no line is best alone, or if
-/// more than three lines are best wherever they differ.
+/// it ties with others", "ISOMAP ties for the lowest MPE throughout". Empty if nothing is known, if
+/// all lines tie, or if more than three lines are best wherever they differ.
 std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                       const LineAxis& axis);
 
