@@ -1,6 +1,7 @@
 // What few readers need is folded on the screen, and whole on paper and without a script.
 
-const kMostOnPaper = 60;  // Runs in lists of affected ones; of more all lists stay folded on paper, too.
+// With more affected runs than this, their lists stay folded on paper, too.
+const kMostOnPaper = 60;
 
 // Opens an element and all that is folded around it.
 function unfold(element) {

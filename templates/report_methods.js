@@ -147,7 +147,8 @@ function addMethodList(before) {
   // page of a report may have no tables.
   const rows = new Set(namedMethods());
   for (const [key, name] of methods) {
-    if (rows.size > 0 && ![...rows].some((row) => row === name || row.startsWith(`${name}, `))) methods.delete(key);
+    const isInTable = [...rows].some((row) => row === name || row.startsWith(`${name}, `));
+    if (rows.size > 0 && !isInTable) methods.delete(key);
   }
   if (methods.size === 0) readNamedMethods(figures, rows);
   namesOfLabels.clear();

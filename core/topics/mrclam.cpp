@@ -201,8 +201,8 @@ constexpr const char* kAssociation = "association";
 constexpr std::pair<const char*, const char*> kFaults[] = {
     {"swapped", "Two landmark IDs swapped in half of the scans"},
     {"swapped-corrected", "Correction of the swapped IDs"},
-    {"misnamed", "One landmark called by another's name in all scans"},
-    {"misnamed-corrected", "Correction of the wrong name"}};
+    {"misnamed", "One landmark with another's ID in all scans"},
+    {"misnamed-corrected", "Correction of the wrong ID"}};
 
 /// One strategy from a set's scans to a map.
 struct MrclamMethod {

@@ -243,7 +243,9 @@ class SharedGrid {
     const Axes axes = layouts_[p].in(frame);
     const std::size_t first = p - p % columns_;
     const double title_top = top - title_height(first, std::min(first + columns_, panels_.size()));
-    draw_panel_title(panels_[p], p, {left, title_top, left + title_width(), top}, theme_, drawing_);
+    draw_panel_title(panels_[p], p,
+                     {left, title_top, std::min(left + title_width(), room_.x1), top}, theme_,
+                     drawing_);
     draw_panel(layouts_[p], p, axes, drawing_);
     const PanelMap map = layouts_[p].map(frame);
     draw_mark_labels(layouts_[p], p, frame, data_obstacles(panels_[p], map, theme_), drawing_);

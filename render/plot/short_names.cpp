@@ -34,7 +34,7 @@ constexpr std::array<ShortNames, 15> kShort = {{
     {" alone, its order", ", its order"},
     {"Doubtful measurements left out", "Doubtful left out"},
     {" % of the range", " %"},
-    {"One landmark called by another's name in all scans", "One landmark misnamed"},
+    {"One landmark with another's ID in all scans", "One landmark misnamed"},
     {", incremental", ", incr."},
     {", from scratch", ", scratch"},
     {", known landmarks", ", known"},

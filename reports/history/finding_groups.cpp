@@ -16,6 +16,7 @@
 
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "core/json/text_input.hpp"
 
 namespace mapproof {
 namespace {
@@ -61,7 +62,8 @@ FindingSetting setting_of(const StudyLabels& labels, const std::string& method,
   FindingSetting setting{.shown = shown, .levels = levels_of(labels, method)};
   if (const std::size_t is = shown.find(kIs); is != std::string::npos) {
     const std::size_t value = is + kIs.size();
-    setting.parameter = {shown.substr(0, is), shown.substr(value, shown.find(", ", value) - value)};
+    const std::string text = shown.substr(value, shown.find(", ", value) - value);
+    setting.parameter = {.name = shown.substr(0, is), .value = text, .number = number_in(text)};
   }
   return setting;
 }

@@ -201,7 +201,7 @@ std::vector<double> points_of(const std::vector<FindingSetting>& settings, const
     bool shows_others = true;
     for (const ShownLevel& level : all) {
       if (is_axis_of(panel.x, level.name))
-        x = number_in(level.value);
+        x = level.number;
       else
         shows_others = shows_others &&
                        (has_word(panel.title, level.value) || has_word(figure.title, level.value));

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
+#include "core/json/text_input.hpp"
 #include "core/model/method.hpp"
 #include "core/model/slam/slam_study.hpp"
 
@@ -43,6 +46,26 @@ std::size_t id_size(const StudyLabels& labels, const std::string& method) {
   return declared > 0 ? declared : levels_begin(method);
 }
 
+/// What follows the id: " noise=0.1 pace=2" and " of robot 2".
+struct Tail {
+  std::string levels, subject;
+};
+
+Tail tail_of(const StudyLabels& labels, const std::string& method) {
+  const std::string rest = method.substr(id_size(labels, method));
+  const std::size_t of = std::min(rest.find(" of "), rest.size());
+  return {rest.substr(0, of), rest.substr(of)};
+}
+
+/// Where a level ends whose "=" is at `is`: at the last blank before the next "=" with one between.
+std::size_t level_end(const std::string& levels, std::size_t is) {
+  for (std::size_t next = levels.find('=', is + 1); next != std::string::npos;
+       next = levels.find('=', next + 1))
+    if (const std::size_t blank = levels.rfind(' ', next); blank != std::string::npos && blank > is)
+      return blank;
+  return levels.size();
+}
+
 std::string label_in(const std::map<std::string, std::string>& labels, const std::string& id) {
   const auto found = labels.find(id);
   return found == labels.end() ? id : found->second;
@@ -66,38 +89,37 @@ std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
 }
 
 std::vector<ShownLevel> levels_of(const StudyLabels& labels, const std::string& method) {
-  constexpr std::string_view kOf = " of ";
+  const std::string text = tail_of(labels, method).levels;
   std::vector<ShownLevel> levels;
-  for (std::size_t at = id_size(labels, method); at < method.size();) {
-    const std::size_t is = method.find('=', at);
-    if (is == std::string::npos || method[at] != ' ') break;
-    const std::string id = method.substr(at + 1, is - at - 1);
-    // A value may hold blanks: the next level begins at the last one before its "=".
-    const std::size_t next = method.find('=', is + 1);
-    const std::size_t end = next == std::string::npos ? method.size() : method.rfind(' ', next);
-    std::string value = method.substr(is + 1, end - is - 1);
-    value.resize(std::min(value.find(kOf), value.size()));
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t is = text.find('=', at);
+    if (is == std::string::npos) break;
+    const std::size_t end = level_end(text, is);
+    const std::string id = text.substr(at + 1, is - at - 1),
+                      value = text.substr(is + 1, end - is - 1);
     const auto known = labels.factors.find(id);
-    const bool has_label = known != labels.factors.end() && !known->second.label.empty();
-    levels.push_back({has_label ? known->second.label : id, value,
-                      known == labels.factors.end() ? "" : known->second.unit});
+    const LabelWithUnit label = known == labels.factors.end() ? LabelWithUnit{} : known->second;
+    const std::optional<double> number = number_in(value);
+    levels.push_back({label.label.empty() ? id : label.label,
+                      number ? level_number_text(*number) : value, label.unit, number});
     at = end;
   }
   return levels;
 }
 
 std::string shown_method(const StudyLabels& labels, const std::string& method) {
-  const std::size_t declared = declared_size(labels, method), size = id_size(labels, method);
-  const std::string id = method.substr(0, size), rest = method.substr(size);
+  const std::size_t declared = declared_size(labels, method);
+  const std::string id = method.substr(0, id_size(labels, method));
   // A study of results labels its setups; what it does not declare is not a method of mapproof.
   const bool is_of_mapproof = labels.methods.empty() || labels.setups.empty();
   std::string shown = declared > 0     ? labels.methods.at(id)
                       : is_of_mapproof ? shown_setting(id)
                                        : id;
-  for (const ShownLevel& level : levels_of(labels, method)) shown += ", " + level.words();
-  // Whom it is of.
-  const std::size_t of = rest.find(" of ");
-  return of == std::string::npos ? shown : shown + rest.substr(of);
+  const Tail tail = tail_of(labels, method);
+  const std::vector<ShownLevel> levels = levels_of(labels, method);
+  if (levels.empty() && !tail.levels.empty()) shown += ", " + tail.levels.substr(1);
+  for (const ShownLevel& level : levels) shown += ", " + level.words();
+  return shown + tail.subject;
 }
 
 std::string ShownLevel::words() const { return name + " " + with_unit(value, unit); }

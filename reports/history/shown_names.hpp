@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ std::string shown_setup(const StudyLabels& labels, const std::string& setup);
 /// A level of a factor, by the factor's label and unit; the id is the label where there is none.
 struct ShownLevel {
   std::string name;   ///< "range noise".
-  std::string value;  ///< "0.1", as in the id.
+  std::string value;  ///< As reports show it: "0.1", "10⁻⁴".
   std::string unit = {};
+  std::optional<double> number = {};  ///< Of a level that is one.
 
   /// "range noise 0.1 m".
   std::string words() const;

@@ -65,7 +65,7 @@ std::string format_number(double value, int decimals, bool with_sign) {
   const bool is_hidden = size > 0.0 && decimals >= kManyDecimals && is_zero(digits);
   if (size >= kLargest || is_hidden) digits = fmt::format("{:.2e}", size);
   if (is_zero(digits)) return digits;
-  if (decimals == 0 && size < kLargest) digits = count_text(std::llround(size));
+  if (decimals == 0 && size < kLargest) digits = count_text(std::stoll(digits));
   if (value < 0) return kMinus + digits;
   return with_sign ? "+" + digits : digits;
 }

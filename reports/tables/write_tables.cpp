@@ -197,13 +197,9 @@ std::string cell_text(const Cell& cell) {
   return format_cell(cell);
 }
 
-}  // namespace
-
-namespace {
-
 /// With the digits of a number for its title.
 Column plain_column(Column column) {
-  if (column.number) column.title = fmt::format("{:.6g}", *column.number);
+  if (column.number) column.title = csv_number(*column.number);
   return column;
 }
 

@@ -49,7 +49,7 @@ TEST(MapFigure, DrawsAnEvenPartOfManyLandmarksAndSaysSo) {
   EXPECT_GE(drawn.x.size(), 1000u);
   EXPECT_LE(drawn.x.size(), 1000u + map.anchors.size() + 5u);
   EXPECT_EQ(layer_of<Scatter>(figure, "anchor").x.size(), map.anchors.size());
-  EXPECT_TRUE(has_note(figure, "one in 12 of 12000 landmarks"));
+  EXPECT_TRUE(has_note(figure, "one in 12 of 12,000 landmarks"));
   EXPECT_FALSE(has_note(map_figure(sample_map(5000, 0.1, 1), "map"), "one in"));
 }
 

@@ -2,6 +2,8 @@
 
 #include <variant>
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "reports/sections/fit_section.hpp"
@@ -64,7 +66,10 @@ TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {
   const auto& callout = std::get<Callout>(section.blocks.at(0));
   EXPECT_EQ(callout.title, "Verdict: does not fit");
   EXPECT_EQ(callout.tone, Callout::Tone::kWarning);
-  const auto& numbers = std::get<KeyValues>(section.blocks.at(2)).items;
+  const auto holds = [](const Block& block) { return std::holds_alternative<KeyValues>(block); };
+  const auto found = std::ranges::find_if(section.blocks, holds);
+  ASSERT_NE(found, section.blocks.end());
+  const auto& numbers = std::get<KeyValues>(*found).items;
   EXPECT_EQ(numbers.at(0).value.text, "3.500 (bound 1.100)");
   EXPECT_EQ(numbers.at(1).key, "noise of the heading after 1 m [rad]");
   EXPECT_EQ(numbers.at(1).value.text, "0.0006035");

@@ -137,8 +137,9 @@ TEST(AccuracySection, HasOnePrecisionOfMpeForAllSensorsAndThePapersOwnDigits) {
   const Study study = synthetic_study();
   std::vector<std::string> printed;
   for (const SensorStudy& sensor : study.experiment.sensors) {
-    const Table& table = table_named(accuracy_section(study, sensor),
-                                     fmt::format("accuracy-{}", name(sensor.sensor.sensor)));
+    const Section section = accuracy_section(study, sensor);
+    const Table& table =
+        table_named(section, fmt::format("accuracy-{}", name(sensor.sensor.sensor)));
     for (const Row& row : table.rows) {
       EXPECT_EQ(std::get<NumberCell>(row.cells[3]).decimals, 4) << table.caption;
       EXPECT_EQ(std::get<NumberCell>(row.cells[7]).decimals, 2) << table.caption;

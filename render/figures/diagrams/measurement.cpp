@@ -247,7 +247,7 @@ class MeasurementFigure {
   void add_angle(Eigen::Index row, std::size_t n) {
     const ThemeColour colour = series_colour(n);
     const Dash dash = std::array{Dash::kSolid, Dash::kDashed, Dash::kDashDot}[n % 3];
-    Polyline ray{.label = fmt::format("bearing of L{}", row + 1), .colour = colour, .dash = dash};
+    Polyline ray{.colour = colour, .dash = dash};
     add_point(ray, robot_);
     add_point(ray, position(row));
     Polyline arc{.colour = colour, .dash = dash};

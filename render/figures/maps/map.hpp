@@ -29,7 +29,8 @@ struct MapView {
   std::vector<Eigen::Index> worst;     ///< Rows of the greatest errors, no anchors, worst first.
   std::vector<Eigen::Index> unmapped;  ///< Rows without an estimate.
   std::vector<Eigen::Index> outside;   ///< Rows whose estimate lies outside `limits`.
-  std::optional<PanelBox> limits;      ///< Set if some estimates are too far off to be shown.
+  std::optional<PanelBox> limits;      ///< Those given, or of what is shown if some
+                                       ///< estimates are too far off.
 };
 
 /// @param limits  Of the figure; unset: all but estimates that are too far off.

@@ -23,6 +23,7 @@ void require_consistent(const MapGridSpec& spec) {
     throw InvalidInput("figure " + printable(spec.id) + ": " + what);
   };
   if (spec.maps.empty()) refuse("no map");
+  if (spec.framing == 0) refuse("no map that its limits are of");
   for (const TitledMap& one : spec.maps)
     if (one.map.frame != spec.maps.front().map.frame) refuse("maps in different frames");
 }
@@ -70,8 +71,8 @@ void make_small(Panel& panel) {
     if (auto* points = std::get_if<Scatter>(&layer)) points->size *= kSmall;
 }
 
-/// The limits of all panels, where estimates are outside of them: those that the first maps need,
-/// without those that have estimates far off.
+/// Common limits of all panels: those that the first maps need, but for maps with estimates far
+/// off. Unset if no estimate is outside.
 std::optional<PanelBox> limits_of(const MapGridSpec& spec,
                                   const std::vector<const TitledMap*>& maps) {
   std::vector<PanelBox> whole, cut;

@@ -20,8 +20,8 @@ struct MapGridSpec {
   std::string id;  ///< [a-z][a-z0-9-]*.
   std::string title;
   std::vector<TitledMap> maps;  ///< All in the frame of the ground truth, or none.
-  /// The limits are those of the first so many, without those that have estimates far off; arrows
-  /// of others' estimates may end at them.
+  /// The limits are those of the first so many, 1 or more, but for maps with estimates far off;
+  /// arrows of others' estimates may end at them.
   std::size_t framing = std::numeric_limits<std::size_t>::max();
 };
 

@@ -1,7 +1,6 @@
 #include "reports/history/store/database.hpp"
 
 #include <cmath>
-#include <new>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -18,7 +17,8 @@ namespace {
 constexpr int kBusyMilliseconds = 10'000;
 /// Bytes of a text, or of a row: a command line has at most 2 MiB on Linux.
 constexpr int kLongestValue = 1 << 22;
-/// Bytes that SQLite may take, of which it needs 2 MiB: a damaged file of 2 kB may ask for 2 GB.
+/// Bytes that SQLite may take in this process. It needs 2 MiB; a damaged file of 2 kB may ask for
+/// 2 GB.
 constexpr sqlite3_int64 kMostMemory = 64 << 20;
 
 /// SQLite reports a write that fails for want of room as either.
@@ -119,7 +119,7 @@ double Statement::real(int column) const {
 std::string Statement::text(int column) const {
   if (is_null(column)) return "";
   const unsigned char* bytes = sqlite3_column_text(statement_.get(), column);
-  if (bytes == nullptr) throw std::bad_alloc();
+  if (bytes == nullptr) database_->fail();
   return {reinterpret_cast<const char*>(bytes),
           static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
@@ -174,7 +174,7 @@ std::string Database::damage() {
 std::int64_t Database::last_row() const { return sqlite3_last_insert_rowid(handle_); }
 
 void Database::fail() const {
-  if (handle_ == nullptr) throw std::bad_alloc();
+  if (handle_ == nullptr) throw OutOfMemory(path_.string());
   const int code = sqlite3_extended_errcode(handle_);
   if (is_out_of_memory(code))
     throw OutOfMemory(path_.string(), "; SQLite says so of some damaged files, too");

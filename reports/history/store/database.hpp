@@ -45,7 +45,7 @@ class Statement {
   /// For a statement without rows: runs it and makes it ready to be bound again. @throws IoError.
   void run();
 
-  /// Columns of the row, counted from 0. NULL is 0, NaN, "". @throws std::bad_alloc of a text.
+  /// Columns of the row, counted from 0. NULL is 0, NaN, "". @throws OutOfMemory of a text.
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string text(int column) const;

@@ -145,8 +145,10 @@ Figure grid_figure(const Study& study, const Variation& variation) {
   const auto [last, first] = ends_of(variation);
   if (const std::string change = change_finding(best_lines(variation, spec), {}, last, first);
       !change.empty())
-    spec.title = fmt::format("{}, at each method\u2019s best {}: {}", title_of(variation.sensor),
-                             parameter_words(variation), change);
+    spec.title = fmt::format(
+        "{}{}: {}", title_of(variation.sensor),
+        has_grids(variation) ? ", at each method\u2019s best " + parameter_words(variation) : "",
+        change);
   spec.record_ids = {record_of(variation)};
   return error_lines_figure(spec);
 }

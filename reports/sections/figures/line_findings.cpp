@@ -71,8 +71,10 @@ std::string change_finding(const std::vector<ErrorLine>& lines, const LineQuanti
   };
   const bool all_tie =
       std::ranges::all_of(changes, [](const Ratio& change) { return ends_tie(*change.line); });
-  return fmt::format("{}, the {} is {} to {} that {}{}", last, quantity.label, words(least),
-                     words(most), first, all_tie ? "; the intervals overlap" : "");
+  const std::string whose =
+      changes.size() < lines.size() ? fmt::format(" of {} methods", changes.size()) : "";
+  return fmt::format("{}, the {}{} is {} to {} that {}{}", last, quantity.label, whose,
+                     words(least), words(most), first, all_tie ? "; the intervals overlap" : "");
 }
 
 std::string flat_finding(const ErrorLine& line, const LineQuantity& quantity,
@@ -103,7 +105,10 @@ std::string dependence_finding(const std::vector<ErrorLine>& lines, const LineQu
   if (!names_best) return fmt::format("the {} depends on {} {}", quantity.label, symbol, depends);
   const auto [low, high] = std::ranges::minmax(best);
   const std::string values =
-      low == high ? fmt::format("{} with every method", data_number(low))
+      low == high ? fmt::format("{} with {}", data_number(low),
+                                best.size() < lines.size()
+                                    ? fmt::format("{} of {} methods", best.size(), lines.size())
+                                    : "every method")
                   : fmt::format("{} to {} by method", data_number(low), data_number(high));
   return fmt::format("the best {} is {}; the {} depends on it {}", symbol, values, quantity.label,
                      depends);

@@ -8,8 +8,9 @@
 
 namespace mapproof {
 
-/// Findings for titles where no line is best (see best_line.hpp). They state what the means are, so
-/// that they are true whether or not the intervals overlap, which they state too.
+/// Findings for titles where no line is best (see best_line.hpp): what the means are, which is true
+/// whether or not the intervals overlap; change_finding() and flat_finding() also say whether they
+/// do.
 
 /// What the last value of each line is compared with its first: "at 40° bearing noise, the MPE is
 /// 1.0 times (LEM, 0.401 m) to 2.9 times (ISOMAP, 0.260 m) that at 0°". Empty if fewer than two

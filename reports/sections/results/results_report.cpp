@@ -11,13 +11,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
-#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
 #include "reports/sections/opening.hpp"
@@ -28,7 +28,6 @@
 #include "reports/sections/results/results_tables.hpp"
 #include "reports/sections/results/results_view.hpp"
 #include "reports/sections/results/topic_records.hpp"
-#include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -379,27 +378,29 @@ std::string unequal_poses(const ResultsReportInput& input) {
   const std::vector<Label>& methods = input.view.study().methods;
   return fmt::format("errors are of different poses: {} has {}, {} {}",
                      label_of(methods, fewest->first), counted(fewest->second, "pose"),
-                     label_of(methods, most->first), most->second);
+                     label_of(methods, most->first), count_text(most->second));
 }
 
-/// "DSO: ATE over 1 km (outdoors)": methods whose maps or paths diverged in the mean; empty if none
-/// did.
+/// "the mean ATE of DSO is over 1 km (outdoors)": of each method whose maps or paths diverged in
+/// the mean, the first place; empty if none did.
 std::string diverged_methods(const ResultsView& view) {
-  std::vector<std::string> found;
+  constexpr std::size_t kMostDiverged = 3;
+  std::map<std::size_t, std::string> found;  // By the method's index.
   for (const ResultsBlock& block : view.blocks())
     for (const Quantity* quantity : view.quantities(block)) {
       if (!view.has_great_errors(*quantity)) continue;
-      for (const ResultsLine& line : view.lines(block, *quantity)) {
-        const auto has_diverged = [&](const Condition& at) {
-          const auto mean = view.mean(at, line, *quantity);
-          return mean && mean->mean > kGreatestError_m;
-        };
-        if (std::ranges::any_of(block.conditions, has_diverged))
-          found.push_back(fmt::format("{}: {} {} ({})", view.study().methods[line.index].label,
-                                      quantity->label, error_text(kInfinity), block.title));
-      }
+      for (const ResultsLine& line : view.lines(block, *quantity))
+        for (std::size_t i = 0; i < block.conditions.size(); ++i)
+          if (const auto mean = view.mean(block.conditions[i], line, *quantity);
+              mean && mean->mean > kGreatestError_m)
+            found.try_emplace(line.index,
+                              fmt::format("the mean {} of {} is {} ({})", quantity->label,
+                                          view.study().methods[line.index].label,
+                                          error_text(kInfinity), view.words_of(block, i)));
     }
-  return listed(found, kMostLeftOut);
+  std::vector<std::string> texts;
+  for (auto& [method, text] : found) texts.push_back(std::move(text));
+  return listed(texts, kMostDiverged);
 }
 
 /// What is missing or lost, and what whoever knows the study says.

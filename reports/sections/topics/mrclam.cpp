@@ -71,7 +71,7 @@ std::vector<std::string> mrclam_conclusions(const TopicStudy& study) {
     if (const double swapped = method_value(part, "swapped", "mpe_m"); !std::isnan(swapped))
       sentences.push_back(fmt::format(
           "{}: with two landmark IDs swapped in half of the scans the map is {} off, "
-          "corrected {}; with a landmark called by another's name in all scans {}, corrected {}.",
+          "corrected {}; with one landmark under another's ID in all scans {}, corrected {}.",
           part.id, error_text(swapped), metres_of("swapped-corrected"), metres_of("misnamed"),
           metres_of("misnamed-corrected")));
   }

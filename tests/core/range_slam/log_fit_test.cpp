@@ -105,6 +105,7 @@ TEST(LogFit, OfASoundLogFitsAndFindsMapAndNoise) {
   EXPECT_EQ(fit.fit.verdict, FitVerdict::kFits);
   EXPECT_TRUE(fit.fit.causes.empty());
   EXPECT_NEAR(fit.noise.range_m, 0.5, 0.05);
+  ASSERT_FALSE(fit.fit.numbers.empty());
   for (const FitNumber& number : fit.fit.numbers)
     EXPECT_NE(find_quantity(number.quantity), nullptr) << number.quantity << " has no label";
   const Points true_landmarks_m = Points(fit_similarity(

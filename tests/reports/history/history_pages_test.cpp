@@ -115,7 +115,7 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   ASSERT_EQ(figures.size(), 2U);  // MPE and what is declared; memory did not change.
   EXPECT_EQ(figures[1].id, "trend-found-percent-size");
   EXPECT_EQ(figures[1].panels.front().y.label, "change of Landmarks found [points]");
-  EXPECT_EQ(curves(figures[1]), std::vector<std::string>{"ISOMAP, K = 5, level=30"})
+  EXPECT_EQ(curves(figures[1]), std::vector<std::string>{"ISOMAP, K = 5, level 30"})
       << "the better level stands for the method";
   const Table table = accuracy_table(trend);
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
@@ -328,6 +328,16 @@ TEST(HistoryPages, NameMethodsAsTheirStudyLabelsThem) {
   EXPECT_EQ(shown_method(labels, "ekf noise=0.1 of robot 2"),
             "My EKF, range noise 0.1\u00a0m of robot 2");
   EXPECT_EQ(shown_method(labels, "ekf of robot 2"), "My EKF of robot 2");
+  // Values and subjects may hold "=" and blanks.
+  EXPECT_EQ(shown_method(labels, "ekf mode=lr=0.1"), "My EKF, mode lr=0.1");
+  EXPECT_EQ(shown_method(labels, "ekf mode=lr=0.1 noise=1e-05"),
+            "My EKF, mode lr=0.1, range noise 10\u207B\u2075\u00a0m");
+  EXPECT_EQ(shown_method(labels, "ekf mode=very fast noise=0.1"),
+            "My EKF, mode very fast, range noise 0.1\u00a0m");
+  EXPECT_EQ(shown_method(labels, "ekf noise=0.1 of robot=2"),
+            "My EKF, range noise 0.1\u00a0m of robot=2");
+  EXPECT_EQ(shown_method(labels, "ekf =="), "My EKF,  =");
+  EXPECT_EQ(shown_method(labels, "ekf fast"), "My EKF, fast");
   EXPECT_EQ(shown_method(labels, "ekf slow noise=0.1"), "My EKF, slower, range noise 0.1\u00a0m");
   EXPECT_EQ(shown_method(labels, "spectral"), "spectral");
   EXPECT_EQ(shown_method(labels, "isomap-K6"), "Walk");
