@@ -1,8 +1,7 @@
 #include "reports/sections/fit_text.hpp"
 
-#include <variant>
-
 #include <algorithm>
+#include <variant>
 
 #include <gtest/gtest.h>
 
