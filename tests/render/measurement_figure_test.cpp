@@ -94,7 +94,7 @@ TEST(MeasurementFigure, AnArcRunsFromTheHeadingThroughTheBearing) {
   EXPECT_NEAR(std::atan2(arc.y.front() - 1.0, arc.x.front() - 1.0), m.heading_rad, 1e-12);
   EXPECT_NEAR(arc.y.back(), 1.0, 1e-12);
   EXPECT_EQ(layers_of<PointLabels>(figure.panels[0])[0].text[0], "L1: 45°");
-  EXPECT_TRUE(contains(figure.title, "1 landmark at 45° from the heading")) << figure.title;
+  EXPECT_TRUE(contains(figure.title, "1 landmark at 45°")) << figure.title;
 }
 
 TEST(MeasurementFigure, RefusesWhatIsNoMeasurement) {

@@ -63,7 +63,7 @@ std::string bearings_text(const Measurement& m) {
   if (!span.known()) return "no landmark";
   const auto known = static_cast<long long>(m.bearings_rad.array().isFinite().count());
   const std::string low = degrees(span.low), high = degrees(span.high);
-  return fmt::format("{} at {} from the heading", counted(known, "landmark"),
+  return fmt::format("{} at {}", counted(known, "landmark"),
                      low == high ? low : low + " to " + high);
 }
 

@@ -24,8 +24,8 @@ std::vector<Point> arc_points(Point centre, double radius, double begin_rad, dou
 /// "−63°".
 std::string degrees(double angle_rad);
 
-/// "50 landmarks at −171° to 178° from the heading", the bearings that are known; "1 landmark at
-/// 45° from the heading"; "no landmark" without one.
+/// "50 landmarks at −171° to 178°", the bearings from the heading that are known; "1 landmark at
+/// 45°"; "no landmark" without one.
 std::string bearings_text(const Measurement& measurement);
 
 /// What each landmark within reach hides: between the tangents from the robot, from where they
