@@ -192,7 +192,7 @@ TEST_F(StudyOfAnotherProgram, HasPagesOfANightlyRunThatAgree) {
       styles_in(store / "trends/localisers/figures/trend-ate-m-indoors.figure.json");
   ASSERT_GE(trends.size(), 5U);
   for (const auto& [label, style] : trends)
-    EXPECT_EQ(style, reported.at(label.substr(0, label.find(", noise=")))) << label;
+    EXPECT_EQ(style, reported.at(label.substr(0, label.find(", laser noise ")))) << label;
 
   // The comparison has the nightly run's verdict, and names nightly runs.
   const std::string page = read_file(store / "compare/0001-0002/localisers.html");
@@ -211,7 +211,8 @@ TEST_F(StudyOfAnotherProgram, HasPagesOfANightlyRunThatAgree) {
   const std::size_t table = report.find("id=\"table-localisers-indoors-ate-m\"");
   const std::size_t row = report.find("class=\"regressed\"", table);
   ASSERT_LT(row, report.find("id=\"table-", table + 10));
-  EXPECT_NE(report.substr(row, 2000).find("(noise=0.01, 0.05 and 0.1)"), std::string::npos)
+  EXPECT_NE(report.substr(row, 2000).find("(laser noise 0.01, 0.05 and 0.1\u00a0m)"),
+            std::string::npos)
       << report.substr(row, 2000);
 }
 
@@ -237,7 +238,9 @@ TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNightlyRun) {
     last = mapproof({"nightly", folder_ / "mine", "--store", store});
   }
   EXPECT_EQ(last.exit_code, 1) << last.error;
-  EXPECT_NE(last.out.find("localisers: The hall, My EKF, noise="), std::string::npos) << last.out;
+  EXPECT_NE(last.out.find("localisers: The hall, My EKF, laser noise 0.01\u00a0m: "),
+            std::string::npos)
+      << last.out;
 
   std::vector<std::pair<std::string, std::string>> shown = {
       {"console", last.out}, {"list", mapproof({"history", store}).out}};
@@ -257,11 +260,12 @@ TEST_F(StudyOfAnotherProgram, IsNamedByItsOwnLabelsInEveryNightlyRun) {
       EXPECT_EQ(text.find(ours), std::string::npos) << ours << " in " << where;
   }
   for (const char* label :
-       {"\"My EKF, noise=0.01\"", "\"spectral, noise=0.01\"", "\"isomap-K6, noise=0.01\""})
+       {"\"My EKF, laser noise 0.01\u00a0m\"", "\"spectral, laser noise 0.01\u00a0m\"",
+        "\"isomap-K6, laser noise 0.01\u00a0m\""})
     EXPECT_NE(figures.find(label), std::string::npos) << label;
   const std::string csv = mapproof({"history", store, "--export", "csv"}).out;
   EXPECT_NE(csv.find(",indoors,ekf noise=0.01,0,ate_m,"), std::string::npos) << "ids stay";
-  EXPECT_NE(csv.find(",The hall,\"My EKF, noise=0.01\"\r\n"), std::string::npos);
+  EXPECT_NE(csv.find(",The hall,\"My EKF, laser noise 0.01\u00a0m\"\r\n"), std::string::npos);
   const json exported = json::parse(mapproof({"history", store, "--export", "json"}).out);
   EXPECT_EQ(exported["schema"]["name"], "mapproof.history");
   EXPECT_EQ(exported["nightly_runs"][1]["studies"][0]["methods"][0].dump(),
