@@ -133,8 +133,7 @@ std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& part
   if (judged == 0) return std::nullopt;
   const std::ptrdiff_t open = std::ssize(parts) - judged;
   std::string detail = short_of.empty() ? "" : "not: " + listed(short_of, 4);
-  if (open > 0)
-    detail += fmt::format("{}{} more without an expected result", detail.empty() ? "" : "; ", open);
+  if (open > 0) detail += fmt::format("{}{} more expect none", detail.empty() ? "" : "; ", open);
   return Highlights::Item{.label = "studies gave the expected result",
                           .value = fmt::format("{} of {}", judged - std::ssize(short_of), judged),
                           .detail = std::move(detail),
