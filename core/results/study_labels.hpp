@@ -8,7 +8,7 @@
 
 namespace mapproof {
 
-/// What a study calls a factor, and the unit of its levels; empty: none.
+/// A factor's label and the unit of its levels; empty if there is none.
 struct LabelWithUnit {
   std::string label;
   std::string unit = {};

@@ -135,8 +135,8 @@ class SharedGrid {
   }
 
  private:
-  /// The widths of the margins decide the frames, and their ticks the margins: thrice is enough.
-  /// What the last choice of ticks still lacks is taken from the frames.
+  /// Margins depend on ticks, and ticks on frames: three passes settle both, and the fourth takes
+  /// from the frames what is still missing.
   void find_frame_size() {
     width_ = 0.8 * room_.width() / static_cast<double>(columns_);
     for (int pass = 0; pass < 4; ++pass) {
@@ -191,7 +191,7 @@ class SharedGrid {
     inner_left_ = inner + right_ + theme_.space_pt;
   }
 
-  /// Of the first frame, whose ticks all have where axes are shared.
+  /// Of the first frame; shared axes have the same ticks in all frames.
   Axes first_axes() const { return layouts_.front().in({0.0, 0.0, width_, height_}); }
 
   std::string y_title() const { return axis_title(panels_.front().y, first_axes().y.ticks); }

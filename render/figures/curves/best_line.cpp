@@ -93,23 +93,9 @@ std::set<double> xs_of(const std::vector<ErrorLine>& lines) {
   return xs;
 }
 
-/// Without its parameter: "SMACOF kNN" of "SMACOF, kNN weights, K = 7".
-std::string name_alone(const std::string& label) {
-  return without_parameters(short_method_name(label));
-}
-
-/// How a sentence names a line: short, and without the parameter unless another line is then alike.
-std::string named(const ErrorLine& line, const std::vector<ErrorLine>& lines) {
-  const std::string name = name_alone(line.label);
-  const bool is_unique = std::ranges::none_of(lines, [&](const ErrorLine& other) {
-    return other.label != line.label && name_alone(other.label) == name;
-  });
-  return is_unique ? name : short_method_name(line.label);
-}
-
 std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLine>& lines) {
   std::vector<std::string> names;
-  for (const At& at : some) names.push_back(named(*at.line, lines));
+  for (const At& at : some) names.push_back(line_name(*at.line, lines));
   const auto has_comma = [](const std::string& one) { return one.find(", ") != std::string::npos; };
   if (names.size() > 1 && std::ranges::any_of(names, has_comma))
     for (std::string& one : names) one = "\u201c" + one + "\u201d";
@@ -170,7 +156,7 @@ std::string equal_words(const Contest& contest, const std::vector<ErrorLine>& li
     return fmt::format("{}, the others {}", text, span_text(contest.others, quantity));
   std::vector<std::string> others;
   for (const At& at : contest.others)
-    others.push_back(named(*at.line, lines) + " " + value_text(at.mean(), quantity));
+    others.push_back(line_name(*at.line, lines) + " " + value_text(at.mean(), quantity));
   return fmt::format("{}, {}", text, listed(others, kMostOthers));
 }
 
@@ -225,6 +211,18 @@ LineAxis line_axis(const std::string& label) {
   return {label.substr(0, unit), label.substr(unit + 2, label.size() - unit - 3)};
 }
 
+std::string name_alone(const std::string& label) {
+  return without_parameters(short_method_name(label));
+}
+
+std::string line_name(const ErrorLine& line, const std::vector<ErrorLine>& lines) {
+  const std::string name = name_alone(line.label);
+  const bool is_unique = std::ranges::none_of(lines, [&](const ErrorLine& other) {
+    return other.label != line.label && name_alone(other.label) == name;
+  });
+  return is_unique ? name : short_method_name(line.label);
+}
+
 std::string with_article(const std::string& label) {
   constexpr std::string_view kSpoken = "AEFHILMNORSX";  // Letters whose names begin with a vowel.
   constexpr std::string_view kVowels = "aeiouAEIOU";
@@ -242,7 +240,7 @@ std::string best_at_end(const std::vector<ErrorLine>& lines, const LineQuantity&
   const Contest contest = contest_of(known_at(lines, *xs.rbegin()), quantity);
   const std::string at = fmt::format(fmt::runtime(where), data_number(*xs.rbegin()));
   if (lines.size() == 1)
-    return fmt::format("{} has {} of {} {}", named(lines.front(), lines),
+    return fmt::format("{} has {} of {} {}", line_name(lines.front(), lines),
                        with_article(quantity.label),
                        value_text(contest.equal.front().mean(), quantity), at);
   if (contest.equal.size() > kMostNamed || (contest.others.empty() && contest.equal.size() > 1))
@@ -352,12 +350,12 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
   if (lines.size() == 1)
     return fmt::format("the {} {} of {} is {} at {}",
                        quantity.lower_is_better ? "lowest" : "highest", quantity.label,
-                       named(*best.line, lines), value_text(best.mean(), quantity),
+                       line_name(*best.line, lines), value_text(best.mean(), quantity),
                        place(axis, best.x(), quantity));
   const bool has_tie = std::ranges::any_of(
       known, [&](const At& at) { return at.line != best.line && tie(at, best, quantity); });
   if (has_tie) return "";
-  return fmt::format("{} {}, {} at {}", named(*best.line, lines), has_the_best(quantity, false),
+  return fmt::format("{} {}, {} at {}", line_name(*best.line, lines), has_the_best(quantity, false),
                      value_text(best.mean(), quantity), place(axis, best.x(), quantity));
 }
 
@@ -385,7 +383,7 @@ std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,
   if (2 * most->second <= points) return "";  // At most points another one, or several, are best.
   const auto& line = *std::ranges::find(all, most->first, &ErrorLine::label);
   const std::string best =
-      fmt::format("{} {}", named(line, all), has_the_best(quantity, is_plural(line, quantity)));
+      fmt::format("{} {}", line_name(line, all), has_the_best(quantity, is_plural(line, quantity)));
   if (points == 1) return fmt::format("{}, {}", best, value_text(value, quantity));
   if (most->second == points) return best + " at all points";
   return fmt::format("{} at {} of {} points", best, most->second, points);

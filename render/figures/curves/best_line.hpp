@@ -25,6 +25,12 @@ struct LineAxis {
 /// Of the label of an axis: "noise of bearings [°]".
 LineAxis line_axis(const std::string& label);
 
+/// A label short and without its parameter: "SMACOF kNN" of "SMACOF, kNN weights, K = 7".
+std::string name_alone(const std::string& label);
+
+/// How a sentence names a line: as name_alone(), with the parameter if another line is then alike.
+std::string line_name(const ErrorLine& line, const std::vector<ErrorLine>& lines);
+
 /// "an MPE", "a drift", "an RPE".
 std::string with_article(const std::string& label);
 

@@ -8,23 +8,9 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
-#include "render/plot/short_names.hpp"
 
 namespace mapproof {
 namespace {
-
-std::string short_without_parameters(const std::string& label) {
-  return without_parameters(short_method_name(label));
-}
-
-/// Short, and without the parameter unless another line is then alike.
-std::string name_in(const ErrorLine& line, const std::vector<ErrorLine>& lines) {
-  const std::string name = short_without_parameters(line.label);
-  const bool is_unique = std::ranges::none_of(lines, [&](const ErrorLine& other) {
-    return other.label != line.label && short_without_parameters(other.label) == name;
-  });
-  return is_unique ? name : short_method_name(line.label);
-}
 
 /// The quotient of two values of a line.
 struct Ratio {
@@ -66,7 +52,7 @@ std::string change_finding(const std::vector<ErrorLine>& lines, const LineQuanti
   if (changes.size() < 2) return "";
   const auto [least, most] = std::ranges::minmax(changes, {}, &Ratio::value);
   const auto words = [&](const Ratio& change) {
-    return fmt::format("{} ({}, {})", times(change.value), name_in(*change.line, lines),
+    return fmt::format("{} ({}, {})", times(change.value), line_name(*change.line, lines),
                        quantity_text(change.line->mean.back(), quantity.unit));
   };
   const bool all_tie =
@@ -82,8 +68,7 @@ std::string flat_finding(const ErrorLine& line, const LineQuantity& quantity,
   const std::vector<std::size_t> known = known_ascending(line);
   if (known.size() < 2 || !all_overlap(line)) return "";
   return fmt::format("{} of {} {} to {} {}; all intervals overlap", quantity.label,
-                     short_without_parameters(line.label),
-                     quantity_text(line.mean[known.front()], quantity.unit),
+                     name_alone(line.label), quantity_text(line.mean[known.front()], quantity.unit),
                      quantity_text(line.mean[known.back()], quantity.unit), where);
 }
 
@@ -100,8 +85,8 @@ std::string dependence_finding(const std::vector<ErrorLine>& lines, const LineQu
   if (worst.size() < 2) return "";
   const auto [least, most] = std::ranges::minmax(worst, {}, &Ratio::value);
   const std::string depends = fmt::format("least with {} (worst {} the best), most with {} ({})",
-                                          name_in(*least.line, lines), times(least.value),
-                                          name_in(*most.line, lines), times(most.value));
+                                          line_name(*least.line, lines), times(least.value),
+                                          line_name(*most.line, lines), times(most.value));
   if (!names_best) return fmt::format("the {} depends on {} {}", quantity.label, symbol, depends);
   const auto [low, high] = std::ranges::minmax(best);
   const std::string values =
@@ -138,8 +123,8 @@ std::string placement_finding(const std::vector<AnchorPanel>& panels) {
   return fmt::format(
       "with {}, {} has its highest MPE with placement \u201c{}\u201d, {} times its lowest",
       counted(std::lround(count), "anchor"),
-      panels.size() > 1 ? "every method" : short_without_parameters(panels.front().title),
-      worst_of_all, low == high ? low : low + " to " + high);
+      panels.size() > 1 ? "every method" : name_alone(panels.front().title), worst_of_all,
+      low == high ? low : low + " to " + high);
 }
 
 }  // namespace mapproof

@@ -89,8 +89,8 @@ void add_score(const RangeHistoryMap* map, Row& row) {
                              : MissingCell{});
 }
 
-/// Those that give the least of some times two digits, but 1 ms is the finest beside seconds and a
-/// tenth beside other units.
+/// Decimals that give the shortest time two significant digits; at most 3 of seconds, 1 of smaller
+/// units.
 int time_decimals(const ScaledUnit& unit, double least_s) {
   if (!std::isfinite(least_s)) return 0;
   const int most = unit.unit == "s" ? 3 : 1;
