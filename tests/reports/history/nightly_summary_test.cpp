@@ -465,14 +465,17 @@ TEST(RegressionMarks, AreWhereTheXAxisIsTheParameterOfTheSettings) {
   };
   EXPECT_EQ(marked("", "K"), at({6.0, 8.0}));
   EXPECT_TRUE(marked("", "observations (steps)").empty());
-  const ShownLevel pace{"pace", "2"};
-  group.settings = {setting_of({{"noise", "0.1"}, pace}), setting_of({{"noise", "1e-5"}, pace})};
+  const ShownLevel pace{.name = "pace", .value = "2", .number = 2.0};
+  const auto noise = [](const std::string& value, double number) {
+    return ShownLevel{.name = "noise", .value = value, .number = number};
+  };
+  group.settings = {setting_of({noise("0.1", 0.1), pace}), setting_of({noise("10⁻⁵", 1e-5), pace})};
   EXPECT_EQ(marked("pace 2", "noise [m]"), at({0.1, 1e-5}));
   EXPECT_EQ(marked("pace 2", "laser noise [m]"), at({0.1, 1e-5}));
   EXPECT_TRUE(marked("pace 3", "noise [m]").empty());
   EXPECT_TRUE(marked("pace 2", "noise floor").empty());
-  group.settings = {setting_of({{"noise", "0.1"}})};
-  group.settings[0].parameter = {"K", "6"};
+  group.settings = {setting_of({noise("0.1", 0.1)})};
+  group.settings[0].parameter = {.name = "K", .value = "6", .number = 6.0};
   EXPECT_EQ(marked("noise 0.1", "K"), at({6.0}));
   group.settings = {FindingSetting{.shown = "fast"}};
   EXPECT_TRUE(marked("", "K").empty()) << "it is not on the axis";
