@@ -87,7 +87,7 @@ function foldIntervals(table, heads) {
 // The room that the heading of a table needs on a page, so that it is not alone on it: that of a short
 // table, which is not divided, and of the first rows of another one.
 function setRoomAhead(table) {
-  const kRow_px = 21, kHead_px = 60, kMostWhole = 12, kRows = 3;
+  const kRow_px = 21, kHead_px = 60, kMostWhole = 8, kRows = 3;
   const { length } = table.tBodies[0].rows;
   const rows = length <= kMostWhole ? length : kRows;
   table.closest(".table")?.style.setProperty("--ahead", `${kHead_px + kRow_px * rows}px`);

@@ -351,11 +351,13 @@ BakedLight::Shadow BakedLight::shadow(int size) const {
   for (int j = 0; j < size; ++j)
     for (int i = 0; i < size; ++i) {
       const Point3 at = texels.position(i, j);
-      const double light = kKeyShare * (1.0 - texels.dark(i, j)) + kSkyShare * sky_at(at);
       const double outside = std::max({floor_low_.x() - at.x(), at.x() - floor_high_.x(),
                                        floor_low_.y() - at.y(), at.y() - floor_high_.y(), 0.0});
+      // Around the floor the sky comes back soon: an image ends there.
       const double fade = 1.0 - std::clamp(outside / (0.9 * margin), 0.0, 1.0);
-      const double alpha = fade * (1.0 - std::pow(light, 1.0 / kGamma));
+      const double light = kKeyShare * (1.0 - fade * texels.dark(i, j)) +
+                           kSkyShare * (1.0 - fade * fade * fade * (1.0 - sky_at(at)));
+      const double alpha = 1.0 - std::pow(light, 1.0 / kGamma);
       shadow.alpha.push_back(
           static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(alpha, 0.0, 1.0))));
     }

@@ -16,7 +16,6 @@
 #include "render/figures/maps/path_map.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/scene/room.hpp"
-#include "render/theme/ticks.hpp"
 
 namespace mapproof {
 namespace {
@@ -27,11 +26,7 @@ using Eigen::Index;
 constexpr double kPathStep = 0.004;  // Between neighbouring points of a path that are drawn.
 constexpr double kTruePathWidth = 0.013, kPathWidth = 0.0065, kPlainWidth = 0.0035;
 constexpr double kPillarRadius = 0.009, kPillarHeight = 0.1, kBallRadius = 0.016;
-constexpr double kGridWidth = 0.0015;
-constexpr double kFlatLayer =
-    1e-4;  // From one flat thing to the next above it, all below the shadows.
 constexpr double kTolerance = 5e-4;  // Of a path that is thinned.
-constexpr int kMostLines = 6;        // Of the grid, along a side.
 
 /// Values are kept to that share of a length: a drive has thousands of positions, each twice in a
 /// file.
@@ -131,7 +126,7 @@ class DriveScene {
     scene_.title = spec_.title;
     scene_.record_ids = spec_.record_ids;
     scene_.lights = usual_lights();
-    scene_.parts = {floor_of(ground_), walls_of(ground_, kKerbShare * side_), grid()};
+    scene_.parts = {floor_of(ground_), walls_of(ground_, kKerbShare * side_), grid_of(ground_)};
     if (run_.log.ground_truth)
       add(plain(*run_.log.ground_truth, kTruePathWidth, 2, "true path", {.colour = kTrueColour}));
     if (const SlamRecord* unaided = record_of(run_, SlamMethod::kDeadReckoning);
@@ -247,21 +242,6 @@ class DriveScene {
         balls.at.push_back(on_floor(estimate.row(i), height + balls.radius));
     if (!balls.at.empty()) add(std::move(balls));
     if (!labels.at.empty()) labels_.push_back(std::move(labels));
-  }
-
-  /// Lines along x and y at round values.
-  Surface grid() const {
-    Surface lines{.style = {.colour = ThemeColour::kMuted, .share = 0.25, .lit = false}};
-    const double half = kGridWidth * side_ / 2.0, z = kFlatLayer * side_;
-    const auto& [low, high] = ground_;
-    const double step = tick_step(0.0, side_, kMostLines);
-    for (double x = step * std::ceil(low.x / step); x < high.x; x += step)
-      add_rectangle(lines, {x - half, low.y, z}, {x + half, low.y, z}, {x + half, high.y, z},
-                    {x - half, high.y, z});
-    for (double y = step * std::ceil(low.y / step); y < high.y; y += step)
-      add_rectangle(lines, {low.x, y - half, z}, {high.x, y - half, z}, {high.x, y + half, z},
-                    {low.x, y + half, z});
-    return lines;
   }
 
   void describe() {

@@ -61,7 +61,7 @@ class Forming {
   Scene make(std::string id, const std::vector<std::size_t>& shown, bool with_path) const {
     Scene scene{.id = std::move(id), .title = spec_.title, .lights = usual_lights()};
     scene.columns = columns_of(shown.size());
-    scene.parts = {floor_of(side_), walls_of(side_), anchors(),
+    scene.parts = {floor_of(side_), walls_of(side_), grid_of(room_ground(side_)), anchors(),
                    rings(spec_.world.landmarks_m, rows(true), pillar_radius_m(spec_.world))};
     if (with_path) add_path(spec_.maps[shown.back()].step, scene);
     const std::size_t shared = scene.parts.size();

@@ -104,11 +104,15 @@ class MapScene {
 
  private:
   void add_parts() {
-    scene_.parts = {floor_of(ground_),
-                    spec_.world ? walls_of(side_) : walls_of(ground_, kKerbShare * side_),
-                    landmarks(false), landmarks(true)};
-    for (Tube& piece : fading_path(spec_.path_m, spec_.path_m.rows() - 1, side_))
+    scene_.parts = {
+        floor_of(ground_), spec_.world ? walls_of(side_) : walls_of(ground_, kKerbShare * side_),
+        grid_of(ground_),  landmarks(false),
+        landmarks(true),   rings(at_, rows_of(true), radius_)};
+    const Eigen::Index last = spec_.path_m.rows() - 1;
+    for (Tube& piece : fading_path(spec_.path_m, last, side_))
       scene_.parts.emplace_back(std::move(piece));
+    if (last >= 1 && spec_.path_m.row(last).allFinite())
+      scene_.parts.emplace_back(robot_at(spec_.path_m.row(last), side_));
     if (found_.drawn.empty()) return;
     Rods arrows = found_.arrows;
     arrows.label = "true to estimated position";
@@ -211,9 +215,9 @@ class MapScene {
     const auto count = static_cast<std::size_t>(at_.rows());
     scene_.caption = spec_.where.empty() ? "" : spec_.where + ": ";
     scene_.caption += landmarks_text();
-    if (spec_.path_m.rows() > 1)
-      scene_.caption += fmt::format(", the robot's path over the last {} steps",
-                                    std::min(spec_.path_m.rows(), kShownSteps + 1));
+    if (const Eigen::Index last = spec_.path_m.rows() - 1; last >= 1)
+      scene_.caption += ", the robot's path over the last " +
+                        counted(last - first_shown(spec_.path_m, last, side_), "step");
     scene_.caption += fmt::format(", and where {} of {} puts each landmark.",
                                   method_label(spec_.map), counted(spec_.map.step, "step"));
     const Tones shown = tones(rows_of(false));

@@ -88,6 +88,7 @@ class MeasurementScene {
     scene_.id = id;
     scene_.lights = usual_lights();
     scene_.parts = {floor(), walls()};
+    if (is_whole()) scene_.parts.emplace_back(grid_of(room_ground(side_)));
     scene_.views = {room_view(side_, landmark_height(seen_m_))};
     scene_.record_ids = {};
   }

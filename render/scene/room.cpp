@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "render/scene/projection.hpp"
+#include "render/theme/ticks.hpp"
 
 namespace mapproof {
 namespace {
@@ -20,7 +22,10 @@ constexpr double kLabelRoom = 0.11;          // Around the floor, for the labels
 
 constexpr double kPathRadius = 0.0035;  // Of the room's side.
 constexpr int kPathPieces = 10;
-constexpr double kMostCovered = 0.2;  // Of the floor, by the path.
+constexpr double kShownLength = 1.5;  // Of the room's side.
+
+constexpr double kGridWidth = 0.0015;  // Of the ground's side.
+constexpr int kMostLines = 6;          // Of the grid, along a side.
 
 std::vector<Rule> floor_rules(const Ground& ground) {
   const auto& [low, high] = ground;
@@ -86,6 +91,21 @@ Surface floor_of(const Ground& ground) {
 
 Surface floor_of(double side_m) { return floor_of(room_ground(side_m)); }
 
+Surface grid_of(const Ground& ground) {
+  Surface lines{.style = {.colour = ThemeColour::kMuted, .share = 0.25, .lit = false}};
+  const double side = ground.side(), half = kGridWidth * side / 2.0, z = kFlatLayer * side;
+  const auto& [low, high] = ground;
+  const double step = tick_step(0.0, side, kMostLines);
+  // A line on the edge of the ground would stand half beside it.
+  for (double x = step * (std::floor(low.x / step) + 1.0); x < high.x - half; x += step)
+    add_rectangle(lines, {x - half, low.y, z}, {x + half, low.y, z}, {x + half, high.y, z},
+                  {x - half, high.y, z});
+  for (double y = step * (std::floor(low.y / step) + 1.0); y < high.y - half; y += step)
+    add_rectangle(lines, {low.x, y - half, z}, {high.x, y - half, z}, {high.x, y + half, z},
+                  {low.x, y + half, z});
+  return lines;
+}
+
 Surface walls_of(const Ground& ground, double height_m) {
   Surface walls{.style = {.colour = ThemeColour::kMuted, .share = kWallTint}};
   const auto& [low, high] = ground;
@@ -136,24 +156,29 @@ Surface rings(const Points& points_m, const std::vector<Eigen::Index>& rows, dou
   return all;
 }
 
+Eigen::Index first_shown(const Points& path_m, Eigen::Index last, double side_m) {
+  Eigen::Index first = last;
+  for (double length_m = 0.0; first > 0 && last - first < kShownSteps; --first) {
+    const double step_m = (path_m.row(first) - path_m.row(first - 1)).norm();
+    if (std::isfinite(step_m)) length_m += step_m;
+    // One step is shown however long it is.
+    if (length_m > kShownLength * side_m && first < last) break;
+  }
+  return first;
+}
+
 std::vector<Tube> fading_path(const Points& path_m, Eigen::Index last, double side_m) {
-  const Eigen::Index first = std::max<Eigen::Index>(0, last - kShownSteps);
   std::vector<Tube> pieces;
   if (last < 1) return pieces;
-  double length_m = 0.0;
-  for (Eigen::Index i = first + 1; i <= last; ++i) {
-    const double step = (path_m.row(i) - path_m.row(i - 1)).norm();
-    if (std::isfinite(step)) length_m += step;
-  }
-  const double covering = kMostCovered * side_m * side_m / (2.0 * std::max(length_m, 1e-9));
+  const Eigen::Index first = first_shown(path_m, last, side_m);
   for (int piece = 0; piece < kPathPieces; ++piece) {
     const auto end_of = [&](int count) { return first + (last - first) * count / kPathPieces; };
-    Tube tube{.radius = std::min(kPathRadius * side_m, covering),
+    Tube tube{.radius = kPathRadius * side_m,
               .style = {.colour = ThemeColour::kSeries1,
                         .share = static_cast<double>(piece + 1) / kPathPieces}};
     for (Eigen::Index i = end_of(piece); i <= end_of(piece + 1); ++i)
       if (path_m.row(i).allFinite()) tube.points.push_back(on_floor(path_m.row(i), tube.radius));
-    if (piece + 1 == kPathPieces) tube.label = fmt::format("path, the last {} steps", last - first);
+    if (piece + 1 == kPathPieces) tube.label = "path, the last " + counted(last - first, "step");
     if (tube.points.size() > 1) pieces.push_back(std::move(tube));
   }
   return pieces;

@@ -50,6 +50,13 @@ Surface floor_of(const Ground& ground);
 /// The floor [0, side] x [0, side] at height 0.
 Surface floor_of(double side_m);
 
+/// From one flat thing on the ground to the next above it, of the ground's side: all of them are
+/// below the shadows.
+inline constexpr double kFlatLayer = 1e-4;
+
+/// Lines on the ground along x and y at round values.
+Surface grid_of(const Ground& ground);
+
 /// Boards of that height around the ground.
 Surface walls_of(const Ground& ground, double height_m);
 
@@ -67,11 +74,15 @@ Rods pillars(const Points& points_m, const std::vector<Eigen::Index>& rows, doub
 /// their pillars apart from dark ones.
 Surface rings(const Points& points_m, const std::vector<Eigen::Index>& rows, double radius);
 
-/// The steps of a path that fading_path() shows.
+/// The most steps of a path that fading_path() shows.
 inline constexpr Eigen::Index kShownSteps = 150;
 
+/// The first row of a path that fading_path() shows: at most kShownSteps before `last`, and not
+/// much more of the path than the room is long, since a walk to and fro becomes a tangle.
+Eigen::Index first_shown(const Points& path_m, Eigen::Index last, double side_m);
+
 /// The path's last steps up to row `last`, the earlier ones paler: all of a long walk would hide
-/// the floor. Long paths are thin. Nothing of fewer than two finite positions.
+/// the floor. Nothing of fewer than two finite positions.
 std::vector<Tube> fading_path(const Points& path_m, Eigen::Index last, double side_m);
 
 /// A disc as large as can be seen, where the robot is.

@@ -166,6 +166,7 @@ std::vector<Layer> RuleLayers::add(const Rule& rule) {
 constexpr int kMostClear = 12;       // Squares along a rod.
 constexpr double kRoomOfBall = 1.5;  // Of its radius: no label touches it.
 constexpr int kMostOnEdge = 30;      // Along an edge of a wall.
+constexpr double kLongestClear = 1.0;  // Of an image's half height, a tube that labels avoid.
 constexpr double kMostEm =
     0.3;  // Of an image's half height: less puts labels of narrow paper on others.
 
@@ -285,7 +286,18 @@ class ViewPanel {
           add_clear(from + static_cast<double>(k) / kMostOnEdge * (to - from), step / 2.0);
       }
   }
-  /// Labels may cover what is wide: floors, fields, a path through all of a room.
+  /// Labels may cover a path through all of a room, but no short piece.
+  void keep_clear(const Tube& tube) {
+    double length = 0.0;
+    for (std::size_t i = 1; i < tube.points.size(); ++i)
+      length += (tube.points[i] - tube.points[i - 1]).norm();
+    if (tube.points.size() < 2 || !(length > 0.0)) return;
+    const double middle = project_.size_at(tube.points[tube.points.size() / 2], length);
+    if (middle > kLongestClear) return;
+    for (std::size_t i = 1; i < tube.points.size(); ++i)
+      keep_clear(Rods{.from = {tube.points[i - 1]}, .to = {tube.points[i]}, .radius = tube.radius});
+  }
+  /// Labels may cover what is wide: floors, fields.
   template <typename Wide>
   void keep_clear(const Wide&) {}
 

@@ -10,7 +10,6 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/text/percent.hpp"
-#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/html/regression_marks.hpp"
 #include "reports/model/format.hpp"
@@ -171,6 +170,7 @@ data cell_data(const Table& table, const Row& row, std::size_t index, const Html
   const bool is_strong = emphasis == Emphasis::kStrong;
   out.set("strong", is_strong);
   out.set("data", emphasis != Emphasis::kCode && !is_file && !is_strong);
+  out.set("date", text != nullptr && is_date(text->text));
   // What stands above a curve is read whole.
   out.set("long", text != nullptr && text->text.size() > kLongCell && curve.is_false());
   const std::string key = std::visit(SortKey{}, cell);
@@ -264,7 +264,7 @@ data warning_cell(const StatusList::Item* item, const std::string& id) {
   out.set("id", id);
   out.set("failed", data(item->failed));
   out.set("share", format_number(share, share < 1.0 ? 1 : 0) + "\u00a0%");
-  out.set("count", fmt::format("{} of {}", item->count, counted(item->of, "map")));
+  out.set("count", part_text(item->count, item->of, "map"));
   return out;
 }
 
@@ -303,7 +303,7 @@ data phrase_data(const Phrase& phrase, const HtmlOptions& options) {
   const bool is_file = !link.empty();
   const bool is_prose = phrase.emphasis == Emphasis::kPlain || phrase.emphasis == Emphasis::kStrong;
   out.set("text", is_file    ? link_words(phrase.text, options)
-                  : is_prose ? with_quantities_kept(phrase.text)
+                  : is_prose ? page_text(phrase.text)
                              : phrase.text);
   out.set("plain",
           phrase.emphasis == Emphasis::kPlain || (phrase.emphasis == Emphasis::kUrl && !is_file));
@@ -333,7 +333,7 @@ data figure_data(const FigureBlock& figure, const FigureContext& drawn,
   data out;
   out.set("id", figure.id);
   out.set("title", figure.title);
-  out.set("caption", with_quantities_kept(figure.caption));
+  out.set("caption", page_text(figure.caption));
   out.set("alt", figure.alt);
   out.set("value", figure.value);
   out.set("wide", data(figure.wide));
@@ -382,9 +382,9 @@ list highlight_items(const Highlights& highlights) {
   list items;
   for (const Highlights::Item& item : highlights.items) {
     data out;
-    out.set("label", with_quantities_kept(item.label));
-    out.set("value", with_quantities_kept(item.value));
-    out.set("detail", text_or_false(with_quantities_kept(item.detail)));
+    out.set("label", page_text(item.label));
+    out.set("value", page_text(item.value));
+    out.set("detail", text_or_false(page_text(item.detail)));
     out.set("section", text_or_false(item.section));
     out.set("falls_short", data(item.falls_short));
     items.push_back(std::move(out));
@@ -472,7 +472,7 @@ class BlockVisitor {
       data out;
       out.set("element", item.element);
       out.set("link", file_link(options_.root + item.page) + "#" + item.element);
-      out.set("title", with_quantities_kept(item.title));
+      out.set("title", page_text(item.title));
       items.push_back(std::move(out));
     }
     data out;
@@ -488,6 +488,7 @@ class BlockVisitor {
     for (const KeyValues::Item& item : pairs.items) {
       data out = phrase_data(item.value, options_);
       out.set("key", item.key);
+      out.set("date", is_date(item.value.text));
       items.push_back(std::move(out));
     }
     block_.set("key_values", data("items", items));
@@ -548,7 +549,7 @@ class BlockVisitor {
     out.set("words", words_of_code(item.code));
     out.set("where", item.where);
     out.set("failed", item.failed);
-    out.set("count", fmt::format("{} of {}", item.count, counted(item.of, "map")));
+    out.set("count", part_text(item.count, item.of, "map"));
     list locations, others;
     for (const StatusList::Location& location : item.locations) {
       data entry;

@@ -12,6 +12,13 @@
 #include "reports/html/block_data.hpp"
 
 namespace mapproof {
+
+std::size_t characters_of(const Paragraph& paragraph) {
+  std::size_t size = 0;
+  for (const Phrase& phrase : paragraph.phrases) size += phrase.text.size();
+  return size;
+}
+
 namespace {
 
 /// Heights in pixels on a page 1280 wide, measured on the pages of every kind of study.
@@ -21,12 +28,6 @@ constexpr double kSection = 105, kFold = 42, kText = 30, kLine = 24;
 constexpr double kTable = 165, kRow = 36, kWrapped = 19, kFigure = 530, kWideFigure = 860;
 constexpr std::size_t kCharacters = 105;  ///< Of a line of text.
 }  // namespace height
-
-std::size_t characters_of(const Paragraph& paragraph) {
-  std::size_t size = 0;
-  for (const Phrase& phrase : paragraph.phrases) size += phrase.text.size();
-  return size;
-}
 
 double height_of(const Paragraph& paragraph) {
   return height::kText +

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstddef>
 #include <set>
 
 #include "reports/model/report.hpp"
 
 namespace mapproof {
+
+/// Of its phrases, bytes.
+std::size_t characters_of(const Paragraph& paragraph);
 
 /// Folds parts of a page until it has some fifteen screens, and no more of them than that takes:
 /// first what stands behind the first tables and figures of a section, then sections for few

@@ -1,6 +1,7 @@
 #include "reports/html/report_html.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <set>
 #include <utility>
 #include <variant>
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <kainjow/mustache.hpp>
 
-#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_folds.hpp"
@@ -75,7 +75,7 @@ data standing_data(const Standing& standing) {
   out.set("title", standing.title);
   list sentences;
   for (const std::string& sentence : standing.sentences)
-    sentences.push_back(data("sentence", with_quantities_kept(sentence)));
+    sentences.push_back(data("sentence", page_text(sentence)));
   out.set("sentences", sentences);
   return out;
 }
@@ -90,7 +90,7 @@ const FigureBlock* figure_of(const Report& report, const std::string& id) {
 data figure_link(const FigureBlock& figure) {
   data out;
   out.set("id", figure.id);
-  out.set("title", with_quantities_kept(figure.title));
+  out.set("title", page_text(figure.title));
   out.set("alt", figure.alt);
   return out;
 }
@@ -125,18 +125,24 @@ const void* family_of(const Report& report, const FigureBlock& figure) {
   return &figure;
 }
 
-/// The first few figures of the opening, no two of one family or with equal words.
+/// The first few figures of the opening, no two of one family or with equal words. A small image is
+/// of a figure's first panel: none shows what the large figure or another small image shows.
 list thumbnails(const Report& report) {
   constexpr std::size_t kMost = 6;
   list shown;
   std::set<std::string> titles;
   std::set<const void*> families;
+  std::set<std::uint64_t> panels;
+  const FigureBlock* main_figure = figure_of(report, report.opening.main_figure);
+  if (main_figure != nullptr) panels.insert(main_figure->shows.begin(), main_figure->shows.end());
   for (const std::string& id : report.opening.figure_ids) {
     const FigureBlock* figure = figure_of(report, id);
-    if (figure == nullptr || titles.size() == kMost) continue;
+    if (figure == nullptr || figure == main_figure || titles.size() == kMost) continue;
     const std::string title = short_title(figure->title);
     const void* family = family_of(report, *figure);
+    const std::uint64_t panel = figure->shows.empty() ? 0 : figure->shows.front();
     if (titles.contains(title) || families.contains(family)) continue;
+    if (panel != 0 && !panels.insert(panel).second) continue;
     titles.insert(title);
     families.insert(family);
     data link = figure_link(*figure);
@@ -201,9 +207,10 @@ void set_opening(data& page, const Report& report, const FigureContext& drawn,
   const FigureBlock* main_figure = figure_of(report, opening.main_figure);
   page.set("main_figure",
            main_figure == nullptr ? data(false) : main_figure_link(*main_figure, drawn));
-  page.set("any_thumbnails", data(!opening.figure_ids.empty()));
-  page.set("any_images", data(main_figure != nullptr || !opening.figure_ids.empty()));
-  page.set("thumbnails", thumbnails(report));
+  const list small = thumbnails(report);
+  page.set("any_thumbnails", data(!small.empty()));
+  page.set("any_images", data(main_figure != nullptr || !small.empty()));
+  page.set("thumbnails", small);
   page.set("other_pages", text_or_false(opening.other_pages));
 }
 
@@ -217,7 +224,7 @@ std::string report_html(const Report& whole, const Templates& templates, const S
       options.folds ? fold_to_screens(report) : std::set<const Section*>{};
   data page;
   page.set("title", report.title);
-  page.set("subtitle", with_quantities_kept(report.subtitle));
+  page.set("subtitle", page_text(report.subtitle));
   page.set("footer", report.footer);
   page.set("date", text_or_false(report.date));
   page.set("provenance", text_or_false(provenance_of(report)));

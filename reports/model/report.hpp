@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -147,6 +148,8 @@ struct FigureBlock {
   std::vector<RegressedCurve> regressed_curves = {};  ///< Of its drawing, marked by pages alone.
   bool wide = false;  ///< It has many panels: a page gives it the whole width.
   bool tall = false;  ///< Its panels stand below each other.
+  /// Per panel a number for what its marks show, equal for equal ones; 0: it has no marks.
+  std::vector<std::uint64_t> shows = {};
 };
 
 /// Figures of one kind, side by side.

@@ -106,13 +106,11 @@ void add_best(const SensorMethods& sensor, Highlights& numbers) {
 
 void add_ends(const StudyCounts& counts, Highlights& numbers) {
   if (counts.maps == 0) return;
-  const long clean = counts.maps - counts.with_status;
-  // Rounded down, so that only a study without any warning has 100 %.
   numbers.items.push_back({fmt::format("of {} without a warning", counted(counts.maps, "map")),
-                           fmt::format("{} %", 100 * clean / counts.maps),
+                           fmt::format("{} %", 100 - warned_percent(counts)),
                            counts.unscored == 0
                                ? "all could be scored"
-                               : fmt::format("{} could not be scored", counts.unscored),
+                               : count_text(counts.unscored) + " could not be scored",
                            "warnings"});
 }
 
@@ -134,7 +132,7 @@ Paragraph what_was_done(const Study& study) {
 }
 
 /// "arbitrary neighbours (12 maps) and not converged (6 maps)": the most frequent first.
-std::string frequent_warnings(const Study& study) {
+std::string frequent_warnings(const Study& study, const StudyCounts& counts) {
   std::map<std::string, int> maps;
   for (const Run& run : study.runs)
     for (const RunRecord& record : run.records) {
@@ -146,7 +144,8 @@ std::string frequent_warnings(const Study& study) {
   std::ranges::stable_sort(order, std::greater(), &std::pair<std::string, int>::second);
   std::vector<std::string> names;
   for (const auto& [code, count] : order)
-    names.push_back(fmt::format("{} ({})", code, counted(count, "map")));
+    names.push_back(
+        fmt::format("{} ({} map{})", code, part_count(count, counts.maps), count == 1 ? "" : "s"));
   return listed(names, 3);
 }
 
@@ -157,11 +156,10 @@ Paragraph what_is_wrong(const Study& study) {
   const long planned = static_cast<long>(experiment.layouts) * experiment.poses;
   std::string text;
   if (static_cast<long>(study.runs.size()) < planned)
-    text += fmt::format("{} of {} are done. ", study.runs.size(), counted(planned, "run"));
-  if (counts.maps > 0 && counts.with_status + counts.unscored == 0)
-    text += "No map has a warning. ";
-  else if (counts.with_status > 0)
-    text += frequent_warnings(study) + ". ";
+    text += done_text(std::ssize(study.runs), planned, "run") + ". ";
+  if (counts.maps > 0) text += capitalised(endings_text(counts)) + ". ";
+  if (counts.with_status > 0)
+    text += fmt::format("Most frequent: {}. ", frequent_warnings(study, counts));
   if (const std::string smaller = smaller_than_paper(experiment); !smaller.empty())
     text += "Not the paper\u2019s protocol: " + smaller;
   if (text.empty()) text = "No map was made.";

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/model/study.hpp"
 
 namespace mapproof {
@@ -13,5 +15,12 @@ struct StudyCounts {
 };
 
 StudyCounts count(const Study& study);
+
+/// The share of maps with a warning or a failure in whole percent: 0 and 100 are said of none and
+/// of all alone.
+long warned_percent(const StudyCounts& counts);
+
+/// "2,310 of 25,700 maps (9 %) have warnings, 50 have no score and 4 could not be made".
+std::string endings_text(const StudyCounts& counts);
 
 }  // namespace mapproof

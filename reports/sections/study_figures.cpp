@@ -1,9 +1,13 @@
 #include "reports/sections/study_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
 #include <iterator>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -30,6 +34,66 @@ constexpr std::size_t kManyPanels = 5;
 
 /// How the ids of film strips begin (docs/figures.md).
 constexpr std::string_view kForming = "forming-";
+
+/// What the marks of a panel show, as a number. Whatever its axes, its styles and its units are,
+/// equal curves, points, cells and ellipses give the same.
+class ShownMarks {
+ public:
+  void operator()(const Polyline& line) {
+    if (!line.mark.id.empty()) see(line.label, line.x, line.y);
+  }
+  void operator()(const Scatter& points) {
+    if (!points.marks.empty()) see(points.label, points.x, points.y);
+  }
+  void operator()(const Cells& cells) { see(cells.label, {}, cells.values); }
+  void operator()(const Ellipses& ellipses) { see(ellipses.label, ellipses.a, ellipses.b); }
+  void operator()(const auto& /*lines and words beside them*/) {}
+
+  /// 0 without marks.
+  std::uint64_t number() const {
+    if (x_.empty() && y_.empty()) return 0;
+    Hash hash;
+    hash.add(std::hash<std::string>()(labels_));
+    for (const std::vector<double>* values : {&x_, &y_}) add_parts(*values, hash);
+    return hash.value;
+  }
+
+ private:
+  struct Hash {
+    std::uint64_t value = 14695981039346656037U;  // FNV-1a, of words instead of bytes.
+    void add(std::uint64_t word) { value = (value ^ word) * 1099511628211U; }
+  };
+
+  void see(const std::string& label, const std::vector<double>& x, const std::vector<double>& y) {
+    labels_ += label + '\n';
+    x_.insert(x_.end(), x.begin(), x.end());
+    y_.insert(y_.end(), y.begin(), y.end());
+  }
+
+  /// As parts of the greatest, which no change of unit moves but by a rounding error.
+  static void add_parts(const std::vector<double>& values, Hash& hash) {
+    constexpr double kParts = 1e5;
+    double greatest = 0.0;
+    for (const double value : values)
+      if (std::isfinite(value)) greatest = std::max(greatest, std::abs(value));
+    for (const double value : values)
+      if (!std::isfinite(value))
+        hash.add(std::uint64_t{1} << 63U);
+      else
+        hash.add(greatest == 0.0
+                     ? 0
+                     : static_cast<std::uint64_t>(std::llround(kParts * (value / greatest))));
+  }
+
+  std::string labels_;
+  std::vector<double> x_, y_;
+};
+
+std::uint64_t number_of_marks(const Panel& panel) {
+  ShownMarks marks;
+  for (const Layer& layer : panel.layers) std::visit(marks, layer);
+  return marks.number();
+}
 
 FigureGroup scene_group(FigureSource& source) {
   FigureGroup group{
@@ -137,6 +201,7 @@ FigureBlock figure_block(const Figure& figure) {
   FigureBlock block{figure.id, figure.title, figure.caption, figure.alt, figure.record_ids};
   block.wide = figure.panels.size() >= kManyPanels;
   block.tall = figure.panels.size() > 1 && figure.columns == 1;
+  for (const Panel& panel : figure.panels) block.shows.push_back(number_of_marks(panel));
   if (!figure.id.starts_with(kForming)) return block;
   for (const Panel& panel : figure.panels) block.steps.push_back(panel.title);
   return block;

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/status_text.hpp"
 #include "reports/model/format.hpp"
@@ -124,19 +123,10 @@ void add_sensor(const Study& study, const SensorStudy& sensor, BulletList& findi
 void add_ends(const Study& study, BulletList& findings) {
   const StudyCounts counts = count(study);
   if (counts.maps == 0) return;
-  const std::string maps = counted(counts.maps, "map");
-  const std::string text =
-      counts.with_status + counts.unscored == 0
-          ? fmt::format(": none in {}.", maps)
-          : fmt::format(
-                ": of {}, {}{} with warnings, all listed below with the "
-                "reason.",
-                maps,
-                counts.unscored == 0
-                    ? ""
-                    : fmt::format("{} without a score and ", count_text(counts.unscored)),
-                count_text(counts.with_status));
-  findings.items.push_back({{strong("Failures"), phrase(text)}});
+  const std::string text = counts.with_status + counts.unscored == 0
+                               ? fmt::format("none in {}", counted(counts.maps, "map"))
+                               : endings_text(counts) + "; all are listed below";
+  findings.items.push_back({{strong("Warnings and failures"), phrase(": " + text + ".")}});
 }
 
 std::vector<Callout> caveats(const Study& study) {
@@ -154,9 +144,7 @@ std::vector<Callout> caveats(const Study& study) {
 
 std::string mapping_incomplete(const Study& study) {
   const long planned = static_cast<long>(study.experiment.layouts) * study.experiment.poses;
-  if (static_cast<long>(study.runs.size()) >= planned) return "";
-  return fmt::format("{} of {} are done; every number below rests on these.",
-                     count_text(std::ssize(study.runs)), counted(planned, "run"));
+  return incomplete_text(std::ssize(study.runs), planned, "run");
 }
 
 Report study_report(const StudyReportInput& input) {
@@ -223,19 +211,9 @@ Section statuses_section(const Study& study) {
                                : fmt::format("None in {}.", counted(counts.maps, "map"))));
     return section;
   }
-  std::vector<std::string> parts;
-  if (counts.with_status > 0)
-    parts.push_back(fmt::format("{} ha{} warnings", count_text(counts.with_status),
-                                counts.with_status == 1 ? "s" : "ve"));
-  if (counts.unscored > 0)
-    parts.push_back(fmt::format("{} ha{} no score", count_text(counts.unscored),
-                                counts.unscored == 1 ? "s" : "ve"));
-  if (counts.failed > 0)
-    parts.push_back(fmt::format("{} could not be made", count_text(counts.failed)));
   section.blocks.emplace_back(plain(fmt::format(
-      "Of {}, {}. The numbers above include every map that could be scored, with or without "
-      "warnings.",
-      counted(counts.maps, "map"), listed(parts, parts.size() + 1))));
+      "{}. The numbers above include every map that could be scored, with or without warnings.",
+      capitalised(endings_text(counts)))));
   section.blocks.emplace_back(std::move(list));
   return section;
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/text/words.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 
@@ -60,6 +61,22 @@ std::string paper_number(std::string_view id) {
   };
   const std::string figure = with("fig-", "Fig.");
   return figure.empty() ? with("table-", "Table") : figure;
+}
+
+std::string bracketed(std::string_view label) {
+  const std::size_t comma = label.find(", ");
+  if (comma == std::string_view::npos) return std::string(label);
+  return fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
+}
+
+std::string done_text(long long done, long long planned, std::string_view noun) {
+  return fmt::format("{} {} done", part_text(done, planned, noun),
+                     done == 1 || planned == 1 ? "is" : "are");
+}
+
+std::string incomplete_text(long long done, long long planned, std::string_view noun) {
+  if (done >= planned) return "";
+  return done_text(done, planned, noun) + "; every number below rests on these.";
 }
 
 void fold(Table table, Section& section) {

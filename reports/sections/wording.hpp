@@ -23,6 +23,15 @@ std::string words_of(StatusCode code);
 /// "Fig. 4" of "fig-4" and "Table 1" of "table-1"; empty for other ids.
 std::string paper_number(std::string_view id);
 
+/// "ISOMAP (K = 6)" of "ISOMAP, K = 6": a label whose comma parts no sentence.
+std::string bracketed(std::string_view label);
+
+/// "1 of 25 runs is done", "24 of 25 runs are done".
+std::string done_text(long long done, long long planned, std::string_view noun);
+
+/// The same, and what follows for the numbers below; empty if all are done.
+std::string incomplete_text(long long done, long long planned, std::string_view noun);
+
 /// Adds a table that a page folds.
 void fold(Table table, Section& section);
 

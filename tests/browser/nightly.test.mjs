@@ -67,6 +67,29 @@ const regressed = process.env.MAPPROOF_REGRESSED;
 const ofRegressed = { skip: regressed ? false : "no python3, which makes the study" };
 const study = "localisers";
 
+test("no date of the index ends a line on a phone, in tables and in sentences", async () => {
+  const { page, close } = await open({ viewport: { width: 390, height: 844 } }, history, "index.html");
+  const dates = await page.evaluate(() => {
+    const found = [], texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      const { data, parentElement } = texts.currentNode;
+      if (parentElement.closest("svg, script, style, noscript, code")) continue;
+      for (const date of data.matchAll(/\d{4}[-\u2011]\d\d[-\u2011]\d\d([ \u00a0]\d\d:\d\d)?/g)) {
+        const range = document.createRange();
+        range.setStart(texts.currentNode, date.index);
+        range.setEnd(texts.currentNode, date.index + date[0].length);
+        const tops = [...range.getClientRects()].map(({ top }) => Math.round(top));
+        if (tops.length > 0) found.push({ date: date[0], lines: new Set(tops).size });
+      }
+    }
+    return found;
+  });
+  assert.ok(dates.length >= 4, `${dates.length} dates`);
+  assert.deepEqual(dates.filter(({ lines }) => lines > 1), []);
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0);
+  await close();
+});
+
 test("as many findings are listed as the title counts, and the curve is red", ofRegressed, async () => {
   const { page, close } = await open({}, regressed, "index.html");
   const title = await page.locator(".standing strong").innerText();

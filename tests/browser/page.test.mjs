@@ -64,13 +64,17 @@ for (const [name, folder] of kinds) {
       async () => {
         const { page, close } = await open({ viewport }, folder);
         await page.waitForTimeout(500);  // Until empty small images are dropped.
-        const { cut, titles } = await page.evaluate(() => ({
+        const { cut, titles, links, images } = await page.evaluate(() => ({
           cut: [...document.querySelectorAll(".masthead *, #opening *")]
             .filter((each) => getComputedStyle(each).overflow === "hidden" &&
               each.clientHeight > 1 &&  // Else it is for screen readers.
               each.scrollHeight > each.clientHeight + 1).map((each) => each.textContent),
+          links: [...document.querySelectorAll(".main-figure a, .thumbnails a")].map((each) => each.hash),
+          images: [...document.querySelectorAll(".main-figure img, .thumbnails img")].map((each) => each.src),
           titles: [...document.querySelectorAll(".thumbnails bdi")].map((each) => each.textContent) }));
         assert.deepEqual(cut, []);
+        assert.equal(new Set(links).size, links.length, links.join("; "));
+        assert.equal(new Set(images).size, images.length, links.join("; "));
         assert.equal(new Set(titles).size, titles.length, titles.join("; "));
         for (const title of titles) assert.doesNotMatch(title, /no usable map/);
         await close();

@@ -172,3 +172,19 @@ for (const [name, folder] of kinds) {
       await close();
     });
 }
+
+test("what can be divided begins below a figure that leaves room for its beginning", withPoppler,
+  async () => {
+    const { page, close } = await open();
+    await page.evaluate(() => {
+      const first = document.createElement("section"), heading = document.createElement("h2");
+      heading.textContent = "First";
+      first.append(heading, document.querySelector("figure[data-id]:not(.wide)"));
+      document.querySelector("main").replaceChildren(first, document.querySelector("#section-provenance"));
+      for (const each of document.querySelectorAll("header, nav")) each.remove();
+    });
+    const [{ filled, lines }] = pagesOf(await page.pdf({ format: "A4", preferCSSPageSize: true }));
+    assert.ok(filled > .7 && lines.some((line) => line.startsWith("Provenance")),
+      `filled to ${filled}: ${lines.join("; ")}`);
+    await close();
+  });

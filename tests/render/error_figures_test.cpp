@@ -45,6 +45,13 @@ TEST(ErrorAxis, DoesNotBeginAt0WhereAllValuesLieInItsUppermostPart) {
   EXPECT_EQ(error_axis({1.0, 1.0}, {}).limits.low, 0.0);  // No difference to be seen.
 }
 
+TEST(ErrorAxis, HoldsIntervalsAsFarAsTheyTakeNoMoreOfItThanTheMeans) {
+  EXPECT_GT(error_axis({0.1, 3.0}, {0.05, 20.0}).limits.high, 20.0);
+  const Range far = error_axis({0.1, 3.0}, {0.05, 1e6}).limits;
+  EXPECT_GT(far.high, 90.0);
+  EXPECT_GT(std::log(3.0 / 0.1), 0.4 * std::log(far.high / far.low));
+}
+
 TEST(SeriesOf, KeepsWhatIsAskedForAndGivesOthersStylesThatAreLeft) {
   using Asked = std::vector<std::optional<std::size_t>>;
   using Series = std::vector<std::size_t>;
@@ -398,6 +405,18 @@ TEST(ErrorLinesFigure, EndsItsAxisAtTheCeilingAndCountsWhatLiesAbove) {
   EXPECT_GT(above.y.at(0), 30.0);
   spec.ceiling = 1e12;
   EXPECT_TRUE(error_lines_figure(spec).notes.empty());
+}
+
+TEST(ErrorLinesFigure, CountsTheIntervalsThatEndAboveItsFrame) {
+  ErrorLinesSpec spec;
+  spec.id = "lines";
+  spec.panels.resize(1);
+  spec.panels[0].lines = {three_points("A", {0.1, 1.0, 3.0}, 0.05)};
+  EXPECT_TRUE(error_lines_figure(spec).notes.empty());
+  spec.panels[0].lines[0].high[1] = 1e6;
+  const Figure figure = error_lines_figure(spec);
+  ASSERT_EQ(figure.notes.size(), 1U);
+  EXPECT_EQ(figure.notes[0].text, "1 interval ends above the frame.");
 }
 
 TEST(ErrorByParameterFigure, HasAPanelForEachKindOfParameter) {

@@ -320,6 +320,41 @@ TEST(FormingFilm, ShowsTheLastStepsOfThePathUpToEachMapAndTheRobotAtItsEnd) {
     EXPECT_FALSE(std::holds_alternative<Tube>(part)) << "Six small rooms have no path.";
 }
 
+TEST(FadingPath, IsNoLongerThanARoomCanShow) {
+  constexpr double kSide = 2.0;
+  Points walk(400, 2);  // To and fro, half the room each step.
+  for (Eigen::Index i = 0; i < 400; ++i) walk.row(i) << (i % 2 == 0 ? 0.5 : 1.5), 1.0;
+  EXPECT_EQ(first_shown(walk, 399, kSide), 396) << "1.5 sides are three steps.";
+  double length = 0.0;
+  for (const Tube& piece : fading_path(walk, 399, kSide))
+    for (std::size_t i = 1; i < piece.points.size(); ++i)
+      length += (piece.points[i] - piece.points[i - 1]).norm();
+  EXPECT_NEAR(length, 3.0, 1e-12);
+  EXPECT_EQ(first_shown(100.0 * walk, 399, kSide), 398) << "One step is shown at least.";
+  EXPECT_EQ(first_shown(1e-6 * walk, 399, kSide), 399 - kShownSteps);
+  walk.row(397).setConstant(NAN);
+  EXPECT_EQ(first_shown(walk, 399, kSide), 394) << "Steps from and to nowhere have no length.";
+}
+
+TEST(Grid, HasItsLinesAtRoundValuesWithinTheGround) {
+  const Ground ground{{-3.2, 10.0}, {7.1, 14.0}};
+  const Surface grid = grid_of(ground);
+  std::vector<double> across, along;
+  for (std::size_t i = 0; i + 3 < grid.points.size(); i += 4) {
+    const Point3 middle = (grid.points[i] + grid.points[i + 2]) / 2.0;
+    const Point3 size = (grid.points[i + 2] - grid.points[i]).cwiseAbs();
+    (size.x() < size.y() ? across : along).push_back(size.x() < size.y() ? middle.x() : middle.y());
+    for (std::size_t k = i; k < i + 4; ++k) {
+      EXPECT_TRUE(grid.points[k].x() >= -3.2 && grid.points[k].x() <= 7.1);
+      EXPECT_TRUE(grid.points[k].y() >= 10.0 && grid.points[k].y() <= 14.0);
+    }
+  }
+  ASSERT_EQ(across.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(across[i], -2.0 + 2.0 * double(i), 1e-12);
+  ASSERT_EQ(along.size(), 1U) << "None on the edges at 10 and 14.";
+  EXPECT_NEAR(along[0], 12.0, 1e-12);
+}
+
 /// The landmark pillars and the balls of a drive.
 struct DriveParts {
   const Surface* path = nullptr;

@@ -169,10 +169,23 @@ TEST(WindowCurveFigure, RefusesLengthsThatAreNone) {
   EXPECT_THROW(window_curve_figure({"w", "", {{0.0}, {1.0}, 1.0}, ""}), InvalidInput);
 }
 
-TEST(RefinementStartsFigure, ShowsEveryStartAndCountsThoseAtTheOptimum) {
+/// How many starts the bars of a kind stand for, the least cost first.
+std::vector<double> bars_of(const Figure& figure, const std::string& kind) {
+  std::vector<double> lengths;
+  for (const Area& bar : layers_of<Area>(figure.panels[0]))
+    if (bar.label == kind) lengths.push_back(bar.x[1] - bar.x[0]);
+  return lengths;
+}
+
+TEST(RefinementStartsFigure, CountsTheStartsThatEndAtEachCost) {
   const SlamRun run = sample_drive("plaza-1", 100, 1);
   const Figure figure = refinement_starts_figure({"starts-plaza-1", "", run.starts, "plaza-1"});
-  EXPECT_EQ(labelled<Scatter>(figure.panels[0], "from random")->x.size(), 12u);
+  const Panel& panel = figure.panels[0];
+  EXPECT_EQ(panel.y.names, (std::vector<std::string>{"9150: 21.3 m", "812: 0.190 m"}));
+  EXPECT_EQ(bars_of(figure, "from random"), (std::vector<double>{11, 1}));
+  EXPECT_EQ(bars_of(figure, "from spectral"), (std::vector<double>{1}));
+  EXPECT_EQ(layers_of<Texts>(panel).at(0).text, (std::vector<std::string>{"13", "1"}));
+  EXPECT_EQ(panel.x.label, "starts, 14 in all");
   EXPECT_TRUE(notes_contain(figure,
                             "from spectral 1 of 1, from odometry 1 of 1 and from random 11 "
                             "of 12"));
@@ -181,12 +194,23 @@ TEST(RefinementStartsFigure, ShowsEveryStartAndCountsThoseAtTheOptimum) {
   EXPECT_EQ(random.of, 12);
 }
 
+TEST(RefinementStartsFigure, HasOneRowForAllEndsBeyondTheNinth) {
+  std::vector<RefinementStart> starts;
+  for (int i = 1; i <= 30; ++i)
+    starts.push_back({SlamMethod::kRefinedFromRandom, i, 100.0 * i, 1.0 * i, 5, true});
+  const Figure figure = refinement_starts_figure({"starts-x", "", starts, "x"});
+  ASSERT_EQ(figure.panels[0].y.names.size(), 10U);
+  EXPECT_EQ(figure.panels[0].y.names.front(), "21 more, from 1000");
+  EXPECT_EQ(bars_of(figure, "from random").back(), 21.0);
+}
+
 TEST(RefinementStartsFigure, CountsAStartWithoutAResultAgainstItsKind) {
   const std::vector<RefinementStart> starts = {
       {SlamMethod::kRefined, 1, 10.0, std::nullopt, 5, true},
       {SlamMethod::kRefinedFromRandom, 1, NAN, std::nullopt, 0, false}};
   const Figure figure = refinement_starts_figure({"starts-x", "", starts, "x"});
-  EXPECT_EQ(figure.panels[0].y.label, "iterations");
+  EXPECT_EQ(figure.panels[0].y.label, "final cost");
+  EXPECT_EQ(figure.panels[0].y.names, (std::vector<std::string>{"10.0"}));
   EXPECT_TRUE(notes_contain(figure, "1 start without a result"));
   EXPECT_EQ(starts_at_optimum(starts, SlamMethod::kRefinedFromRandom).reached, 0);
 }

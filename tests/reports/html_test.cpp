@@ -100,6 +100,41 @@ TEST(ReportHtml, ShowsNoTwoSmallFiguresOfOneKindOrTitle) {
   EXPECT_GT(page.find("1 figure is on page 2."), page.find("id=\"section-two\""));
 }
 
+/// A curve in a unit of which `scale` are one.
+ErrorPanel panel_of(const std::vector<double>& values, double scale = 1.0) {
+  ErrorPanel panel{"", {.label = "steps"}, {{.label = "ISOMAP", .key = "isomap"}}, {}};
+  for (const double value : values) {
+    panel.lines[0].x.push_back(100.0 * static_cast<double>(panel.lines[0].x.size() + 1));
+    panel.lines[0].mean.push_back(scale * value);
+  }
+  return panel;
+}
+
+TEST(ReportHtml, ShowsNothingTwiceOnItsFirstScreen) {
+  const auto figure = [](const char* id, std::vector<ErrorPanel> panels) {
+    FigureBlock block = figure_block(error_lines_figure({.id = id, .panels = std::move(panels)}));
+    block.title = std::string("Errors ") + id;
+    return block;
+  };
+  const std::vector<double> few = {0.31, 0.2, 0.12}, many = {0.3, 0.1, 0.07}, other = {3, 2, 4};
+  Report report{"r", "", {}, ""};
+  report.sections = {
+      {"s",
+       "S",
+       {figure("all", {panel_of(few), panel_of(many)}), figure("few", {panel_of(few)}),
+        figure("many-mm", {panel_of(many, 1000.0)}), figure("other", {panel_of(other)}),
+        figure("other-first", {panel_of(other), panel_of(few)})}}};
+  report.opening.main_figure = "all";
+  report.opening.figure_ids = {"all", "few", "many-mm", "other", "other-first"};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_EQ(
+      all_matches(between(page, "<ul class=\"thumbnails\">", "</ul>"), "href=\"#figure-([^\"]*)\""),
+      std::vector<std::string>{"other"});
+  report.opening.figure_ids = {"few"};
+  EXPECT_EQ(report_html(report, load_templates(), {}).find("class=\"thumbnails\""),
+            std::string::npos);
+}
+
 TEST(ReportHtml, GivesEachIdOnce) {
   std::set<std::string> seen;
   for (const std::string& id : all_matches(study_page(), " id=\"([^\"]*)\""))
@@ -251,6 +286,21 @@ TEST(ReportHtml, KeepsQuantitiesOnOneLine) {
   const std::string page = report_html(report, load_templates(), {});
   EXPECT_NE(page.find("By 4\u2011D it is 0.12\u00A0m; "), std::string::npos);
   EXPECT_NE(page.find("a 12 m"), std::string::npos) << "a command stays as it is typed";
+}
+
+TEST(ReportHtml, KeepsDatesOnOneLine) {
+  const Table table{"t",
+                    "c",
+                    {{"Started", "", "", ""}, {"Note", "", "", ""}},
+                    {{{TextCell{"2026-11-29 16:51 UTC"}, TextCell{"since 2026-11-29"}}, ""}},
+                    {}};
+  const Paragraph begun{{phrase("Begun 2026-11-29 16:51 UTC.")}};
+  const Report report{"r", "", {{"s", "S", {table, begun}}}, ""};
+  const std::string page = report_html(report, load_templates(), {});
+  EXPECT_EQ(all_matches(page, "class=\"date\">(?:<bdi[^>]*>)([^<]*)"),
+            std::vector<std::string>{"2026-11-29 16:51 UTC"})
+      << "as it is, so that it can be searched and copied";
+  EXPECT_NE(page.find("<p>Begun 2026\u201111\u201129\u00a016:51\u00a0UTC."), std::string::npos);
 }
 
 TEST(ReportHtml, OfManyStudiesFoldsSectionsButTheFirstOfEachAndWhatGotWorse) {

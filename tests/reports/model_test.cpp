@@ -38,6 +38,13 @@ TEST(PageCell, HasPowersOfTen) {
   EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "%"), "0.5 to 1.00\u00A0×\u00A010¹⁵");
 }
 
+TEST(PartText, HasItsThousandsApartInBothNumbersOrInNone) {
+  EXPECT_EQ(part_text(2310, 25'700, "map"), "2,310 of 25,700 maps");
+  EXPECT_EQ(part_text(2310, 9658, "map"), "2310 of 9658 maps");
+  EXPECT_EQ(part_text(12'310, 25'700, "map"), "12,310 of 25,700 maps");
+  EXPECT_EQ(part_text(1, 1, "run"), "1 of 1 run");
+}
+
 TEST(PValue, HasThreeDecimalsInProseAndInTables) {
   EXPECT_EQ(p_words(0.0341), "p = 0.034");
   EXPECT_EQ(p_words(0.5), "p = 0.500");
@@ -120,6 +127,22 @@ TEST(Displayable, LeavesUtf8AndShowsTheRest) {
   EXPECT_EQ(displayable("\xff\xc0\x80"), "\uFFFD\uFFFD\uFFFD");
   EXPECT_EQ(displayable("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
   EXPECT_EQ(displayable("cut \xe2\x82"), "cut \uFFFD\uFFFD");
+}
+
+TEST(PageText, KeepsADateWithItsTimeAndItsZoneOnOneLine) {
+  EXPECT_EQ(page_text("run 5 (2026-11-29 16:51 UTC), 3 m"),
+            "run 5 (2026\u201111\u201129\u00a016:51\u00a0UTC), 3\u00a0m");
+  EXPECT_EQ(page_text("2026-11-29 16:51 +01:00 and then"),
+            "2026\u201111\u201129\u00a016:51\u00a0+01:00 and then");
+  EXPECT_EQ(page_text("of 2026-11-29 16 runs"), "of 2026\u201111\u201129 16 runs");
+}
+
+TEST(IsDate, IsADayAndItsTimeWithNothingElse) {
+  for (const char* date : {"2026-11-29", "2026-11-29 16:51 UTC", "2026-11-29 16:51 \u221205:00",
+                           "2026-11-29T16:51:12Z"})
+    EXPECT_TRUE(is_date(date)) << date;
+  for (const char* other : {"", "2026", "2026-11-29 ", "2026-11-29 ISOMAP", "run 2026-11-29"})
+    EXPECT_FALSE(is_date(other)) << other;
 }
 
 TEST(ReportCheck, RefusesAnIdThatCouldLeaveTheFolder) {

@@ -10,6 +10,7 @@
 #include "reports/model/format.hpp"
 #include "reports/sections/method_summary.hpp"
 #include "reports/sections/opening.hpp"
+#include "reports/sections/study_counts.hpp"
 #include "reports/sections/study_report.hpp"
 #include "reports/sections/variation_summary.hpp"
 #include "tests/reports/section_text.hpp"
@@ -251,7 +252,10 @@ TEST(SummarySection, NamesTheBestMethodOfEachSensorWithItsNumbers) {
       "Of 6 pairs of methods, 5 have the paper\u2019s order; the paper has ISOMAP < SMACOF, kNN "
       "weights."))
       << words(section);
-  EXPECT_TRUE(contains_text(section, "8 without a score and 110 with warnings")) << words(section);
+  EXPECT_TRUE(contains_text(section,
+                            "Warnings and failures: 110 of 640 maps (17\u00a0%) have warnings, "
+                            "8 have no score and 8 could not be made; all are listed below."))
+      << words(section);
 }
 
 TEST(SummarySection, SaysPlainlyThatNothingFailed) {
@@ -273,6 +277,8 @@ TEST(SummarySection, SaysWhenRunsAreMissing) {
   Study study = synthetic_study(5, 5);
   study.runs.pop_back();
   EXPECT_TRUE(contains_text(summary_section(study), "24 of 25 runs are done"));
+  study.runs.resize(1);
+  EXPECT_TRUE(contains_text(summary_section(study), "1 of 25 runs is done"));
 }
 
 TEST(SummarySection, CopesWithAStudyWithoutARun) {
@@ -337,10 +343,25 @@ TEST(StudyOpening, SaysWhatIsWrongWithAStudy) {
     return words(Section{"opening", "", {study_opening(study, {}).findings.back()}});
   };
   EXPECT_NE(wrong().find("Warnings: 24 of 25 runs are done."), std::string::npos) << wrong();
+  EXPECT_NE(
+      wrong().find(fmt::format("done. {}. Most frequent: bridged (", endings_text(count(study)))),
+      std::string::npos)
+      << wrong();
   EXPECT_NE(number_of(study_opening(study, {}), "of 1").find("could not be scored"),
             std::string::npos);
   study.runs.clear();
   EXPECT_NE(wrong().find("0 of 25 runs are done."), std::string::npos) << wrong();
+}
+
+TEST(StudyCounts, SayHowManyMapsHaveWarningsAndWhichShareTheyAre) {
+  EXPECT_EQ(endings_text({.maps = 25'700, .with_status = 2310, .unscored = 50}),
+            "2,310 of 25,700 maps (9\u00a0%) have warnings and 50 have no score");
+  EXPECT_EQ(endings_text({.maps = 300, .with_status = 1, .unscored = 1, .failed = 1}),
+            "1 of 300 maps (under 1\u00a0%) has a warning, 1 has no score and 1 could not be made");
+  EXPECT_EQ(endings_text({.maps = 9658, .with_status = 9657}),
+            "9657 of 9658 maps (99\u00a0%) have warnings");
+  EXPECT_EQ(warned_percent({.maps = 2, .with_status = 2}), 100);
+  EXPECT_EQ(warned_percent({.maps = 25'700}), 0);
 }
 
 }  // namespace

@@ -201,7 +201,35 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   EXPECT_NE(all.find("theory: \u22121/2"), std::string::npos) << all;
   EXPECT_NE(all.find("2 recorded drives"), std::string::npos) << all;
   EXPECT_EQ(opening.main_figure, "fig-2b");
-  EXPECT_LT(all.size(), 900U) << all;
+  EXPECT_LT(all.size(), 1200U) << all;
+}
+
+TEST(SlamOpening, NamesTheBestEstimateAndByHowMuch) {
+  SlamStudy study = sample_slam_study();
+  SlamRun& run = study.runs[1];
+  run.records.push_back(run.records[5]);
+  run.records.back().method = SlamMethod::kRefinedFromOdometry;
+  const auto set_mean = [&](SlamMethod method, double mean_m) {
+    std::ranges::find(run.records, method, &SlamRecord::method)->errors.front().mean_m = mean_m;
+  };
+  set_mean(SlamMethod::kSpectral, 0.42);
+  set_mean(SlamMethod::kRefined, 0.25);
+  set_mean(SlamMethod::kRefinedFromOdometry, 0.19);
+  set_mean(SlamMethod::kSpectralKnown, 0.01);  // Was given landmarks.
+  const auto text = [&] { return words(slam_opening(study, {})); };
+  EXPECT_NE(text().find("Best by mean position error. Plaza 1: refined (from odometry) 0.190 m; "
+                        "refined (scale free) 0.250 m; spectral (4-D) 0.420 m."),
+            std::string::npos)
+      << text();
+  EXPECT_NE(
+      text().find("0.250 m mean position error, Plaza 1 (refined, scale free; least: refined, "
+                  "from odometry 0.190 m; dead reckoning"),
+      std::string::npos)
+      << text();
+  set_mean(SlamMethod::kRefinedFromOdometry, 0.25);
+  EXPECT_NE(text().find("Plaza 1: refined (scale free) and refined (from odometry) 0.250 m; "),
+            std::string::npos)
+      << text();
 }
 
 TEST(SlamOpening, WithoutDrivesShowsHowErrorsConverge) {

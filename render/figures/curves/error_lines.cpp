@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -94,18 +95,25 @@ Labels labels_of(const ErrorLinesSpec& spec) {
   return all;
 }
 
-/// Notes how many means and points lie above the frame.
-void note_ceiling(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
+/// Notes how many means and points lie above the frame, and how many intervals end there whose
+/// means do not.
+void note_above(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
   const auto is_above = [&](double value) { return value > axis.limits.high; };
-  long long above = 0;
+  long long values = 0, intervals = 0;
   for (const ErrorPanel& panel : spec.panels) {
-    for (const ErrorLine& line : panel.lines) above += std::ranges::count_if(line.mean, is_above);
-    above += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
+    for (const ErrorLine& line : panel.lines) {
+      values += std::ranges::count_if(line.mean, is_above);
+      for (std::size_t i = 0; i < line.high.size(); ++i)
+        intervals += is_above(line.high[i]) && !is_above(line.mean[i]) ? 1 : 0;
+    }
+    values += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
   }
-  if (above > 0)
-    figure.notes.push_back({fmt::format("{} {} above the frame.", counted(above, "value"),
-                                        above == 1 ? "lies" : "lie"),
-                            ThemeColour::kMuted});
+  for (const auto& [count, what, ends] :
+       {std::tuple{values, "value", "lie"}, std::tuple{intervals, "interval", "end"}})
+    if (count > 0)
+      figure.notes.push_back({fmt::format("{} {}{} above the frame.", counted(count, what), ends,
+                                          count == 1 ? "s" : ""),
+                              ThemeColour::kMuted});
 }
 
 std::string words_of(const ErrorLine& line) {
@@ -291,8 +299,10 @@ ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>
   for (Span* span : {&of_means, &all}) span->see(points);
   if (!of_means.known()) return {Scale::kLinear, {0.0, 1.0}};
   if (of_means.low > 0.0 && of_means.high / of_means.low > log_from) {
+    // Below, intervals end near a 0 that the axis has not; above, they may take as much of it as
+    // the means do.
     const double low = std::max(all.low, of_means.low / 3.0);
-    const double high = std::min(all.high, of_means.high * 3.0);
+    const double high = std::min(all.high, of_means.high * (of_means.high / of_means.low));
     const double margin = std::pow(high / low, 0.05);
     return {Scale::kLog, {low / margin, high * margin}};
   }
@@ -329,7 +339,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   figure.record_ids = spec.record_ids;
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
-  note_ceiling(spec, axis, figure);
+  note_above(spec, axis, figure);
   const Builder builder(spec, axis);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())

@@ -26,6 +26,7 @@
 #include "reports/html/block_data.hpp"
 #include "reports/html/page_frame.hpp"
 #include "reports/html/sha256.hpp"
+#include "reports/model/format.hpp"
 
 namespace mapproof {
 namespace {
@@ -293,8 +294,8 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("cause", text_or_false(is_one ? "" : printable(result.judgement.cause, kLongestNote)));
   page.set("compared", counted(std::ssize(result.items), "item"));
   const auto [baseline, current] = distinct_names(shown_baseline(result), shown_current(result));
-  page.set("baseline_name", printable(baseline, kMostPath));
-  page.set("current_name", printable(current, kMostPath));
+  page.set("baseline_name", page_text(printable(baseline, kMostPath)));
+  page.set("current_name", page_text(printable(current, kMostPath)));
   page.set("baseline", percent_encoded(result.baseline));
   page.set("current", percent_encoded(result.current));
   std::error_code error;

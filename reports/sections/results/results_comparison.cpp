@@ -309,8 +309,9 @@ std::string losses_of(const ResultsView& view) {
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> names;
   for (const auto& [count, label] : lost) names.push_back(fmt::format("{} {}", label, count));
-  return fmt::format("{} of {} results have no value: {}.", all, view.study().results.rows.size(),
-                     listed(names, kMostNamed));
+  return fmt::format("{} {} no value: {}.",
+                     part_text(all, std::ssize(view.study().results.rows), "result"),
+                     all == 1 ? "has" : "have", listed(names, kMostNamed));
 }
 
 bool is_significant(const ComparedMethod& method) {

@@ -20,6 +20,7 @@
 #include "core/base/text/slug.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
+#include "reports/model/format.hpp"
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
@@ -56,9 +57,9 @@ Section summary_section(const ResultsReportInput& input, bool has_opening) {
   if (lost > 0)
     section.blocks.emplace_back(
         Callout{Callout::Tone::kWarning, "Lost values",
-                plain(fmt::format("{} of {} have no value. Means rest on the others; the notes "
-                                  "under the tables count the lost ones.",
-                                  lost, counted(rows, "result")))});
+                plain(fmt::format("{} {} no value. Means rest on the others; the notes under the "
+                                  "tables count the lost ones.",
+                                  part_text(lost, rows, "result"), lost == 1 ? "has" : "have"))});
   for (const std::string& remark : input.remarks)
     section.blocks.emplace_back(Callout{Callout::Tone::kNote, "About the files", plain(remark)});
   for (const std::string& remark : remarks_of(study))

@@ -138,11 +138,9 @@ std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::str
 }
 
 std::string topic_incomplete(const TopicStudy& study) {
-  const std::size_t planned = planned_parts(study.experiment);
-  if (study.parts.size() >= planned) return "";
-  return fmt::format(
-      "{} of {} are done; every number below rests on these.", study.parts.size(),
-      counted(static_cast<long long>(planned), is_of_data(study) ? "data set" : "run"));
+  return incomplete_text(std::ssize(study.parts),
+                         static_cast<long long>(planned_parts(study.experiment)),
+                         is_of_data(study) ? "data set" : "run");
 }
 
 std::vector<Block> topic_provenance(const TopicStudy& study, std::span<const Session> sessions,

@@ -21,7 +21,7 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
 /// Seconds of each series on each data set; empty for a simulated study, or without any.
 std::optional<Table> topic_seconds_table(const TopicStudy& study, const std::string& prefix);
 
-/// "2 of 5 runs are done; ..."; empty if all are.
+/// See incomplete_text().
 std::string topic_incomplete(const TopicStudy& study);
 
 /// What was asked for, and what made it.

@@ -1,6 +1,7 @@
 #include "reports/sections/slam/slam_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -300,44 +301,94 @@ StatusList status_list(const SlamStudy& study) {
 
 constexpr std::size_t kMostRuns = 3;  ///< Shown by their numbers before anything else.
 
-/// The method of least mean error under that alignment that needs no known landmark; null if
-/// there is none.
-const SlamRecord* least_error(const SlamRun& run, Alignment alignment) {
-  const SlamRecord* least = nullptr;
-  for (const SlamRecord& record : run.records) {
-    const TrajectoryError* error = error_of(run, record.method);
-    if (info(record.method).knows_landmarks || error == nullptr || error->alignment != alignment ||
-        !std::isfinite(error->mean_m))
-      continue;
-    if (least == nullptr || error->mean_m < error_of(run, least->method)->mean_m) least = &record;
-  }
-  return least;
-}
+/// The methods that a report compares first.
+constexpr std::array kFirstMethods = {SlamMethod::kRefined, SlamMethod::kSpectral,
+                                      SlamMethod::kDeadReckoning};
 
-/// "0.19 m" of the refined map or else of the spectral one, with what it compares with: the other
-/// ones, and the method of least error if that is none of them.
-std::optional<Highlights::Item> error_number(const SlamRun& run) {
-  const auto methods = {SlamMethod::kRefined, SlamMethod::kSpectral, SlamMethod::kDeadReckoning};
-  const auto method = std::ranges::find_if(methods, [&](SlamMethod one) {
+/// The first of these that has an error.
+const SlamMethod* shown_method(const SlamRun& run) {
+  return std::ranges::find_if(kFirstMethods, [&](SlamMethod one) {
     const TrajectoryError* error = error_of(run, one);
     return error != nullptr && std::isfinite(error->mean_m);
   });
-  if (method == methods.end()) return std::nullopt;
+}
+
+/// A method's mean error.
+struct MethodError {
+  SlamMethod method;
+  double mean_m;
+};
+
+/// Of all methods that need no known landmark and are aligned as the shown one, the least first.
+std::vector<MethodError> comparable_errors(const SlamRun& run) {
+  std::vector<MethodError> errors;
+  const SlamMethod* shown = shown_method(run);
+  if (shown == kFirstMethods.end()) return errors;
+  for (const SlamRecord& record : run.records) {
+    const TrajectoryError* error = error_of(run, record.method);
+    if (!info(record.method).knows_landmarks && error != nullptr &&
+        error->alignment == error_of(run, *shown)->alignment && std::isfinite(error->mean_m))
+      errors.push_back({record.method, error->mean_m});
+  }
+  std::ranges::stable_sort(errors, {}, &MethodError::mean_m);
+  return errors;
+}
+
+/// "refined (from odometry) 0.190 m; refined (scale free) 0.230 m; spectral (4-D) 0.420 m": the
+/// estimates of least error, those that tie together; empty of one alone.
+std::string best_estimates(const SlamRun& run) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_error;
+  const std::vector<MethodError> errors = comparable_errors(run);
+  for (const auto& [method, mean_m] : errors) {
+    const std::string text = error_text(mean_m);
+    if (by_error.empty() || by_error.back().first != text) {
+      if (by_error.size() == kMost) break;
+      by_error.emplace_back(text, 0);
+    }
+    by_error.back().second.push_back(bracketed(info(method).label));
+  }
+  if (errors.size() < 2) return "";
+  std::vector<std::string> words;
+  for (const auto& [error, methods] : by_error)
+    words.push_back(fmt::format("{} {}", listed(methods, methods.size()), error));
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// Which estimate of each recorded drive is the best, and by how much; empty if there is no choice.
+std::string best_of_drives(const SlamStudy& study) {
+  std::string text;
+  std::size_t drives = 0;
+  for (const SlamRun& run : study.runs) {
+    if (run.simulated || drives == kMostRuns) continue;
+    ++drives;
+    if (const std::string best = best_estimates(run); !best.empty())
+      text += fmt::format(" {}: {}.", title_of(run), best);
+  }
+  return text;
+}
+
+/// "0.19 m" of the refined map or else of the spectral one, with what it compares with: the method
+/// of least error if that is another one, and the other ones.
+std::optional<Highlights::Item> error_number(const SlamRun& run) {
+  const SlamMethod* method = shown_method(run);
+  if (method == kFirstMethods.end()) return std::nullopt;
   std::vector<std::string> details;
-  for (auto other = method + 1; other != methods.end(); ++other)
+  for (const SlamMethod* other = method + 1; other != kFirstMethods.end(); ++other)
     if (const TrajectoryError* error = error_of(run, *other);
         error != nullptr && std::isfinite(error->mean_m))
       details.push_back(fmt::format("{} {}", info(*other).label, error_text(error->mean_m)));
   std::ranges::reverse(details);  // Dead reckoning, which every reader knows, first.
+  const std::string shown = error_text(error_of(run, *method)->mean_m);
+  const std::vector<MethodError> errors = comparable_errors(run);
+  if (!errors.empty() && error_text(errors.front().mean_m) != shown)
+    if (const auto& [least, least_m] = errors.front();
+        std::ranges::find(kFirstMethods, least) == kFirstMethods.end())
+      details.insert(details.begin(),
+                     fmt::format("least: {} {}", info(least).label, error_text(least_m)));
   details.insert(details.begin(), std::string(info(*method).label));
-  const TrajectoryError& shown = *error_of(run, *method);
-  if (const SlamRecord* least = least_error(run, shown.alignment);
-      least != nullptr && std::ranges::find(method, methods.end(), least->method) == methods.end())
-    if (const double least_m = error_of(run, least->method)->mean_m; least_m < shown.mean_m)
-      details.push_back(
-          fmt::format("least: {} {}", info(least->method).label, error_text(least_m)));
   if (const auto length = length_m(run.log)) details.push_back("over " + length_text(*length));
-  return Highlights::Item{"mean position error, " + title_of(run), error_text(shown.mean_m),
+  return Highlights::Item{"mean position error, " + title_of(run), shown,
                           fmt::format("{}", fmt::join(details, "; ")), "slam-accuracy"};
 }
 
@@ -373,7 +424,8 @@ std::vector<std::string> warnings_of(const SlamStudy& study) {
   return codes;
 }
 
-/// "Range-only SLAM: landmarks and path from ranges, and odometry: 2 recorded drives, …"
+/// "Positions of landmarks and the path of a robot …: 2 recorded drives", and which estimates are
+/// the best.
 Paragraph what_was_done(const SlamStudy& study) {
   const auto real = std::ranges::count(study.runs, false, &SlamRun::simulated);
   std::vector<std::string> extent;
@@ -382,10 +434,16 @@ Paragraph what_was_done(const SlamStudy& study) {
     extent.push_back(counted(std::ssize(study.runs) - real, "simulated drive"));
   if (!study.convergence.empty())
     extent.push_back(counted(std::ssize(study.convergence), "convergence simulation"));
-  return plain(
-      fmt::format("Positions of landmarks and the path of a robot from ranges, and "
-                  "odometry where there is any: {}.",
-                  listed(extent, 4)));
+  Paragraph done =
+      plain(fmt::format("Positions of landmarks and the path of a robot from ranges, and "
+                        "odometry where there is any: {}.",
+                        listed(extent, 4)));
+  if (std::string best = best_of_drives(study); !best.empty()) {
+    done.phrases.push_back(phrase(" "));
+    done.phrases.push_back(strong("Best by mean position error"));
+    done.phrases.push_back(phrase("." + best));
+  }
+  return done;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/base/text/unit_text.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
@@ -43,13 +44,6 @@ std::string change_words(const TopicSetup& setup) {
   return "as " + all_listed(words);
 }
 
-/// "ISOMAP (K = 6)": a label whose commas do not part a sentence.
-std::string in_sentence(const std::string& label) {
-  const std::size_t comma = label.find(", ");
-  if (comma == std::string::npos) return label;
-  return fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
-}
-
 /// "of ISOMAP (K = 6) grows from 0.05 m to 0.1 m": a method's mean MPE at the first and the last
 /// condition; empty where one of them has none.
 std::string ends_words(const TopicStudy& study, const TopicSetup& setup,
@@ -60,8 +54,8 @@ std::string ends_words(const TopicStudy& study, const TopicSetup& setup,
   if (std::isnan(first) || std::isnan(last)) return "";
   const auto metres = [](double value) { return error_text(value); };
   if (metres(first) == metres(last))
-    return fmt::format("of {} stays at {}", in_sentence(method.label), metres(first));
-  return fmt::format("of {} {} from {} to {}", in_sentence(method.label),
+    return fmt::format("of {} stays at {}", bracketed(method.label), metres(first));
+  return fmt::format("of {} {} from {} to {}", bracketed(method.label),
                      last > first ? "grows" : "falls", metres(first), metres(last));
 }
 
@@ -92,8 +86,7 @@ TopicHeadline sweep_headline(const TopicStudy& study) {
         least = std::min(least, mean);
         if (mean <= greatest) continue;
         greatest = mean;
-        where =
-            fmt::format("greatest by {}, {}", in_sentence(method.label), level_words(setup, at));
+        where = fmt::format("greatest by {}, {}", bracketed(method.label), level_words(setup, at));
       }
   if (least > greatest) return {};
   return {error_text(least) + " to " + error_text(greatest),
