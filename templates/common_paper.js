@@ -29,17 +29,33 @@ function leastCell(cell) {
   return Math.max(...words.map((word) => widthOnPaper(word, isBold)));
 }
 
+// The same with the gaps around it.
+function leastRoom(heading, words) {
+  return words + kPaperGaps_px + (heading.matches(".begins") ? kPaperGap_px : 0);
+}
+
 // The least width of a column.
 function leastColumn(table, heading, index) {
   const cells = [...table.tBodies[0].rows].map((row) => row.cells[index]);
-  const words = Math.max(...[heading, ...cells].map(leastCell));
-  return words + kPaperGaps_px + (heading.matches(".begins") ? kPaperGap_px : 0);
+  return leastRoom(heading, Math.max(...[heading, ...cells].map(leastCell)));
 }
 
 // The headings of the columns in their order, below those of groups.
 function columnHeads(table) {
   return [...table.tHead.querySelectorAll("th[data-column]")]
     .sort((a, b) => Number(a.dataset.column) - Number(b.dataset.column));
+}
+
+// The least width of a table. A group of columns may need more for its heading than they do.
+function leastTable(table, heads) {
+  const columns = heads.map((head, i) => leastColumn(table, head, i));
+  let column = 0, width = 0;
+  for (const head of table.tHead.rows[0].cells) {
+    const below = columns.slice(column, column + head.colSpan).reduce((sum, each) => sum + each, 0);
+    width += Math.max(below, leastRoom(head, leastCell(head)));
+    column += head.colSpan;
+  }
+  return width;
 }
 
 // Puts what a cell holds below what the cell before it holds. Returns what undoes it.
@@ -102,8 +118,7 @@ function fitTablesToPaper() {
     }
     for (const table of document.querySelectorAll("table:has(th.interval)")) {
       const heads = columnHeads(table);
-      const width = heads.reduce((sum, head, i) => sum + leastColumn(table, head, i), 0);
-      if (width > kPaper_px) undo.push(...foldIntervals(table, heads));
+      if (leastTable(table, heads) > kPaper_px) undo.push(...foldIntervals(table, heads));
     }
   });
   addEventListener("afterprint", () => {
