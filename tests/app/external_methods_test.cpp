@@ -102,7 +102,7 @@ class ExternalMethods : public ::testing::Test {
     const std::string file = at(out) + "/results.csv";
     for (const Result& row : parse_results_csv(read_file(file), file, {}))
       if (row.quantity == quantity && row.at.levels.size() == 1)
-        errors[row.method][fmt::format("{}/{}/{}", row.at.setup, row.run,
+        errors[row.method][fmt::format("{}/{}/{}", row.at.setup.get(), row.run.get(),
                                        level_text(row.at.levels->at(0)))] = row.value;
     return errors;
   }

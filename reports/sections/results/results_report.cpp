@@ -340,7 +340,7 @@ std::string few_associated(const ResultsStudy& study) {
   for (const Result& row : study.results.rows)
     if (row.quantity == kAssociatedPercent && row.value < kFewAssociated_percent)
       few.push_back(fmt::format("{} ({}, {})", quantity_text(row.value, "%"),
-                                label_of(study.methods, row.method), row.run));
+                                label_of(study.methods, row.method), row.run.get()));
   constexpr std::size_t kMostNamed = 3;
   return few.empty() ? ""
                      : fmt::format("only {} of the poses are associated", listed(few, kMostNamed));
