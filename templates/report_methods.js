@@ -163,6 +163,21 @@ function addMethodList(before) {
     chooseMethod(list.value);
   });
   before.after(list);
+  keepMethodOnPages(names);
+}
+
+// A method that is chosen is highlighted on the report's further pages, too: links to them name it.
+function keepMethodOnPages(names) {
+  const kPage = /^(\.\/[^?#]*\.html)(?:\?[^#]*)?(#.*)?$/;
+  const name = ({ target }) => {
+    const link = target.closest("a[href]"), page = kPage.exec(link?.getAttribute("href") ?? "");
+    if (!page) return;
+    const query = chosenMethod === "" ? "" : `?${new URLSearchParams({ method: chosenMethod })}`;
+    link.setAttribute("href", `${page[1]}${query}${page[2] ?? ""}`);
+  };
+  for (const event of ["click", "auxclick"]) document.addEventListener(event, name, true);
+  const named = new URLSearchParams(location.search).get("method");
+  if (names.includes(named)) chooseMethod(named);
 }
 
 // The curves of a figure, each with its parts, by label.

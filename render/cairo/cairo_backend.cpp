@@ -1,5 +1,6 @@
 #include "render/cairo/cairo_backend.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <new>
@@ -121,7 +122,10 @@ std::vector<std::pair<std::string, std::string>> png_words(const Drawing& drawin
 }
 
 std::string to_png(const Drawing& drawing) {
-  return encode_png(to_image(drawing), {.dpi = drawing.dpi, .texts = png_words(drawing)});
+  const bool has_shades = std::ranges::any_of(
+      drawing.items, [](const Item& item) { return std::holds_alternative<Raster>(item.what); });
+  return encode_png(to_image(drawing),
+                    {.dpi = drawing.dpi, .shaded = has_shades, .texts = png_words(drawing)});
 }
 
 namespace {

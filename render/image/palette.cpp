@@ -159,14 +159,14 @@ bool group_colours(Histogram& histogram, const std::vector<std::size_t>& by_coun
   return true;
 }
 
-bool choose_palette(Histogram& histogram, std::vector<std::uint32_t>& palette) {
+bool choose_palette(Histogram& histogram, int most_shift, std::vector<std::uint32_t>& palette) {
   std::vector<std::size_t> by_count(histogram.entries.size());
   for (std::size_t i = 0; i < by_count.size(); ++i) by_count[i] = i;
   if (by_count.size() <= 256) return group_colours(histogram, by_count, 0, palette);
   std::ranges::stable_sort(by_count, std::ranges::greater{},
                            [&](std::size_t i) { return histogram.entries[i].count; });
-  for (const int most : {4, 8, kMostColourShift})
-    if (group_colours(histogram, by_count, most, palette)) return true;
+  for (const int most : {kMostShadeShift, 8, kMostColourShift})
+    if (most <= most_shift && group_colours(histogram, by_count, most, palette)) return true;
   return false;
 }
 
@@ -229,8 +229,8 @@ struct ColourBox {
   int middle = 0;
   std::uint64_t pixels = 0;
 
-  /// Boxes of many pixels are cut first among those that are about as wide.
-  double weight() const { return width * std::pow(static_cast<double>(pixels), 0.25); }
+  /// Boxes of many pixels are cut first: those of a wide shade, in which steps would be seen.
+  double weight() const { return width * std::sqrt(static_cast<double>(pixels)); }
 };
 
 ColourBox box_of(const std::vector<ColourPair>& pairs, std::size_t begin, std::size_t end) {
@@ -273,11 +273,11 @@ std::vector<ColourBox> cut_boxes(std::vector<ColourPair>& pairs) {
 
 }  // namespace
 
-std::optional<PaletteImage> to_palette(const Image& image) {
+std::optional<PaletteImage> to_palette(const Image& image, int most_shift) {
   Histogram histogram;
   PaletteImage result;
   const std::vector<Run> runs = find_runs(image, histogram);
-  if (runs.empty() || !choose_palette(histogram, result.colours)) return std::nullopt;
+  if (runs.empty() || !choose_palette(histogram, most_shift, result.colours)) return std::nullopt;
   const std::size_t stride = static_cast<std::size_t>(image.width) + 1;
   result.rows.resize(stride * image.height);
   char* row = result.rows.data();

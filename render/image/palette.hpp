@@ -18,10 +18,13 @@ struct PaletteImage {
 /// How far a channel of a pixel may be moved so that 256 colours are enough.
 inline constexpr int kMostColourShift = 12;
 
+/// The same of an image with shades, in which larger steps would be seen.
+inline constexpr int kMostShadeShift = 4;
+
 /// The image with at most 256 colours: exact if it has no more. Otherwise frequent colours stay and
-/// rare ones, those of smoothed edges, go to a near one; empty if that took more than
-/// kMostColourShift of 255 in some channel.
-std::optional<PaletteImage> to_palette(const Image& image);
+/// rare ones, those of smoothed edges, go to a near one; empty if that took more than `most_shift`
+/// of 255 in some channel.
+std::optional<PaletteImage> to_palette(const Image& image, int most_shift = kMostColourShift);
 
 /// Two images that show the same in other colours, as numbers of pairs of colours.
 struct TwoPalettes {

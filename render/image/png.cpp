@@ -133,7 +133,8 @@ std::string encode_png(const Image& image, const PngOptions& options) {
   if (!sized || image.pixels.size() < static_cast<std::size_t>(image.width) * image.height)
     throw InvalidInput("encode_png: an image without pixels, too large, or with too few of them");
 
-  if (const std::optional<PaletteImage> indexed = to_palette(image))
+  if (const std::optional<PaletteImage> indexed =
+          to_palette(image, options.shaded ? kMostShadeShift : kMostColourShift))
     return encode_png(*indexed, image.width, options);
   return png_file({.width = image.width, .height = image.height}, rgb_rows(image), options);
 }

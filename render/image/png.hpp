@@ -13,11 +13,12 @@ namespace mapproof {
 
 struct PngOptions {
   double dpi = 72.0;
+  bool shaded = false;  ///< With shades, of which a palette of few colours would make steps.
   std::vector<std::pair<std::string, std::string>>
       texts;  ///< Keyword (1 to 79 of ASCII) and UTF-8.
 };
 
-/// The image as a PNG file, with a palette if to_palette finds one, else as RGB. Texts are
+/// The image as a PNG file, with a palette if to_palette() finds one, else as RGB. Texts are
 /// iTXt chunks if they need it, tEXt otherwise. No time, the same bytes each time.
 /// @throws InvalidInput if a side is below 1 or above 100 000, the pixels are too few, or the rows
 ///         as RGB exceed 2^31 - 1 bytes.

@@ -262,8 +262,8 @@ class MeasurementScene {
              .style = {.colour = ThemeColour::kText}});
   }
 
-  /// Layers on the floor, one above the other.
-  double lift(int layer) const { return 0.0012 * seen_m_ * layer; }
+  /// Layers on the floor, one above the other and above its grid.
+  double lift(int layer) const { return kFlatLayer * (1 + layer) * seen_m_; }
   /// Where the robot observes from.
   double eye() const { return 0.5 * landmark_height(seen_m_); }
   Point3 position(Eigen::Index row, double height) const {

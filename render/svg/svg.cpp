@@ -268,8 +268,8 @@ class SvgWriter {
     out_ += "<image" + own;
     if (item.mark && !open_mark_) mark_attributes(*item.mark);
     box_attributes(raster.position);
-    const PngOptions options{.dpi = 72.0 * raster.image->width / raster.position.width(),
-                             .texts = {}};
+    const PngOptions options{
+        .dpi = 72.0 * raster.image->width / raster.position.width(), .shaded = true, .texts = {}};
     attribute("data-dpi", std::round(options.dpi));
     out_ += " preserveAspectRatio=\"none\" href=\"data:image/png;base64,";
     if (raster.dark == nullptr) {

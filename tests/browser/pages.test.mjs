@@ -27,6 +27,28 @@ test("the index leads to each figure of another page, and opens it there", optio
   await close();
 });
 
+test("a method that is chosen is highlighted on the other pages, too", options, async () => {
+  const { page, errors, close } = await open({}, folder);
+  const list = page.getByRole("combobox", { name: "Highlight a method in all figures and tables" });
+  const name = await list.locator("option").nth(1).textContent();
+  await list.selectOption(name);
+  const link = page.locator(".page-links a").first();
+  await page.evaluate(() => unfold(document.querySelector(".page-links a")));
+  await link.click();
+  await page.waitForURL(/pages\/\d+\.html\?method=.*#figure-/);
+  assert.equal(await list.inputValue(), name);
+  await page.locator("#opening a").first().click();
+  await page.waitForURL(/report\.html\?method=/);
+  assert.equal(await list.inputValue(), name);
+  await list.selectOption("");
+  await page.evaluate(() => unfold(document.querySelector(".page-links a")));
+  await link.click();
+  await page.waitForURL(/pages\/\d+\.html#figure-/);
+  assert.equal(await list.inputValue(), "");
+  assert.deepEqual(errors, []);
+  await close();
+});
+
 test("the search of the index finds what other pages hold", options, async () => {
   const { page, close } = await open({}, folder);
   const title = await page.locator(".page-links a").last().textContent();

@@ -125,6 +125,16 @@ TEST(PngEncoder, KeepsImagesOfVeryManyColoursExactly) {
   EXPECT_EQ(read_png(encode_png(image)).image.pixels, image.pixels);
 }
 
+TEST(PngEncoder, MakesNoStepsOfShades) {
+  Image image{100, 10, {}};  // 1000 colours, neighbours 6 apart.
+  for (std::uint32_t i = 0; i < 1000; ++i)
+    image.pixels.push_back(6 * (i / 100) << 16 | 6 * (i / 10 % 10) << 8 | 6 * (i % 10));
+  EXPECT_TRUE(to_palette(image).has_value());
+  EXPECT_FALSE(to_palette(image, kMostShadeShift).has_value());
+  EXPECT_NE(read_png(encode_png(image)).image.pixels, image.pixels);
+  EXPECT_EQ(read_png(encode_png(image, {.shaded = true})).image.pixels, image.pixels);
+}
+
 TEST(PngEncoder, MovesNoChannelOfADrawingNoticeably) {
   for (const Figure& figure : sample_figures()) {
     const Image image = to_image(lay_out(figure, report_theme()));

@@ -28,7 +28,7 @@ const std::vector<Compared>& all_compared() {
       // choice
       {6,
        {"stress", "residual-variance", "trustworthiness", "continuity", "stability", "anchors",
-        "combined", "fixed", "random"}},
+        "fixed", "combined", "random"}},
       // doubt and moved
       {1, {"slam", "permutations"}},
       // incremental, beside SMACOF, kNN weights and ISOMAP
@@ -59,6 +59,7 @@ const std::vector<Compared>& all_compared() {
 std::size_t first_unknown() { return kMethodStyles + kSeriesCount * all_compared().size(); }
 
 std::optional<std::size_t> series_of_compared(const std::string& id) {
+  if (id == "fixed") return method_series(Method::kIsomap);  // It always takes the map of ISOMAP.
   for (std::size_t g = 0; g < all_compared().size(); ++g) {
     const auto& [first, ids] = all_compared()[g];
     const auto found = std::ranges::find(ids, id);
