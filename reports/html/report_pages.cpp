@@ -100,9 +100,11 @@ std::set<std::string> tables_of_first_page(const Report& report, std::size_t mos
   return held;
 }
 
-/// "page 2", "pages 2 to 40".
+/// "page 2 (pages/2.html)", "pages 2 to 40 (pages/2.html to 40.html)": on paper a number alone
+/// would be that of a sheet.
 std::string pages_text(std::size_t first, std::size_t last) {
-  return first == last ? fmt::format("page {}", first) : fmt::format("pages {} to {}", first, last);
+  return first == last ? fmt::format("page {0} (pages/{0}.html)", first)
+                       : fmt::format("pages {0} to {1} (pages/{0}.html to {1}.html)", first, last);
 }
 
 /// Fills the further pages of a report in its order.

@@ -274,6 +274,18 @@ TEST(BestLine, TiesWithTheBestNotWithWhatTiesWithIt) {
   EXPECT_EQ(best_over({a, e, f}, {}, {"noise"}), "A ties for the lowest MPE throughout");
 }
 
+TEST(BestLine, OfOneThatTiesThroughoutButIsDrawnAboveAnotherNamesBoth) {
+  // H ties with K first, and with L at the end.
+  const ErrorLine h = three_points("H", {1.15, 1.15, 1.15}, 0.1),
+                  k = three_points("K", {1, 1, 4}, 0.1), l = three_points("L", {4, 4, 1.3}, 0.1);
+  EXPECT_EQ(best_over({h, k, l}, {}, line_axis("noise [°]")),
+            "K has the lowest mean MPE up to 2°, H at 3°");
+  const ErrorLine late = three_points("K", {1, 4, 1}, 0.1),
+                  other = three_points("L", {4, 1.3, 4}, 0.1);
+  EXPECT_EQ(best_over({h, late, other}, {}, line_axis("noise [°]")),
+            "H ties for the lowest MPE throughout");
+}
+
 TEST(BestLine, IsNobodyWhereAllTieEvenIfFewAreKnownThere) {
   const ErrorLine a = three_points("A", {1, 1, 1}, 0.1), b = three_points("B", {1, 1, 1}, 0.1);
   ErrorLine c = three_points("C", {1, 1, kNaN}, 0.1), d = three_points("D", {1.1, 1.1, kNaN}, 0.1);

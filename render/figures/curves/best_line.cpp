@@ -193,6 +193,28 @@ bool is_beaten(const std::vector<At>& some, const std::vector<ErrorLine>& lines,
   });
 }
 
+/// "SMACOF has the lowest mean MPE up to 10°, HLLE from 20° on"; empty unless one line leads up to
+/// some point and another one from there on.
+/// @param best  Those that tie with the leader at each x, which is the first of them.
+std::string change_of_lead(const std::vector<std::vector<At>>& best,
+                           const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
+                           const LineAxis& axis) {
+  const ErrorLine *first = best.front().front().line, *last = best.back().front().line;
+  const auto changes = std::ranges::find_if(
+      best, [&](const std::vector<At>& one) { return one.front().line != first; });
+  if (std::any_of(changes, best.end(),
+                  [&](const std::vector<At>& one) { return one.front().line != last; }) ||
+      changes == best.end())
+    return "";
+  const double before = std::prev(changes)->front().x(), after = changes->front().x();
+  const std::string until = place(axis, before, quantity), from = place(axis, after, quantity);
+  return fmt::format("{} has the {} mean {} {} {}, {} {} {}{}", line_name(*first, lines),
+                     quantity.lower_is_better ? "lowest" : "highest", quantity.label,
+                     std::prev(changes) == best.begin() ? "at" : "up to", until,
+                     line_name(*last, lines), std::next(changes) == best.end() ? "at" : "from",
+                     from, std::next(changes) == best.end() ? "" : " on");
+}
+
 /// "10°, 20° and 40°"; of many "7 of 9 points".
 std::string places(const LineAxis& axis, const std::vector<double>& some, std::size_t all,
                    const LineQuantity& quantity) {
@@ -299,6 +321,10 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     const auto of_all = std::ssize(best) - std::ranges::count_if(best, has_others);
     if (of_all == std::ssize(best)) return "";
     if (alone == 0) {
+      // A line that ties throughout may be drawn above others at most points.
+      if (is_beaten(throughout, lines, xs, quantity))
+        if (const std::string change = change_of_lead(best, lines, quantity, axis); !change.empty())
+          return change;
       const bool several = throughout.size() > 1 || is_plural(*throughout.front().line, quantity);
       return fmt::format("{} {} for the {} {} throughout", listed_names(throughout, lines),
                          several ? "tie" : "ties", quantity.lower_is_better ? "lowest" : "highest",
