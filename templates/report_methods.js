@@ -153,7 +153,12 @@ function addMethodList(before) {
   if (methods.size === 0) readNamedMethods(figures, rows);
   namesOfLabels.clear();
   const names = [...new Set(methods.values())];
-  if (names.length < 2) return;
+  const chosen = new URLSearchParams(location.search).get("method") ?? "";
+  if (chosen !== "" && !names.includes(chosen)) {  // From a page that knows more methods.
+    methods.set(keyOfMethod(chosen), chosen);
+    names.push(chosen);
+  }
+  if (names.length < (chosen === "" ? 2 : 1)) return;
   const list = document.createElement("select");
   list.className = "method";
   list.setAttribute("aria-label", "Highlight a method in all figures and tables");
@@ -163,21 +168,17 @@ function addMethodList(before) {
     chooseMethod(list.value);
   });
   before.after(list);
-  keepMethodOnPages(names);
+  for (const event of ["click", "auxclick"]) document.addEventListener(event, nameMethodInLinks, true);
+  if (chosen !== "") chooseMethod(chosen);
 }
 
 // A method that is chosen is highlighted on the report's further pages, too: links to them name it.
-function keepMethodOnPages(names) {
+function nameMethodInLinks({ target }) {
   const kPage = /^(\.\/[^?#]*\.html)(?:\?[^#]*)?(#.*)?$/;
-  const name = ({ target }) => {
-    const link = target.closest("a[href]"), page = kPage.exec(link?.getAttribute("href") ?? "");
-    if (!page) return;
-    const query = chosenMethod === "" ? "" : `?${new URLSearchParams({ method: chosenMethod })}`;
-    link.setAttribute("href", `${page[1]}${query}${page[2] ?? ""}`);
-  };
-  for (const event of ["click", "auxclick"]) document.addEventListener(event, name, true);
-  const named = new URLSearchParams(location.search).get("method");
-  if (names.includes(named)) chooseMethod(named);
+  const link = target.closest("a[href]"), page = kPage.exec(link?.getAttribute("href") ?? "");
+  if (!page) return;
+  const query = chosenMethod === "" ? "" : `?${new URLSearchParams({ method: chosenMethod })}`;
+  link.setAttribute("href", `${page[1]}${query}${page[2] ?? ""}`);
 }
 
 // The curves of a figure, each with its parts, by label.
