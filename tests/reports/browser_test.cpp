@@ -107,7 +107,7 @@ TEST_F(Browser, ShowsHostileTextsAsTextAndRunsNoneOfThem) {
   EXPECT_EQ(found["missing-texts"], "0");
   EXPECT_EQ(found["missing-attributes"], "0");
   EXPECT_EQ(found["scripts"], "1");
-  EXPECT_EQ(found["images"], "2");  // The drawings at the head: one whole, one cropped.
+  EXPECT_EQ(found["images"], "1");  // The drawing at the head.
   EXPECT_EQ(found["landmarks-named"], std::to_string(hostile.landmarks.size()));
   EXPECT_EQ(found["handlers"], "0");
   EXPECT_EQ(found["pwned"], "false");
