@@ -292,8 +292,7 @@ class ViewPanel {
     for (std::size_t i = 1; i < tube.points.size(); ++i)
       length += (tube.points[i] - tube.points[i - 1]).norm();
     if (tube.points.size() < 2 || !(length > 0.0)) return;
-    const double middle = project_.size_at(tube.points[tube.points.size() / 2], length);
-    if (middle > kLongestClear) return;
+    if (project_.size_at(tube.points[tube.points.size() / 2], length) > kLongestClear) return;
     for (std::size_t i = 1; i < tube.points.size(); ++i)
       keep_clear(Rods{.from = {tube.points[i - 1]}, .to = {tube.points[i]}, .radius = tube.radius});
   }

@@ -200,19 +200,18 @@ std::string change_of_lead(const std::vector<std::vector<At>>& best,
                            const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                            const LineAxis& axis) {
   const ErrorLine *first = best.front().front().line, *last = best.back().front().line;
-  const auto changes = std::ranges::find_if(
-      best, [&](const std::vector<At>& one) { return one.front().line != first; });
-  if (std::any_of(changes, best.end(),
-                  [&](const std::vector<At>& one) { return one.front().line != last; }) ||
-      changes == best.end())
-    return "";
-  const double before = std::prev(changes)->front().x(), after = changes->front().x();
-  const std::string until = place(axis, before, quantity), from = place(axis, after, quantity);
-  return fmt::format("{} has the {} mean {} {} {}, {} {} {}{}", line_name(*first, lines),
+  const auto leads = [](const ErrorLine* line) {
+    return [line](const std::vector<At>& one) { return one.front().line == line; };
+  };
+  const auto change = std::ranges::find_if_not(best, leads(first));
+  if (change == best.end() || !std::all_of(change, best.end(), leads(last))) return "";
+  const auto before = std::prev(change);
+  const std::string until = place(axis, before->front().x(), quantity);
+  const std::string from = place(axis, change->front().x(), quantity);
+  return fmt::format("{} has the {} mean {} {}, {} {}", line_name(*first, lines),
                      quantity.lower_is_better ? "lowest" : "highest", quantity.label,
-                     std::prev(changes) == best.begin() ? "at" : "up to", until,
-                     line_name(*last, lines), std::next(changes) == best.end() ? "at" : "from",
-                     from, std::next(changes) == best.end() ? "" : " on");
+                     (before == best.begin() ? "at " : "up to ") + until, line_name(*last, lines),
+                     std::next(change) == best.end() ? "at " + from : "from " + from + " on");
 }
 
 /// "10°, 20° and 40°"; of many "7 of 9 points".

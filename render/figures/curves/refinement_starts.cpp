@@ -138,6 +138,15 @@ std::string count_words(std::span<const RefinementStart> starts) {
 
 }  // namespace
 
+StartEnds start_ends(std::span<const RefinementStart> starts) {
+  StartEnds all;
+  for (const End& end : ends_of(starts)) {
+    if (all.different == 0) all.at_least = end.methods.size();
+    all.different += end.costs;
+  }
+  return all;
+}
+
 StartCount starts_at_optimum(std::span<const RefinementStart> starts, SlamMethod method) {
   const double least = least_cost(starts);
   StartCount count;

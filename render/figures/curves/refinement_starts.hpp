@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -21,6 +22,13 @@ struct RefinementStartsSpec {
 /// spectral answer, from odometry and from random landmarks. Starts without a result are counted in
 /// a note.
 Figure refinement_starts_figure(const RefinementStartsSpec& spec);
+
+/// How many starts end within 1 % of the least cost, and at how many different costs all do.
+struct StartEnds {
+  std::size_t at_least = 0;
+  std::size_t different = 0;
+};
+StartEnds start_ends(std::span<const RefinementStart> starts);
 
 /// How many starts of one kind end within 1 % of the least cost of all, and how many there are.
 struct StartCount {

@@ -120,29 +120,6 @@ std::optional<Figure> spectrum_figure_of(const SlamRun& run) {
   return singular_values_figure(spec);
 }
 
-/// How many starts end at the least cost, and at how many other ones the others do.
-struct StartEnds {
-  std::ptrdiff_t at_least = 0;
-  std::size_t different = 0;
-};
-
-StartEnds ends_of(const std::vector<RefinementStart>& starts) {
-  constexpr double kSame = 1.01;  // Of the cost.
-  std::vector<double> costs;
-  for (const RefinementStart& start : starts)
-    if (std::isfinite(start.cost)) costs.push_back(start.cost);
-  std::ranges::sort(costs);
-  StartEnds ends;
-  double end = -1.0;
-  for (const double cost : costs) {
-    if (cost <= kSame * costs.front()) ++ends.at_least;
-    if (end >= 0.0 && cost <= kSame * end) continue;
-    ++ends.different;
-    end = cost;
-  }
-  return ends;
-}
-
 /// Of two ends, the sentence on the page says all.
 constexpr std::size_t kFewestEnds = 3;
 
@@ -168,7 +145,7 @@ std::vector<Figure> run_figures(const SlamRun& run) {
   if (run.windows && !run.windows->lengths_s.empty())
     figures.push_back(
         window_curve_figure({"windows-" + run.id, windows_title(run), *run.windows, run.id}));
-  if (const StartEnds ends = ends_of(run.starts); ends.different >= kFewestEnds)
+  if (const StartEnds ends = start_ends(run.starts); ends.different >= kFewestEnds)
     figures.push_back(refinement_starts_figure(
         {"starts-" + run.id,
          fmt::format("{}: {} of {} end at the same, least cost", title_of(run), ends.at_least,

@@ -344,7 +344,7 @@ std::string best_estimates(const SlamRun& run) {
     const std::string text = error_text(mean_m);
     if (by_error.empty() || by_error.back().first != text) {
       if (by_error.size() == kMost) break;
-      by_error.emplace_back(text, 0);
+      by_error.emplace_back(text, std::vector<std::string>());
     }
     by_error.back().second.push_back(bracketed(info(method).label));
   }
