@@ -38,7 +38,10 @@ function tickWords(tick, ticks) {
   const digits = (value) => (String(value).split(".")[1] ?? "").length;
   const isEven = ticks.length < 3 || Math.abs(ticks[2] - 2 * ticks[1] + ticks[0]) < 1e-9 * size;
   const decimals = isEven ? Math.max(...ticks.map(digits)) : digits(tick);
-  return tick.toFixed(decimals).replace("-", "\u2212");
+  const isGrouped = ticks.map(Math.abs).some((other) => other >= 1e4 && other < 1e6);
+  const [whole, behind] = tick.toFixed(decimals).replace("-", "\u2212").split(".");
+  const grouped = isGrouped ? whole.replace(/\B(?=(\d{3})+$)/g, ",") : whole;
+  return behind ? `${grouped}.${behind}` : grouped;
 }
 
 // The part of an axis that a view shows, from the left or from below.

@@ -10,7 +10,7 @@ struct Ticks {
   std::vector<double> at;           ///< Ascending, within the range asked for.
   std::vector<std::string> labels;  ///< As many; equal numbers of decimals, U+2212 for minus.
   std::vector<double> minor;        ///< Without a label, on a log axis.
-  std::string factor;   ///< "×10⁶" to multiply the labels by, "+ 5821200" to add; or empty.
+  std::string factor;   ///< "×10⁶" to multiply the labels by, "+ 5,821,200" to add; or empty.
   double unit = 1.0;    ///< Of the factor: a label is (value − offset) / unit.
   double offset = 0.0;  ///< Of the factor.
 };

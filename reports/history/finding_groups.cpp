@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/shell_word.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
@@ -23,13 +23,6 @@ namespace {
 
 constexpr std::size_t kShownDigits = 9;
 constexpr double kMostPercent = 1e6;  ///< More is shown as this.
-
-/// A word of a POSIX shell between single quotes.
-std::string shell_quoted(std::string_view text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
 
 /// The series that a finding is about; null if it is about others, or is not there any more.
 const SeriesId* series_of(const NightlyFinding& finding, const StudyTrend& trend) {
@@ -175,15 +168,6 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
-/// A word as a shell reads it, quoted where it must be.
-std::string shell_word(const std::string& word) {
-  const auto is_plain = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-           std::string_view("-_./=,:+@%").find(c) != std::string_view::npos;
-  };
-  return !word.empty() && std::ranges::all_of(word, is_plain) ? word : shell_quoted(word);
-}
-
 /// A command of `nightly` for any commit: without the options that name the commit of one nightly
 /// run, build it, choose its reference or write files.
 std::string for_any_commit(const std::string& command) {
@@ -228,7 +212,7 @@ std::string CommitRange::bisect() const {
       fmt::format("({}) || exit 125; {} --bisect {}", since.build.empty() ? "BUILD" : since.build,
                   for_any_commit(since.command), since.number);
   return fmt::format("git bisect start {} {} && git bisect run sh -c {}",
-                     short_commit(since.commit), short_commit(before.commit), shell_quoted(run));
+                     short_commit(since.commit), short_commit(before.commit), shell_word(run));
 }
 
 CommitRange commits_of(const StudyTrend& trend, int since) {

@@ -13,6 +13,7 @@
 #include "core/base/text/words.hpp"
 #include "reports/html/regression_marks.hpp"
 #include "reports/model/format.hpp"
+#include "reports/model/page_text.hpp"
 #include "reports/tables/write_tables.hpp"
 
 namespace mapproof {

@@ -15,6 +15,7 @@
 #include "reports/html/page_folds.hpp"
 #include "reports/html/page_frame.hpp"
 #include "reports/model/format.hpp"
+#include "reports/model/page_text.hpp"
 
 namespace mapproof {
 namespace {

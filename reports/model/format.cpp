@@ -13,7 +13,6 @@
 #include "core/base/text/markup.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/raised.hpp"
-#include "core/base/text/unit_text.hpp"
 #include "core/base/text/utf8.hpp"
 #include "core/base/text/words.hpp"
 
@@ -48,35 +47,6 @@ std::string with_power(const std::string& text) {
   const std::size_t at = text.find('e');
   if (at == std::string::npos) return text;
   return text.substr(0, at) + "\u00A0×\u00A010" + raised(std::stoi(text.substr(at + 1)));
-}
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Whether the text begins with that form, in which 0 is any digit.
-bool has_form(std::string_view text, std::string_view form) {
-  if (text.size() < form.size()) return false;
-  return std::ranges::equal(form, text.substr(0, form.size()), [](char of_form, char c) {
-    return of_form == '0' ? is_digit(c) : of_form == c;
-  });
-}
-
-/// How much of the text's beginning is a date with its time and its zone, as far as they follow.
-std::size_t date_size(std::string_view text) {
-  constexpr std::string_view kDay = "0000-00-00";
-  if (!has_form(text, kDay)) return 0;
-  std::size_t size = kDay.size();
-  const auto take = [&](std::initializer_list<std::string_view> forms) {
-    for (const std::string_view form : forms)
-      if (has_form(text.substr(size), form)) {
-        size += form.size();
-        return true;
-      }
-    return false;
-  };
-  if (!take({" 00:00", "T00:00"})) return size;
-  take({":00"});
-  take({"Z", " UTC", " +00:00", " \u221200:00"});
-  return size;
 }
 
 /// What is said instead of an error that is no use as a number; empty if it is one.
@@ -142,15 +112,8 @@ std::string page_cell(const Cell& cell, const Column& column) {
   return (interval->low == 0.0 ? "0" : low) + " to " + high;
 }
 
-std::string part_count(long long part, long long whole) {
-  constexpr long long kLeastGrouped = 10'000, kThousand = 1000;
-  std::string text = count_text(part);
-  if (whole >= kLeastGrouped && part >= kThousand && part < kLeastGrouped) text.insert(1, 1, ',');
-  return text;
-}
-
 std::string part_text(long long part, long long whole, std::string_view noun) {
-  return fmt::format("{} of {}", part_count(part, whole), counted(whole, noun));
+  return fmt::format("{} of {}", count_text(part, whole), counted(whole, noun));
 }
 
 std::string full_heading(const Column& column) {
@@ -185,24 +148,6 @@ std::string displayable(const std::string& text) {
     }
   }
   return out;
-}
-
-bool is_date(std::string_view text) { return !text.empty() && date_size(text) == text.size(); }
-
-std::string page_text(std::string_view text) {
-  constexpr std::string_view kNoBreakSpace = "\u00a0";
-  std::string kept;
-  while (!text.empty()) {
-    const std::size_t size = std::max<std::size_t>(date_size(text), 1);
-    const bool is_found = size > 1 && (kept.empty() || !is_digit(kept.back()));
-    for (const char c : text.substr(0, is_found ? size : 1))
-      if (is_found && c == ' ')
-        kept += kNoBreakSpace;
-      else
-        kept += c;
-    text.remove_prefix(is_found ? size : 1);
-  }
-  return with_quantities_kept(kept);
 }
 
 std::string html_escaped(const std::string& text) {

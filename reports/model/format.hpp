@@ -37,10 +37,6 @@ std::string p_words(double p);
 /// That of a test at a level of kLeastP or less: "p = 3.2 × 10⁻⁷", "p < 10⁻⁹".
 std::string small_p_words(double p);
 
-/// A count that is a part of another one, with its thousands apart if those of the whole are:
-/// "2,310" of "25,700", "2310" of "9658".
-std::string part_count(long long part, long long whole);
-
 /// "1 of 25 runs", "2,310 of 25,700 maps".
 std::string part_text(long long part, long long whole, std::string_view noun);
 
@@ -54,13 +50,6 @@ std::string format_duration(double seconds);
 /// U+0080 to U+009F become U+FFFD, other control characters but tab and newline their images
 /// (U+2400 and on).
 std::string displayable(const std::string& text);
-
-/// Whether a text is a date alone, or one with a time and a zone: "2026-11-29 16:51 UTC".
-bool is_date(std::string_view text);
-
-/// A sentence or a title as a page shows it: no line ends within a quantity, nor within a date, its
-/// time and its zone (see with_quantities_kept).
-std::string page_text(std::string_view text);
 
 /// Escapes a text for content between tags and for quoted attributes of HTML and XML: special
 /// characters become references, and what displayable() changes becomes visible.

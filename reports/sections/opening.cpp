@@ -145,7 +145,7 @@ std::string frequent_warnings(const Study& study, const StudyCounts& counts) {
   std::vector<std::string> names;
   for (const auto& [code, count] : order)
     names.push_back(
-        fmt::format("{} ({} map{})", code, part_count(count, counts.maps), count == 1 ? "" : "s"));
+        fmt::format("{} ({} map{})", code, count_text(count, counts.maps), count == 1 ? "" : "s"));
   return listed(names, 3);
 }
 

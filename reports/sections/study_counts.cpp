@@ -41,7 +41,7 @@ std::string endings_text(const StudyCounts& counts) {
   const auto add = [&](long some, const std::string& share, const char* ends, const char* end) {
     if (some > 0)
       parts.push_back(
-          (parts.empty() ? part_text(some, counts.maps, "map") : part_count(some, counts.maps)) +
+          (parts.empty() ? part_text(some, counts.maps, "map") : count_text(some, counts.maps)) +
           share + " " + (some == 1 ? ends : end));
   };
   const bool is_little = 100 * counts.with_status < counts.maps;

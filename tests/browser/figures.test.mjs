@@ -194,6 +194,7 @@ test("ticks of a part of an axis count in ones, twos and fives, on logarithmic a
     return found.map((tick) => tickWords(tick, found)).join(" ");
   }, { scale, low, high });
   assert.equal(await ticks("linear", 0, 2000), "0 500 1000 1500 2000");
+  assert.equal(await ticks("linear", 0, 20000), "0 5,000 10,000 15,000 20,000");
   assert.equal(await ticks("linear", -.0312, .0105), "\u22120.03 \u22120.02 \u22120.01 0 0.01");
   assert.equal(await ticks("log", .02, 3), "0.02 0.05 0.1 0.2 0.5 1 2");
   assert.equal(await ticks("log", .021, .028), "0.022 0.024 0.026 0.028");

@@ -14,7 +14,6 @@
 #include "core/base/sha256.hpp"
 #include "core/base/text/csv.hpp"
 #include "core/base/text/number_text.hpp"
-#include "core/base/text/unit_text.hpp"
 #include "core/base/text/utf8.hpp"
 #include "core/base/text/words.hpp"
 #include "core/base/version.hpp"
@@ -97,27 +96,6 @@ TEST_F(Files, TroubleNamesTheFile) {
             std::string::npos);
   EXPECT_NE(message([&] { write_file(folder_ / "file" / "below", ""); }).find("file"),
             std::string::npos);
-}
-
-TEST(UnitText, KeepsNumbersAndTheirUnitsOnOneLine) {
-  EXPECT_EQ(with_quantities_kept("dead reckoning 16 m; over 1.9 km, 12 % in 3 ms"),
-            "dead reckoning 16\u00A0m; over 1.9\u00A0km, 12\u00A0% in 3\u00A0ms");
-  EXPECT_EQ(with_quantities_kept("2 maps of 5 methods in step 4 should stay"),
-            "2 maps of 5 methods in step 4 should stay");
-  EXPECT_EQ(with_quantities_kept("ISOMAP, K = 7, and p = 0.001; a = b"),
-            "ISOMAP, K\u00A0=\u00A07, and p\u00A0=\u00A00.001; a = b");
-  EXPECT_EQ(with_quantities_kept("MPE 0.086 m"), "MPE 0.086\u00A0m");
-  EXPECT_EQ(with_quantities_kept(""), "");
-}
-
-TEST(UnitText, KeepsDimensionsAndDatesOnOneLine) {
-  EXPECT_EQ(with_quantities_kept("spectral, 4-D 0.41 m; made 2026-11-27."),
-            "spectral, 4\u2011D 0.41\u00A0m; made 2026\u201111\u201127.");
-  EXPECT_EQ(with_quantities_kept("in 3-D, 210 µs, 12 MiB"),
-            "in 3\u2011D, 210\u00A0µs, 12\u00A0MiB");
-  for (const char* other : {"layout-1-pose-2", "out/2026-11-27", "1-2-3", "2026-11-270", "-D", "-",
-                            "7-Day", "2026-1-27"})
-    EXPECT_EQ(with_quantities_kept(other), other);
 }
 
 TEST(NumberText, HasNoMinusZero) {
@@ -247,6 +225,9 @@ TEST(Numbers, OfFiveDigitsAndMoreHaveTheirThousandsApart) {
   EXPECT_EQ(count_text(25'700), "25,700");
   EXPECT_EQ(count_text(-123'456), "\u2212123,456");
   EXPECT_EQ(count_text(1'000'000), "1,000,000");
+  EXPECT_EQ(count_text(1204, 25'700), "1,204");
+  EXPECT_EQ(count_text(204, 25'700), "204");
+  EXPECT_EQ(count_text(1204, 9658), "1204");
   EXPECT_EQ(quantity_text(23'944.0, ""), "23,944");
 }
 

@@ -257,7 +257,11 @@ TEST(EllipseMapFigure, HoldsItsEllipsesUnlessTheyAreFarTooLarge) {
   const double before = scattered_by(0.01).high;
   // Half the axis of the ellipse is 2.45 times the scatter of 2 m.
   EXPECT_NEAR(scattered_by(2.0).high, 10.0 + 2.0 * std::sqrt(-2.0 * std::log(0.05)), 1e-9);
+  EXPECT_FALSE(notes_contain(ellipse_map_figure(spec), "beyond the frame"));
   EXPECT_LT(scattered_by(1000.0).high, 2.0 * before);
+  EXPECT_TRUE(notes_contain(ellipse_map_figure(spec),
+                            "1 ellipse beyond the frame; half the longest axis, of b, is 2448 m."))
+      << ellipse_map_figure(spec).notes.size();
 }
 
 TEST(AnchorCountFigure, HasAPanelASensorAndALineAPlacement) {

@@ -34,5 +34,5 @@ int main(int argc, char** argv) {
   SceneClient client(MAPPROOF_SCENES_PROGRAM);
   for (const Scene& scene : test::sample_scenes())
     write_file(folder / ("scene-" + scene.id + ".png"),
-               to_png(draw_scene(scene, theme, client).screen));
+               test::baseline_png(to_image(draw_scene(scene, theme, client).screen)));
 }

@@ -186,14 +186,23 @@ TEST(Ticks, LargeAndSmallValuesShareAFactor) {
   EXPECT_EQ(linear_ticks(0.0, 4e-7, 2e-7).factor, "×10⁻⁷");
 }
 
+TEST(Ticks, HaveTheirThousandsApartFromTenThousandOn) {
+  EXPECT_EQ(linear_ticks(0.0, 30000.0, 10000.0).labels,
+            (std::vector<std::string>{"0", "10,000", "20,000", "30,000"}));
+  EXPECT_EQ(linear_ticks(-12000.0, 0.0, 6000.0).labels,
+            (std::vector<std::string>{"−12,000", "−6,000", "0"}));
+  EXPECT_EQ(linear_ticks(0.0, 8000.0, 4000.0).labels,
+            (std::vector<std::string>{"0", "4000", "8000"}));
+}
+
 TEST(Ticks, CoordinatesFarFromZeroAreLabelledBeyondARoundOffset) {
   const Ticks northing = linear_ticks(5821210.0, 5821290.0, 20.0);
   EXPECT_EQ(northing.labels, (std::vector<std::string>{"20", "40", "60", "80"}));
   EXPECT_EQ(northing.at, (std::vector<double>{5821220, 5821240, 5821260, 5821280}));
-  EXPECT_EQ(northing.factor, "+ 5821200");
+  EXPECT_EQ(northing.factor, "+ 5,821,200");
   const Ticks south = linear_ticks(-391290.0, -391210.0, 20.0);
   EXPECT_EQ(south.labels, (std::vector<std::string>{"20", "40", "60", "80"}));
-  EXPECT_EQ(south.factor, "\u2212 391300");
+  EXPECT_EQ(south.factor, "\u2212 391,300");
   EXPECT_EQ(linear_ticks(10020.0, 10080.0, 20.0).factor, "");
 }
 
@@ -206,7 +215,7 @@ TEST(Ticks, DecadesAreLabelledOnALogAxis) {
 TEST(Ticks, OfOneLogAxisAreAllPlainOrAllPowers) {
   EXPECT_EQ(log_ticks(90.0, 2e5, 8).labels, (std::vector<std::string>{"10²", "10³", "10⁴", "10⁵"}));
   EXPECT_EQ(log_ticks(0.5, 2e4, 8).labels,
-            (std::vector<std::string>{"1", "10", "100", "1000", "10000"}));
+            (std::vector<std::string>{"1", "10", "100", "1,000", "10,000"}));
   EXPECT_EQ(log_ticks(3e5, 3e6, 8).labels, (std::vector<std::string>{"5×10⁵", "10⁶", "2×10⁶"}));
 }
 

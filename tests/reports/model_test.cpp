@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "reports/model/format.hpp"
+#include "reports/model/page_text.hpp"
 #include "reports/model/report.hpp"
 
 namespace mapproof {
@@ -127,6 +128,26 @@ TEST(Displayable, LeavesUtf8AndShowsTheRest) {
   EXPECT_EQ(displayable("\xff\xc0\x80"), "\uFFFD\uFFFD\uFFFD");
   EXPECT_EQ(displayable("\xed\xa0\x80"), "\uFFFD\uFFFD\uFFFD");  // half of a surrogate pair
   EXPECT_EQ(displayable("cut \xe2\x82"), "cut \uFFFD\uFFFD");
+}
+
+TEST(PageText, KeepsNumbersAndTheirUnitsOnOneLine) {
+  EXPECT_EQ(page_text("dead reckoning 16 m; over 1.9 km, 12 % in 3 ms"),
+            "dead reckoning 16\u00A0m; over 1.9\u00A0km, 12\u00A0% in 3\u00A0ms");
+  EXPECT_EQ(page_text("2 maps of 5 methods in step 4 should stay"),
+            "2 maps of 5 methods in step 4 should stay");
+  EXPECT_EQ(page_text("ISOMAP, K = 7, and p = 0.001; a = b"),
+            "ISOMAP, K\u00A0=\u00A07, and p\u00A0=\u00A00.001; a = b");
+  EXPECT_EQ(page_text("MPE 0.086 m"), "MPE 0.086\u00A0m");
+  EXPECT_EQ(page_text(""), "");
+}
+
+TEST(PageText, KeepsDimensionsAndDatesOnOneLine) {
+  EXPECT_EQ(page_text("spectral, 4-D 0.41 m; made 2026-11-27."),
+            "spectral, 4\u2011D 0.41\u00A0m; made 2026\u201111\u201127.");
+  EXPECT_EQ(page_text("in 3-D, 210 µs, 12 MiB"), "in 3\u2011D, 210\u00A0µs, 12\u00A0MiB");
+  for (const char* other : {"layout-1-pose-2", "out/2026-11-27", "1-2-3", "2026-11-270", "-D", "-",
+                            "7-Day", "2026-1-27"})
+    EXPECT_EQ(page_text(other), other);
 }
 
 TEST(PageText, KeepsADateWithItsTimeAndItsZoneOnOneLine) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -25,17 +26,15 @@ std::string ten_to_the(int exponent) { return "10" + raised(exponent); }
 
 std::string power_of_ten(int exponent) { return "×" + ten_to_the(exponent); }
 
-std::string count_text(long long count) {
-  constexpr std::size_t kFewest = 5, kGroup = 3;
-  std::string text = std::to_string(count);
-  std::string sign;
-  if (count < 0) {
-    sign = "−";
-    text.erase(0, 1);
-  }
-  if (text.size() >= kFewest)
-    for (std::size_t at = text.size() - kGroup; at > 0; at = at > kGroup ? at - kGroup : 0)
-      text.insert(at, 1, ',');
+std::string count_text(long long count) { return count_text(count, count); }
+
+std::string count_text(long long count, long long greatest) {
+  constexpr long long kLeastGrouped = 10'000;
+  constexpr std::size_t kGroup = 3;
+  const std::string sign = count < 0 ? "−" : "";
+  std::string text = std::to_string(count).substr(count < 0 ? 1 : 0);
+  if (std::abs(greatest) >= kLeastGrouped)
+    for (std::size_t at = text.size(); at > kGroup;) text.insert(at -= kGroup, 1, ',');
   return sign + text;
 }
 

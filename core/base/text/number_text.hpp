@@ -14,6 +14,10 @@ std::string power_of_ten(int exponent);
 /// A whole number as prose has it: "9658", from five digits on in groups of three, "25,700".
 std::string count_text(long long count);
 
+/// The same beside others of up to `greatest`, of which all have groups or none has: "1,204" beside
+/// "25,700".
+std::string count_text(long long count, long long greatest);
+
 /// A number that labels a column, a panel or a sentence, with up to six significant digits:
 /// "0.001", "1000", "25,700"; of less than 0.001 as a power of ten, "10⁻⁴", "2.5×10⁻⁴".
 std::string level_number_text(double value);

@@ -9,12 +9,6 @@ namespace mapproof {
 /// there; "5°" without one, and the number alone if the unit is empty.
 std::string with_unit(std::string_view number, std::string_view unit);
 
-/// A text whose lines do not end within a quantity: no-break spaces between numbers and the units
-/// m, km, mm, s, ms, µs, min, h, ppm, MiB and % behind them and about the sign of "K = 7", and a
-/// no-break hyphen (U+2011) in "4-D" and in dates, "2026-11-27".
-/// @note O(size of the text)
-std::string with_quantities_kept(std::string_view text);
-
 /// A text with plain spaces in place of no-break ones, for files that other programs read.
 std::string with_plain_spaces(std::string text);
 

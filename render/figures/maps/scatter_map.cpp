@@ -82,23 +82,39 @@ struct EllipseLayers {
   }
 };
 
+/// The frame about an ellipse.
+PanelLimits box_of(const Ellipses& ellipses, std::size_t i) {
+  const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
+  const double x = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
+  const double y = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
+  return {{ellipses.x[i] - x, ellipses.x[i] + x}, {ellipses.y[i] - y, ellipses.y[i] + y}};
+}
+
 /// The limits with all of the ellipses, as far as half the width beyond where they began.
 PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
-  const auto reach = [&](bool along_x, std::size_t i) {
-    const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
-    const double a = ellipses.a[i] * (along_x ? c : s), b = ellipses.b[i] * (along_x ? s : c);
-    return std::hypot(a, b);
+  const auto widen = [](Range& range, const Range& first, const Range& box) {
+    const double most = 0.5 * (first.high - first.low);
+    range.low = std::clamp(box.low, first.low - most, range.low);
+    range.high = std::clamp(box.high, range.high, first.high + most);
   };
-  const auto widen = [&](Range range, const std::vector<double>& centres, bool along_x) {
-    const double most = 0.5 * (range.high - range.low);
-    const Range bound{range.low - most, range.high + most};
-    for (std::size_t i = 0; i < centres.size(); ++i) {
-      range.low = std::min(range.low, centres[i] - reach(along_x, i));
-      range.high = std::max(range.high, centres[i] + reach(along_x, i));
-    }
-    return Range{std::max(range.low, bound.low), std::min(range.high, bound.high)};
-  };
-  return {widen(limits.x, ellipses.x, true), widen(limits.y, ellipses.y, false)};
+  PanelLimits all = limits;
+  for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
+    const PanelLimits box = box_of(ellipses, i);
+    widen(all.x, limits.x, box.x);
+    widen(all.y, limits.y, box.y);
+  }
+  return all;
+}
+
+/// How many ellipses the frame cuts.
+std::size_t count_cut(const Ellipses& ellipses, const PanelLimits& limits) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
+    const PanelLimits box = box_of(ellipses, i);
+    count += box.x.low < limits.x.low || box.x.high > limits.x.high || box.y.low < limits.y.low ||
+             box.y.high > limits.y.high;
+  }
+  return count;
 }
 
 /// What the text reports.
@@ -106,6 +122,7 @@ struct EllipseSummary {
   std::size_t placed = 0;        ///< Landmarks with a mean.
   std::size_t with_ellipse = 0;  ///< With three runs or more.
   std::size_t outside = 0;       ///< Means outside the image.
+  std::size_t cut = 0;           ///< Ellipses that the image does not hold whole.
   double sum_bias_m = 0.0;       ///< Over those placed.
   double sum_a_m = 0.0;          ///< Over those with an ellipse.
   double worst_a_m = 0.0;
@@ -150,6 +167,11 @@ std::vector<Note> notes_of(const EllipseSummary& summary) {
   if (summary.outside > 0)
     notes.push_back(
         {counted(summary.outside, "mean estimate") + " outside the image.", ThemeColour::kWarning});
+  if (summary.cut > 0)
+    notes.push_back({fmt::format("{} beyond the frame; half the longest axis, of {}, is {} m.",
+                                 counted(summary.cut, "ellipse"), summary.worst,
+                                 significant(summary.worst_a_m)),
+                     ThemeColour::kWarning});
   return notes;
 }
 
@@ -201,6 +223,7 @@ Figure ellipse_map_figure(const EllipseMapSpec& spec) {
   }
   const PanelLimits limits = widened(limits_of(spec.ground_truth_m), layers.scatter);
   EllipseSummary summary;
+  summary.cut = count_cut(layers.scatter, limits);
   for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i)
     summary.add(spec, i, ellipses[static_cast<std::size_t>(i)], limits);
   Figure figure;

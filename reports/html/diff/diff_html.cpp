@@ -27,6 +27,7 @@
 #include "reports/html/page_frame.hpp"
 #include "reports/html/sha256.hpp"
 #include "reports/model/format.hpp"
+#include "reports/model/page_text.hpp"
 
 namespace mapproof {
 namespace {

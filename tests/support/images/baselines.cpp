@@ -58,9 +58,11 @@ std::vector<Figure> baseline_figures() {
   return figures;
 }
 
+std::string baseline_png(const Image& image) { return encode_png(image); }
+
 std::string difference_from_baseline(const std::string& name, const Image& image) {
   const fs::path candidate = fs::path(MAPPROOF_VISUAL) / "differing" / (name + ".png");
-  const std::string png = encode_png(image);
+  const std::string png = baseline_png(image);
   // As stored: the encoder may have moved a few colours.
   const Image stored = read_png(png).image;
   std::string difference;
