@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 
