@@ -360,6 +360,13 @@ TEST(BestLine, NamesWithCommasAreInQuotesWhereThereAreSeveral) {
   EXPECT_EQ(best_over({a, c}, {}, {"noise"}), "PPCA, kNN-SMACOF has the lowest MPE throughout");
 }
 
+TEST(BestLine, CountsNamesThatWouldTakeTheMostOfATitle) {
+  const ErrorLine a = three_points("PCA with missing data, kNN-SMACOF", {1, 1, 1}, 0.1);
+  const ErrorLine b = three_points("PPCA, expected squares, kNN-SMACOF", {1.01, 1.01, 1.01}, 0.1);
+  const ErrorLine c = three_points("C", {4, 4, 4}, 0.1);
+  EXPECT_EQ(best_over({a, b, c}, {}, {"noise"}), "2 of 3 methods have the lowest MPE throughout");
+}
+
 TEST(BestLine, OfSeveralPanelsIsBestAtMostPoints) {
   const ErrorLine a = three_points("A", {1, 2, 3}, 0.1), b = three_points("B", {2, 3, 1}, 0.1);
   EXPECT_EQ(best_of_points({{a, b}, {a, b}}, {}), "A has the lowest MPE at 4 of 6 points");

@@ -93,9 +93,17 @@ std::set<double> xs_of(const std::vector<ErrorLine>& lines) {
   return xs;
 }
 
+/// "LLE and HLLE"; "3 of 8 methods" of names that would take the most of a title.
 std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLine>& lines) {
+  constexpr std::size_t kMostCharacters = 50;
   std::vector<std::string> names;
-  for (const At& at : some) names.push_back(line_name(*at.line, lines));
+  std::size_t characters = 0;
+  for (const At& at : some) {
+    names.push_back(line_name(*at.line, lines));
+    characters += names.back().size();
+  }
+  if (names.size() > 1 && characters > kMostCharacters)
+    return fmt::format("{} of {} methods", names.size(), lines.size());
   const auto has_comma = [](const std::string& one) { return one.find(", ") != std::string::npos; };
   if (names.size() > 1 && std::ranges::any_of(names, has_comma))
     for (std::string& one : names) one = "\u201c" + one + "\u201d";
