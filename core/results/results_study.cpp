@@ -115,7 +115,9 @@ std::vector<std::string> remarks_of(const ResultsStudy& study) {
   }
   for (const std::string& id : study.quantities) {
     const Quantity& quantity = study.results.quantities.at(id);
-    if (quantity.unit == "%" && are_shares(study.results.rows, id))
+    // An error, as a drift, may well be below 1 %.
+    if (quantity.unit == "%" && quantity.better != Better::kLower &&
+        are_shares(study.results.rows, id))
       remarks.push_back(fmt::format(
           "all values of {} lie between 0 and 1, but its unit is %: are they shares?", id));
   }

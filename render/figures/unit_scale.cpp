@@ -11,12 +11,12 @@ constexpr double kGreatestInMm_m = 1e-3;  // Above, the numbers beside a figure 
 constexpr double kLeastPpm = 1e-3;
 constexpr int kStep = 3;
 
-std::string ppm_text(int power) { return ten_to_the(power) + " ppm"; }
+constexpr int kPpm = -6;
 
-/// "10⁻⁹ ppm" of a greatest value of some 10⁻⁹ ppm: powers of 10³.
+/// "10⁻¹⁵" of a greatest value of some 10⁻⁹ ppm: powers of 10³.
 ScaledUnit power_unit(double greatest_ppm) {
   const int exponent = kStep * static_cast<int>(std::floor(std::log10(greatest_ppm) / kStep));
-  return {ppm_text(exponent), std::pow(10.0, -exponent)};
+  return {ten_to_the(exponent + kPpm), std::pow(10.0, -exponent)};
 }
 
 }  // namespace
@@ -24,7 +24,7 @@ ScaledUnit power_unit(double greatest_ppm) {
 std::optional<int> power_of(const std::string& unit) {
   constexpr int kLeast = -324;
   for (int power = kLeast; power < 0; power += kStep)
-    if (unit == ppm_text(power)) return power;
+    if (unit == ten_to_the(power)) return power;
   return std::nullopt;
 }
 

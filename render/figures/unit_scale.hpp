@@ -13,10 +13,10 @@ struct ScaledUnit {
 
 /// The unit in which the greatest of some values is written without a power of ten and with few
 /// zeros: below 1 mm it is "mm", below 1 s "ms", below 1 ms "µs", and below 0.001 ppm a power of
-/// ten of it, such as "10⁻⁹ ppm". Any other unit stays.
+/// ten, "10⁻¹⁵" for 10⁻⁹ ppm. Any other unit stays.
 ScaledUnit scaled_unit(const std::string& unit, double greatest);
 
-/// −9 of "10⁻⁹ ppm", where that is the unit of a scaled_unit().
+/// −15 of "10⁻¹⁵", where that is the unit of a scaled_unit().
 std::optional<int> power_of(const std::string& unit);
 
 }  // namespace mapproof

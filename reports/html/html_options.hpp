@@ -13,8 +13,7 @@ struct HtmlOptions {
   std::string figure_folder = "figures";  ///< Links to files beside the page; empty: no links.
   std::string table_folder = "tables";
   std::string root =
-      {};             ///< From the page to the report's folder, "../"; files are linked below it.
-  bool folds = true;  ///< Folds what few readers need, until the page has some fifteen screens.
+      {};  ///< From the page to the report's folder, "../"; files are linked below it.
   bool copies_tables = true;  ///< Tables can be copied as CSV and as LaTeX.
   /// The texts of links to files, by path; other links show the path.
   std::map<std::string, std::string> link_words = {};

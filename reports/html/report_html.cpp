@@ -221,8 +221,7 @@ std::string report_html(const Report& whole, const Templates& templates, const S
                         const HtmlOptions& options) {
   check(whole);
   Report report = whole;
-  const std::set<const Section*> folded =
-      options.folds ? fold_to_screens(report) : std::set<const Section*>{};
+  const std::set<const Section*> folded = fold_to_screens(report);
   data page;
   page.set("title", report.title);
   page.set("subtitle", page_text(report.subtitle));

@@ -365,7 +365,6 @@ void write_further_pages(const OutputFolder& folder, std::size_t count,
 HtmlOptions page_options(std::size_t number, std::size_t count, HtmlOptions options) {
   if (number == 1) return options;
   options.root = "../";
-  options.folds = false;
   options.link_words[page_path(1)] = "the start of the report, with all titles";
   if (number > 2) options.link_words[page_path(number - 1)] = fmt::format("page {}", number - 1);
   if (number < count)

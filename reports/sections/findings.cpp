@@ -24,7 +24,7 @@ constexpr std::size_t kMostNamed = 4;
 std::string percent(double value, int decimals = 2) { return page_number(value, decimals) + " %"; }
 
 std::string relative(double ours, double paper) {
-  return page_number(100.0 * (ours - paper) / paper, 0, true) + " %";
+  return page_number(100.0 * (ours - paper) / paper, 1, true) + " %";
 }
 
 std::string method_label(Method method) { return std::string(info(method).label); }

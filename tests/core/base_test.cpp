@@ -109,6 +109,7 @@ TEST(NumberText, HasThreeSignificantDigitsWithTheirZeros) {
   EXPECT_EQ(significant(0.1), "0.100");
   EXPECT_EQ(significant(141.4), "141");
   EXPECT_EQ(significant(1859.4), "1859");
+  EXPECT_EQ(significant(17561.2), "17,561");
   EXPECT_EQ(significant(-2.1), "−2.10");
   EXPECT_EQ(significant(2.98e9), "2.98×10⁹");
   EXPECT_EQ(significant(0.0), "0");
@@ -124,6 +125,7 @@ TEST(NumberText, CountsDigitsAfterRounding) {
 
 TEST(NumberText, OfAnErrorSaysThatAMapDiverged) {
   EXPECT_EQ(error_text(0.12345), "0.123 m");
+  EXPECT_EQ(error_text(2.3e-16), "≈ 0 m");
   EXPECT_EQ(error_text(1000.0), "1000 m");
   EXPECT_EQ(error_text(1001.0), "over 1\u00A0km");
   EXPECT_EQ(error_text(-1001.0), "below −1\u00A0km");

@@ -384,13 +384,13 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("m", 0.5), "0.5 m");
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
-  EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻⁹ ppm");
+  EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");
   EXPECT_EQ(words("ppm", 12.0), "12 ppm");
   EXPECT_EQ(words("%", 1e-9), "1e-09 %");
 }
 
 TEST(ScaledUnit, ThatIsAPowerIsKnownAsOne) {
-  EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -9);
+  EXPECT_EQ(power_of(scaled_unit("ppm", 4.6e-9).unit), -15);
   EXPECT_EQ(power_of("mm"), std::nullopt);
 }
 

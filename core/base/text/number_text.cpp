@@ -67,7 +67,8 @@ std::string significant(double value, int digits) {
   const int exponent = rounded_exponent(value, digits);
   if (exponent >= 6 || exponent < -6)
     return number_text(value / std::pow(10.0, exponent), digits - 1) + power_of_ten(exponent);
-  return number_text(value, std::max(0, digits - 1 - exponent));
+  const int decimals = std::max(0, digits - 1 - exponent);
+  return decimals == 0 ? count_text(std::llround(value)) : number_text(value, decimals);
 }
 
 std::string rounded_text(double value, int decimals, int digits) {
@@ -87,6 +88,8 @@ std::string quantity_text(double value, std::string_view unit) {
 std::string error_text(double error_m) {
   if (error_m > kGreatestError_m) return kGreatErrorText;
   if (error_m < -kGreatestError_m) return kGreatGainText;
+  constexpr double kOfRounding_m = 1e-9;  // As rounding of coordinates leaves it.
+  if (error_m != 0.0 && std::abs(error_m) < kOfRounding_m) return "≈ 0 m";
   return std::isnan(error_m) ? significant(error_m) : significant(error_m) + " m";
 }
 

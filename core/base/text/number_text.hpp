@@ -38,7 +38,8 @@ std::string rounded_text(double value, int decimals, int digits = 3);
 /// without a unit is a count: "20".
 std::string quantity_text(double value, std::string_view unit);
 
-/// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m).
+/// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m),
+/// and "≈ 0 m" of what rounding leaves.
 std::string error_text(double error_m);
 
 /// The length of a path with its unit: "86.0 m", "1.86 km".

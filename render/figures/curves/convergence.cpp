@@ -161,7 +161,7 @@ std::vector<ErrorLine> cost_lines(std::span<const FactorizationCost> costs, bool
   std::vector<ErrorLine> lines;
   for (const long group : groups) {
     const char* symbol = over_steps ? "N" : "T";
-    ErrorLine line{.label = fmt::format("{} = {}", symbol, group),
+    ErrorLine line{.label = fmt::format("{} = {}", symbol, count_text(group)),
                    .key = fmt::format("{}-{}", over_steps ? "landmarks" : "steps", group)};
     std::vector<FactorizationCost> members;
     for (const FactorizationCost& cost : costs)

@@ -98,8 +98,8 @@ std::string words(const PixelDiff& found, bool finer_differs) {
                        counted(found.changed, "pixel"), 100.0 * found.changed_share,
                        found.largest_cluster.x, found.largest_cluster.y);
   if (found.differing > 0)
-    return fmt::format("{} pixels differ by no more than noise and anti-aliasing explain",
-                       found.differing);
+    return fmt::format("{} differ{} by no more than noise and anti-aliasing explain",
+                       counted(found.differing, "pixel"), found.differing == 1 ? "s" : "");
   if (finer_differs) return kFinerAlone;
   return "the pixels are equal";
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/diff/svg/svg_diff.hpp"
 #include "reports/diff/tables/table_builder.hpp"
@@ -14,14 +15,15 @@ namespace {
 
 std::string pixels_text(const PixelDiff& p) {
   const std::int64_t all = std::int64_t{p.baseline.width} * p.baseline.height;
-  std::string text = fmt::format("{} of {} changed ({} %)", p.changed, all,
+  const auto count = [all](std::int64_t some) { return count_text(some, all); };
+  std::string text = fmt::format("{} of {} changed ({} %)", count(p.changed), count(all),
                                  format_number(100.0 * p.changed_share, 3));
   if (p.clusters > 0)
-    text += fmt::format(" in {}, the largest of {}", counted(p.clusters, "cluster"),
-                        counted(p.largest_cluster_pixels, "pixel"));
-  text += fmt::format("; {} differ in any way", p.differing);
-  if (p.antialiased > 0) text += fmt::format(", {} by anti-aliasing", p.antialiased);
-  if (p.ignored > 0) text += fmt::format("; {} ignored", p.ignored);
+    text += fmt::format(" in {}, the largest of {} pixel{}", counted(p.clusters, "cluster"),
+                        count(p.largest_cluster_pixels), p.largest_cluster_pixels == 1 ? "" : "s");
+  text += fmt::format("; {} differ in any way", count(p.differing));
+  if (p.antialiased > 0) text += fmt::format(", {} by anti-aliasing", count(p.antialiased));
+  if (p.ignored > 0) text += fmt::format("; {} ignored", count(p.ignored));
   return text;
 }
 

@@ -51,16 +51,6 @@ double level_over_nightly_runs(const std::vector<double>& values) {
   return known.empty() ? kInfinity : median(known);
 }
 
-/// The number of each setting among those of its method, in the order of their names: so it has one
-/// style in all figures, whichever settings these show.
-std::map<std::string, std::size_t> setting_numbers(const StudyTrend& trend) {
-  std::map<std::string, std::size_t> numbers;
-  for (const auto& [id, values] : trend.medians) numbers.emplace(id.method, 0);
-  std::map<std::string, std::size_t> of_method;
-  for (auto& [setting, number] : numbers) number = of_method[base_method(trend.labels, setting)]++;
-  return numbers;
-}
-
 /// The style of each method that the study declares, in all figures, its report's too.
 std::map<std::string, std::size_t> method_styles(const StudyTrend& trend) {
   std::map<std::string, std::set<std::string>> setups_by_method;
@@ -85,7 +75,6 @@ struct Reported {
   std::vector<std::pair<std::size_t, const NightlyFinding*>>
       findings;  ///< By the index of the nightly run.
   const TrendLocation& location;
-  std::map<std::string, std::size_t> setting_numbers;
   std::map<std::string, std::size_t> method_styles;
 };
 
@@ -101,7 +90,7 @@ std::optional<std::size_t> style_of(const Reported& reported, const std::string&
 
 Reported reported_of(const StudyTrend& trend, const NightlyFindings& findings,
                      const TrendLocation& location) {
-  Reported reported{trend, {}, location, setting_numbers(trend), method_styles(trend)};
+  Reported reported{trend, {}, location, method_styles(trend)};
   for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
     if (const auto nightly_run = findings.find(trend.nightly_runs[i].number);
         nightly_run != findings.end())
@@ -397,8 +386,8 @@ std::optional<std::string> values_sentence(const Reported& reported, const std::
   return text + without_change(reported.trend, *longest.values);
 }
 
-/// The styles of the settings of a figure. There are more settings than markers: where another
-/// setting of the figure has the marker of one, that one has the next that is free.
+/// The styles of the settings of a figure: the first one of a method has the method's, as in all
+/// figures, and each further one the next marker that is free.
 class StyleNumbers {
  public:
   explicit StyleNumbers(const Reported& reported) : reported_(reported) {}
@@ -407,12 +396,10 @@ class StyleNumbers {
   std::optional<std::size_t> next(const std::string& setting) {
     const std::optional<std::size_t> of_method = style_of(reported_, setting);
     if (!of_method) return std::nullopt;
-    const std::size_t number = reported_.setting_numbers.at(setting);
     for (std::size_t k = 0; k < kMarkerCount; ++k)
-      if (const std::size_t style = series_of_setting(*of_method, (number + k) % kMarkerCount);
-          taken_.insert(style).second)
+      if (const std::size_t style = series_of_setting(*of_method, k); taken_.insert(style).second)
         return style;
-    return series_of_setting(*of_method, number);
+    return of_method;
   }
 
  private:

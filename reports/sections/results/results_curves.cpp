@@ -216,8 +216,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
   if (known.empty()) return "";
   const auto words = [&](double value) {
-    if (const auto power = power_of(unit))
-      return quantity_text(value * std::pow(10.0, *power), quantity.unit);
+    if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
     return unit == "m" && great_errors ? error_text(value) : quantity_text(value, unit);
   };
   if (is_tiny_distance(quantity))

@@ -131,7 +131,7 @@ std::string windows_title(const SlamRun& run) {
       chosen == windows.lengths_s.end()
           ? kNaN
           : windows.held_out_m[static_cast<std::size_t>(chosen - windows.lengths_s.begin())];
-  const std::string length = format_duration(windows.chosen_s);
+  const std::string length = seconds_text(windows.chosen_s);
   return std::isfinite(error_m) ? fmt::format("{}: windows of {} predict other ranges {} off",
                                               title_of(run), length, error_text(error_m))
                                 : fmt::format("{}: windows of {}", title_of(run), length);

@@ -18,9 +18,8 @@ namespace {
 std::string references_question(const TopicExperiment& experiment) {
   return fmt::format(
       "{} landmarks are mapped by ISOMAP, which searches the shortest paths from every landmark, "
-      "and by Landmark ISOMAP, which searches them from a few reference landmarks alone; and by "
-      "landmark MVU, which unfolds the references alone, as SDE unfolds all. How many references "
-      "does a map need?",
+      "and by Landmark ISOMAP, which searches them from a few reference landmarks alone. Landmark "
+      "MVU unfolds the references alone, as SDE unfolds all. How many references does a map need?",
       experiment.world.landmarks);
 }
 

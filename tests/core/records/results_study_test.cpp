@@ -5,6 +5,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
+#include "tests/core/records/samples.hpp"
 #include "tests/support/schemas/schema_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -111,6 +112,11 @@ TEST(ResultsStudy, SaysWhatScansUnusualInATable) {
             std::vector<std::string>{
                 "all values of found lie between 0 and 1, but its unit is %: are they shares?"});
   EXPECT_TRUE(remarks("s,m,found,1,0,1\n").empty());
+  const std::string drift =
+      R"(, "quantities": [{"id": "drift", "label": "D", "unit": "%", "better": "lower"}]})";
+  EXPECT_TRUE(
+      remarks_of(study_of(kHead + drift, "setup,method,quantity,run,value\ns,m,drift,1,0.3\n"))
+          .empty());
 }
 
 TEST(ResultsStudy, SaysWhichLabelsAreTheSame) {

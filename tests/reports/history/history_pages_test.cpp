@@ -7,6 +7,8 @@
 #include "core/json/json_text.hpp"
 #include "core/json/record_writer.hpp"
 #include "core/records/value_fields.hpp"
+#include "render/figures/curves/error_lines.hpp"
+#include "render/figures/curves/method_series.hpp"
 #include "reports/history/history_export.hpp"
 #include "reports/history/history_store.hpp"
 #include "reports/history/nightly_standing.hpp"
@@ -121,7 +123,7 @@ TEST(HistoryPages, LabelWhatAStudyDeclaresAsItDoes) {
   EXPECT_EQ(std::get<TextCell>(table.rows.back().cells[1]).text, "Landmarks found");
 }
 
-TEST(HistoryPages, GiveASettingOneStyleInAllFigures) {
+TEST(HistoryPages, GiveAMethodItsStyleInAllFiguresAndEachOfItsSettingsAMarker) {
   StudyTrend trend = best_got_worse();
   trend.medians[{"visibility", "isomap-K5", 150, "mpe_m"}] = {0.30, 0.30, 0.30, 0.40};
   trend.medians[{"visibility", "isomap-K7", 150, "mpe_m"}] = {0.22, 0.22, 0.22, 0.21};
@@ -142,6 +144,16 @@ TEST(HistoryPages, GiveASettingOneStyleInAllFigures) {
     EXPECT_EQ(marker_of(figures[0], label), marker_of(figures[1], label)) << label;
   }
   EXPECT_NE(marker_of(figures[0], "ISOMAP, K = 5"), marker_of(figures[0], "ISOMAP, K = 7"));
+  // Where one setting is shown, whichever it is.
+  const Marker of_method = series_style(method_series(Method::kIsomap)).marker;
+  trend.medians.erase({"visibility", "isomap-K5", 150, "mpe_m"});
+  std::vector<Marker> alone;
+  for (const Figure& figure : trend_figures(trend, {})) {
+    const Marker marker = marker_of(figure, "ISOMAP, K = 7");
+    if (marker != Marker::kNone) alone.push_back(marker);
+  }
+  ASSERT_FALSE(alone.empty());
+  for (const Marker marker : alone) EXPECT_EQ(marker, of_method);
 }
 
 TEST(HistoryPages, ShowWhatTheFirstNightlyRunMeasuredInsteadOfATrend) {
