@@ -29,8 +29,9 @@ std::vector<Figure> curve_figures(FigureSource& source);
 std::vector<Figure> map_figures(FigureSource& source);
 /// A map forming over the steps, and what scatters between the runs of one layout.
 std::vector<Figure> forming_figures(FigureSource& source);
-/// "0.075 m off after 500 steps, 0.058 m after 2000"; empty where a map has no score.
-std::string errors_over_steps(const MapRecord& first, const MapRecord& last);
+/// "0.075 m off after 500 steps, 0.058 m after 2000", with that of a map between them that is worse
+/// than both; empty where the first or the last has no score.
+std::string errors_over_steps(std::span<const MapRecord> maps);
 
 /// Error over the parameter of each method.
 std::vector<Figure> parameter_figures(FigureSource& source);

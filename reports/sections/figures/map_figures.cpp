@@ -179,8 +179,9 @@ void add_film(FigureSource& source, const SensorStudy& sensor, const SettingSumm
         map != nullptr && map->frame == Frame::kGroundTruth)
       spec.maps.push_back({fmt::format("{} steps", step), *map});
   if (spec.maps.empty()) return;
-  if (const std::string errors = errors_over_steps(spec.maps.front().map, spec.maps.back().map);
-      spec.maps.size() > 1 && !errors.empty())
+  std::vector<MapRecord> maps;
+  for (const auto& panel : spec.maps) maps.push_back(panel.map);
+  if (const std::string errors = errors_over_steps(maps); maps.size() > 1 && !errors.empty())
     spec.title = fmt::format("{}, {}, {}: {}", title_of(best.sensor), short_label(best.setting),
                              words_of(*run), errors);
   figures.push_back(film_strip_figure(spec));
@@ -218,10 +219,16 @@ void add_ellipses(FigureSource& source, const SettingSummary& best, std::vector<
 
 }  // namespace
 
-std::string errors_over_steps(const MapRecord& first, const MapRecord& last) {
+std::string errors_over_steps(std::span<const MapRecord> maps) {
+  const MapRecord &first = maps.front(), &last = maps.back();
   if (!first.score || !last.score) return "";
-  return fmt::format("{} off after {} steps, {} after {}", error_text(first.score->mpe_m),
-                     first.step, error_text(last.score->mpe_m), last.step);
+  const auto off = [](const MapRecord& map) { return map.score ? map.score->mpe_m : 0.0; };
+  const MapRecord& worst = *std::ranges::max_element(maps, {}, off);
+  const bool is_between = off(worst) > off(first) && off(worst) > off(last);
+  return fmt::format("{} off after {} steps, {}{} after {}", error_text(off(first)), first.step,
+                     is_between ? fmt::format("{} after {}, ", error_text(off(worst)), worst.step)
+                                : "",
+                     error_text(off(last)), last.step);
 }
 
 std::vector<Figure> map_figures(FigureSource& source) {

@@ -91,12 +91,11 @@ std::optional<FormingSceneSpec> forming_of(FigureSource& source, const SensorStu
     if (map != nullptr && map->frame == Frame::kGroundTruth) spec.maps.push_back(*map);
   }
   if (spec.maps.size() < 2) return std::nullopt;
-  const MapRecord &first = spec.maps.front(), &last = spec.maps.back();
-  if (const std::string errors = errors_over_steps(first, last); !errors.empty())
+  if (const std::string errors = errors_over_steps(spec.maps); !errors.empty())
     spec.title =
         fmt::format("{}, {}: {}", title_of(best->sensor), short_label(best->setting), errors);
   if (const RunDetails* details = source.details(*id);
-      details != nullptr && details->path.positions_m.rows() >= last.step)
+      details != nullptr && details->path.positions_m.rows() >= spec.maps.back().step)
     spec.path_m = details->path.positions_m;
   return spec;
 }
