@@ -1,6 +1,7 @@
 #include "reports/sections/variation_summary.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -153,6 +154,17 @@ std::vector<VariedSetting> summarize(const Study& study, const Variation& variat
   return settings;
 }
 
+bool all_overlap(const std::vector<std::optional<MeanEstimate>>& means) {
+  double low = -HUGE_VAL, high = HUGE_VAL;
+  for (const auto& mean : means) {
+    const std::optional<Interval> interval = interval_of(mean);
+    if (!interval) return false;
+    low = std::max(low, interval->low);
+    high = std::min(high, interval->high);
+  }
+  return means.size() > 1 && low <= high;
+}
+
 double shown_level(const Variation& variation, double level) {
   return level * shown(variation).factor;
 }
@@ -185,6 +197,8 @@ Table variation_table(const Study& study, const Variation& variation) {
     table.rows.push_back(std::move(row));
   }
   table.notes.push_back("Mean over the runs that could be scored.");
+  if (settings.size() == 1 && all_overlap(settings.front().mpe_m))
+    table.notes.push_back("The 95 % intervals of all means overlap: no figure shows them.");
   for (std::size_t i = 0; i < settings.size(); ++i)
     for (std::size_t level = 0; level < variation.levels.size(); ++level)
       if (settings[i].scored[level] < settings[i].runs[level])

@@ -40,16 +40,6 @@ TEST(ChangeFinding, NeedsTwoLinesWithBothEnds) {
   EXPECT_EQ(change_finding({}, {}, "b", "a"), "");
 }
 
-TEST(FlatFinding, IsOfALineWhoseIntervalsHaveAValueInCommon) {
-  EXPECT_EQ(flat_finding(line("SMACOF, kNN weights, K = 8", {0.06, 0.05}, 0.01), {}, "everywhere"),
-            "MPE of SMACOF kNN 0.0500\u00A0m to 0.0600\u00A0m everywhere; all intervals overlap");
-  // The ends overlap, the middle does not.
-  EXPECT_EQ(flat_finding(line("LLE", {0.06, 0.5, 0.05}, 0.01), {}, "everywhere"), "");
-  ErrorLine without = line("LLE", {0.06, 0.05}, 0.01);
-  without.low.clear(), without.high.clear();
-  EXPECT_EQ(flat_finding(without, {}, "everywhere"), "");
-}
-
 TEST(DependenceFinding, ComparesTheWorstWithTheBestValueOfEachMethod) {
   const std::vector<ErrorLine> lines = {line("SDE", {0.2, 0.1, 0.4}, 0.01),
                                         line("LLE", {0.3, NAN, 0.2}, 0.01)};

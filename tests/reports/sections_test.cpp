@@ -151,6 +151,17 @@ TEST(AccuracySection, HasOnePrecisionOfMpeForAllSensorsAndThePapersOwnDigits) {
                                       "0.168 2.33", "0.101 1.38", "0.0609 1.00", "0.0979 1.83"}));
 }
 
+TEST(AllOverlap, IsOfMeansWhoseIntervalsHaveAValueInCommon) {
+  const auto mean = [](double at, double half_width) {
+    return MeanEstimate{.mean = at, .values = 9, .clusters = 3, .half_width = half_width};
+  };
+  EXPECT_TRUE(all_overlap({mean(0.06, 0.01), mean(0.05, 0.01)}));
+  EXPECT_FALSE(all_overlap({mean(0.06, 0.01), mean(0.5, 0.01), mean(0.05, 0.01)}))
+      << "the ends overlap, the middle does not";
+  EXPECT_FALSE(all_overlap({mean(0.06, 0.01), std::nullopt}));
+  EXPECT_FALSE(all_overlap({mean(0.06, 0.01)}));
+}
+
 TEST(VariationTable, NamesLevelsAndWarningsInWordsAndSaysARepeatedThingOnce) {
   Study study = synthetic_study();
   const std::vector<MethodSetting> settings = {{Method::kSmacofKnn, 5}, {Method::kIsomap, 6}};

@@ -79,11 +79,6 @@ std::pair<std::string, std::string> ends_of(const Variation& variation) {
 /// What came out over the levels; empty if nothing did.
 std::string level_finding(const Variation& variation, const std::vector<ErrorLine>& lines) {
   const LineAxis axis = line_axis(level_words(variation));
-  if (lines.size() == 1)
-    if (std::string flat = flat_finding(
-            lines.front(), {}, is_of_fall(variation) ? "wherever it stops" : "at any " + axis.name);
-        !flat.empty())
-      return flat;
   if (std::string best = best_over(lines, {}, axis); !best.empty()) return best;
   const auto [last, first] = ends_of(variation);
   return change_finding(lines, {}, last, first);
@@ -120,7 +115,26 @@ std::vector<ErrorLine> best_lines(const Variation& variation, const ErrorLinesSp
   return lines;
 }
 
-/// One panel per level, error over the parameter.
+/// A panel a method in place of one a level: what two levels change is seen within a panel.
+std::vector<ErrorPanel> panels_of_methods(const std::vector<ErrorPanel>& levels) {
+  std::vector<ErrorPanel> panels;
+  for (std::size_t k = 0; k < levels.front().lines.size(); ++k) {
+    ErrorPanel panel;
+    panel.title = levels.front().lines[k].label;
+    panel.x = levels.front().x;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+      ErrorLine line = levels[level].lines[k];
+      line.label = levels[level].title;
+      line.key += fmt::format("-{}", level + 1);
+      line.series.reset();
+      panel.lines.push_back(std::move(line));
+    }
+    panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
+/// Error over the parameter: a panel per level, or per method where there are two levels.
 Figure grid_figure(const Study& study, const Variation& variation) {
   const std::vector<VariedSetting> settings = summarize(study, variation);
   ErrorLinesSpec spec;
@@ -150,33 +164,28 @@ Figure grid_figure(const Study& study, const Variation& variation) {
         has_grids(variation) ? ", at each method\u2019s best " + parameter_words(variation) : "",
         change);
   spec.record_ids = {record_of(variation)};
+  if (spec.panels.size() == 2) spec.panels = panels_of_methods(spec.panels);
   return error_lines_figure(spec);
 }
 
-/// Whether nothing is to be seen: one line that changes by less than this, which the table says.
-bool is_flat(const LevelCurveSpec& spec) {
-  constexpr double kLeastChange = 0.02;
-  if (spec.methods.size() != 1 || spec.methods.front().mean.empty()) return false;
-  const auto [least, greatest] = std::ranges::minmax(spec.methods.front().mean);
-  return greatest - least < kLeastChange * greatest;
-}
-
-/// Empty if there is nothing to be seen.
+/// Empty if there is nothing to be seen: of a method that the levels do not change, which its table
+/// says.
 std::optional<Figure> level_figure(const Study& study, const Variation& variation) {
   // The levels of a choice are names, which titles of panels show and an axis does not.
   if (has_grids(variation) || variation.factor == Factor::kOnlySeenTogether)
     return grid_figure(study, variation);
+  const std::vector<VariedSetting> settings = summarize(study, variation);
+  if (settings.size() == 1 && all_overlap(settings.front().mpe_m)) return std::nullopt;
   LevelCurveSpec spec;
   spec.id = "level-" + variation.id;
   spec.title = fmt::format("{}: MPE by {}", title_of(variation.sensor), level_words(variation));
   spec.x_label = level_words(variation);
-  for (const VariedSetting& setting : summarize(study, variation))
+  for (const VariedSetting& setting : settings)
     spec.methods.push_back(line_over_levels(study.experiment, variation, setting));
   if (const std::string finding = level_finding(variation, spec.methods); !finding.empty())
     spec.title = fmt::format("{}: {}", title_of(variation.sensor), finding);
   spec.record_ids = {record_of(variation)};
   if (is_of_fall(variation) && variation.levels.front() > 0.0) spec.x_scale = Scale::kLog;
-  if (is_flat(spec)) return std::nullopt;
   return level_curve_figure(spec);
 }
 

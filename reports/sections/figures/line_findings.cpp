@@ -29,17 +29,6 @@ std::vector<std::size_t> known_ascending(const ErrorLine& line) {
   return known;
 }
 
-/// Whether all intervals have a value in common; false if a known value has none.
-bool all_overlap(const ErrorLine& line) {
-  double low = -kInfinity, high = kInfinity;
-  for (const std::size_t i : known_ascending(line)) {
-    if (line.low.empty() || !std::isfinite(line.low[i] + line.high[i])) return false;
-    low = std::max(low, line.low[i]);
-    high = std::min(high, line.high[i]);
-  }
-  return low <= high;
-}
-
 }  // namespace
 
 std::string change_finding(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
@@ -61,15 +50,6 @@ std::string change_finding(const std::vector<ErrorLine>& lines, const LineQuanti
       changes.size() < lines.size() ? fmt::format(" of {} methods", changes.size()) : "";
   return fmt::format("{}, the {}{} is {} to {} that {}{}", last, quantity.label, whose,
                      words(least), words(most), first, all_tie ? "; the intervals overlap" : "");
-}
-
-std::string flat_finding(const ErrorLine& line, const LineQuantity& quantity,
-                         const std::string& where) {
-  const std::vector<std::size_t> known = known_ascending(line);
-  if (known.size() < 2 || !all_overlap(line)) return "";
-  return fmt::format("{} of {} {} to {} {}; all intervals overlap", quantity.label,
-                     name_alone(line.label), quantity_text(line.mean[known.front()], quantity.unit),
-                     quantity_text(line.mean[known.back()], quantity.unit), where);
 }
 
 std::string dependence_finding(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,

@@ -9,8 +9,7 @@
 namespace mapproof {
 
 /// Findings for titles where no line is best (see best_line.hpp): what the means are, which is true
-/// whether or not the intervals overlap; change_finding() and flat_finding() also say whether they
-/// do.
+/// whether or not the intervals overlap; change_finding() also says whether they do.
 
 /// What the last value of each line is compared with its first: "at 40° bearing noise, the MPE is
 /// 1.0 times (LEM, 0.401 m) to 2.9 times (ISOMAP, 0.260 m) that at 0°". Empty if fewer than two
@@ -19,11 +18,6 @@ namespace mapproof {
 /// @param last, first  What a sentence calls the ends, "at 40° bearing noise" and "at 0°".
 std::string change_finding(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
                            const std::string& last, const std::string& first);
-
-/// Of a line whose intervals all overlap: "MPE of SMACOF kNN 0.0554 m to 0.0603 m wherever it
-/// stops; all intervals overlap". Empty of others.
-std::string flat_finding(const ErrorLine& line, const LineQuantity& quantity,
-                         const std::string& where);
 
 /// How much each method depends on its parameter: "the best K is 7 to 14 by method; the MPE depends
 /// on it least with SMACOF kNN (worst 1.2 times the best), most with ISOMAP (2.8 times)". Empty if
