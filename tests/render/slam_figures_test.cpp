@@ -107,7 +107,7 @@ TEST(FactorizationCostFigure, GroupsByLandmarksAndByStepsAndVaries) {
   EXPECT_TRUE(figure.varies);
   const Polyline steps = labelled<Polyline>(figure.panels[0], "N = 300").value();
   EXPECT_EQ(steps.x, (std::vector<double>{1e3, 1e4, 1e5}));
-  const Polyline landmarks = labelled<Polyline>(figure.panels[1], "T = 100000").value();
+  const Polyline landmarks = labelled<Polyline>(figure.panels[1], "T = 100,000").value();
   EXPECT_EQ(landmarks.x, (std::vector<double>{10, 30, 100, 300}));
   EXPECT_NEAR(drawn_slope(*labelled<Polyline>(figure.panels[1], "slope 2")), 2.0, 1e-12);
 }
