@@ -149,8 +149,14 @@ TEST(ReportPages, LeadToEachOtherAndToTheFilesBesideTheReport) {
   EXPECT_NE(html[1].find("href=\"../figures/f-0-0.svg\""), std::string::npos);
   EXPECT_NE(html[1].find("href=\"../tables/t-0.csv\""), std::string::npos);
   EXPECT_EQ(html.back().find(fmt::format("pages/{}.html", html.size() + 1)), std::string::npos);
-  // A further page is for looking through: nothing on it is folded.
-  EXPECT_EQ(html[1].find("class=\"fold\""), std::string::npos);
+  EXPECT_EQ(html[1].find("class=\"closed\""), std::string::npos) << "a low page";
+}
+
+TEST(ReportPages, FoldAsTheFirstOneDoesWhereTheyAreHigh) {
+  const PageLimits limits{.drawing_bytes = 0, .table_bytes = 0, .further_bytes = 10'000'000};
+  const auto html = html_of(pages_of(report_of(40, 5), size_of_drawing, limits));
+  ASSERT_EQ(html.size(), 2U);
+  EXPECT_NE(html[1].find("class=\"closed\""), std::string::npos);
 }
 
 TEST(ReportPages, ATableThatExceedsAPageIsContinuedRowByRow) {
