@@ -24,7 +24,7 @@ struct VariedSetting {
 /// Every setting of a variation, in its order.
 std::vector<VariedSetting> summarize(const Study& study, const Variation& variation);
 
-/// Whether the 95 % intervals of all means overlap, so that none of them can be told from another;
+/// Whether the 95 % intervals of all means overlap, so that none of them stands apart from another;
 /// false if an interval is not known.
 bool all_overlap(const std::vector<std::optional<MeanEstimate>>& means);
 
