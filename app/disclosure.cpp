@@ -178,6 +178,18 @@ bool is_address(std::string_view word) {
              domain, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
 }
 
+/// An absolute path as one from the working folder: "data/a.csv", "../a.csv". One that has no
+/// folder but the root in common with it stays as it is.
+std::string from_working_folder(const std::string& path) {
+  std::error_code error;
+  const fs::path here = fs::current_path(error), there = fs::path(path).lexically_normal();
+  if (error || !there.is_absolute()) return path;
+  const auto common = std::ranges::mismatch(here, there).in1;
+  if (std::distance(here.begin(), common) < 2) return path;
+  const std::string relative = there.lexically_relative(here).string();
+  return relative.starts_with('-') ? "./" + relative : relative;
+}
+
 }  // namespace
 
 Disclosure::Disclosure(bool full) : full_(full) {
@@ -195,7 +207,12 @@ std::string Disclosure::text(std::string text) const {
 std::vector<std::string> Disclosure::words(std::vector<std::string> words) const {
   if (full_) return words;
   for (std::string& word : words) {
-    word = text(std::move(word));
+    std::string shown = text(word);
+    if (shown == word) {
+      const std::size_t value = word.starts_with("--") ? word.find('=') + 1 : 0;
+      shown = word.substr(0, value) + from_working_folder(word.substr(value));
+    }
+    word = std::move(shown);
     std::string kept;
     for (std::size_t at = 0; at <= word.size();) {
       const std::size_t end = std::min(word.find_first_of("/=:,", at), word.size());

@@ -17,8 +17,9 @@ class Disclosure {
   /// The text with "~" for the home folder: as it is, and as JSON, HTML and URLs write it.
   std::string text(std::string text) const;
 
-  /// Words of a command line: the same, and "USER", "HOST" and "E-MAIL" for parts of paths that are
-  /// the user, the host or an address.
+  /// Words of a command line: the same, "USER", "HOST" and "E-MAIL" for parts of paths that are the
+  /// user, the host or an address, and absolute paths outside the home folder as paths from the
+  /// working folder, unless they have nothing but the root in common with it.
   std::vector<std::string> words(std::vector<std::string> words) const;
 
   /// The name of this machine; if it is not to be named, "host-" and eight hexadecimal digits,

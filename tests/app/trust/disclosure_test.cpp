@@ -164,6 +164,21 @@ TEST(Provenance, OfTheCommandThatBuildsNamesNoHome) {
   expect_anonymous(store);
 }
 
+TEST(Disclosure, WritesAbsolutePathsOfACommandFromTheWorkingFolder) {
+  const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
+  const fs::path here = fs::current_path(), beside = here.parent_path() / "beside/b.csv";
+  ASSERT_GT(std::distance(here.begin(), here.end()), 2)
+      << "a folder of the root has none beside it";
+  const Disclosure reduced(false);
+  EXPECT_EQ(
+      reduced.words({"map", here / "in/a.csv", "--out=" + beside.string(), here / "-a.csv",
+                     "--images=baseline@/x", "/no-such-folder/a.csv", "../c.csv", here}),
+      (std::vector<std::string>{"map", "in/a.csv", "--out=../beside/b.csv", "./-a.csv",
+                                "--images=baseline@/x", "/no-such-folder/a.csv", "../c.csv", "."}));
+  EXPECT_EQ(reduced.words({"make -C " + here.string()}).front(), "make -C " + here.string());
+  EXPECT_EQ(Disclosure(true).words({here / "a"}).front(), (here / "a").string());
+}
+
 TEST(Disclosure, NamesNoUserHostOrAddressInACommand) {
   const Environment environment{{{"HOME", "/home/ann"}, {"USER", "ann"}, {"LOGNAME", "ann"}}};
   const Disclosure reduced(false);
