@@ -54,12 +54,12 @@ TopicDesign submaps_design(const TopicExperiment& experiment) {
   for (const bool whole : {true, false})
     for (const MethodSetting& setting : settings_of(experiment))
       design.methods.push_back({method_id(whole, setting),
-                                fmt::format("{}, {}", whole ? "Whole" : "Parts", label(setting))});
+                                fmt::format("{}, {}", label(setting), whole ? "whole" : "parts")});
   for (const bool whole : {true, false}) {
     const MethodSetting setting = settings_of(experiment).front();
     design.methods.push_back(
         {method_id(whole, setting) + kFilled,
-         fmt::format("{}, PPCA, {}", whole ? "Whole" : "Parts", label(setting))});
+         fmt::format("{}, PPCA, {}", label(setting), whole ? "whole" : "parts")});
   }
   design.quantities = {
       known_quantity("mpe_m"), known_quantity("moe_unmirrored_percent"),

@@ -42,10 +42,10 @@ const std::vector<Compared>& all_compared() {
       {2,
        {"visibility", "visibility-order", "bearing", "bearing-order", "range", "range-order",
         "equal", "reliable", "joint"}},
-      // submaps
-      {4,
-       {"whole-smacof-knn", "whole-isomap", "whole-sde", "parts-smacof-knn", "parts-isomap",
-        "parts-sde", "whole-smacof-knn-filled", "parts-smacof-knn-filled"}},
+      // submaps, beside SDE, ISOMAP and SMACOF, kNN weights
+      {6,
+       {"parts-smacof-knn", "parts-isomap", "parts-sde", "whole-smacof-knn-filled",
+        "parts-smacof-knn-filled"}},
       // mrclam, a map per sensor and method
       {5,
        {"visibility-cmds", "visibility-isomap", "bearing-cmds", "bearing-isomap", "range-cmds",
@@ -60,6 +60,9 @@ std::size_t first_unknown() { return kMethodStyles + kSeriesCount * all_compared
 
 std::optional<std::size_t> series_of_compared(const std::string& id) {
   if (id == "fixed") return method_series(Method::kIsomap);  // It always takes the map of ISOMAP.
+  constexpr std::string_view kWhole = "whole-";              // As sub-maps are not.
+  if (id.starts_with(kWhole))
+    if (const auto known = method_named(id.substr(kWhole.size()))) return method_series(*known);
   for (std::size_t g = 0; g < all_compared().size(); ++g) {
     const auto& [first, ids] = all_compared()[g];
     const auto found = std::ranges::find(ids, id);
