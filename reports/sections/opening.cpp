@@ -47,6 +47,18 @@ std::vector<SensorMethods> methods_of(const Study& study) {
   return all;
 }
 
+/// "Yairi 2007" of "Yairi 2007, Table 1" and "Yairi 2007, Table 2".
+std::string sources_of(const std::vector<SensorMethods>& sensors) {
+  std::vector<std::string> sources;
+  for (const SensorMethods& sensor : sensors) {
+    const std::string& whole = sensor.study->published.source;
+    const std::string source = whole.substr(0, whole.find(','));
+    if (!source.empty() && std::ranges::find(sources, source) == sources.end())
+      sources.push_back(source);
+  }
+  return listed(sources, 2);
+}
+
 /// How the published errors compare with ours.
 void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& numbers) {
   PublishedAgreement all;
@@ -59,13 +71,11 @@ void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& number
   }
   if (all.compared == 0) return;
   const int outside = all.compared - all.within;
-  std::string detail = outside == 0 ? "none outside"
-                       : outside == all.ours_smaller
-                           ? fmt::format("in the other {} ours is smaller", outside)
-                           : fmt::format(
-                                 "ours is smaller in {} of the "
-                                 "other {}",
-                                 all.ours_smaller, outside);
+  std::string detail = sources_of(sensors) + ": ";
+  detail += outside == 0 ? "none outside"
+            : outside == all.ours_smaller
+                ? fmt::format("in the other {} ours is smaller", outside)
+                : fmt::format("ours is smaller in {} of the other {}", all.ours_smaller, outside);
   if (all.apart > 0) detail += fmt::format("; {} more cannot be compared", all.apart);
   numbers.items.push_back({"published errors inside our 95\u00a0% intervals",
                            fmt::format("{} of {}", all.within, all.compared), std::move(detail),

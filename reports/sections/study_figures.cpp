@@ -111,6 +111,20 @@ FigureGroup scene_group(FigureSource& source) {
   return group;
 }
 
+bool any_begins(const std::vector<Figure>& figures, std::string_view start) {
+  return std::ranges::any_of(figures,
+                             [&](const Figure& figure) { return figure.id.starts_with(start); });
+}
+
+/// What the figures of maps show behind those of all methods.
+std::string folded_maps(const std::vector<Figure>& figures) {
+  std::vector<std::string> kinds;
+  if (any_begins(figures, "errors-")) kinds.emplace_back("errors over the floor");
+  if (any_begins(figures, "fig-")) kinds.emplace_back("maps as the paper shows them");
+  if (any_begins(figures, "map-")) kinds.emplace_back("each method on its median run");
+  return listed(kinds, kinds.size());
+}
+
 }  // namespace
 
 StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
@@ -120,7 +134,7 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   append(scans, measurement_figures(source));
 
   StudyFigures figures;
-  const auto add = [&](const char* id, const char* title, const char* words,
+  const auto add = [&](const char* id, const char* title, const std::string& words,
                        std::vector<Figure> group, std::size_t open = kFiguresOpen,
                        Interest interest = Interest::kSome) {
     number(group);
@@ -142,18 +156,25 @@ StudyFigures study_figures(const Study& study, std::span<const Timing> timings,
   const auto compared = static_cast<std::size_t>(std::ranges::count_if(
       maps, [](const Figure& figure) { return figure.id.starts_with("maps-"); }));
   add("maps", "Maps",
-      "All methods on one run, the best first, with the same axes; a landmark that is chosen in "
-      "one map is highlighted in all. Where the paper shows a map, the run whose MPE is nearest to "
-      "it is shown with the median run. The last figures show each method on its own median run: "
-      "neither its best map nor its worst.",
+      fmt::format(
+          "All methods on one run, the best first, with the same axes; a landmark that is chosen "
+          "in "
+          "one map is highlighted in all. {}The last figures show each method on its own median "
+          "run: neither its best map nor its worst.",
+          any_begins(maps, "fig-") ? "Where the paper shows a map, the run whose MPE is nearest to "
+                                     "it is shown with the median run. "
+                                   : ""),
       std::move(maps), compared, Interest::kMost);
   if (!figures.groups.empty() && figures.groups.back().id == "maps")
-    figures.groups.back().folded =
-        "errors over the floor, maps as the paper shows them, and each method on its median run";
-  add("forming", "How maps form and scatter",
-      "The method of least mean MPE of each sensor: the median run over its checkpoints, and the "
-      "scatter over the runs of that layout.",
-      forming_figures(source));
+    figures.groups.back().folded = folded_maps(figures.groups.back().figures);
+  std::vector<Figure> forming = forming_figures(source);
+  const bool scatters = any_begins(forming, "scatter-");
+  add("forming", scatters ? "How maps form and scatter" : "How maps form",
+      scatters
+          ? "The method of least mean MPE of each sensor: the median run over its checkpoints, "
+            "and the scatter over the runs of that layout."
+          : "The method of least mean MPE of each sensor: the median run over its checkpoints.",
+      std::move(forming));
   if (FigureGroup scenes = scene_group(source); !scenes.scenes.empty())
     figures.groups.push_back(std::move(scenes));
   add("parameters", "Error over parameters",

@@ -188,8 +188,10 @@ Section accuracy_section(const Study& study, const SensorStudy& sensor) {
   const std::size_t main_blocks = section.blocks.size();
   if (!sensor.published.values.empty())
     section.blocks.emplace_back(paper_parameter_table(sensor, all, decimals));
-  if (!sensor.published.orderings.empty())
-    section.blocks.emplace_back(ordering_table(sensor, ordering_claims(study, sensor), decimals));
+  const std::vector<OrderingClaim> claims = ordering_claims(study, sensor);
+  if (std::ranges::any_of(claims,
+                          [](const OrderingClaim& one) { return one.difference_m.has_value(); }))
+    section.blocks.emplace_back(ordering_table(sensor, claims, decimals));
   if (grid) add_half(sensor, half_choices(study, sensor), decimals, section);
   if (best.size() > 1) add_ranks(sensor, method_ranks(study, sensor), decimals, section);
   section.blocks.emplace_back(spread_table(sensor, best, decimals));

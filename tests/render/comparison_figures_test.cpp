@@ -1,4 +1,5 @@
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -10,6 +11,35 @@
 
 namespace mapproof::test {
 namespace {
+
+TEST(PublishedErrorsFigure, FillsThoseOutsideOurInterval) {
+  const std::vector<PublishedError> methods = {
+      {.label = "ISOMAP",
+       .key = "a",
+       .mean_m = 0.2,
+       .interval = Range{0.1, 0.3},
+       .published_m = 0.3},
+      {.label = "SDE", .key = "b", .mean_m = 0.3, .interval = Range{0.2, 0.4}, .published_m = 0.41},
+      {.label = "LLE", .key = "c", .mean_m = 0.4, .interval = std::nullopt, .published_m = 0.9},
+      {.label = "LEM",
+       .key = "d",
+       .mean_m = 0.5,
+       .interval = Range{0.4, 0.6},
+       .published_m = 0.9,
+       .can_compare = false}};
+  const Figure figure =
+      published_errors_figure({"published", {{"Bearing maps", "Table 1", methods}}, {"run"}});
+  EXPECT_EQ(figure.title, "1 of 2 comparable published errors lie within our 95 % intervals");
+  std::map<std::string, std::vector<double>> drawn;
+  for (const Scatter& one : layers_of<Scatter>(figure.panels[0])) {
+    drawn[one.label] = one.x;
+    EXPECT_EQ(one.filled, one.label == "ours" || one.label == "published, outside the interval");
+  }
+  EXPECT_EQ(drawn["published"], (std::vector<double>{0.9, 0.3}));
+  EXPECT_EQ(drawn["published, outside the interval"], std::vector<double>{0.41});
+  EXPECT_EQ(drawn["published, not comparable"], std::vector<double>{0.9});
+  EXPECT_EQ(drawn["ours"].size(), methods.size());
+}
 
 TEST(CriticalDifferenceFigure, PutsEachMethodAtItsMeanRankTheBetterHalfToTheLeft) {
   const Panel panel = critical_difference_figure(sample_ranks(10)).panels[0];
@@ -328,6 +358,15 @@ TEST(ParetoFront, HoldsWhatNoOtherBeatsInBoth) {
                                                {"beaten", 11.0, 0.2},    {"middle", 1.0, 0.3},
                                                {"twin", 1.0, 0.3},       {"nan", 0.01, NAN}};
   EXPECT_EQ(pareto_front(settings), (std::vector<std::size_t>{1, 3, 0}));
+}
+
+TEST(ParetoFigure, NamesWhatWasNotTimedAndJoinsNoSinglePoint) {
+  ParetoSpec spec = sample_costs(1);
+  spec.untimed = {"SMACOF", "SDE"};
+  const Figure figure = pareto_figure(spec);
+  EXPECT_TRUE(layers_of<Polyline>(figure.panels[0]).empty());
+  ASSERT_EQ(figure.notes.size(), 1u);
+  EXPECT_EQ(figure.notes[0].text, "Not timed, and not shown: SMACOF and SDE.");
 }
 
 TEST(ParetoFigure, IsMarkedAsVarying) {

@@ -133,6 +133,29 @@ TEST(AccuracySection, ShowsOursAtThePapersParameterToo) {
   EXPECT_EQ(isomap.source, "");
 }
 
+TEST(AccuracySection, LeavesOutWhatThePaperHasOfMethodsThatTheStudyHasNot) {
+  Study study = synthetic_study();
+  Published& published = study.experiment.sensors[0].published;
+  published.values.push_back({.setting = {Method::kHessianLle, 7.0},
+                              .mpe_m = 0.2,
+                              .moe_percent = 5.0,
+                              .note = "Of HLLE."});
+  published.orderings = {{Method::kHessianLle, Method::kLle}};
+  const Section section = accuracy_section(study, visibility(study));
+  const Table& paper = table_named(section, "paper-visibility");
+  for (const Row& row : paper.rows)
+    EXPECT_NE(format_cell(row.cells[0]), std::string(info(Method::kHessianLle).label));
+  EXPECT_EQ(std::ranges::count(paper.notes, "Left out, not in this study: HLLE."), 1);
+  for (const Block& block : section.blocks)
+    if (const auto* table = std::get_if<Table>(&block)) {
+      EXPECT_FALSE(table->id.starts_with("orderings-")) << "no ordering was tried";
+      EXPECT_EQ(std::ranges::count_if(
+                    table->notes,
+                    [](const std::string& note) { return note.find("Of HLLE") != note.npos; }),
+                0);
+    }
+}
+
 TEST(AccuracySection, HasOnePrecisionOfMpeForAllSensorsAndThePapersOwnDigits) {
   const Study study = synthetic_study();
   std::vector<std::string> printed;
@@ -339,7 +362,8 @@ TEST(StudyOpening, BeginsWithHowThePublishedNumbersCompare) {
   ASSERT_GT(compared, 0);
   EXPECT_TRUE(opening.numbers.items[0].label.starts_with("published errors inside our 95"));
   EXPECT_TRUE(number_of(opening, "published errors")
-                  .starts_with(fmt::format("{} of {}", within, compared)));
+                  .starts_with(fmt::format("{} of {}, Yairi 2007: ", within, compared)))
+      << number_of(opening, "published errors");
   EXPECT_TRUE(number_of(opening, "published orderings").starts_with("2 of 3, "));
   EXPECT_NE(number_of(opening, "best MPE by visibility").find("SMACOF, kNN weights, K = 6"),
             std::string::npos);

@@ -134,7 +134,10 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
                                       "scatter-bearing"}));
   EXPECT_EQ(ids_of(figures, "parameters"),
             (std::vector<std::string>{"parameter-mpe-visibility-k", "parameter-moe-visibility-k"}));
-  EXPECT_EQ(ids_of(figures, "comparison").size(), 6U);
+  EXPECT_EQ(ids_of(figures, "comparison"),
+            (std::vector<std::string>{"distances-visibility", "spectrum-visibility",
+                                      "distances-bearing", "spectrum-bearing"}))
+      << "two methods have no diagram of ranks";
   EXPECT_EQ(ids_of(figures, "conditions"),
             (std::vector<std::string>{"anchors-visibility", "level-noise", "level-together"}));
   EXPECT_EQ(ids_of(figures, "cost"), (std::vector<std::string>{"cost-visibility", "cost-bearing"}));
@@ -160,13 +163,18 @@ TEST(ShortLabel, KeepsAParameterInOnePiece) {
   EXPECT_EQ(short_label({Method::kLpca, std::nullopt}), "LPCA");
 }
 
+const Figure* figure_with_id(const StudyFigures& figures, const std::string& id) {
+  for (const Figure* figure : all_figures(figures))
+    if (figure->id == id) return figure;
+  return nullptr;
+}
+
 /// The settings on the cost figure of a sensor.
 std::size_t costed(const StudyFigures& figures, const std::string& id) {
   std::size_t count = 0;
-  for (const Figure* figure : all_figures(figures))
-    if (figure->id == id)
-      for (const Layer& layer : figure->panels[0].layers)
-        if (const auto* points = std::get_if<Scatter>(&layer)) count += points->x.size();
+  if (const Figure* figure = figure_with_id(figures, id))
+    for (const Layer& layer : figure->panels[0].layers)
+      if (const auto* points = std::get_if<Scatter>(&layer)) count += points->x.size();
   return count;
 }
 
@@ -179,7 +187,57 @@ TEST(StudyFigures, LeaveASettingWhoseStartWasNotTimedOutOfTheCosts) {
   std::erase_if(timings,
                 [](const Timing& timing) { return timing.setting.method == Method::kSmacof; });
   // Without its start, kNN-weighted SMACOF goes too.
-  EXPECT_EQ(costed(study_figures(study, timings, none), "cost-bearing"), 2U);
+  const StudyFigures figures = study_figures(study, timings, none);
+  EXPECT_EQ(costed(figures, "cost-bearing"), 2U);
+  const Figure& cost = *figure_with_id(figures, "cost-bearing");
+  EXPECT_NE(cost.title.find("timed methods"), std::string::npos) << cost.title;
+  ASSERT_EQ(cost.notes.size(), 1U);
+  EXPECT_TRUE(cost.notes[0].text.starts_with("Not timed, and not shown: SMACOF and SMACOF kNN"))
+      << cost.notes[0].text;
+}
+
+TEST(StudyFigures, CostOfALoneSettingHoldsItsStart) {
+  const Study study = synthetic_study(2, 1);
+  const std::vector<Timing> all = test::synthetic_timings(study);
+  const StudyReader none{.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                         .details = [](const RunId&) { return std::nullopt; }};
+  std::set<double> parameters;
+  for (const Timing& timing : all)
+    if (timing.setting.method == Method::kSmacofKnn) parameters.insert(*timing.setting.parameter);
+  ASSERT_GT(parameters.size(), 1U);
+  int shown = 0;
+  for (const double kept : parameters) {
+    std::vector<Timing> timings = all;
+    std::erase_if(timings, [&](const Timing& timing) {
+      const MethodSetting& setting = timing.setting;
+      return setting.method == Method::kSmacof ||
+             (setting.method == Method::kSmacofKnn && *setting.parameter != kept);
+    });
+    if (costed(study_figures(study, timings, none), "cost-bearing") == 3U) ++shown;
+  }
+  EXPECT_EQ(shown, 1) << "with the best parameter alone";
+}
+
+TEST(StudyFigures, RankThreeMethodsOrMore) {
+  Study study = synthetic_study(5, 2);
+  const StudyReader none{.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                         .details = [](const RunId&) { return std::nullopt; }};
+  EXPECT_NE(figure_with_id(study_figures(study, {}, none), "ranks-visibility"), nullptr);
+  for (mapproof::Run& run : study.runs)
+    std::erase_if(run.records, [](const RunRecord& record) {
+      return record.setting.method != Method::kLpca && record.setting.method != Method::kIsomap;
+    });
+  EXPECT_EQ(figure_with_id(study_figures(study, {}, none), "ranks-visibility"), nullptr);
+}
+
+TEST(StudyFigures, CostOfOneMethodIsNoFigure) {
+  const Study study = synthetic_study(2, 1);
+  std::vector<Timing> timings = test::synthetic_timings(study);
+  std::erase_if(timings,
+                [](const Timing& timing) { return timing.setting.method != Method::kIsomap; });
+  const StudyReader none{.maps = [](const RunId&) { return std::vector<MapRecord>{}; },
+                         .details = [](const RunId&) { return std::nullopt; }};
+  EXPECT_EQ(figure_with_id(study_figures(study, timings, none), "cost-bearing"), nullptr);
 }
 
 TEST(SeriesOfMethod, KeepsColoursOfOneFamilyApart) {

@@ -42,6 +42,12 @@ struct Agreement {
   std::ptrdiff_t apart = 0;         ///< Published errors that cannot be compared.
 };
 
+bool is_outside(const PublishedError& method) {
+  return method.interval && method.published_m && method.can_compare &&
+         !(*method.published_m >= method.interval->low &&
+           *method.published_m <= method.interval->high);
+}
+
 Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) {
   Agreement all;
   for (const PublishedErrorsSpec::Sensor& sensor : sensors)
@@ -49,10 +55,10 @@ Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) 
       if (method.published_m && !method.can_compare) ++all.apart;
       if (!method.interval || !method.published_m || !method.can_compare) continue;
       ++all.compared;
-      if (*method.published_m > method.interval->high)
-        ++all.ours_smaller;
-      else if (*method.published_m >= method.interval->low)
+      if (!is_outside(method))
         ++all.within;
+      else if (*method.published_m > method.interval->high)
+        ++all.ours_smaller;
     }
   return all;
 }
@@ -93,7 +99,9 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
                     .marker = Marker::kDiamond,
                     .filled = false,
                     .size = 1.3};
-  Scatter apart = published;
+  Scatter outside = published, apart = published;
+  outside.label = "published, outside the interval";
+  outside.filled = true;
   apart.label = "published, not comparable";
   apart.colour = ThemeColour::kMuted;
   for (std::size_t i = 0; i < methods.size(); ++i) {
@@ -107,11 +115,11 @@ void add_panel(Figure& figure, const PublishedErrorsSpec::Sensor& sensor) {
     add_point(ours, {method.mean_m, y});
     ours.marks.push_back(mark_of(method, number, "ours", method.mean_m));
     if (!method.published_m) continue;
-    Scatter& theirs = method.can_compare ? published : apart;
+    Scatter& theirs = !method.can_compare ? apart : is_outside(method) ? outside : published;
     add_point(theirs, {*method.published_m, y});
     theirs.marks.push_back(mark_of(method, number, "published", *method.published_m));
   }
-  panel.layers = {intervals, ours, published, apart};
+  panel.layers = {intervals, published, outside, apart, ours};  // Ours show in open diamonds.
   std::erase_if(panel.layers, is_empty);
 }
 
@@ -438,7 +446,8 @@ Figure pareto_figure(const ParetoSpec& spec) {
   panel.y.label = spec.y_label;
   panel.y.scale = axis.scale;
   panel.y.limits = axis.limits;
-  panel.layers = {layers.steps, layers.beaten, layers.best, layers.names};
+  if (layers.steps.x.size() > 1) panel.layers.emplace_back(layers.steps);
+  panel.layers.insert(panel.layers.end(), {layers.beaten, layers.best, layers.names});
   std::erase_if(panel.layers, is_empty);
 
   figure.caption =
@@ -450,6 +459,9 @@ Figure pareto_figure(const ParetoSpec& spec) {
   if (!layers.words.empty())
     figure.alt += " On the Pareto front: " + listed(layers.words, 12) + ".";
   if (errors.empty()) figure.notes.push_back({"There are no settings.", ThemeColour::kWarning});
+  if (!spec.untimed.empty())
+    figure.notes.push_back({fmt::format("Not timed, and not shown: {}.", listed(spec.untimed, 4)),
+                            ThemeColour::kWarning});
   require_valid(figure);
   return figure;
 }

@@ -74,6 +74,7 @@ struct ParetoSpec {
   std::string title;
   std::string y_label = "MPE [m]";
   std::vector<CostedSetting> settings;  ///< Those with a NaN or without cost are left out.
+  std::vector<std::string> untimed;     ///< Labels of settings that a note names, as not shown.
   std::vector<std::string> record_ids;
 };
 

@@ -65,6 +65,12 @@ Cells cells_of(const Errors& errors, double side_m, double most_m) {
   return cells;
 }
 
+/// The MPE of a map, as its other figures print it; of one without a score the mean of all errors.
+std::string error_words(const TitledMap& one, const Errors& errors) {
+  return one.map.score ? "MPE " + error_text(one.map.score->mpe_m)
+                       : fmt::format("mean {} m", significant(errors.mean()));
+}
+
 /// The error that all but a few landmarks keep below.
 double most_of(const std::vector<Errors>& maps) {
   std::vector<double> all;
@@ -92,7 +98,7 @@ Figure error_map_figure(const ErrorMapSpec& spec) {
   for (std::size_t i = 0; i < spec.maps.size(); ++i) {
     const TitledMap& one = spec.maps[i];
     Panel& panel = figure.panels.emplace_back();
-    panel.title = fmt::format("{}\nmean {} m", one.title, significant(errors[i].mean()));
+    panel.title = fmt::format("{}\n{}", one.title, error_words(one, errors[i]));
     panel.x = {.label = "x [m]", .limits = Range{0.0, spec.side_m}};
     panel.y = {.label = "y [m]", .limits = Range{0.0, spec.side_m}};
     panel.equal_aspect = true;
@@ -100,8 +106,8 @@ Figure error_map_figure(const ErrorMapSpec& spec) {
     panel.layers.emplace_back(
         Scatter{.x = errors[i].x, .y = errors[i].y, .colour = ThemeColour::kText, .size = 0.35});
     figure.record_ids.push_back(one.map.id);
-    figure.alt += fmt::format("{}{}: mean error {} m", i == 0 ? "" : "; ", one.title,
-                              significant(errors[i].mean()));
+    figure.alt +=
+        fmt::format("{}{}: {}", i == 0 ? "" : "; ", one.title, error_words(one, errors[i]));
   }
   figure.alt += ".";
   require_valid(figure);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -51,8 +52,9 @@ void add_published(FigureSource& source, std::vector<Figure>& figures) {
 }
 
 void add_ranks(FigureSource& source, const SensorStudy& sensor, std::vector<Figure>& figures) {
+  constexpr std::size_t kFewest = 3;  // Ranks of two say no more than which of them is better.
   const MethodRanks ranks = method_ranks(source.study(), sensor);
-  if (!ranks.test || ranks.critical_difference <= 0.0) return;
+  if (!ranks.test || ranks.critical_difference <= 0.0 || ranks.methods.size() < kFewest) return;
   CriticalDifferenceSpec spec;
   spec.id = fmt::format("ranks-{}", name(sensor.sensor.sensor));
   for (std::size_t i = 0; i < ranks.methods.size(); ++i)
@@ -92,9 +94,13 @@ std::string correlation_words(const std::vector<ShepardPanel>& methods) {
       correlations.emplace_back(r, method.title);
   if (correlations.size() < 2) return "";
   const auto [least, most] = std::ranges::minmax(correlations);
+  const std::string low = significant(least.first, 2), high = significant(most.first, 2);
+  if (low == high)
+    return fmt::format("map distances follow the observed ones alike with {} methods (r = {})",
+                       correlations.size(), low);
   return fmt::format(
       "map distances follow the observed ones most with {} (r = {}), least with {} (r = {})",
-      most.second, significant(most.first, 2), least.second, significant(least.first, 2));
+      most.second, high, least.second, low);
 }
 
 void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId& run,
@@ -120,14 +126,17 @@ void add_distances(FigureSource& source, const SensorStudy& sensor, const RunId&
   figures.push_back(shepard_figure(spec));
 }
 
-/// Where two eigenvalues stand out most and least; empty unless two methods have some.
+/// Where two eigenvalues stand out most and least; empty where no method has some.
 std::string gap_words(const std::vector<SpectrumPanel>& methods) {
   std::vector<std::pair<double, std::string>> gaps;
   for (const SpectrumPanel& method : methods)
     if (const double gap = spectral_gap(method.eigenvalues); std::isfinite(gap))
       gaps.emplace_back(gap, method.title);
-  if (gaps.size() < 2) return "";
   constexpr int kDigits = 2;
+  if (gaps.empty()) return "";
+  if (gaps.size() == 1)
+    return fmt::format("two eigenvalues of {} stand out {} times", gaps[0].second,
+                       significant(gaps[0].first, kDigits));
   constexpr std::size_t kMostNamed = 3;
   const auto [least, most] = std::ranges::minmax(gaps);
   // Those whose panels print the same number.
@@ -174,15 +183,17 @@ class SecondsOfMaps {
   }
 
   /// The median over runs, with that of the maps that the method starts from: they are made once
-  /// for all that start from them. Empty if it, or what it starts from, was not timed.
+  /// for all that start from them, in the seconds of the first setting if the study does not have
+  /// them as a method. Empty if it, or what it starts from, was not timed.
   std::optional<double> of(Sensor sensor, int step, const MethodSetting& setting) const {
     const auto found = seconds_.find(key(sensor, step, setting));
     if (found == seconds_.end()) return std::nullopt;
     double sum = median(found->second);
     if (const auto start = info(setting.method).starts_from) {
-      const auto before = of(sensor, step, {*start, std::nullopt});
-      if (!before) return std::nullopt;  // Then it is in the seconds of one setting alone.
-      sum += *before;
+      if (const auto before = of(sensor, step, {*start, std::nullopt}))
+        sum += *before;
+      else if (starting_from(*start, sensor, step) > 1)
+        return std::nullopt;
     }
     return sum;
   }
@@ -193,23 +204,35 @@ class SecondsOfMaps {
     return {sensor, step, setting.method, setting.parameter.value_or(0.0)};
   }
 
+  /// How many settings were timed whose maps start from those of a method.
+  std::ptrdiff_t starting_from(Method start, Sensor sensor, int step) const {
+    return std::ranges::count_if(seconds_ | std::views::keys, [&](const Key& one) {
+      return std::get<0>(one) == sensor && std::get<1>(one) == step &&
+             info(std::get<2>(one)).starts_from == start;
+    });
+  }
+
   std::map<Key, std::vector<double>> seconds_;
 };
 
 /// Who has the lowest MPE whatever its time, or how many there are whose intervals overlap that of
 /// the lowest. Without times, which vary from run to run.
 /// @param intervals  Of the MPE of each setting.
+/// @param all        Whether no method is left out.
 std::string cost_finding(const std::vector<CostedSetting>& settings,
-                         const std::vector<Interval>& intervals) {
+                         const std::vector<Interval>& intervals, bool all) {
   const auto best = std::ranges::min_element(settings, {}, &CostedSetting::mpe_m);
   const Interval& lowest = intervals[static_cast<std::size_t>(best - settings.begin())];
   const auto ties =
       std::ranges::count_if(intervals, [&](const Interval& one) { return one.low <= lowest.high; });
   const std::string name = without_parameters(short_method_name(best->label));
   const std::string error = error_text(best->mpe_m);
-  if (ties == 1) return fmt::format("whatever the time, {} has the lowest MPE, {}", name, error);
-  return fmt::format("{} of {} methods tie for the lowest MPE, {} with {}", ties, settings.size(),
-                     name, error);
+  if (ties > 1)
+    return fmt::format("{} of {}{} methods tie for the lowest MPE, {} with {}", ties,
+                       settings.size(), all ? "" : " timed", name, error);
+  return all ? fmt::format("whatever the time, {} has the lowest MPE, {}", name, error)
+             : fmt::format("{} has the lowest MPE of {} timed methods, {}", name, settings.size(),
+                           error);
 }
 
 }  // namespace
@@ -236,15 +259,19 @@ std::vector<Figure> cost_figures(FigureSource& source, std::span<const Timing> t
     std::vector<Interval> intervals;
     for (const SettingSummary& best : source.best(sensor)) {
       const auto cost = seconds.of(best.sensor, best.step, best.setting);
-      if (!cost || !best.mpe_m) continue;
+      if (!best.mpe_m) continue;
+      if (!cost) {
+        spec.untimed.push_back(short_label(best.setting));
+        continue;
+      }
       spec.settings.push_back({label(best.setting), *cost, best.mpe_m->mean});
       const double mean = best.mpe_m->mean;
       intervals.push_back(interval_of(best.mpe_m).value_or(Interval{mean, mean}));
       spec.record_ids.push_back(source_of(best));
     }
-    if (spec.settings.empty()) continue;
+    if (spec.settings.size() < 2) continue;
     spec.title = fmt::format("{}: {}", title_of(sensor.sensor.sensor),
-                             cost_finding(spec.settings, intervals));
+                             cost_finding(spec.settings, intervals, spec.untimed.empty()));
     figures.push_back(pareto_figure(spec));
   }
   return figures;

@@ -8,6 +8,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "render/figures/maps/error_map.hpp"
 #include "render/figures/maps/map.hpp"
 #include "render/figures/maps/map_grid.hpp"
@@ -119,8 +120,10 @@ std::string where_wrong(const std::vector<TitledMap>& maps, double side_m) {
     }
   }
   if (counts[0] == 0.0 || counts[1] == 0.0) return "where the maps are wrong";
-  return fmt::format("the mean error is {} in the outer half of the floor, {} in the inner one",
-                     error_text(sums[0] / counts[0]), error_text(sums[1] / counts[1]));
+  return fmt::format(
+      "the mean error of {} is {} in the outer half of the floor, {} in the inner one",
+      counted(maps.size(), "method"), error_text(sums[0] / counts[0]),
+      error_text(sums[1] / counts[1]));
 }
 
 /// All methods on one run, the best first: the median run of the best method.

@@ -8,6 +8,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/tables/cells.hpp"
@@ -130,11 +131,18 @@ void mark_best(Table& table, std::span<const SettingSummary> summaries) {
     table.rows[static_cast<std::size_t>(best - summaries.data())].marked = true;
 }
 
-/// "Paper: Yairi 2007, Table 1." and the notes on its numbers.
-void add_paper_notes(Table& table, const Published& published) {
+bool has_method(std::span<const SettingSummary> tried, Method method) {
+  return std::ranges::any_of(
+      tried, [&](const SettingSummary& one) { return one.setting.method == method; });
+}
+
+/// "Paper: Yairi 2007, Table 1." and the notes on its numbers of the methods that were tried.
+void add_paper_notes(Table& table, const Published& published,
+                     std::span<const SettingSummary> tried) {
   table.notes.push_back("Paper: " + published.source + ".");
   for (const PublishedValue& value : published.values)
-    if (!value.note.empty()) table.notes.push_back(label(value.setting) + ": " + value.note);
+    if (!value.note.empty() && has_method(tried, value.setting.method))
+      table.notes.push_back(label(value.setting) + ": " + value.note);
   table.notes.insert(table.notes.end(), published.notes.begin(), published.notes.end());
 }
 
@@ -207,7 +215,7 @@ Table rank_table(const SensorStudy& sensor, const MethodRanks& ranks, int mpe_de
       "their mean ranks differ by less than the critical difference, {}. Layouts are the units, "
       "their poses "
       "averaged.",
-      format_number(100.0 * ranks.alpha, 0), format_number(ranks.critical_difference, 2)));
+      format_number(100.0 * ranks.alpha, 0), significant(ranks.critical_difference)));
   std::vector<std::string> left_out;
   for (const Method method : ranks.left_out) left_out.emplace_back(info(method).label);
   if (!left_out.empty())
@@ -228,12 +236,15 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
                    {"95 % interval", "m", "", "Layouts are the units."},
                    {"Layouts", "", "", "Where it holds in the mean over poses."}};
   bool any_interval = false;
+  std::size_t left_out = 0;
   for (const OrderingClaim& claim : claims) {
-    any_interval = any_interval || (claim.difference_m && claim.difference_m->half_width);
-    std::string holds = "not tried";
-    if (claim.difference_m)
-      holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
-                          claim.is_significant() ? "" : ", not significant");
+    if (!claim.difference_m) {
+      ++left_out;
+      continue;
+    }
+    any_interval = any_interval || claim.difference_m->half_width;
+    const std::string holds = fmt::format("{}{}", claim.holds() ? "yes" : "no",
+                                          claim.is_significant() ? "" : ", not significant");
     table.rows.push_back({{method_cell(claim.less), method_cell(claim.more), TextCell{holds},
                            mean_cell(claim.difference_m, mpe_decimals, true),
                            difference_interval_cell(claim.difference_m, mpe_decimals),
@@ -247,6 +258,10 @@ Table ordering_table(const SensorStudy& sensor, std::span<const OrderingClaim> c
       "By mean MPE, each method at its best parameter, over the runs that both have a score in. "
       "Not significant: the interval of the difference holds 0, or there is none.");
   table.notes.push_back(interval_note(any_interval));
+  if (left_out > 0)
+    table.notes.push_back(
+        fmt::format("Left out, without a run that both methods have a score in: {}.",
+                    counted(left_out, "ordering")));
   return table;
 }
 
@@ -291,7 +306,7 @@ Table accuracy_table(const SensorStudy& sensor, std::span<const SettingSummary> 
     table.notes.push_back(
         "At an end of the values tried, so that a better one may lie beyond: " + ends + ".");
   table.notes.push_back(interval_note(any_interval(best)));
-  if (published) add_paper_notes(table, sensor.published);
+  if (published) add_paper_notes(table, sensor.published, best);
   return table;
 }
 
@@ -306,7 +321,12 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
       {"Printed MPE within", "", "",
        "Whether the printed MPE lies in the 95 % interval of ours; not where a note says that the "
        "two cannot be compared."});
+  std::vector<std::string> left_out;
   for (const PublishedValue& value : sensor.published.values) {
+    if (!has_method(all, value.setting.method)) {
+      left_out.emplace_back(info(value.setting.method).label);
+      continue;
+    }
     SettingSummary s;
     for (const SettingSummary& tried : all)
       if (tried.setting == value.setting) s = tried;
@@ -325,6 +345,9 @@ Table paper_parameter_table(const SensorStudy& sensor, std::span<const SettingSu
   table.notes.push_back(
       "Nothing is chosen here: each method has the parameter that was published for it. Where ours "
       "is missing, it was not tried.");
+  if (!left_out.empty())
+    table.notes.push_back(
+        fmt::format("Left out, not in this study: {}.", listed(left_out, kMostListed)));
   table.notes.push_back(interval_note(any_interval(all)));
   return table;
 }
