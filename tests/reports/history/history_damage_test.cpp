@@ -230,8 +230,8 @@ TEST(HistoryStore, LosesNoFinishedNightlyRunToAHundredKillsOfTwoWriters) {
   make_folder(store);
   Random random(7);
   const fs::path finished = folder.path() / "finished";
-  // A busy machine finishes few nightly runs between two kills: it goes on until there is enough to
-  // lose.
+  // A busy machine finishes few nightly runs between two kills: it goes on, with more time between
+  // them, until there is enough to lose.
   for (int kill = 0; kill < 100 || (kill < 1000 && numbers_in(finished).size() <= 20); ++kill) {
     std::vector<pid_t> writers;
     for (int i = 0; i < 2; ++i) {
@@ -239,7 +239,9 @@ TEST(HistoryStore, LosesNoFinishedNightlyRunToAHundredKillsOfTwoWriters) {
       if (child == 0) append_for_ever(store, finished);
       writers.push_back(child);
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(static_cast<int>(random.uniform(5, 60))));
+    const double patience = 1.0 + kill / 100;
+    std::this_thread::sleep_for(
+        std::chrono::duration<double, std::milli>(patience * random.uniform(5, 60)));
     for (const pid_t writer : writers) {
       ::kill(writer, SIGKILL);
       ::waitpid(writer, nullptr, 0);
