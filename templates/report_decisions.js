@@ -39,10 +39,16 @@ function decisionsIn(boxes) {
   return [...all.values()];
 }
 
+// The command that compares two nightly runs, as the program wrote it.
+function comparingCommand() {
+  return document.querySelector("#section-nightly-runs > p > code, .compare > p > code");
+}
+
 function addCompare() {
+  const code = comparingCommand();
   const numbers = Array.from(document.querySelectorAll("#table-nightly-runs tbody tr th"),
     (cell) => cell.textContent.trim());
-  if (numbers.length < 2) return;
+  if (!code || numbers.length < 2) return;
   const box = document.createElement("div");
   box.className = "compare";
   const selects = ["Compare nightly run", "with"].map((words, i) => {
@@ -54,14 +60,15 @@ function addCompare() {
     box.append(label);
     return select;
   });
-  const code = document.createElement("code");
   const update = () => {
-    const [a, b] = selects.map((select) => select.value);
-    code.textContent = `mapproof history STORE --compare ${a} ${b}`;
+    const chosen = selects.map((select) => select.value).join(" ");
+    code.textContent = code.textContent.replace(/\d+ \d+$/, chosen);
   };
   for (const select of selects) select.addEventListener("change", update);
   update();
-  box.append(code);
+  box.append(code.parentElement);
+  addButton(box, "Copy", "Copy the command that compares them",
+    (button) => copyText(code.textContent, button));
   document.querySelector("#table-nightly-runs").before(box);
 }
 
@@ -82,7 +89,9 @@ function addDecisions() {
     const file = { schema: { name: "mapproof.decisions", version: 1 }, decisions };
     save("mapproof-decisions.json",
       new Blob([JSON.stringify(file, null, 2) + "\n"], { type: "application/json" }));
-    said.textContent = "Next, run: mapproof history STORE --from mapproof-decisions.json";
+    const command = comparingCommand()?.textContent ?? "mapproof history STORE --compare";
+    said.textContent =
+      `Next, run: ${command.replace(/--compare.*/, "--from mapproof-decisions.json")}`;
   });
   bar.append(said);
   boxes.at(-1).kind.closest(".worsening").after(bar);

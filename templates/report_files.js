@@ -86,8 +86,18 @@ function addCommand(figure, command) {
   }, { once: true });
 }
 
-// Copy buttons for the commands under "Provenance" and below figures.
+// The lines that search a commit.
+function addSearchesOfCommits() {
+  for (const code of document.querySelectorAll(".opening .finding > code, .worsening pre > code")) {
+    if (!code.textContent.startsWith("git bisect ")) continue;
+    addCopyButton(code.closest(".finding, .fold"), code.textContent,
+      "Copy the search for the commit");
+  }
+}
+
+// Copy buttons for the commands under "Provenance", below figures and of what got worse.
 function addCommands(figures) {
+  addSearchesOfCommits();
   const names = new Map([["Command", "of this report"], ["A figure alone", "of a figure"]]);
   let single = "";
   for (const fact of document.querySelectorAll('[id$="provenance"] .facts > div')) {

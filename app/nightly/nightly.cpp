@@ -261,9 +261,12 @@ std::string commits_text(const NightlySummary& summary) {
   std::set<int> named;
   for (const FindingGroup& group : summary.groups)
     if (!group.known && group.commits.has_commits() &&
-        named.insert(group.commits.since.number).second)
-      text += fmt::format("  since nightly run {}: commits {}\n    {}\n",
-                          group.commits.since.number, group.commits.text(), group.commits.bisect());
+        named.insert(group.commits.since.number).second) {
+      text += fmt::format("  {}: commits {}\n    {}\n", group.commits.words(), group.commits.text(),
+                          group.commits.bisect());
+      if (const std::string build = group.commits.build_words(); !build.empty())
+        text += "    " + build + "\n";
+    }
   return text;
 }
 

@@ -77,6 +77,12 @@ void judge_found(const std::vector<FindingGroup>& groups, const std::string& stu
           comparison.outcome = Outcome::kWorse;
 }
 
+/// Why a finding may have no p in a table of scores.
+constexpr const char* kTwoRules =
+    " Nightly runs test the change of each method in percent, or in points: by Wilcoxon's "
+    "signed-rank test, or by Student's t where there are few runs or groups. The p below are those "
+    "of the signed-rank test, which needs six.";
+
 /// Gives a comparison the verdict of the nightly run: one rule judges a nightly run and the page
 /// that shows why.
 void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, DiffResult& result) {
@@ -84,14 +90,10 @@ void judge_as_nightly_run(const NightlyPair& pair, const std::string& study, Dif
   if (standing.sentences.empty()) return;
   std::string cause = standing.title + ":";
   for (const std::string& sentence : standing.sentences) cause += " " + sentence;
+  cause += kTwoRules;
   for (DiffItem& item : result.items)
     if (item.records) judge_found(pair.groups, study, *item.records);
   judge_records_as(result, {Verdict::kWorse, true, cause});
-  result.remarks.insert(
-      result.remarks.begin(),
-      "Nightly runs are judged by the change in percent, or in points, over all runs of a method: "
-      "what they found is called worse below. All else is tested by its ranks alone, for which "
-      "more runs are needed.");
 }
 
 }  // namespace

@@ -267,31 +267,52 @@ double worse_percent(const Quantity& quantity, double log_ratio) {
                                             : 100.0 * std::expm1(log_ratio);
 }
 
-std::string range_words(const Quantity& quantity, double low, double high) {
-  if (quantity.nightly == NightlyRule::kPoints)
-    return fmt::format("{:.2f} to {:.2f}\u00a0points", low, high);
-  return fmt::format("{:.1f} to {:.1f}\u00a0%", worse_percent(quantity, low),
-                     worse_percent(quantity, high));
+/// A change as sentences show it, without its unit.
+std::string change_digits(const Quantity& quantity, double change) {
+  return quantity.nightly == NightlyRule::kPoints
+             ? fmt::format("{:.2f}", change)
+             : fmt::format("{:.1f}", worse_percent(quantity, change));
+}
+
+/// Whether all units changed by the same, in the digits shown.
+bool are_equal(const Comparison& comparison) {
+  const auto [least, most] = std::ranges::minmax(comparison.differences);
+  return change_digits(*comparison.quantity, least) == change_digits(*comparison.quantity, most);
+}
+
+std::string interval_words(const Quantity& quantity, const PairedChange& change) {
+  const bool in_points = quantity.nightly == NightlyRule::kPoints;
+  const std::string low = change_digits(quantity, change.low),
+                    high = change_digits(quantity, change.high);
+  return fmt::format("95\u00a0% interval {}\u00a0{}",
+                     low == high ? std::string("narrower than ") + (in_points ? "0.01" : "0.1")
+                                 : low + " to " + high,
+                     in_points ? "points" : "%");
 }
 
 NightlyFinding finding_of(const Comparison& comparison, const PairedChange& change, double p,
                           std::size_t tests, const StudyEvidence& evidence) {
   const Quantity& quantity = *comparison.quantity;
-  const std::string interval = range_words(quantity, change.low, change.high);
   const std::string units = counted(change.units, comparison.unit);
+  const bool equal = are_equal(comparison);
+  // By t the p of equal changes is 0, however few they are.
+  const std::string test =
+      equal && !change.by_ranks
+          ? "the changes are equal, so that no p is given"
+          : fmt::format("{} over {}, {} corrected for {}",
+                        change.by_ranks ? "Wilcoxon's signed-rank test" : "Student's t test", units,
+                        small_p_words(p), counted(static_cast<long long>(tests), "test"));
   return {.study = evidence.trend.name,
           .rule = HistoryRule::kAccuracy,
           .subject = comparison.subject,
           .quantity = quantity.id,
           .since = evidence.trend.nightly_runs.back().number,
-          .sentence =
-              fmt::format("{}: {} {} than in nightly run {}, 95\u00a0% interval {}; median {} → "
-                          "{}{}; {}, {} corrected for {}",
-                          comparison.shown, quantity.label, worse_words(quantity, change.shift),
-                          evidence.reference->nightly_run, interval, significant(comparison.before),
-                          quantity_text(comparison.after, quantity.unit),
-                          comparison.has_steps ? " at the last step" : "", units, small_p_words(p),
-                          counted(static_cast<long long>(tests), "test")),
+          .sentence = fmt::format(
+              "{}: {} {} than in nightly run {}{}; median {} → {}{}; {}", comparison.shown,
+              quantity.label, worse_words(quantity, change.shift), evidence.reference->nightly_run,
+              equal ? " in each of " + units : ", " + interval_words(quantity, change),
+              significant(comparison.before), quantity_text(comparison.after, quantity.unit),
+              comparison.has_steps ? " at the last step" : "", test),
           .change = change_of(quantity, change.shift)};
 }
 

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/shell_word.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
@@ -61,6 +62,21 @@ FindingSetting setting_of(const StudyLabels& labels, const std::string& method,
   return setting;
 }
 
+/// The medians at the last step of what a finding on accuracy is about, by nightly run; empty of
+/// one that is about several steps.
+std::map<int, double> medians_of(const NightlyFinding& finding, const StudyTrend& trend) {
+  const std::pair<const SeriesId, std::vector<double>>* last = nullptr;
+  for (const auto& series : trend.medians)
+    if (is_about(finding, series.first)) last = &series;
+  std::map<int, double> medians;
+  if (finding.rule != HistoryRule::kAccuracy || last == nullptr ||
+      (finding.subject != subject_of(last->first) && finding.subject != method_of(last->first)))
+    return medians;
+  for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
+    medians[trend.nightly_runs[i].number] = last->second[i];
+  return medians;
+}
+
 /// One finding as a group.
 FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   FindingGroup group{.study = finding.study,
@@ -77,6 +93,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
     group.quantity = quantity->label;
     group.in_points = quantity->nightly == NightlyRule::kPoints;
     group.is_time = is_time_unit(quantity->unit);
+    group.unit = quantity->unit;
   }
   const SeriesId* series = series_of(finding, *trend);
   if (series == nullptr) return group;
@@ -84,6 +101,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   const std::string shown = shown_method(trend->labels, series->method);
   group.lines.push_back(shown);
   group.series.push_back(*series);
+  group.medians = medians_of(finding, *trend);
   group.method = shown_method(trend->labels, base_method(trend->labels, series->method));
   if (shown.starts_with(group.method + ", "))
     group.settings.push_back(
@@ -191,6 +209,21 @@ bool is_address(std::string_view text) {
 
 }  // namespace
 
+std::string CommitRange::words() const {
+  return before.number == 0
+             ? fmt::format("since nightly run {}", since.number)
+             : fmt::format("between nightly runs {} and {}", before.number, since.number);
+}
+
+std::string CommitRange::dated_words() const {
+  const auto dated = [](const NightlyFacts& nightly_run) {
+    const std::string time = local_time(nightly_run);
+    return std::to_string(nightly_run.number) + (time.empty() ? "" : " (" + time + ")");
+  };
+  return before.number == 0 ? "since nightly run " + dated(since)
+                            : "between nightly runs " + dated(before) + " and " + dated(since);
+}
+
 bool CommitRange::has_commits() const {
   return !before.commit.empty() && !since.commit.empty() && before.commit != since.commit;
 }
@@ -215,6 +248,12 @@ std::string CommitRange::bisect() const {
                      short_commit(since.commit), short_commit(before.commit), shell_word(run));
 }
 
+std::string CommitRange::build_words() const {
+  if (!has_commits() || !since.build.empty()) return "";
+  return "Put the command that builds a commit and makes its results in place of BUILD, or give it "
+         "to nightly as --build.";
+}
+
 CommitRange commits_of(const StudyTrend& trend, int since) {
   CommitRange range;
   for (const NightlyFacts& nightly_run : trend.nightly_runs) {
@@ -222,6 +261,17 @@ CommitRange commits_of(const StudyTrend& trend, int since) {
     if (nightly_run.number == since) range.since = nightly_run;
   }
   return range;
+}
+
+std::string store_word(const std::string& command) {
+  constexpr std::string_view kOption = "--store";
+  const std::vector<std::string> words = words_of(command);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i] == kOption && i + 1 < words.size()) return shell_word(words[i + 1]);
+    if (words[i].starts_with(std::string(kOption) + "="))
+      return shell_word(words[i].substr(kOption.size() + 1));
+  }
+  return kUnknownStore;
 }
 
 std::string short_commit(const std::string& commit) { return commit.substr(0, kShownDigits); }
@@ -245,6 +295,16 @@ std::string FindingGroup::change_of_settings() const {
 }
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
+
+std::string FindingGroup::values_text(const NightlyFacts& nightly_run) const {
+  const auto before = medians.find(nightly_run.reference.value_or(0)),
+             after = medians.find(nightly_run.number);
+  if (numbers.size() > 1 || before == medians.end() || after == medians.end() ||
+      !std::isfinite(before->second) || !std::isfinite(after->second))
+    return "";
+  return fmt::format("median {} → {}", significant(before->second),
+                     quantity_text(after->second, unit));
+}
 
 std::string FindingGroup::count_text() const {
   return numbers.size() < 2 ? "" : counted(std::ssize(numbers), "finding");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,10 @@ struct CommitRange {
   NightlyFacts before = {};  ///< Number 0: it began with the first nightly run that is known.
   NightlyFacts since = {};   ///< Likewise: it is not known any more.
 
+  /// "between nightly runs 4 and 5"; "since nightly run 5" where the one before is not known.
+  std::string words() const;
+  /// The same with the time at which each began.
+  std::string dated_words() const;
   /// Whether both nightly runs name a commit, and not the same one.
   bool has_commits() const;
   /// "1a2b3c4d5..6f7a8b9c0"; empty without both commits.
@@ -26,10 +31,17 @@ struct CommitRange {
   /// or BUILD if that is empty, and calls `since.command` without what names one commit or writes
   /// files.
   std::string bisect() const;
+  /// What to put for BUILD in bisect(); empty where it has none.
+  std::string build_words() const;
 };
 
 /// Nightly run `since` of a study and the one of it before.
 CommitRange commits_of(const StudyTrend& trend, int since);
+
+inline constexpr const char* kUnknownStore = "STORE";
+
+/// The --store of a command of `nightly`, as a word of a shell; kUnknownStore where there is none.
+std::string store_word(const std::string& command);
 
 /// The first digits of a commit, enough to distinguish it.
 std::string short_commit(const std::string& commit);
@@ -64,6 +76,8 @@ struct FindingGroup {
   std::vector<std::string> lines =
       {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
   std::vector<SeriesId> series = {};      ///< The first step of each that the findings are about.
+  std::map<int, double> medians = {};  ///< Of the first finding at the last step, by nightly run.
+  std::string unit = {};               ///< Of the medians.
   std::optional<NightlyNote> known = {};  ///< By which all of them are known.
   CommitRange commits = {};
 
@@ -73,6 +87,9 @@ struct FindingGroup {
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;
+  /// "median 0.0857 → 0.0985 m": in the reference run and in this one, of a single finding on
+  /// accuracy at the last step; else empty.
+  std::string values_text(const NightlyFacts& nightly_run) const;
   /// "2 findings"; empty for one.
   std::string count_text() const;
 };

@@ -64,10 +64,12 @@ std::vector<Known> known_series(const StudyTrend& trend, const RegressionRules& 
   return all;
 }
 
-/// Whether another rule reports it already.
-bool is_reported(const std::vector<NightlyFinding>& found, const NightlySeries& series) {
+/// Whether one of them is about the quantity of a method, at a step or over all.
+bool is_reported(const std::vector<NightlyFinding>& found, const std::string& method,
+                 const std::string& quantity) {
   return std::ranges::any_of(found, [&](const NightlyFinding& finding) {
-    return finding.quantity == series.quantity && finding.subject.starts_with(series.subject);
+    return finding.quantity == quantity &&
+           (finding.subject == method || finding.subject.starts_with(method + ", "));
   });
 }
 
@@ -108,7 +110,7 @@ RuleOutcome judge_drifts(const StudyEvidence& evidence, const RegressionRules& r
   p = holm(p);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (p[i] <= rules.alpha && all[i].change.rise >= all[i].series.least &&
-        !is_reported(found, all[i].series))
+        !is_reported(found, all[i].series.subject, all[i].series.quantity))
       outcome.findings.push_back(finding_of(all[i], p[i], all.size(), evidence.trend));
   return outcome;
 }
@@ -183,9 +185,7 @@ RuleOutcome judge_study(const StudyEvidence& evidence, const RegressionRules& ru
   RuleOutcome costs = judge_costs(evidence, rules);
   // Few groups are judged both ways: a series is reported once.
   std::erase_if(costs.findings, [&](const NightlyFinding& finding) {
-    return std::ranges::any_of(outcome.findings, [&](const NightlyFinding& other) {
-      return other.subject == finding.subject && other.quantity == finding.quantity;
-    });
+    return is_reported(outcome.findings, finding.subject, finding.quantity);
   });
   append(outcome, std::move(costs));
   append(outcome, judge_drifts(evidence, rules, outcome.findings));

@@ -32,16 +32,17 @@ std::string markdown_item(const FindingGroup& group) {
   std::string item = fmt::format("- **{}**, {}", text_of(group.headline()), text_of(group.study));
   if (!group.setup.empty()) item += fmt::format(", {}", text_of(group.setup));
   if (const std::string count = group.count_text(); !count.empty()) item += ", " + count;
-  item += fmt::format(", since nightly run {}", group.commits.since.number);
-  if (const std::string when = local_time(group.commits.since); !when.empty())
-    item += fmt::format(" ({})", text_of(when));
+  item += ", " + text_of(group.commits.dated_words());
   if (group.commits.has_commits())
     item += ", commits " + linked("`" + group.commits.text() + "`", group.commits.url());
   if (group.known) item += ": known, " + text_of(group.known->text);
   item += "\n";
   // A command as it stands, which no fence of Markdown ends.
-  if (const std::string bisect = group.commits.bisect(); !group.known && !bisect.empty())
+  if (const std::string bisect = group.commits.bisect(); !group.known && !bisect.empty()) {
+    if (const std::string build = group.commits.build_words(); !build.empty())
+      item += "\n  " + build + "\n";
     item += "\n  <pre>" + html_escaped(printable(bisect, kLongestText)) + "</pre>\n";
+  }
   return item;
 }
 
@@ -89,8 +90,8 @@ std::string case_xml(const Case& one, const std::string& study) {
   std::string text;
   for (const std::string& sentence : one.group->sentences) text += xml_line(sentence) + "\n";
   if (one.group->commits.has_commits())
-    text += fmt::format("{}\n{}\n", xml_line(one.group->commits.text()),
-                        xml_line(one.group->commits.bisect()));
+    text += fmt::format("{}\n{}\n{}", xml_line(one.group->commits.text()),
+                        xml_line(one.group->commits.bisect()), one.group->commits.build_words());
   return fmt::format(
       "{}>\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n", head,
       xml_line(one.group->headline()), name(one.group->rule), text);
@@ -242,8 +243,7 @@ std::string entry_identifier(const std::string& identifier, const NightlyFacts& 
 std::string content_of(const NightlySummary& summary) {
   std::string text;
   for (const FindingGroup& group : summary.groups) {
-    text += fmt::format("{}: {}, since nightly run {}", group.study, group.headline(),
-                        group.commits.since.number);
+    text += fmt::format("{}: {}, {}", group.study, group.headline(), group.commits.words());
     if (group.commits.has_commits()) text += ", commits " + group.commits.text();
     if (group.known) text += "; known: " + group.known->text;
     text += ".\n";

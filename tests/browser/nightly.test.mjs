@@ -130,6 +130,34 @@ test("statistics and the search for the commit are behind a click", ofRegressed,
   await close();
 });
 
+test("on paper statistics and the search for the commit are open", ofRegressed, async () => {
+  const report = join(regressed, "nightly_runs", "0002", study);
+  for (const [folder, file] of [[regressed, "index.html"], [report, "report.html"]]) {
+    const { page, close } = await open({}, folder, file);
+    const command = page.locator(".worsening pre").first();
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    assert.ok(await command.isVisible(), file);
+    await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+    assert.equal(await command.isVisible(), false);
+    await close();
+  }
+});
+
+test("the index has commands that can be copied as they stand", ofRegressed, async () => {
+  const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] }, regressed,
+    "index.html");
+  await page.locator("#opening").getByRole("button", { name: "Copy the search for the commit" }).click();
+  await page.getByText("Copied").first().waitFor();
+  assert.match(await page.evaluate(() => navigator.clipboard.readText()), /^git bisect start .*\(make\)/);
+  const selects = page.locator(".compare select");
+  await selects.nth(0).selectOption("2");
+  await selects.nth(1).selectOption("1");
+  const command = await page.locator(".compare code").innerText();
+  assert.match(command, /^mapproof history \S+ --compare 2 1$/);
+  assert.doesNotMatch(command, /STORE/);
+  await close();
+});
+
 test("a nightly run's report begins with what got worse, marked in tables and figures", ofRegressed,
   async () => {
     const { page, close } = await open({}, join(regressed, "nightly_runs", "0002", study));

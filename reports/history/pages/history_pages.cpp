@@ -45,21 +45,24 @@ Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
 
 /// What got worse in one group, and where to find it.
 /// @param to  Links to pages on it.
-FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, NightlyLinks& links) {
+FindingBlock finding_block(const FindingGroup& group, const NightlyFacts& nightly_run,
+                           std::vector<Phrase> to, NightlyLinks& links) {
   const CommitRange& commits = group.commits;
   FindingBlock block;
   block.title = group.headline();
   block.details = group.sentences;
   block.known = group.known.has_value();
   block.command = block.known ? "" : commits.bisect();
+  if (const std::string build = commits.build_words(); !block.command.empty() && !build.empty())
+    block.details.push_back(build);
   auto& phrases = block.text.phrases;
   phrases.push_back({group.study, Emphasis::kData});
   if (!group.setup.empty()) phrases.push_back({", " + group.setup});
   if (const std::string count = group.count_text(); !count.empty())
     phrases.push_back({", " + count});
-  phrases.push_back({fmt::format(", since nightly run {}", commits.since.number)});
-  if (!commits.since.started_utc.empty())
-    phrases.push_back({" (" + local_time(commits.since) + ")"});
+  if (const std::string values = group.values_text(nightly_run); !values.empty())
+    phrases.push_back({", " + values});
+  phrases.push_back({", " + commits.dated_words()});
   if (commits.has_commits()) {
     phrases.push_back({", commits "});
     phrases.push_back(links.commits(commits));
@@ -192,7 +195,7 @@ std::optional<Section> worse_section(const IndexFacts& facts, const NightlySumma
       to.push_back(links.comparison(before, since, group.study));
     to.push_back(links.trends(group.study));
     to.push_back(links.report(summary.facts.number, group.study));
-    FindingBlock block = finding_block(group, std::move(to), links);
+    FindingBlock block = finding_block(group, summary.facts, std::move(to), links);
     if (!block.known) block.keys = keys_of(group, summary.facts.number);
     for (const NightlyNote& note : summary.notes)
       if (note.kind == NoteKind::kNote && is_on(note, group)) {
@@ -245,6 +248,17 @@ Section last_section(const IndexFacts& facts, const NightlySummary& summary, Nig
   return last;
 }
 
+/// The command that compares two nightly runs, in which the page puts those that a reader chooses.
+/// @param nightly_runs  Two or more.
+Paragraph comparing_command(const std::vector<NightlyFacts>& nightly_runs) {
+  const std::string store = store_word(nightly_runs.back().command);
+  return {{{"Two of them are compared by "},
+           {fmt::format("mapproof history {} --compare {} {}", store,
+                        std::prev(nightly_runs.end(), 2)->number, nightly_runs.back().number),
+            Emphasis::kCode},
+           {store == kUnknownStore ? ", where STORE is the folder of the history." : "."}}};
+}
+
 Section lost_section(const LostNightlyRuns& lost, NightlyLinks& links) {
   BulletList list;
   for (const auto& [nightly_run, studies] : lost.reports)
@@ -277,7 +291,7 @@ void show_first(const std::vector<Figure>& figures, Opening& opening) {
 }
 
 /// Of what is new and got worse: the diffs of the nightly runs between which it did, and the search
-/// for the first of their commits; nothing if there are none.
+/// for the first of their commits, where the command is complete; nothing if there are none.
 std::optional<Paragraph> ways_to_cause(const IndexFacts& facts, const NightlySummary& summary,
                                        NightlyLinks& links) {
   Paragraph paragraph{{strong("What changed"), phrase(": ")}};
@@ -285,7 +299,7 @@ std::optional<Paragraph> ways_to_cause(const IndexFacts& facts, const NightlySum
   std::string bisect;
   for (const FindingGroup& group : shown_groups(summary.groups)) {
     if (group.known) continue;
-    if (bisect.empty()) bisect = group.commits.bisect();
+    if (bisect.empty() && group.commits.build_words().empty()) bisect = group.commits.bisect();
     const int before = group.commits.before.number, since = group.commits.since.number;
     const std::string file = comparison_file(before, since, group.study);
     if (!facts.comparisons.contains(file) || files.size() == kMostLinked ||
@@ -300,6 +314,17 @@ std::optional<Paragraph> ways_to_cause(const IndexFacts& facts, const NightlySum
     paragraph.phrases.push_back({bisect, Emphasis::kCode});
   }
   return paragraph.phrases.size() > 2 ? std::optional(std::move(paragraph)) : std::nullopt;
+}
+
+/// Why it is the reference run, where that is known: ", the last one that passed".
+const char* reason_of(const NightlyFacts& reference, const IndexFacts& facts) {
+  if (reference.pinned) return ", which is pinned";
+  const auto passed = std::find_if(
+      std::next(facts.nightly_runs.rbegin()), facts.nightly_runs.rend(),
+      [](const NightlyFacts& nightly_run) { return verdict_word(nightly_run) == "passed"; });
+  return passed != facts.nightly_runs.rend() && passed->number == reference.number
+             ? ", the last one that passed"
+             : "";
 }
 
 /// What the last nightly run ran, and what it was compared with.
@@ -321,9 +346,10 @@ std::vector<Paragraph> last_findings(const IndexFacts& facts, const NightlySumma
   const auto reference =
       std::ranges::find(facts.nightly_runs, this_run.reference.value_or(0), &NightlyFacts::number);
   findings.push_back(
-      {{strong("Compared with"), phrase(": " + (reference == facts.nightly_runs.end()
-                                                    ? std::string("no earlier nightly run.")
-                                                    : dated_name(*reference) + "."))}});
+      {{strong("Compared with"),
+        phrase(": " + (reference == facts.nightly_runs.end()
+                           ? std::string("no earlier nightly run.")
+                           : dated_name(*reference) + reason_of(*reference, facts) + "."))}});
   if (reference != facts.nightly_runs.end())
     if (const CommitRange range{*reference, this_run}; !range.url().empty()) {
       findings.back().phrases.push_back(phrase(" Commits since: "));
@@ -355,14 +381,16 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
   if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
   page.report.opening.findings.push_back(
       ways({links.index(), links.report(this_run.number, trend.name)}, reference));
-  Section trends{"trends", "Trends", {nightly_runs_shown(trend)}};
+  Section trends{"trends", "Trends", {}};
+  if (!page.figures.empty()) trends.blocks.emplace_back(gallery_of(page.figures));
   BulletList values;
   for (std::string& sentence : trend_sentences(trend, findings))
     values.items.push_back({{{std::move(sentence)}}});
   if (!values.items.empty()) trends.blocks.emplace_back(std::move(values));
-  if (!page.figures.empty()) trends.blocks.emplace_back(gallery_of(page.figures));
+  trends.blocks.emplace_back(nightly_runs_shown(trend));
   page.report.sections.push_back(std::move(trends));
-  page.report.sections.push_back({"values", "Values", {accuracy_table(trend)}});
+  page.report.sections.push_back(
+      {"values", "Values", {accuracy_table(trend, found_on(this_run.number, findings))}});
   if (Table found = findings_table(findings, trend.name); !found.rows.empty())
     page.report.sections.push_back({"findings", "Findings", {std::move(found)}});
   show_first(page.figures, page.report.opening);
@@ -400,8 +428,9 @@ HistoryPage index_page(const IndexFacts& facts, const HistoryFolders& folders) {
          facts.nightly_runs.size() < 2 ? "What was measured" : "Trends over the nightly runs",
          {gallery_of(page.figures)}});
   }
-  report.sections.push_back(
-      {"nightly-runs", "All nightly runs", {nightly_runs_table(facts, links)}});
+  Section all{"nightly-runs", "All nightly runs", {nightly_runs_table(facts, links)}};
+  if (facts.nightly_runs.size() > 1) all.blocks.emplace_back(comparing_command(facts.nightly_runs));
+  report.sections.push_back(std::move(all));
   if (!facts.lost.reports.empty()) report.sections.push_back(lost_section(facts.lost, links));
   page.link_words = links.words();
   return page;
@@ -420,7 +449,8 @@ Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
     if (study.comparisons.contains(comparison_file(before, since, group.study)))
       to.push_back(links.comparison(before, since, group.study));
     to.push_back(links.trends(group.study));
-    section.blocks.emplace_back(finding_block(group, std::move(to), links));
+    section.blocks.emplace_back(
+        finding_block(group, study.nightly_run.facts, std::move(to), links));
   }
   add_rest(count, section);
   return section;

@@ -58,6 +58,13 @@ std::vector<SeriesId> last_steps(const StudyTrend& trend) {
   return last;
 }
 
+/// Whether findings of a group are about a series, whatever its step.
+bool is_in(const FindingGroup& group, const StudyTrend& trend, const SeriesId& id) {
+  return group.study == trend.name && group.quantity_id == id.quantity &&
+         group.setup == shown_setup(trend.labels, id.sensor) &&
+         std::ranges::find(group.lines, shown_method(trend.labels, id.method)) != group.lines.end();
+}
+
 /// A course as a cell of a table, and its curve.
 /// @param without  What the cell says where there is no course.
 void add_course(const std::optional<Course>& course, const std::string& without, Row& row) {
@@ -183,28 +190,37 @@ Table findings_table(const NightlyFindings& findings, const std::string& study) 
   return table;
 }
 
-Table accuracy_table(const StudyTrend& trend) {
+Table accuracy_table(const StudyTrend& trend, std::span<const NightlyFinding> found) {
   const std::vector<SeriesId> shown = last_steps(trend);
+  const std::vector<FindingGroup> groups = grouped(found, std::span(&trend, 1), {});
+  const std::size_t base = base_index(trend, found);
+  const bool has_before = base + 1 < trend.nightly_runs.size();
   const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });
+  std::string caption = "Medians over the runs";
+  if (has_steps) caption += " at the last step of each method";
+  if (has_before)
+    caption += fmt::format("; before: nightly run {}", trend.nightly_runs[base].number);
   Table table{.id = "accuracy-now",
-              .caption = has_steps ? "Medians over the runs at the last step of each method."
-                                   : "Medians over the runs.",
+              .caption = caption + ".",
               .columns = {{"Method", "", "", ""},
                           {"Quantity", "", "", ""},
                           {"Unit", "", "", ""},
                           {"First", "", "", "The first of the nightly runs shown"},
-                          {"Before", "", "", "The nightly run before the last"},
+                          {"Before", "", "", "The nightly run that changes are shown against"},
                           {"Last", "", "", "The last nightly run"}},
               .rows = {},
               .notes = {}};
   for (const SeriesId& id : shown) {
     const Quantity& quantity = trend.quantities.at(id.quantity);
     const std::vector<double>& values = trend.medians.at(id);
-    const double before = values.size() > 1 ? values[values.size() - 2] : kNaN;
+    const double before = has_before ? values[base] : kNaN;
     table.rows.push_back(
         {{text(shown_subject(trend.labels, id)), text(quantity.label), text(quantity.unit),
           number(values.front(), 4), number(before, 4), number(values.back(), 4)},
          "medians over runs"});
+    const auto worse = std::ranges::find_if(
+        groups, [&](const FindingGroup& group) { return is_in(group, trend, id); });
+    if (worse != groups.end()) table.rows.back().regressed = worse->change_text();
   }
   return table;
 }

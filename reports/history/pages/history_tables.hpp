@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "reports/history/pages/index_facts.hpp"
@@ -18,7 +19,9 @@ Table nightly_runs_table(const IndexFacts& facts, NightlyLinks& links);
 /// One row per finding of those nightly runs, the last nightly run first.
 Table findings_table(const NightlyFindings& findings, const std::string& study);
 
-/// The values of each method in the last nightly run, in the one before and in the first.
-Table accuracy_table(const StudyTrend& trend);
+/// The values of each method in the last nightly run, in the one that changes are shown against
+/// (see base_index()) and in the first. Rows of what got worse are marked.
+/// @param found  The last nightly run's findings, of any study.
+Table accuracy_table(const StudyTrend& trend, std::span<const NightlyFinding> found = {});
 
 }  // namespace mapproof

@@ -83,7 +83,6 @@ TEST(NightlyMetrics, ThatGotWorseTwiceAreFoundWithTheirCommits) {
     EXPECT_EQ(text.find("secret"), std::string::npos) << file;
   }
   EXPECT_NE(read_file(project.store() / "badge.svg").find("+30.0"), std::string::npos);
-  EXPECT_TRUE(fs::exists(project.store() / "compare/0004-0005/speed.html"));
   const json exported = json::parse(mapproof({"history", project.store(), "--export", "json"}).out);
   EXPECT_EQ(schema_problem("history", exported), "");
 }

@@ -282,7 +282,8 @@ TEST(HistoryPages, LeadToEachOtherInWords) {
 }
 
 TEST(HistoryPages, BeginWithWhatRanLastAndWhatItWasComparedWith) {
-  const NightlyFacts before{.number = 3, .started_utc = "2026-11-20T01:00:00Z", .commit = "abc1"};
+  const NightlyFacts before{
+      .number = 3, .started_utc = "2026-11-20T01:00:00Z", .commit = "abc1", .reference = 2};
   const NightlyFacts last{.number = 4, .reference = 3};
   const HistoryPage index =
       index_page({.nightly_runs = {before, last}, .trends = {best_got_worse()}}, {});
@@ -292,7 +293,8 @@ TEST(HistoryPages, BeginWithWhatRanLastAndWhatItWasComparedWith) {
   EXPECT_NE(findings[0].phrases.back().text.find("of mine."), std::string::npos);
   EXPECT_EQ(findings[1].phrases.front().text, "Compared with");
   EXPECT_NE(findings[1].phrases.back().text.find("nightly run 3"), std::string::npos);
-  EXPECT_NE(findings[1].phrases.back().text.find("abc1"), std::string::npos);
+  EXPECT_NE(findings[1].phrases.back().text.find("abc1, the last one that passed."),
+            std::string::npos);
   EXPECT_TRUE(links_of(findings[2], index.link_words).contains("report of nightly run 4"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "reports/history/nightly_standing.hpp"
 #include "reports/history/pages/history_pages.hpp"
+#include "reports/history/pages/history_tables.hpp"
 #include "reports/history/pages/study_course.hpp"
 
 namespace mapproof::test {
@@ -106,6 +107,48 @@ TEST(FindingGroups, SearchWithACommandThatNamesNoCommitAndWritesNothing) {
             "mapproof nightly '\\''a b.json'\\'' --store h --jobs 2 --bisect 2'");
 }
 
+TEST(FindingGroups, SayInWordsWhatStandsForBuild) {
+  CommitRange range = summary_of().groups[0].commits;
+  EXPECT_EQ(range.build_words(), "");
+  range.since.build.clear();
+  EXPECT_NE(range.bisect().find("'(BUILD) || exit 125; "), std::string::npos);
+  EXPECT_NE(range.build_words().find("in place of BUILD"), std::string::npos);
+  range.before.commit.clear();
+  EXPECT_EQ(range.build_words(), "") << "there is no command";
+}
+
+TEST(FindingGroups, SayBetweenWhichNightlyRunsTheyBegan) {
+  CommitRange range{.before = {.number = 1, .started_utc = "2026-11-20T02:30:07Z"},
+                    .since = {.number = 2, .started_utc = "2026-11-21T02:30:07Z"}};
+  EXPECT_EQ(range.words(), "between nightly runs 1 and 2");
+  EXPECT_EQ(range.dated_words(),
+            "between nightly runs 1 (2026-11-20 02:30 UTC) and 2 (2026-11-21 02:30 UTC)");
+  range.before = {};
+  EXPECT_EQ(range.words(), "since nightly run 2");
+  EXPECT_EQ(range.dated_words(), "since nightly run 2 (2026-11-21 02:30 UTC)");
+}
+
+TEST(FindingGroups, OfOneFindingHaveItsValuesInTheReferenceRunAndThisOne) {
+  StudyTrend trend = two_settings();
+  trend.medians[{"bearing", "isomap-K6", 50, "mpe_m"}] = {0.50, 0.60, 0.60};
+  std::vector<NightlyFinding> findings = {two_findings()[0]};
+  const auto values = [&](const NightlyFacts& nightly_run) {
+    return grouped(findings, std::span(&trend, 1), {}).at(0).values_text(nightly_run);
+  };
+  const NightlyFacts last{.number = 3, .reference = 1};
+  EXPECT_EQ(values(last), "median 0.100 → 0.120\u00a0m");
+  EXPECT_EQ(values({.number = 3}), "") << "it was not compared";
+  findings[0].subject = "bearing, isomap-K6, mean of 2 steps";
+  EXPECT_EQ(values(last), "") << "the medians are of the last step";
+  EXPECT_EQ(summary_of().groups[0].values_text(last), "") << "of two settings";
+}
+
+TEST(FindingGroups, KnowTheStoreOfACommand) {
+  EXPECT_EQ(store_word("mapproof nightly mine --store 'my history' --jobs 2"), "'my history'");
+  EXPECT_EQ(store_word("mapproof nightly mine --store=h"), "h");
+  EXPECT_EQ(store_word("mapproof nightly mine"), "STORE");
+}
+
 TEST(FindingGroups, SayTheTimeByTheClockOfThePlace) {
   const NightlyFacts facts{.started_utc = "2026-11-22T23:30:07Z"};
   EXPECT_EQ(local_time(facts), "2026-11-22 23:30 UTC");
@@ -198,8 +241,8 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   EXPECT_NO_THROW(check(index.report));
   EXPECT_EQ(
       index.report.opening.standing->sentences.front(),
-      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8) (both findings), since nightly run "
-      "2: git log aaaaaaaaa..bbbbbbbbb.");
+      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8) (both findings), between nightly "
+      "runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
   EXPECT_EQ(index.report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
   ASSERT_EQ(index.report.sections.front().id, "worse");
   const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());
@@ -211,6 +254,8 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
       index.report.sections.at(1).blocks,
       [](const Block& block) { return std::holds_alternative<Callout>(block); });
   EXPECT_EQ(callouts, 1) << "a note on a finding stands with it";
+  const auto& comparing = std::get<Paragraph>(index.report.sections.back().blocks.back());
+  EXPECT_EQ(comparing.phrases.at(1).text, "mapproof history 'my history' --compare 2 3");
   EXPECT_TRUE(index.link_words.contains("compare/0001-0002/mine.html"));
   const std::vector<Phrase>& cause = index.report.opening.findings.at(2).phrases;
   ASSERT_EQ(cause.size(), 5U) << "one diff of both findings";
@@ -228,6 +273,37 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   EXPECT_EQ(curve.cell, 1U);
   EXPECT_NEAR(curve.changes.back(), 20.0, 1e-9);
   EXPECT_EQ(curve.is_found, (std::vector<bool>{false, false, true}));
+}
+
+TEST(HistoryPages, ShowASearchOnTheFirstScreenOnlyWhereItCanBeRun) {
+  StudyTrend trend = two_settings();
+  for (NightlyFacts& nightly_run : trend.nightly_runs) nightly_run.build.clear();
+  const HistoryPage index = index_page({.nightly_runs = trend.nightly_runs,
+                                        .findings = {{3, {two_findings()[0]}}},
+                                        .trends = {trend},
+                                        .comparisons = {comparison_file(1, 2, "mine")}},
+                                       {});
+  EXPECT_EQ(
+      index.report.opening.standing->sentences.front(),
+      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6) (median 0.100 → 0.120\u00a0m), between "
+      "nightly runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
+  EXPECT_EQ(index.report.opening.findings.at(2).phrases.size(), 3U) << "the diff alone";
+  const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());
+  EXPECT_NE(found.command.find("(BUILD)"), std::string::npos);
+  EXPECT_NE(found.details.back().find("in place of BUILD"), std::string::npos);
+}
+
+TEST(HistoryPages, CompareTheValuesOfATrendWithTheRunBeforeItGotWorse) {
+  const Table table = accuracy_table(two_settings(), two_findings());
+  EXPECT_EQ(table.caption,
+            "Medians over the runs at the last step of each method; before: nightly run 1.");
+  ASSERT_EQ(table.rows.size(), 3U);
+  const Row& worse = table.rows[0];
+  EXPECT_EQ(std::get<NumberCell>(worse.cells[4]).value, 0.10);
+  EXPECT_EQ(std::get<NumberCell>(worse.cells[5]).value, 0.12);
+  EXPECT_EQ(worse.regressed, "MPE +17.6\u00a0%");
+  EXPECT_EQ(table.rows[1].regressed, "MPE +17.6\u00a0%");
+  EXPECT_EQ(table.rows[2].regressed, "") << "LPCA did not change";
 }
 
 TEST(StudyCourse, ShowsAnImprovementBesideAFindingThatItOutweighs) {
