@@ -190,7 +190,7 @@ DiffItem missing_report(std::size_t items, const std::string& current,
   return item;
 }
 
-/// "1 worse, 2 style, 51 identical; first …".
+/// "1 data, worse, 2 style, 51 identical. The first is …".
 Judgement judge_whole(const DiffResult& result) {
   Judgement whole;
   whole.visible = false;
@@ -203,7 +203,8 @@ Judgement judge_whole(const DiffResult& result) {
     }
   for (const DiffItem& item : result.items) whole.visible |= item.judgement.visible;
   if (whole.verdict == Verdict::kIdentical) return whole;
-  whole.cause = counts + "; " + result.items[0].id + ": " + result.items[0].judgement.cause;
+  whole.cause = fmt::format("{}. The first is {}: {}", counts, result.items[0].id,
+                            result.items[0].judgement.cause);
   return whole;
 }
 

@@ -76,3 +76,23 @@ test("a pinch of two fingers zooms a comparison between them", options, async ()
   assert.deepEqual(second, first);
   await close();
 });
+
+test("a comparison is printed without its controls, its images below each other", options,
+  async () => {
+    const { page, close } = await openComparison();
+    await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+    await page.emulateMedia({ media: "print" });
+    for (const control of ["#order", ".chip", ".toolbar button", ".tick"]) {
+      assert.equal(await page.locator(`${control}:visible`).count(), 0, control);
+    }
+    const { stage } = await stageOf(page);
+    const [baseline, current] = await Promise.all([0, 1].map((index) =>
+      stage.locator(".view").nth(index).boundingBox()));
+    assert.equal(current.x, baseline.x);
+    assert.ok(current.y >= baseline.y + baseline.height);
+    for (const elements of await page.locator("[id^=table-svg-]").all()) {
+      assert.match(await elements.locator("h3").innerText(), /\d changes?$/);
+      assert.equal(await elements.locator("table:visible").count(), 0);
+    }
+    await close();
+  });

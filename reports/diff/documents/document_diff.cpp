@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
+#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -49,7 +48,20 @@ struct Rows {
   std::vector<Row> rows = {};
   std::size_t heading = 0;  ///< The index of the row with the names of the columns.
   bool has_heading = false;
+  bool is_markup = false;  ///< Markdown or LaTeX.
 };
+
+/// A cell as readers see it: in markup a backslash before punctuation is not shown.
+std::string cell_text(const Rows& table, const std::string& cell) {
+  std::string text;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const bool escapes = table.is_markup && cell[i] == '\\' && i + 1 < cell.size() &&
+                         cell[i + 1] != '\\' &&
+                         std::ispunct(static_cast<unsigned char>(cell[i + 1])) != 0;
+    text += cell[escapes ? ++i : i];
+  }
+  return text;
+}
 
 Row cells_of(std::string_view line, char separator) {
   Row cells;
@@ -74,7 +86,7 @@ Rows read_csv(const std::string& text, const std::string& source) {
 
 /// Lines; those of Markdown that begin with '|' are rows, in LaTeX every line may be one.
 Rows read_lines(std::string_view text, const std::string& source, bool is_markdown) {
-  Rows table;
+  Rows table{.is_markup = true};
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     const std::string_view line = text.substr(at, end - at);
@@ -104,10 +116,10 @@ std::string location_of(const Rows& table, std::size_t row, std::size_t column) 
   const std::size_t label = table.has_heading && cells[0].empty() && cells.size() > 1 ? 1 : 0;
   std::string text = fmt::format("row {}", row + 1);
   if (row != table.heading && !cells[label].empty() && column != label)
-    text += " (" + printable(cells[label], kMostCellText) + ")";
+    text += " (" + printable(cell_text(table, cells[label]), kMostCellText) + ")";
   const bool named = table.has_heading && column < table.rows[table.heading].size();
   return text + ", " +
-         (named ? printable(table.rows[table.heading][column], kMostCellText)
+         (named ? printable(cell_text(table, table.rows[table.heading][column]), kMostCellText)
                 : fmt::format("cell {}", column + 1));
 }
 
@@ -152,7 +164,7 @@ class TableComparer {
         ++found_.cells.within;
         continue;
       }
-      note(location_of(a_, row, i), first[i], second[i]);
+      note(location_of(a_, row, i), cell_text(a_, first[i]), cell_text(b_, second[i]));
       const bool is_body = a_.has_heading ? row > a_.heading : first.size() > 1;
       body_differs_ |= is_body;
       if (change == TextChange::kNumbers && is_body)
@@ -326,20 +338,9 @@ Judgement by_records(const std::string& what, const std::vector<DiffItem>& repor
           settings.empty() ? why : settings};
 }
 
-/// The whole text as a number.
-std::optional<double> number(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return value;
-}
-
 std::string first_text(const OtherDiff& cells) {
-  constexpr std::size_t kReadable = 8;  // Characters: longer numbers are in full precision.
-  const std::optional<double> before = number(cells.baseline), after = number(cells.current);
-  if (before && after && std::max(cells.baseline.size(), cells.current.size()) > kReadable)
-    return fmt::format("{}: {}", cells.first, change_text(*before, *after, ""));
-  return fmt::format("{}: {} \u2192 {}", cells.first, cells.baseline, cells.current);
+  const auto [before, after] = readable_numbers(cells.baseline, cells.current);
+  return fmt::format("{}: {} \u2192 {}", cells.first, before, after);
 }
 
 Judgement judge_table(const DiffItem& item, const std::vector<TableDiff>& tables,

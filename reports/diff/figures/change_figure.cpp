@@ -55,7 +55,7 @@ bool same(const Layer& a, const Layer& b) {
          std::ranges::equal(left.texts, right.texts);
 }
 
-/// Without names, which must be unique in a figure, and without a place in the legend.
+/// Without names, which must be unique in a figure.
 Layer plain(Layer layer) {
   std::visit(
       [](auto& each) {
@@ -63,8 +63,13 @@ Layer plain(Layer layer) {
         if constexpr (requires { each.mark; }) each.mark = {};
       },
       layer);
-  set_label(layer, "");
   return layer;
+}
+
+/// Of a layer that differs: "ISOMAP, K = 9, current".
+void set_side(Layer& layer, const std::string& side) {
+  const std::string& label = label_of(layer);
+  set_label(layer, label.empty() ? side : label + ", " + side);
 }
 
 Layer in_grey(Layer layer) {
@@ -134,7 +139,7 @@ std::optional<Panel> changed_panel(const Panel& before, const Panel& after, cons
       panel.layers.push_back(*std::move(cells));
     } else if (is_drawn(layer)) {
       changed.push_back(plain(layer));
-      set_label(changed.back(), "current");
+      set_side(changed.back(), "current");
     }
   }
   bool any_lost = false;
@@ -143,7 +148,7 @@ std::optional<Panel> changed_panel(const Panel& before, const Panel& after, cons
     const bool is_lost =
         std::ranges::none_of(after.layers, [&](const Layer& other) { return same(other, layer); });
     panel.layers.push_back(in_grey(plain(layer)));
-    if (is_lost) set_label(panel.layers.back(), "baseline");
+    if (is_lost) set_side(panel.layers.back(), "baseline");
     any_lost = any_lost || is_lost;
   }
   if (changed.empty() && !any_lost && std::ranges::none_of(panel.layers, [](const Layer& layer) {
@@ -153,6 +158,14 @@ std::optional<Panel> changed_panel(const Panel& before, const Panel& after, cons
   std::ranges::move(changed, std::back_inserter(panel.layers));
   add_moves(panel, diff.moves, index);
   return panel;
+}
+
+/// Leaves out the title and the notes of two figures if these differ: a heat map would show both
+/// at one place. @return Whether they do.
+bool drop_words_that_differ(Figure& a, Figure& b) {
+  if (a.title == b.title && a.notes == b.notes) return false;
+  for (Figure* figure : {&a, &b}) figure->title.clear(), figure->notes.clear();
+  return true;
 }
 
 /// Limits that hold what two panels show.
@@ -185,11 +198,12 @@ std::optional<Panel> panel_of_points(const std::vector<PointsDiff>& all) {
   lines.x0 = before.x, lines.y0 = before.y, lines.x1 = after.x, lines.y1 = after.y;
   names.x = after.x, names.y = after.y;
   const bool in_metres = farthest->quantity != "landmark_shape";
-  return Panel{.title = printable(farthest->record, 200),
-               .x = Axis{.label = in_metres ? "x [m]" : "x"},
-               .y = Axis{.label = in_metres ? "y [m]" : "y"},
-               .equal_aspect = true,
-               .layers = {lines, before, after, names}};
+  return Panel{
+      .title = printable(farthest->label.empty() ? farthest->record : farthest->label, 200),
+      .x = Axis{.label = in_metres ? "x [m]" : "x"},
+      .y = Axis{.label = in_metres ? "y [m]" : "y"},
+      .equal_aspect = true,
+      .layers = {lines, before, after, names}};
 }
 
 /// The values of one quantity, run by run; empty: there is no pair of numbers.
@@ -212,7 +226,7 @@ std::optional<Panel> panel_of(const Comparison& comparison) {
                                ? quantity.label
                                : fmt::format("{} [{}]", quantity.label, quantity.unit);
   runs.label = counted(std::ssize(runs.x), "run");
-  return Panel{.title = printable(comparison.subject, 200),
+  return Panel{.title = printable(shown_subject(comparison), 200),
                .x = Axis{.label = "baseline: " + name},
                .y = Axis{.label = "current: " + name},
                .layers = {equal, runs}};
@@ -248,7 +262,9 @@ std::optional<std::pair<Figure, Figure>> on_common_axes(const FigureValues& valu
     both.second.panels[p].x.limits = both.first.panels[p].x.limits;
     both.second.panels[p].y.limits = both.first.panels[p].y.limits;
   }
-  if (!any_shift || !can_be_drawn(both.first) || !can_be_drawn(both.second)) return std::nullopt;
+  const bool has_other_words = drop_words_that_differ(both.first, both.second);
+  if (!(any_shift || has_other_words) || !can_be_drawn(both.first) || !can_be_drawn(both.second))
+    return std::nullopt;
   return both;
 }
 

@@ -18,13 +18,14 @@ struct FigureValues {
 std::optional<FigureValues> figure_values(const DiffItem& item);
 
 /// Both figures with the limits of axes that hold what either shows, so that a shifted limit moves
-/// no mark on the page; empty if their limits are equal, or their panels differ in number or scale.
+/// no mark on the page, and without titles and notes that differ; empty if limits and words are
+/// equal, or if their panels differ in number or scale.
 std::optional<std::pair<Figure, Figure>> on_common_axes(const FigureValues& values);
 
 /// What changed between two figures, on common axes: the baseline in grey, the layers that differ
-/// as the current figure has them, and a line from the old to the new position of each mark that
-/// moved. Cells show the size of their change. At most four panels, those with most movements.
-/// Empty if no layer that is drawn differs.
+/// as the current figure has them, all under their names in the legend, and a line from the old to
+/// the new position of each mark that moved. Cells show the size of their change. At most four
+/// panels, those with most movements. Empty if no layer that is drawn differs.
 std::optional<Figure> change_figure(const FigureValues& values, const FigureDiff& diff);
 
 /// What changed between two sets of records: the old and the new positions of the landmarks of the

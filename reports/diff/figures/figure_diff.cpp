@@ -20,6 +20,7 @@ namespace mapproof {
 namespace {
 
 constexpr std::size_t kMostRecordIds = 3;
+constexpr std::string_view kAlternativeText = "alternative text";
 
 /// Whether a point is given, not estimated.
 bool is_given(const MarkMove& move) {
@@ -51,7 +52,7 @@ void compare_words(const Figure& a, const Figure& b, FigureLog& log) {
   if (a.alt != b.alt && varies)
     log.mask();
   else
-    words("alternative text", a.alt, b.alt);
+    words(kAlternativeText, a.alt, b.alt);
   // This is data: the next comparison judges less of a figure that varies.
   log.change(ChangeKind::kData, "figure", "varies from run to run", a.varies ? "yes" : "no",
              b.varies ? "yes" : "no");
@@ -159,9 +160,17 @@ std::string length_text(double length, const std::string& unit) {
   return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
 }
 
+/// Without the full stop of a text that a sentence holds.
+std::string without_stop(std::string text) {
+  if (text.ends_with('.') && !text.ends_with("..")) text.pop_back();
+  return text;
+}
+
 std::string change_sentence(const FigureChange& change) {
-  const auto [before, after] = excerpts(change.baseline, change.current,
-                                        change.what == "title" ? kMostTitle : kMostValueText);
+  const auto [baseline, current] = readable_numbers(change.baseline, change.current);
+  auto [before, after] =
+      excerpts(baseline, current, change.what == "title" ? kMostTitle : kMostValueText);
+  before = without_stop(std::move(before)), after = without_stop(std::move(after));
   std::string text = change.location + ": " + change.what;
   if (change.baseline.empty() && change.current.empty()) return text;
   if (change.current.empty()) return text + " (was " + before + ")";
@@ -169,16 +178,24 @@ std::string change_sentence(const FigureChange& change) {
   return fmt::format("{} {} \u2192 {}", text, before, after);
 }
 
+/// Whether a text repeats in its numbers what the figure draws.
+bool repeats_data(const FigureChange& change) {
+  return change.what == "caption" || change.what == kAlternativeText;
+}
+
 /// The first change of that kind, and the number of others. A change of records has a sentence of
 /// its own.
-std::string first_of(const FigureDiff& diff, ChangeKind kind) {
+/// @param data_are_named  Texts that repeat the data are then left out.
+std::string first_of(const FigureDiff& diff, ChangeKind kind, bool data_are_named = false) {
   const FigureChange* first = nullptr;
   long count = 0;
   for (const FigureChange& change : diff.changes)
-    if (change.kind == kind && change.what != kRecordsWord && count++ == 0) first = &change;
+    if (change.kind == kind && change.what != kRecordsWord &&
+        !(data_are_named && repeats_data(change)) && count++ == 0)
+      first = &change;
   if (first == nullptr) return "";
   return change_sentence(*first) +
-         (count > 1 ? fmt::format(", and {} more", counted(count - 1, "change")) : "");
+         (count > 1 ? fmt::format(", and {}", counted(count - 1, "other change")) : "");
 }
 
 /// Whether positions that are given, not estimated, moved: the experiments then differ.
@@ -213,13 +230,13 @@ std::string data_cause(const FigureDiff& diff) {
     text = move_text(diff.moves[0]);
     if (diff.moved > 1) text += fmt::format(", {} moved in all", moved_text(diff));
   }
-  const std::string more = first_of(diff, ChangeKind::kData);
+  const std::string more = first_of(diff, ChangeKind::kData, !text.empty());
   if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
   const auto records = std::ranges::find(diff.changes, kRecordsWord, &FigureChange::what);
   if (text.empty() && records != diff.changes.end())
     text = std::string(kMadeOfOthers) + ", " + records->baseline + " \u2192 " + records->current;
   if (direction(diff) != Verdict::kChanged)
-    text += fmt::format("; mean error of all positions drawn {}",
+    text += fmt::format("; mean error of the positions drawn, without anchors, {}",
                         change_text(*diff.baseline_error, *diff.current_error, "m", true));
   return text;
 }

@@ -123,8 +123,16 @@ void FigureLog::move(MarkMove move) {
     return;
   }
   ++diff_.moved;
+  if (!move.landmark.empty()) moved_landmarks_.emplace(move.panel, move.landmark);
   diff_.moves.push_back(std::move(move));
   if (diff_.moves.size() > 8 * kMostEntries) keep_farthest(diff_.moves);
+}
+
+void FigureLog::within(std::size_t panel, std::string_view landmark) {
+  if (landmark.empty())
+    ++diff_.within;
+  else
+    within_landmarks_.emplace(panel, landmark);
 }
 
 void FigureLog::errors(double baseline, double current, double count) {
@@ -138,6 +146,10 @@ void FigureLog::transform(std::string text) {
 }
 
 FigureDiff FigureLog::take() {
+  diff_.within_landmarks = std::ranges::count_if(within_landmarks_, [&](const auto& landmark) {
+    return !moved_landmarks_.contains(landmark);
+  });
+  diff_.within += diff_.within_landmarks;
   diff_.equal = diff_.total_changes + diff_.moved + diff_.within + diff_.masked == 0;
   if (errors_ > 0.0) {
     diff_.baseline_error = baseline_errors_ / errors_;
@@ -148,6 +160,13 @@ FigureDiff FigureLog::take() {
   if (diff_.changes.size() > kMostEntries) diff_.changes.resize(kMostEntries);
   keep_farthest(diff_.moves);
   return std::move(diff_);
+}
+
+LayerDiff::LayerDiff(const ComparedPanel& panel, FigureLog& log) : panel_(panel), log_(log) {
+  if (panel.panel >= panel.figure.panels.size()) return;
+  for (const Layer& layer : panel.figure.panels[panel.panel].layers)
+    for (const Mark& mark : view_of(layer).marks)
+      if (data_of(mark, "kind") == "anchor") anchors_.emplace(data_of(mark, "landmark"));
 }
 
 std::string LayerDiff::location(const LayerView& layer) const {
@@ -287,7 +306,9 @@ void LayerDiff::compare_point(const LayerView& a, std::size_t i, const LayerView
     log_.move(*std::move(farthest));
     return;
   }
-  if (is_within) log_.within();
+  if (is_within)
+    log_.within(panel_.panel,
+                a.has_mark_a_point() ? data_of(a.marks[i], "landmark") : std::string_view());
   if (a.has_mark_a_point() && b.has_mark_a_point()) compare_data(a.marks[i], b.marks[j]);
 }
 
@@ -303,7 +324,11 @@ MarkMove LayerDiff::mark_move(const LayerView& layer, std::size_t point, Point b
                 .current = after,
                 .distance = std::hypot(after.x - before.x, after.y - before.y),
                 .unit = unit_of_move(panel_.figure.panels[panel_.panel], before, after),
-                .distance_px = panel_.locations.distance_px(panel_.panel, before, after)};
+                .x_unit = unit_of(panel_.figure.panels[panel_.panel].x),
+                .y_unit = unit_of(panel_.figure.panels[panel_.panel].y),
+                .distance_px = panel_.locations.distance_px(panel_.panel, before, after),
+                .is_line = layer.kind == "segments",
+                .on_map = panel_.figure.panels[panel_.panel].equal_aspect};
   if (layer.has_mark_a_point() || layer.is_whole) {
     const Mark& mark = layer.is_whole ? layer.marks[0] : layer.marks[point];
     move.mark = mark.id;
@@ -366,6 +391,7 @@ void LayerDiff::add_errors(const LayerView& a, const LayerView& b) {
   double first = 0.0, second = 0.0, count = 0.0;
   for (const Match& match : match_points(a, b)) {
     if (!match.baseline || !match.current) continue;
+    if (anchors_.contains(std::string(data_of(a.marks[*match.baseline], "landmark")))) continue;
     const auto before = number_of(std::string(data_of(a.marks[*match.baseline], "error")));
     const auto after = number_of(std::string(data_of(b.marks[*match.current], "error")));
     if (!before || !after || !std::isfinite(*before) || !std::isfinite(*after)) continue;

@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "render/base/geometry.hpp"
@@ -45,7 +46,10 @@ struct MarkMove {
   Point baseline, current;  ///< In the units of the axes.
   double distance = 0.0;    ///< In the units of the axes; NaN: a position on only one side.
   std::string unit;         ///< Of the axis along which it moved; empty: none, or two units.
+  std::string x_unit, y_unit;         ///< Of the axes; empty: none.
   std::optional<double> distance_px;  ///< On the page of the report's theme.
+  bool is_line = false;               ///< Of lines that join points of other layers.
+  bool on_map = false;                ///< Both axes have one scale.
 };
 
 /// The differences of two figures.
@@ -56,9 +60,13 @@ struct FigureDiff {
   std::vector<MarkMove> moves;  ///< Beyond tolerance; at most 200, the farthest on the page first.
   std::vector<std::string> transforms;  ///< What moved all points of a layer together.
   long moved = 0;                       ///< Of all points, those beyond tolerance.
-  long within = 0;                      ///< Of all points, those that moved within tolerance.
+  /// Of all points, those that moved within tolerance: a landmark once, however many layers draw
+  /// it, and not if it moved beyond tolerance in one of them.
+  long within = 0;
+  long within_landmarks = 0;  ///< Of these, the landmarks.
   long masked = 0;  ///< Points that moved in a figure marked `varies`: not judged.
-  /// Mean of data-error over the marks of both sides; none if there are no such marks.
+  /// Mean of data-error over the marks of both sides that are no anchors; none if there are no such
+  /// marks.
   std::optional<double> baseline_error, current_error;
 
   /// Whether there is a change of that kind beyond tolerance.
@@ -92,8 +100,8 @@ class FigureLog {
   /// Counts a difference that is not judged, as the figure varies.
   long moved() const { return diff_.moved; }
   void mask() { ++diff_.masked; }
-  /// Counts a point that moved within tolerance.
-  void within() { ++diff_.within; }
+  /// Counts a point that moved within tolerance. @param landmark  Empty: it is none.
+  void within(std::size_t panel = 0, std::string_view landmark = {});
   /// Adds the errors of marks on both sides: their sums, and their number.
   void errors(double baseline, double current, double count);
 
@@ -103,6 +111,8 @@ class FigureLog {
  private:
   bool varies_;
   FigureDiff diff_;
+  /// With their panels.
+  std::set<std::pair<std::size_t, std::string>> moved_landmarks_, within_landmarks_;
   double baseline_errors_ = 0.0, current_errors_ = 0.0, errors_ = 0.0;
 };
 
@@ -121,7 +131,7 @@ struct ComparedPanel {
 class LayerDiff {
  public:
   /// @param log  Must outlive this.
-  LayerDiff(const ComparedPanel& panel, FigureLog& log) : panel_(panel), log_(log) {}
+  LayerDiff(const ComparedPanel& panel, FigureLog& log);
 
   /// Compares two layers of one kind.
   void compare(const LayerView& baseline, const LayerView& current);
@@ -147,6 +157,8 @@ class LayerDiff {
   ComparedPanel panel_;
   FigureLog& log_;
   std::string location_;  ///< The location of the layer that is compared.
+  std::set<std::string>
+      anchors_;  ///< Landmarks with known positions: a mean error is without them.
 };
 
 /// Names of the points that both panels have, in any layers.

@@ -44,6 +44,22 @@ double parsed_number(std::string_view text) {
   return std::strtod(plain.c_str(), nullptr);
 }
 
+std::vector<std::string_view> number_texts(std::string_view text) {
+  std::vector<std::string_view> numbers;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = number_end(text, at);
+    if (end > at) numbers.push_back(text.substr(at, end - at));
+    at = end > at ? end : at + 1;
+  }
+  return numbers;
+}
+
+/// Whether a number has more decimals than anybody reads.
+bool is_long(std::string_view number) {
+  constexpr std::size_t kReadable = 8;  // Characters.
+  return number.size() > kReadable && number.find('.') != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string without_numbers(std::string_view text) {
@@ -58,12 +74,30 @@ std::string without_numbers(std::string_view text) {
 
 std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = number_end(text, at);
-    if (end > at) numbers.push_back(parsed_number(text.substr(at, end - at)));
-    at = end > at ? end : at + 1;
-  }
+  for (const std::string_view number : number_texts(text)) numbers.push_back(parsed_number(number));
   return numbers;
+}
+
+std::pair<std::string, std::string> readable_numbers(std::string_view a, std::string_view b) {
+  const std::vector<std::string_view> first = number_texts(a), second = number_texts(b);
+  const bool are_pairs = first.size() == second.size();
+  const auto shown = [&](std::string_view text, bool is_first) {
+    std::string out;
+    std::size_t at = 0;
+    const std::vector<std::string_view>& own = is_first ? first : second;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const std::string_view before = are_pairs ? first[i] : own[i];
+      const std::string_view after = are_pairs ? second[i] : own[i];
+      if (!is_long(before) && !is_long(after)) continue;
+      const auto begin = static_cast<std::size_t>(own[i].data() - text.data());
+      const auto numbers = changed_numbers(parsed_number(before), parsed_number(after));
+      out += text.substr(at, begin - at);
+      out += is_first ? numbers.first : numbers.second;
+      at = begin + own[i].size();
+    }
+    return out += text.substr(at);
+  };
+  return {shown(a, true), shown(b, false)};
 }
 
 bool same_numbers(std::string_view a, std::string_view b) { return numbers_in(a) == numbers_in(b); }

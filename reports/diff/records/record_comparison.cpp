@@ -114,11 +114,11 @@ void judge_comparisons(const RecordDiff& diff, Judgement& whole, std::vector<std
   if (first == nullptr || verdict_of(first->outcome) <= Verdict::kWithinTolerance) return;
   const auto beyond = std::ranges::count_if(
       all, [](const Comparison* c) { return verdict_of(c->outcome) > Verdict::kWithinTolerance; });
-  causes.push_back(fmt::format(
-      "{} of {}{}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
-      tendency_words(*first),
-      beyond > 1 ? fmt::format(", and {} of other quantities or records", beyond - 1) : "",
-      directions_text(all, *first)));
+  causes.push_back(
+      fmt::format("{} of {}{}{}{}{}", comparison_text(*first), first->subject, test_words(*first),
+                  tendency_words(*first),
+                  beyond > 1 ? fmt::format(", and {}", counted(beyond - 1, "other score")) : "",
+                  directions_text(all, *first)));
 }
 
 std::string unit_words(const Quantity& quantity) {
@@ -301,6 +301,14 @@ std::string settings_text(const RecordDiff& diff) {
   const std::string why = diff.moved_ground_truth.empty() ? "different seeds or true positions"
                                                           : diff.moved_ground_truth;
   return text + (text.empty() ? "" : ": ") + why;
+}
+
+std::string shown_subject(const Comparison& comparison) {
+  if (!comparison.label.empty()) return comparison.label;
+  const bool is_same =
+      comparison.current_subject.empty() || comparison.current_subject == comparison.subject;
+  return is_same ? comparison.subject
+                 : comparison.subject + " \u2192 " + comparison.current_subject;
 }
 
 std::string comparison_text(const Comparison& comparison, const std::string& run) {

@@ -56,6 +56,7 @@ struct PairedTest {
 struct Comparison {
   std::string subject;
   std::string current_subject;  ///< The same, unless its parameter changed.
+  std::string label = {};       ///< Of both for readers; empty: not known.
   Quantity quantity;            ///< From the dictionary, or as the study declares it.
   int pairs = 0;                ///< Runs that have it on both sides; of them …
   int equal = 0;
@@ -86,10 +87,14 @@ struct PointMove {
   std::optional<double> baseline_error, current_error;  ///< Where the ground truth is known.
 };
 
+/// What tables and figures call the subject: its label, else "subject → current subject".
+std::string shown_subject(const Comparison& comparison);
+
 /// The points of one record.
 struct PointsDiff {
   std::string record;
-  std::string quantity;  ///< "landmark_m", "landmark_shape" or "path_m".
+  std::string label = {};  ///< Of the record for readers; empty: not known.
+  std::string quantity;    ///< "landmark_m", "landmark_shape" or "path_m".
   int points = 0;        ///< On both sides.
   int within = 0;
   int beyond = 0;

@@ -164,6 +164,14 @@ void compare_others(const RecordSet& a, const RecordSet& b, const Tolerances& to
       diff.others.push_back({.file = name, .presence = Presence::kCurrent});
 }
 
+/// "bearing, ISOMAP, K = 9, 2000 steps, layout-1-pose-2" of a record; empty: not known.
+std::string record_label(const std::string& record, const RecordSet& set) {
+  const RecordName name = subject_of(record);
+  const auto label = set.labels.find(name.subject);
+  if (label == set.labels.end()) return "";
+  return label->second + (name.run.empty() ? "" : ", " + name.run);
+}
+
 }  // namespace
 
 RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptions& options) {
@@ -193,6 +201,7 @@ RecordDiff record_diff(const RecordSet& a, const RecordSet& b, const RecordOptio
   }
   diff.comparisons = compare_series(a, b, diff.same_seeds, options, diff.values);
   compare_points(a, b, options.tolerances, diff);
+  for (PointsDiff& points : diff.points) points.label = record_label(points.record, b);
   compare_rest(a, b, diff);
   compare_others(a, b, options.tolerances, diff);
   diff.judgement = judge(diff);

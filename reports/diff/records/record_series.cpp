@@ -4,6 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/base/not_finite.hpp"
 #include "reports/diff/records/number_diff.hpp"
 
@@ -186,6 +188,11 @@ bool point_one_way(const std::vector<Comparison>& all) {
   return !worse || !better;
 }
 
+const std::string& label_of(const RecordSet& set, const std::string& subject) {
+  const auto label = set.labels.find(subject);
+  return label == set.labels.end() ? subject : label->second;
+}
+
 /// The quantities of the dictionary, and those that either side declares. Quantities that the sides
 /// declare in different units are left out; those that they declare with different directions have
 /// none.
@@ -297,6 +304,8 @@ std::vector<Comparison> compare_series(const RecordSet& a, const RecordSet& b, b
       values += c.pairs + c.lost + c.gained;
       c.subject = subject;
       c.current_subject = other;
+      c.label = label_of(a, subject);
+      if (label_of(b, other) != c.label) c.label += " \u2192 " + label_of(b, other);
       c.quantity = quantity;
       if (quantity.better == Better::kHigher) std::swap(c.worse, c.better);
       if (quantity.better == Better::kNeither || !same_seeds) c.worse = c.better = 0;

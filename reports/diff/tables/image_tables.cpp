@@ -69,7 +69,12 @@ void add_facts(KeyValues& facts, const ImageFile& file) {
 }
 
 Table svg_table(const SvgDiff& svg, const std::string& suffix) {
-  Table table{"svg-" + suffix, "What changed in the SVG", {}, {}, {}, true};
+  Table table{"svg-" + suffix,
+              "What changed in the SVG: " + counted(svg.total, "change"),
+              {},
+              {},
+              {},
+              true};
   table.columns = {{"Element", "", "", ""},
                    {"What", "", "", ""},
                    {"Baseline", "", "", ""},

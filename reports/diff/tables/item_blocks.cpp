@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,10 +13,13 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
 #include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/plot/figure_json.hpp"
 #include "reports/diff/figures/figure_diff.hpp"
 #include "reports/diff/records/difference_summary.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 #include "reports/diff/records/record_comparison.hpp"
 #include "reports/diff/records/record_diff.hpp"
 #include "reports/diff/tables/image_tables.hpp"
@@ -36,9 +40,6 @@ std::string runs_text(const Comparison& c) {
 
 Row row_of(const Comparison& c) {
   const double scale = std::max(std::abs(c.baseline_mean), std::abs(c.current_mean));
-  const std::string subject = c.current_subject == c.subject || c.current_subject.empty()
-                                  ? c.subject
-                                  : c.subject + " \u2192 " + c.current_subject;
   const bool errors_m = has_great_errors(c.quantity, std::min(c.baseline_mean, c.current_mean));
   const auto mean = [&](double value) {
     // Digits that distinguish small values are those of a value that is shown.
@@ -47,8 +48,12 @@ Row row_of(const Comparison& c) {
     cell.error_m = errors_m;
     return cell;
   };
-  Row row{{user_text(subject), TextCell{label_with_unit(c.quantity)}, mean(c.baseline_mean),
-           mean(c.current_mean), TextCell{runs_text(c)}},
+  NumberCell before = mean(c.baseline_mean), after = mean(c.current_mean);
+  while (before.decimals == after.decimals && before.decimals < kMostDecimals &&
+         before.value != after.value && format_cell(before) == format_cell(after))
+    ++before.decimals, ++after.decimals;
+  Row row{{user_text(shown_subject(c)), TextCell{label_with_unit(c.quantity)}, before, after,
+           TextCell{runs_text(c)}},
           "",
           false};
   row.cells.push_back(c.test ? Cell(p_cell(c.test->p)) : Cell(MissingCell{}));
@@ -172,9 +177,10 @@ void add_others_table(std::vector<Block>& blocks, const std::vector<OtherDiff>& 
     const std::string location = other.presence == Presence::kBaseline  ? "missing"
                                  : other.presence == Presence::kCurrent ? "new"
                                                                         : other.first;
+    const auto [before, after] = readable_numbers(other.baseline, other.current);
     table.rows.push_back(
         {{user_text(other.file), count(other.numbers), count(other.within), count(other.beyond),
-          user_text(location), user_text(other.baseline), user_text(other.current)},
+          user_text(location), user_text(before), user_text(after)},
          "",
          false});
   }
@@ -233,62 +239,84 @@ void add_record_tables(std::vector<Block>& blocks, const RecordDiff& diff,
 
 std::string who(const MarkMove& move) {
   if (!move.landmark.empty()) return "landmark " + move.landmark;
-  const std::string of = move.curve.empty() ? "" : " of " + move.curve;
-  return move.mark.empty() ? fmt::format("point {}{}", move.point + 1, of) : move.mark + of;
+  if (!move.curve.empty()) return fmt::format("point {} of {}", move.point + 1, move.curve);
+  return move.mark.empty() ? fmt::format("point {}", move.point + 1) : move.mark;
 }
 
-/// "(1.25, -0.5)", with as many digits as distinguish it from the other point.
-std::string location_text(Point at, Point other) {
-  if (!std::isfinite(at.x) || !std::isfinite(at.y)) return "none";
-  const auto digits = [](double a, double b) {
-    int enough = 4;
-    while (enough < 17 && a != b &&
-           fmt::format("{:.{}g}", a, enough) == fmt::format("{:.{}g}", b, enough))
-      ++enough;
-    return enough;
+/// Both positions with their units, "(1.250, −0.500) m" on a map and "(500, 0.161 m)" on a curve,
+/// with as many digits as distinguish them.
+/// @param scale  The greatest coordinate on the map: its positions have the same decimals.
+std::pair<std::string, std::string> positions_text(const MarkMove& move, double scale) {
+  const bool is_map = move.on_map && scale > 0.0;
+  const auto numbers = [&](double before, double after) {
+    if (!is_map) return changed_numbers(before, after);
+    int decimals = scaled_number(before, scale).decimals + 1;
+    while (decimals < kMostDecimals && before != after &&
+           number_text(before, decimals) == number_text(after, decimals))
+      ++decimals;
+    return std::pair(number_text(before, decimals), number_text(after, decimals));
   };
-  return fmt::format("({:.{}g}, {:.{}g})", at.x, digits(at.x, other.x), at.y,
-                     digits(at.y, other.y));
+  const auto x = numbers(move.baseline.x, move.current.x);
+  const auto y = numbers(move.baseline.y, move.current.y);
+  const auto text = [&](Point at, const std::string& first, const std::string& second) {
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) return std::string("none");
+    if (is_map) return with_unit(fmt::format("({}, {})", first, second), move.x_unit);
+    return fmt::format("({}, {})", with_unit(first, move.x_unit), with_unit(second, move.y_unit));
+  };
+  return {text(move.baseline, x.first, y.first), text(move.current, x.second, y.second)};
+}
+
+/// The unit of all distances; empty if they have several.
+std::string common_unit(const std::vector<MarkMove>& moves) {
+  const auto has_other = [&](const MarkMove& move) { return move.unit != moves.front().unit; };
+  return moves.empty() || std::ranges::any_of(moves, has_other) ? "" : moves.front().unit;
 }
 
 Table moves_table(const FigureDiff& diff, const std::string& suffix) {
   Table table{"moves-" + suffix, "What moved", {}, {}, {}};
   table.columns = {{"What", "", "", ""},
                    {"Where", "", "", ""},
-                   {"From", "", "", "In the units of the axes"},
-                   {"To", "", "", "In the units of the axes"},
-                   {"Distance", "", "", "In the units of the axes"},
+                   {"From", "", "", ""},
+                   {"To", "", "", ""},
+                   {"Distance", common_unit(diff.moves), "", "In the units of the axes"},
                    {"On the page", "px", "", "On the page of the report's theme"}};
-  double scale = 0.0;
-  for (const MarkMove& move : diff.moves)
-    if (std::isfinite(move.distance)) scale = std::max(scale, move.distance);
-  // A layer of errors draws the positions of another one again.
-  const auto is_drawn_before = [&](const MarkMove& move) {
-    const auto is_same = [&](const MarkMove& other) {
-      return other.landmark == move.landmark && other.panel == move.panel &&
-             other.baseline.x == move.baseline.x && other.baseline.y == move.baseline.y &&
-             other.current.x == move.current.x && other.current.y == move.current.y;
+  double distance = 0.0;
+  std::map<std::size_t, double> scales;  // By panel.
+  for (const MarkMove& move : diff.moves) {
+    if (std::isfinite(move.distance)) distance = std::max(distance, move.distance);
+    for (const double at : {move.baseline.x, move.baseline.y, move.current.x, move.current.y})
+      if (std::isfinite(at)) scales[move.panel] = std::max(scales[move.panel], std::abs(at));
+  }
+  // Lines of errors draw the positions of the points again.
+  const auto is_repeated = [&](const MarkMove& move) {
+    const auto is_before = [&](const MarkMove& other) {
+      if (&other == &move || other.landmark != move.landmark || other.panel != move.panel ||
+          other.baseline != move.baseline || other.current != move.current)
+        return false;
+      return move.is_line == other.is_line ? &other < &move : move.is_line;
     };
-    return !move.landmark.empty() && std::any_of(diff.moves.data(), &move, is_same);
+    return !move.landmark.empty() && std::ranges::any_of(diff.moves, is_before);
   };
   for (const MarkMove& move : diff.moves) {
-    if (is_drawn_before(move)) continue;
-    Row row{
-        {user_text(who(move)), user_text(move.location),
-         TextCell{location_text(move.baseline, move.current)},
-         TextCell{location_text(move.current, move.baseline)}, scaled_number(move.distance, scale)},
-        "",
-        false};
+    if (is_repeated(move)) continue;
+    const auto [from, to] = positions_text(move, scales[move.panel]);
+    Row row{{user_text(who(move)), user_text(move.location), user_text(from), user_text(to),
+             scaled_number(move.distance, distance)},
+            "",
+            false};
     std::get<NumberCell>(row.cells.back()).error_m = move.unit == "m";
     row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
                                          : Cell(MissingCell{}));
     table.rows.push_back(std::move(row));
   }
   if (diff.within > 0)
-    table.notes.push_back(counted(diff.within, "more point") + " moved within tolerance.");
+    table.notes.push_back(counted(diff.within, diff.within == diff.within_landmarks
+                                                   ? "more landmark"
+                                                   : "more point") +
+                          " moved within tolerance.");
   if (diff.baseline_error && diff.current_error)
-    table.notes.push_back("Mean error of all positions drawn: " +
-                          change_text(*diff.baseline_error, *diff.current_error, "", true) + ".");
+    table.notes.push_back("Mean error of the positions drawn, without anchors: " +
+                          change_text(*diff.baseline_error, *diff.current_error, "m", true) + ".");
   return table;
 }
 
@@ -305,12 +333,14 @@ void add_figure_tables(std::vector<Block>& blocks, const FigureDiff& diff,
                      {"Kind", "", "", "Data; style; or metadata: title, caption, alternative text"},
                      {"Baseline", "", "", ""},
                      {"Current", "", "", ""}};
-  for (const FigureChange& change : diff.changes)
-    changes.rows.push_back({{user_text(change.location), user_text(change.what),
-                             TextCell{std::string(name(change.kind))}, user_text(change.baseline),
-                             user_text(change.current)},
-                            "",
-                            false});
+  for (const FigureChange& change : diff.changes) {
+    const auto [before, after] = readable_numbers(change.baseline, change.current);
+    changes.rows.push_back(
+        {{user_text(change.location), user_text(change.what),
+          TextCell{std::string(name(change.kind))}, user_text(before), user_text(after)},
+         "",
+         false});
+  }
   if (diff.masked > 0)
     changes.notes.push_back("Varies from run to run: " + counted(diff.masked, "difference") +
                             " not judged.");

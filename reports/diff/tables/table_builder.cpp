@@ -14,8 +14,8 @@ TextCell user_text(const std::string& text) { return {printable(text, 500), Emph
 
 NumberCell scaled_number(double value, double scale) {
   const double digits =
-      std::isfinite(scale) && scale > 0.0 ? 3.0 - std::floor(std::log10(scale)) : 3.0;
-  return {value, static_cast<int>(std::clamp(digits, 0.0, 9.0))};
+      std::isfinite(scale) && scale > 0.0 ? 2.0 - std::floor(std::log10(scale)) : 2.0;
+  return {value, static_cast<int>(std::clamp(digits, 0.0, double{kMostDecimals}))};
 }
 
 void add_table(std::vector<Block>& blocks, Table table, long total) {

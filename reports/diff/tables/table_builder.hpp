@@ -14,7 +14,10 @@ inline constexpr std::size_t kMostTableRows = 30;
 /// A cell with text of a user's file, cut to 500 characters.
 TextCell user_text(const std::string& text);
 
-/// A number with four significant digits of `scale`; missing if it is not a finite number.
+/// The most decimals of a number in a table.
+inline constexpr int kMostDecimals = 9;
+
+/// A number with three significant digits of `scale`; missing if it is not a finite number.
 NumberCell scaled_number(double value, double scale);
 
 /// Adds the table unless it has no rows. Rows beyond kMostTableRows are cut; a note then states how

@@ -49,16 +49,24 @@ bool has_great_errors(const Quantity& quantity, double least_m) {
          (find_quantity(quantity.id) != nullptr || least_m <= kGreatestError_m);
 }
 
+std::pair<std::string, std::string> changed_numbers(double baseline, double current) {
+  constexpr double kGreatestCount = 1e6;
+  const auto is_count = [](double value) {
+    return value == std::floor(value) && std::abs(value) < kGreatestCount;
+  };
+  const bool are_counts = is_count(baseline) && is_count(current);
+  const int digits = distinguishing_digits(baseline, current, 3);
+  const auto text = [&](double value) {
+    if (!std::isfinite(value)) return std::string("none");
+    return are_counts ? count_text(std::llround(value)) : significant(value, digits);
+  };
+  return {text(baseline), text(current)};
+}
+
 std::string change_text(double baseline, double current, std::string_view unit, bool errors_m) {
   const auto is_great = [errors_m](double value) { return errors_m && value > kGreatestError_m; };
   if (is_great(baseline) && is_great(current)) return fmt::format("{} as before", kGreatErrorText);
-  const int digits = distinguishing_digits(baseline, current, 3);
-  const bool are_counts = baseline == std::floor(baseline) && current == std::floor(current);
-  const auto text = [&](double value) {
-    return are_counts || !std::isfinite(value) ? short_text(value, digits)
-                                               : significant(value, digits);
-  };
-  const std::string from = text(baseline), to = text(current);
+  const auto [from, to] = changed_numbers(baseline, current);
   const std::string in_unit = unit.empty() ? "" : fmt::format(" {}", unit);
   if (is_great(baseline)) return fmt::format("{} \u2192 {}{}", kGreatErrorText, to, in_unit);
   if (is_great(current)) return fmt::format("{}{} \u2192 {}", from, in_unit, kGreatErrorText);

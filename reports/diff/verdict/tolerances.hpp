@@ -38,8 +38,11 @@ std::pair<std::string, std::string> distinguished(double baseline, double curren
 /// diverged: one of mapproof's, or one with an error that is not above it.
 bool has_great_errors(const Quantity& quantity, double least_m);
 
-/// "0.120 → 0.153 m": as many digits as distinguish the two, at least three; of whole numbers no
-/// decimals.
+/// "0.120" and "0.153": as many digits as distinguish the two, at least three; of whole numbers no
+/// decimals; "none" for NaN.
+std::pair<std::string, std::string> changed_numbers(double baseline, double current);
+
+/// "0.120 → 0.153 m", see changed_numbers().
 /// @param errors_m  Errors in m: those of maps that diverged are "over 1 km".
 std::string change_text(double baseline, double current, std::string_view unit,
                         bool errors_m = false);

@@ -7,6 +7,7 @@
 #include "core/base/errors.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "reports/diff/records/number_diff.hpp"
+#include "reports/diff/records/numbers_in_text.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace mapproof {
@@ -268,11 +269,23 @@ TEST(Quantities, TextsDistinguishUnequalNumbers) {
   EXPECT_EQ(change_text(std::nan(""), 2.0, "%"), "none \u2192 2.00 %");
 }
 
+TEST(Quantities, TextsHaveNoNumbersThatNobodyReads) {
+  const auto [before, after] =
+      readable_numbers("0 to 0.17021583813709998", "0 to 0.19574815564336318");
+  EXPECT_EQ(before, "0 to 0.170");
+  EXPECT_EQ(after, "0 to 0.196");
+  EXPECT_EQ(readable_numbers("-0.033210000001", "0.1").first, "\u22120.0332");
+  EXPECT_NE(readable_numbers("0.086094250001", "0.086094250002").first,
+            readable_numbers("0.086094250001", "0.086094250002").second);
+  EXPECT_EQ(readable_numbers("K = 7: 0.125 m", "K = 7: 0.166 m, worse").second,
+            "K = 7: 0.166 m, worse");
+}
+
 TEST(Quantities, TextsSayThatAMapDiverged) {
   EXPECT_EQ(change_text(0.138, 8.93e13, "m", true), "0.138 m \u2192 over 1\u00A0km");
   EXPECT_EQ(change_text(8.93e13, 0.138, "m", true), "over 1\u00A0km \u2192 0.138 m");
   EXPECT_EQ(change_text(8.93e13, 1.2e3, "m", true), "over 1\u00A0km as before");
-  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m"), "8.93e+13 \u2192 1.2e+03 m");
+  EXPECT_EQ(change_text(8.93e13, 1.2e3, "m"), "8.93\u00D710\u00B9\u00B3 \u2192 1200 m");
   EXPECT_EQ(change_text(0.138, 900.0, "m", true), "0.138 \u2192 900 m");
 }
 

@@ -94,8 +94,9 @@ TEST(ChangeFigure, ShowsWhatIsEqualInGreyOnce) {
   EXPECT_EQ(walls[0].colour, ThemeColour::kMuted);
   const std::vector<Scatter> both = layers_of<Scatter>(figure->panels[0]);
   ASSERT_EQ(both.size(), 2U);
-  EXPECT_EQ(both[0].label, "baseline");
-  EXPECT_EQ(both[1].label, "current");
+  EXPECT_EQ(both[0].label, "map, baseline");
+  EXPECT_EQ(both[1].label, "map, current");
+  EXPECT_EQ(walls[0].label, "wall") << "the legend names what is drawn";
 }
 
 TEST(ChangeFigure, OfEqualDataIsNone) {
@@ -177,6 +178,82 @@ TEST(FigureDiff, CountsALandmarkOnceHoweverManyLayersDrawIt) {
   EXPECT_EQ(rows, 9U) << body;
 }
 
+TEST(FigureDiff, CountsALandmarkWithinToleranceOnceHoweverManyLayersDrawIt) {
+  Figure current = with_errors(0.0);
+  auto& layers = current.panels[0].layers;
+  std::get<Segments>(layers[1]).y1[3] += 1e-8;
+  std::get<Scatter>(layers[2]).y[3] += 1e-8;
+  const FigureDiff diff = figure_diff(with_errors(0.0), current);
+  EXPECT_EQ(diff.moved, 0);
+  EXPECT_EQ(diff.within, 1);
+  EXPECT_EQ(diff.within_landmarks, 1);
+}
+
+TEST(FigureDiff, MeanErrorIsWithoutAnchors) {
+  const auto with = [](const std::string& error, const std::string& of_anchor) {
+    Figure figure = landmarks();
+    points_of(figure).marks[0].data.emplace_back("error", of_anchor);
+    points_of(figure).marks[1].data.emplace_back("error", error);
+    figure.panels[0].layers.push_back(
+        Scatter{.label = "anchor",
+                .x = {0.0},
+                .y = {0.0},
+                .marks = {{"anchor-1", {{"landmark", "L0"}, {"kind", "anchor"}}}}});
+    return figure;
+  };
+  const FigureDiff diff = figure_diff(with("0.1", "0.5"), with("0.2", "0.9"));
+  EXPECT_EQ(diff.baseline_error, 0.1);
+  EXPECT_EQ(diff.current_error, 0.2);
+}
+
+TEST(FigureDiff, CauseOfAMovementDoesNotRepeatItInTheWordsOfTheFigure) {
+  Figure baseline = landmarks(), current = moved();
+  baseline.alt = "Least 0.0861 at 2000.", current.alt = "Least 0.0990 at 2000.";
+  EXPECT_EQ(judge(figure_diff(baseline, current)).cause.find("alternative text"),
+            std::string::npos);
+  current = landmarks();
+  current.alt = "Least 0.0990 at 2000.";
+  EXPECT_EQ(judge(figure_diff(baseline, current)).cause,
+            "figure: alternative text Least 0.0861 at 2000 \u2192 Least 0.0990 at 2000");
+}
+
+TEST(DiffPage, GivesPositionsOfAMapWithUnitsAndEqualDecimals) {
+  Figure baseline = landmarks(), current = landmarks();
+  baseline.panels[0].equal_aspect = current.panels[0].equal_aspect = true;
+  points_of(current).y[3] = -0.5;
+  const std::string page = page_of(baseline, current);
+  EXPECT_NE(page.find("(3.000, 0.300)\u00A0m"), std::string::npos);
+  EXPECT_NE(page.find("(3.000, \u22120.500)\u00A0m"), std::string::npos);
+}
+
+TEST(DiffPage, GivesPointsOfACurveByItsNameAndWithThreeDigits) {
+  const auto curve = [](double last) {
+    Figure figure = landmarks();
+    figure.panels[0].x.label = "observations";
+    figure.panels[0].y.label = "MPE [m]";
+    figure.panels[0].layers = {Polyline{.label = "ISOMAP",
+                                        .x = {500.0, 2000.0},
+                                        .y = {0.12, last},
+                                        .mark = {"line-2-mean", {{"curve", "ISOMAP"}}}}};
+    return figure;
+  };
+  const std::string page = page_of(curve(0.08609425000000001), curve(0.09900851));
+  EXPECT_NE(page.find("point 2 of ISOMAP"), std::string::npos);
+  EXPECT_EQ(page.find("line-2-mean of"), std::string::npos);
+  EXPECT_NE(page.find("(2000, 0.0861\u00A0m)"), std::string::npos);
+}
+
+TEST(DiffPage, ReadsTheEscapesOfAMarkdownTable) {
+  const TemporaryFolder folder;
+  for (const auto& [side, value] : {std::pair{"a", "0.0861"}, {"b", "0.0990"}})
+    write_file(folder / side / "tables" / "errors.md",
+               std::string("| Method | Mean \\[m\\] |\n|---|---|\n| ISOMAP | ") + value + " |\n");
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  ASSERT_EQ(result.items.size(), 1U);
+  ASSERT_EQ(result.items[0].documents.size(), 1U);
+  EXPECT_EQ(result.items[0].documents[0].first, "row 3 (ISOMAP), Mean [m]");
+}
+
 TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
   RecordDiff diff;
   for (const auto& [subject, outcome] :
@@ -188,11 +265,12 @@ TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
     comparison.beyond = 1;
     comparison.largest = {{"run-1", 0.1, 0.2}};
     comparison.outcome = outcome;
+    comparison.label = std::string(subject) == "bearing/isomap" ? "bearing, ISOMAP" : "";
     diff.comparisons.push_back(comparison);
   }
   const auto figure = change_figure(diff);
   ASSERT_TRUE(figure);
-  EXPECT_EQ(figure->panels.front().title, "bearing/isomap");
+  EXPECT_EQ(figure->panels.front().title, "bearing, ISOMAP");
   EXPECT_EQ(figure->panels.size(), 3U);
 }
 
@@ -205,6 +283,16 @@ TEST(CommonAxes, HoldWhatEitherFigureShows) {
   EXPECT_LE(a.y.low, 0.0);
   EXPECT_GE(a.y.high, 2.5);
   EXPECT_FALSE(on_common_axes({landmarks(), moved()})) << "their limits are equal";
+}
+
+TEST(CommonAxes, HaveNoTitlesAndNotesOverEachOther) {
+  Figure baseline = landmarks(), current = moved();
+  baseline.notes.push_back({.text = "MPE 0.1 m"});
+  current.notes.push_back({.text = "MPE 0.2 m"});
+  const auto both = on_common_axes({baseline, current});
+  ASSERT_TRUE(both);
+  for (const Figure& figure : {both->first, both->second}) EXPECT_TRUE(figure.notes.empty());
+  EXPECT_EQ(on_common_axes({landmarks(), stretched()})->first.title, "A map");
 }
 
 TEST(ItemImages, HoldWhatMovedBesideAChangeOfData) {

@@ -58,9 +58,11 @@ FigureDiff figure(Trap& text) {
   MarkMove other = move;
   other.landmark = "";
   other.mark = text();
-  other.curve = text();
-  diff.moves = {move, other};
-  diff.moved = 2;
+  MarkMove of_curve = other;
+  of_curve.mark = "";
+  of_curve.curve = text();
+  diff.moves = {move, other, of_curve};
+  diff.moved = 3;
   return diff;
 }
 
