@@ -14,8 +14,7 @@ function keyOfMethod(name) {
   return name.toLowerCase().replace(/[^a-z0-9]+/g, "-");
 }
 
-// The method of a label: "Whole, NAME" and "NAME, K = 6, always" are of NAME; labels of none are
-// their own.
+// The method of a label: "NAME, K = 8, whole" is of NAME; labels of none are their own.
 const namesOfLabels = new Map();
 function nameOf(label) {
   if (namesOfLabels.has(label)) return namesOfLabels.get(label);

@@ -396,7 +396,7 @@ TEST(ScaledUnit, ThatIsAPowerIsKnownAsOne) {
 
 TEST(ShortNames, LeaveParametersOut) {
   EXPECT_EQ(without_parameters("SMACOF kNN, K = 7"), "SMACOF kNN");
-  EXPECT_EQ(without_parameters("Whole, SDE, K = 8 3.50"), "Whole, SDE 3.50");
+  EXPECT_EQ(without_parameters("SDE, K = 8, whole 3.50"), "SDE, whole 3.50");
   EXPECT_EQ(without_parameters("white noise, 1 %"), "white noise, 1 %");
 }
 
