@@ -75,6 +75,9 @@ class SlamEstimates {
   /// Computes a method's start, so that it is not timed with it.
   void prepare(SlamMethod method);
 
+  /// Seconds of prepare() that are the method's own: those of the map that it takes from the fit.
+  double prepared_s(SlamMethod method) const;
+
   /// The log fitted with its own noise; null unless it was asked for.
   /// @throws InvalidInput as fit_log().
   const LogFit* log_fit();
@@ -88,6 +91,8 @@ class SlamEstimates {
 
  private:
   SlamEstimate solve(SlamMethod method);
+  /// Whether the method's estimate is that of log_fit().
+  bool is_of_fit(SlamMethod method) const;
   SlamEstimate spectral(bool with_known, bool with_heading);
   SlamEstimate filtered();
   SlamEstimate refined(const SlamEstimate& start, bool estimate_scale);

@@ -52,7 +52,7 @@ std::vector<Quantity> dictionary() {
       {"sine", "sine of the canonical angle", "", kLower, kNumber, kKept},
       {"fit_verdict", "verdict on the fit, 1: fits to 4: does not", "", kLower, kNumber, kRatio},
       {"fit_chi2_ratio", "chi-squared over that of the noise", "", kLower, kNumber, kRatio},
-      {"fit_outliers_percent", "outliers", "%", kNeither, kNumber, kKept},
+      {"fit_outliers_percent", "estimated share of gross outliers", "%", kNeither, kNumber, kKept},
       {"fit_scatter_m", "scatter of a measured distance", "m", kNeither, kLength, kKept},
       {"fit_known_misfit_m", "misfit to given positions", "m", kLower, kLength, kRatio},
       {"fit_range_sigma_m", "noise of a range", "m", kNeither, kLength, kKept},

@@ -31,6 +31,7 @@ std::optional<int> power_of(const std::string& unit) {
 ScaledUnit scaled_unit(const std::string& unit, double greatest) {
   if (!(greatest > 0.0) || std::isinf(greatest)) return {unit};
   if (unit == "m" && greatest < kGreatestInMm_m) return {"mm", 1e3};
+  if (unit == "rad" && greatest < 1e-2) return {"mrad", 1e3};
   if (unit == "s" && greatest < 1e-3) return {"µs", 1e6};
   if (unit == "s" && greatest < 1.0) return {"ms", 1e3};
   if (unit == "ppm" && greatest < kLeastPpm) return power_unit(greatest);

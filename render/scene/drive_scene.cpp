@@ -256,7 +256,7 @@ class DriveScene {
         has_errors_ ? fmt::format("coloured by its error up to {} m, the 95th percentile",
                                   significant(limits_.high, 2))
                     : "coloured by time",
-        run_.log.ground_truth ? " The true path, under it, is wide and light grey." : "",
+        run_.log.ground_truth ? " The wide band under it is the true path." : "",
         run_.log.true_landmarks ? "true" : "estimated",
         run_.log.true_landmarks ? "; a ball is where the map has each" : "");
     scene_.alt = fmt::format("The ground of {} with {} and the {} path", run_.log.name,

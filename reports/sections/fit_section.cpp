@@ -1,6 +1,7 @@
 #include "reports/sections/fit_section.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "core/base/text/words.hpp"
 #include "core/results/quantity.hpp"
 #include "render/figures/diagrams/fit.hpp"
+#include "render/figures/unit_scale.hpp"
 #include "reports/sections/fit_text.hpp"
 #include "reports/sections/wording.hpp"
 
@@ -24,16 +26,17 @@ bool is_cause(const Fit& fit, const FitTest& test) {
 }
 
 KeyValues number_items(const Fit& fit) {
-  constexpr int kDigits = 4;
   KeyValues items;
   for (const FitNumber& number : fit.numbers) {
-    const Quantity* quantity = find_quantity(number.quantity);
-    const std::string label = quantity == nullptr ? number.quantity : label_with_unit(*quantity);
-    items.items.push_back(
-        {label,
-         {number.bound ? fmt::format("{} (bound {})", significant(number.value, kDigits),
-                                     significant(*number.bound, kDigits))
-                       : significant(number.value, kDigits)}});
+    const Quantity* known = find_quantity(number.quantity);
+    Quantity shown = known == nullptr ? Quantity{.label = number.quantity} : *known;
+    const ScaledUnit unit = scaled_unit(shown.unit, std::abs(number.value));
+    shown.unit = unit.unit;
+    const std::string value = significant(unit.factor * number.value);
+    items.items.push_back({label_with_unit(shown),
+                           {number.bound ? fmt::format("{} (bound {})", value,
+                                                       significant(unit.factor * *number.bound))
+                                         : value}});
   }
   return items;
 }

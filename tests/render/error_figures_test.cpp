@@ -382,6 +382,7 @@ TEST(ScaledUnit, HasNeitherPowersNorManyZeros) {
   EXPECT_EQ(words("m", 0.0098), "0.0098 m") << "as tables and texts have it";
   EXPECT_EQ(words("m", 0.00098), "0.98 mm");
   EXPECT_EQ(words("m", 0.5), "0.5 m");
+  EXPECT_EQ(words("rad", 6.04e-4), "0.604 mrad");
   EXPECT_EQ(words("s", 0.032), "32 ms");
   EXPECT_EQ(words("s", 4.7e-4), "470 µs");
   EXPECT_EQ(words("ppm", 4.6e-9), "4.6 10⁻¹⁵");

@@ -79,6 +79,7 @@ TEST(PathMap, EnlargesEllipsesByAFactorThatItTells) {
   EXPECT_NEAR(ellipses.b[2], 5.0 * own.b, 1e-12);
   EXPECT_TRUE(labelled<Ellipses>(figure.panels[0], "95 % ellipse, 5 × as large")) << "the legend";
   EXPECT_TRUE(contains(figure.caption, "enlarged 5 times"));
+  EXPECT_TRUE(contains(figure.caption, "the true path (the wide band)")) << "grey in one theme";
 }
 
 TEST(PathMap, CutsNoEllipseOfALandmarkAtTheFrame) {

@@ -405,6 +405,7 @@ TEST(DriveScene, ColoursThePathByItsErrorAndSetsLandmarksWhereTheyAre) {
   }
   EXPECT_NE(std::ranges::find(parts.labels, "true path"), parts.labels.end());
   EXPECT_NE(std::ranges::find(parts.labels, "dead reckoning"), parts.labels.end());
+  EXPECT_NE(scene.caption.find(" The wide band under it is the true path."), std::string::npos);
 }
 
 TEST(DriveScene, WithoutGroundTruthIsColouredByTimeAndClaimsNoError) {

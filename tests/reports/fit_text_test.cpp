@@ -18,7 +18,9 @@ Fit late_fit() {
                       .statistic = 812.0,
                       .bound = 20.0,
                       .figure = "fit"}},
-          .numbers = {{"fit_chi2_ratio", 3.5, 1.1}, {"fit_heading_sigma_rad", 6.035e-4}},
+          .numbers = {{"fit_chi2_ratio", 3.5, 1.1},
+                      {"fit_heading_sigma_rad", 6.04e-4},
+                      {"fit_outliers_percent", 0.01487}},
           .tests = {{.code = FitCode::kTimeOffset, .statistic = 812.0, .bound = 20.0},
                     {.code = FitCode::kCommonOffset,
                      .statistic = 2.0,
@@ -69,9 +71,11 @@ TEST(FitSection, BeginsWithTheVerdictAndShowsItsFigure) {
   const auto found = std::ranges::find_if(section.blocks, holds);
   ASSERT_NE(found, section.blocks.end());
   const auto& numbers = std::get<KeyValues>(*found).items;
-  EXPECT_EQ(numbers.at(0).value.text, "3.500 (bound 1.100)");
-  EXPECT_EQ(numbers.at(1).key, "noise of the heading after 1 m [rad]");
-  EXPECT_EQ(numbers.at(1).value.text, "0.0006035");
+  EXPECT_EQ(numbers.at(0).value.text, "3.50 (bound 1.10)");
+  EXPECT_EQ(numbers.at(1).key, "noise of the heading after 1 m [mrad]");
+  EXPECT_EQ(numbers.at(1).value.text, "0.604");
+  EXPECT_EQ(numbers.at(2).key, "estimated share of gross outliers [%]");
+  EXPECT_EQ(numbers.at(2).value.text, "0.0149");
 }
 
 }  // namespace

@@ -98,6 +98,26 @@ TEST(FitFigure, TitleCountsTheTestsThatExceedTheirBounds) {
   EXPECT_EQ(title({above}), "1 of 1 test of the fit exceeds its bound");
 }
 
+TEST(FitFigure, HasTheGreatestTestFirstAndMarksOfTheirOwnForThoseOffItsAxis) {
+  std::vector<FitTest> tests(20, {.code = FitCode::kResiduals, .bound = 4.0});
+  tests[3].statistic = 1.0;
+  tests[7].statistic = 9.0;
+  const Figure figure = fit_figure({.verdict = FitVerdict::kFits, .tests = tests}, "fit", {});
+  std::vector<Scatter> marks;
+  for (const Layer& layer : figure.panels.at(0).layers)
+    if (const auto* points = std::get_if<Scatter>(&layer)) marks.push_back(*points);
+  ASSERT_EQ(marks.size(), 3U);
+  EXPECT_EQ(marks[0].label, "below 0.03, off the axis");
+  EXPECT_EQ(marks[0].x.size(), 14U);
+  EXPECT_NE(marks[0].marker, marks[1].marker);
+  EXPECT_EQ(marks[1].y, std::vector<double>{14.0}) << "second from above";
+  EXPECT_EQ(marks[2].y, std::vector<double>{15.0}) << "the greatest, uppermost";
+  ASSERT_EQ(figure.notes.size(), 3U);
+  EXPECT_EQ(figure.notes[1].text, "The 16 greatest of 20 tests.");
+  EXPECT_EQ(figure.notes[2].text,
+            "14 statistics below 0.03 of the bound: drawn at the axis as triangles.");
+}
+
 TEST(FitResiduals, CountTheRangesBeyondThreeSigma) {
   std::vector<FittedRange> ranges(5);
   ranges[1].normalised = 3.1;

@@ -111,8 +111,35 @@ TEST(SlamFigures, HaveTheTenMethodsAndTheSpectralMapOnOneWall) {
   for (const Figure* figure : all_figures(figures))
     if (figure->id.starts_with("lfmdr-")) {
       EXPECT_EQ(figure->panels.size(), 11u);
+      const std::string spectral =
+          figure->id == "lfmdr-range" ? "Spectral, squared ranges\n" : "Spectral\n";
       EXPECT_TRUE(std::ranges::any_of(
-          figure->panels, [](const Panel& each) { return each.title.starts_with("Spectral\n"); }));
+          figure->panels, [&](const Panel& each) { return each.title.starts_with(spectral); }));
+      EXPECT_EQ(figure->caption.find("anchors"), std::string::npos) << "They have none.";
+    }
+}
+
+TEST(SlamFigures, OfRangesNameTheBestMethodOnRangesThoughTheSpectralMapIsBetter) {
+  SlamStudy study = sample_slam_study();
+  for (RangeHistoryMap& map : study.histories->maps)
+    if (map.score) map.score->mpe_all_fitted_m = map.setting ? 0.5 : 0.01;
+  const StudyFigures figures = slam_figures(study, {});
+  for (const Figure* figure : all_figures(figures)) {
+    if (figure->id == "lfmdr-range") {
+      EXPECT_TRUE(figure->title.ends_with(" has the lowest error, 0.500 m")) << figure->title;
+      EXPECT_EQ(figure->title.find("Spectral"), std::string::npos) << figure->title;
+    }
+    if (figure->id == "lfmdr-squared-range")
+      EXPECT_EQ(figure->title, "On squared ranges Spectral has the lowest error, 0.0100 m");
+  }
+}
+
+TEST(SlamFigures, OfAPathInThreeDimensionsHaveATitleOfTheirOwn) {
+  const StudyFigures figures = slam_figures(sample_slam_study(), {});
+  for (const Scene* scene : all_scenes(figures))
+    if (scene->id == "scene-drive-plaza-1") {
+      EXPECT_EQ(scene->title,
+                "Plaza 1, in 3-D: the path coloured by its error, 0.123 m on average");
     }
 }
 
@@ -226,7 +253,14 @@ TEST(SlamOpening, NamesTheBestEstimateAndByHowMuch) {
                   "from odometry 0.190 m; dead reckoning"),
       std::string::npos)
       << text();
+  EXPECT_EQ(text().find("chosen without"), std::string::npos) << "The paper's figures.";
+  run.figure.clear();
+  EXPECT_NE(text().find("0.420 m. Its figures show refined (scale free), which was chosen without "
+                        "the ground truth."),
+            std::string::npos)
+      << text();
   set_mean(SlamMethod::kRefinedFromOdometry, 0.25);
+  EXPECT_EQ(text().find("chosen without"), std::string::npos) << text();
   EXPECT_NE(text().find("Plaza 1: refined (scale free) and refined (from odometry) 0.250 m; "),
             std::string::npos)
       << text();
@@ -339,6 +373,23 @@ TEST(SlamHistoryTable, HoldsRangesBesideSquaredRangesAndTheSpectralMapLast) {
   EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows[10].cells[1]));
 }
 
+TEST(SlamHistoryTable, NamesTheParameterOfSquaredRangesWhereItDiffers) {
+  RangeHistoryStudy study = test::sample_histories();
+  for (RangeHistoryMap& map : study.maps)
+    if (map.setting && map.setting->method == Method::kKpcaGaussian)
+      map.setting->parameter = map.squared ? 500.0 : 20.0;
+  const Table table = slam_history_table(study);
+  std::vector<std::string> labels;
+  for (const Row& row : table.rows) labels.push_back(std::get<TextCell>(row.cells[0]).text);
+  EXPECT_EQ(std::ranges::count(labels,
+                               "KPCA, Gaussian, \u03C3\u00B2 = 20; squared ranges: "
+                               "\u03C3\u00B2 = 500"),
+            1);
+  EXPECT_EQ(std::ranges::count_if(
+                labels, [](const std::string& label) { return label.find(';') != label.npos; }),
+            1);
+}
+
 TEST(SlamStatuses, ListEachWithItsPlaceFailuresFirst) {
   const Section section = slam_statuses_section(sample_slam_study());
   const auto& list = std::get<StatusList>(section.blocks.front());
@@ -374,6 +425,30 @@ TEST(SlamSecondsTable, HasTheUnitAndTheDigitsThatItsTimesNeed) {
   EXPECT_EQ(shown({0.016, 0.4}), "ms 16 400");
   EXPECT_EQ(shown({2.5, 12.0}), "s 2.5 12.0");
   EXPECT_EQ(shown({0.0002, 12.0}), "s < 0.001 12.000");
+}
+
+TEST(SlamSecondsTable, SaysWhatTheFitIncludes) {
+  SlamStudy study = sample_slam_study();
+  const std::vector<SlamTiming> timings = {{study.runs[1].id, SlamMethod::kRefined, 0.5}};
+  const auto notes = [&] { return slam_seconds_table(study, timings)->notes; };
+  EXPECT_EQ(notes().size(), 2U);
+  study.runs[1].fit = Fit{};
+  ASSERT_EQ(notes().size(), 3U);
+  EXPECT_EQ(notes()[1],
+            "Where the fit was tested, refined (scale free) also estimates the noise, which the "
+            "other methods take from it.");
+}
+
+TEST(SlamReport, WritesTheNameOfALogAsItIs) {
+  SlamStudy study = sample_slam_study();
+  study.runs[1].log.name = "plaza1";
+  const SlamTimings timings;
+  const StudyFigures figures = slam_figures(study, timings);
+  const Report report = slam_report({study, {}, timings, figures, ""});
+  const auto section = std::ranges::find(report.sections, "slam-run-plaza-1", &Section::id);
+  ASSERT_NE(section, report.sections.end());
+  EXPECT_EQ(section->title, "plaza1");
+  EXPECT_EQ(report.sections.front().title, "Summary");
 }
 
 TEST(SlamReport, OfNothingIsAReport) {

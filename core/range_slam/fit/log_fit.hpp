@@ -62,6 +62,7 @@ struct LogFit {
   std::optional<HeldOutRanges> held_out;  ///< With LogFitOptions::holds_out, of that repair.
   double cost = 0.0;                      ///< -2 ln L of the plain model,
   double repaired_cost = 0.0;             ///< and under the cause.
+  double map_s = 0.0;  ///< Seconds of `estimate` and `noise`, without the tests; vary.
 };
 
 /// Fits path, landmarks, range scale and noise to a log, and tests whether the log fits them.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/layer_shapes.hpp"
@@ -20,29 +20,22 @@ constexpr std::size_t kMostTestRows = 16;
 constexpr std::size_t kLongestTestLabel = 40;  ///< Characters; the rest of a name is cut.
 constexpr double kLeastRatio = 0.03;           ///< Smaller ratios are drawn here.
 
-/// Those that are drawn, in their order.
+/// Those that are drawn, the greatest first.
 std::vector<FitTestRow> drawn_rows(const FitTestsSpec& spec) {
   std::vector<FitTestRow> rows;
   for (const FitTestRow& row : spec.rows)
     if (std::isfinite(row.ratio)) rows.push_back(row);
-  if (rows.size() <= kMostTestRows) return rows;
-  std::vector<std::size_t> order(rows.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return rows[i].ratio; });
-  order.resize(kMostTestRows);
-  std::ranges::sort(order);
-  std::vector<FitTestRow> greatest;
-  for (const std::size_t i : order) greatest.push_back(rows[i]);
-  return greatest;
+  std::ranges::stable_sort(rows, std::greater<>(), &FitTestRow::ratio);
+  if (rows.size() > kMostTestRows) rows.resize(kMostTestRows);
+  return rows;
 }
 
-Scatter test_marks(const std::vector<FitTestRow>& rows, bool above) {
-  Scatter points{.label = above ? "above its bound" : "within its bound",
-                 .colour = above ? ThemeColour::kSeries2 : ThemeColour::kSeries1,
-                 .marker = above ? Marker::kDiamond : Marker::kCircle,
-                 .filled = above};
+bool is_off_axis(const FitTestRow& row) { return row.ratio < kLeastRatio; }
+
+/// The rows between two ratios, the lower one among them.
+Scatter test_marks(const std::vector<FitTestRow>& rows, Range ratios, Scatter points) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if ((rows[i].ratio > 1.0) != above) continue;
+    if (rows[i].ratio < ratios.low || rows[i].ratio >= ratios.high) continue;
     add_point(points, {std::max(rows[i].ratio, kLeastRatio), static_cast<double>(i)});
     points.marks.push_back({rows[i].key,
                             {{"test", rows[i].label},
@@ -125,16 +118,36 @@ Figure fit_tests_figure(const FitTestsSpec& spec) {
   panel.x.limits = Range{kLeastRatio / 1.3, most};
   Segments bound{.label = "bound", .colour = ThemeColour::kText, .dash = Dash::kDashed};
   add_line(bound, {1.0, -0.6}, {1.0, last});
-  panel.layers = {from_bound, bound, test_marks(rows, false), test_marks(rows, true)};
+  const double above_bound = std::nextafter(1.0, 2.0);
+  panel.layers = {from_bound, bound,
+                  test_marks(rows, {-kInfinity, kLeastRatio},
+                             {.label = fmt::format("below {:g}, off the axis", kLeastRatio),
+                              .colour = ThemeColour::kSeries1,
+                              .marker = Marker::kTriangleDown,
+                              .filled = false}),
+                  test_marks(rows, {kLeastRatio, above_bound},
+                             {.label = "within its bound",
+                              .colour = ThemeColour::kSeries1,
+                              .marker = Marker::kCircle,
+                              .filled = false}),
+                  test_marks(rows, {above_bound, kInfinity},
+                             {.label = "above its bound",
+                              .colour = ThemeColour::kSeries2,
+                              .marker = Marker::kDiamond,
+                              .filled = true})};
   std::erase_if(panel.layers, is_empty);
   std::ranges::reverse(above);
   if (rows.size() < spec.rows.size())
     figure.notes.push_back(
         {fmt::format("The {} greatest of {} tests.", rows.size(), spec.rows.size())});
+  if (const auto off = std::ranges::count_if(rows, is_off_axis); off > 0)
+    figure.notes.push_back({fmt::format("{} below {:g} of the bound: drawn at the axis as {}.",
+                                        counted(off, "statistic"), kLeastRatio,
+                                        off == 1 ? "a triangle" : "triangles")});
   figure.caption = fmt::format(
       "Tests of the fit of the map to its data: the statistic of each over its bound, which "
       "fault-free "
-      "data exceed rarely. {}",
+      "data exceed rarely, the greatest first. {}",
       spec.verdict);
   figure.alt =
       fmt::format("{} of the fit. Above the bound: {}.", counted(std::ssize(spec.rows), "test"),

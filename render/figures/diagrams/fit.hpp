@@ -22,11 +22,12 @@ struct FitTestsSpec {
   std::string title;
   std::string verdict;           ///< A sentence, under the title.
   bool is_alarm = false;         ///< The sentence is a warning.
-  std::vector<FitTestRow> rows;  ///< Of more than 24 the greatest ratios are drawn.
+  std::vector<FitTestRow> rows;  ///< Of more than 16 the greatest ratios are drawn.
   std::vector<std::string> record_ids;
 };
 
-/// Each test of the fit of a map to its data: its statistic over its bound, on a logarithmic axis.
+/// Each test of the fit of a map to its data: its statistic over its bound, on a logarithmic axis,
+/// the greatest first. What is too small for the axis stands at its end as a mark of its own.
 Figure fit_tests_figure(const FitTestsSpec& spec);
 
 struct FitResidualsSpec {

@@ -358,7 +358,7 @@ class PathMap {
   std::string caption(bool with_errors) const {
     std::string text = fmt::format("{}: ", spec_.run.log.name);
     std::vector<std::string> parts;
-    if (spec_.run.log.ground_truth) parts.emplace_back("the true path (wide, light grey)");
+    if (spec_.run.log.ground_truth) parts.emplace_back("the true path (the wide band)");
     for (const SlamRecord* record : view_.shown) parts.push_back(label_of(*record));
     text += listed(parts, 12) + ".";
     if (spec_.run.log.true_landmarks) text += " Open marks: true landmarks; crosses: recovered.";

@@ -80,6 +80,15 @@ std::string path_title(const SlamRun& run, SlamMethod shown) {
   return title;
 }
 
+/// The same path in the 3-D figure, which shows where its error is.
+std::string drive_title(const SlamRun& run, SlamMethod shown) {
+  const TrajectoryError* error = error_of(run, shown);
+  return error == nullptr || !std::isfinite(error->mean_m)
+             ? fmt::format("{}, in 3-D: the path coloured by time", title_of(run))
+             : fmt::format("{}, in 3-D: the path coloured by its error, {} on average",
+                           title_of(run), error_text(error->mean_m));
+}
+
 Figure path_figure(const SlamRun& run) {
   const std::string id = path_figure_id(run);
   const std::vector<SlamMethod> shown = shown_methods(run);
@@ -202,7 +211,8 @@ TitledMap titled_map(const RangeHistoryStudy& study, const RangeHistoryMap& map)
   return titled;
 }
 
-/// The maps of ranges, or of squared ranges, and the spectral map, the best first.
+/// The maps of ranges, or of squared ranges, and the spectral map, which is always of squared ones,
+/// the best first.
 std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
   std::vector<Figure> figures;
   for (const bool squared : {false, true}) {
@@ -215,6 +225,7 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
       if (map.setting && map.squared != squared) continue;
       any = any || map.setting;
       spec.maps.push_back(titled_map(study, map));
+      if (map.squared != squared) spec.maps.back().title += ", squared ranges";
     }
     if (!any) continue;
     const auto error_of_map = [](const TitledMap& map) {
@@ -222,7 +233,9 @@ std::vector<Figure> history_figures(const RangeHistoryStudy& study) {
       return std::isnan(error) ? kInfinity : error;
     };
     std::ranges::stable_sort(spec.maps, {}, error_of_map);
-    const TitledMap& best = spec.maps.front();
+    const TitledMap& best = *std::ranges::find_if(spec.maps, [&](const TitledMap& map) {
+      return squared || std::holds_alternative<FromSensor>(map.map.origin);
+    });
     if (std::isfinite(error_of_map(best)))
       spec.title =
           fmt::format("On {} {} has the lowest error, {}", squared ? "squared ranges" : "ranges",
@@ -239,7 +252,7 @@ std::vector<Scene> run_scenes(const SlamRun& run) {
   for (const SlamMethod method : kBestFirst) {
     if (run.simulated || !has_drive_scene(run, method)) continue;
     scenes.push_back(drive_scene({.id = "scene-drive-" + run.id,
-                                  .title = path_title(run, method),
+                                  .title = drive_title(run, method),
                                   .run = run,
                                   .method = method,
                                   .record_ids = {run.id}}));
@@ -286,7 +299,7 @@ std::vector<Figure> fit_figures(const SlamRun& run) {
 
 }  // namespace
 
-std::string slam_run_group(const SlamRun& run) { return "slam-run-" + run.id; }
+std::string slam_run_group(const SlamRun& run) { return kSlamRun + run.id; }
 
 std::string slam_fit_group(const SlamRun& run) { return kSlamFit + run.id; }
 

@@ -12,6 +12,7 @@ StudyFigures slam_figures(const SlamStudy& study, const SlamTimings& timings);
 /// Ids of the groups, and of the sections that show them.
 inline constexpr const char* kSlamSimulation = "slam-simulation";
 inline constexpr const char* kSlamFit = "slam-fit-";  ///< Begins the ids of groups of tests.
+inline constexpr const char* kSlamRun = "slam-run-";  ///< Begins the ids of groups of drives.
 inline constexpr const char* kSlamHistories = "slam-histories";
 inline constexpr const char* kSlamSpace = "slam-space";
 inline constexpr const char* kSlamCost = "slam-cost";

@@ -249,11 +249,12 @@ std::string subtitle(const SlamStudy& study) {
 }
 
 /// The title of a section in a report on this paper alone: without the words that distinguish
-/// papers.
-std::string alone(const std::string& title) {
+/// papers. That of a run is its name, as it is written elsewhere.
+std::string alone(const Section& section) {
   constexpr std::string_view kPrefix = "Range-only SLAM: ";
-  if (!title.starts_with(kPrefix)) return title;
-  return capitalised(title.substr(kPrefix.size()));
+  if (!section.title.starts_with(kPrefix)) return section.title;
+  std::string title = section.title.substr(kPrefix.size());
+  return section.id.starts_with(kSlamRun) ? title : capitalised(std::move(title));
 }
 
 void add_statuses(const std::string& where, const std::string& id,
@@ -355,6 +356,16 @@ std::string best_estimates(const SlamRun& run) {
   return fmt::format("{}", fmt::join(words, "; "));
 }
 
+/// Why the figures of a drive show another estimate than that of least error; empty if they do not.
+std::string why_not_best(const SlamRun& run) {
+  const std::vector<MethodError> errors = comparable_errors(run);
+  if (!run.figure.empty() || errors.empty()) return "";  // The paper's figures show its methods.
+  const SlamMethod shown = *shown_method(run);
+  if (error_text(errors.front().mean_m) == error_text(error_of(run, shown)->mean_m)) return "";
+  return fmt::format(" Its figures show {}, which was chosen without the ground truth.",
+                     bracketed(info(shown).label));
+}
+
 /// Which estimate of each recorded drive is the best, and by how much; empty if there is no choice.
 std::string best_of_drives(const SlamStudy& study) {
   std::string text;
@@ -363,7 +374,7 @@ std::string best_of_drives(const SlamStudy& study) {
     if (run.simulated || drives == kMostRuns) continue;
     ++drives;
     if (const std::string best = best_estimates(run); !best.empty())
-      text += fmt::format(" {}: {}.", title_of(run), best);
+      text += fmt::format(" {}: {}.{}", title_of(run), best, why_not_best(run));
   }
   return text;
 }
@@ -554,7 +565,7 @@ Report slam_report(const SlamReportInput& input) {
   report.title = experiment.title.empty() ? experiment.name : experiment.title;
   report.subtitle = subtitle(input.study);
   report.sections = slam_sections(input);
-  for (Section& section : report.sections) section.title = alone(section.title);
+  for (Section& section : report.sections) section.title = alone(section);
   report.opening = slam_opening(input.study, input.figures);
   report.date = date_of(input.sessions);
   report.footer = fmt::format("Made by mapproof {} ({}).", input.study.provenance.version,

@@ -11,6 +11,7 @@
 #include "render/figures/unit_scale.hpp"
 #include "reports/sections/slam/slam_text.hpp"
 #include "reports/sections/tables/cells.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
@@ -80,6 +81,15 @@ const RangeHistoryMap* map_of(const RangeHistoryStudy& study, Method method, boo
   for (const RangeHistoryMap& map : study.maps)
     if (map.setting && map.setting->method == method && map.squared == squared) return &map;
   return nullptr;
+}
+
+/// The setting of a method's maps, of which one may be missing: "KPCA, Gaussian, σ² = 35000;
+/// squared ranges: σ² = 10⁷" where they differ.
+std::string history_label(const RangeHistoryMap* range, const RangeHistoryMap* squared) {
+  std::string text = label(range != nullptr ? *range->setting : *squared->setting);
+  if (range != nullptr && squared != nullptr && *range->setting != *squared->setting)
+    text += "; squared ranges: " + parameter_text(*squared->setting);
+  return text;
 }
 
 void add_score(const RangeHistoryMap* map, Row& row) {
@@ -260,6 +270,11 @@ std::optional<Table> slam_seconds_table(const SlamStudy& study,
       "A method's own time, without the choice of windows and without the estimate it "
       "starts from.",
       "Times vary from run to run and are not part of any comparison."};
+  if (std::ranges::any_of(study.runs, [](const SlamRun& run) { return run.fit.has_value(); }))
+    table.notes.insert(table.notes.begin() + 1,
+                       fmt::format("Where the fit was tested, {} also estimates the noise, which "
+                                   "the other methods take from it.",
+                                   bracketed(info(SlamMethod::kRefined).label)));
   return table;
 }
 
@@ -310,8 +325,8 @@ Table slam_history_table(const RangeHistoryStudy& study) {
     const RangeHistoryMap* range = map_of(study, method.method, false);
     const RangeHistoryMap* squared = map_of(study, method.method, true);
     if (range == nullptr && squared == nullptr) continue;
-    const RangeHistoryMap& any = range != nullptr ? *range : *squared;
-    Row row{{TextCell{label(*any.setting)}}, fmt::format("histories/{}", method.name), false};
+    Row row{
+        {TextCell{history_label(range, squared)}}, fmt::format("histories/{}", method.name), false};
     add_score(range, row);
     add_score(squared, row);
     table.rows.push_back(std::move(row));

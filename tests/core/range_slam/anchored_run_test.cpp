@@ -91,6 +91,20 @@ INSTANTIATE_TEST_SUITE_P(Offsets, FarOut,
                          ::testing::Values(Eigen::RowVector2d(1e4, 1e4),
                                            Eigen::RowVector2d(391234.5, 5821234.5)));
 
+TEST(SlamTimings, OfTheRefinedMapAreThoseOfTheFitThatItIsTakenFrom) {
+  const RangeLog log = anchored_drive({});
+  SlamRunOptions options = anchored(anchors_of(log, {0, 0}), {SlamMethod::kRefined});
+  options.ties_refinement = false;
+  SlamEstimates estimates(log, options);
+  estimates.prepare(SlamMethod::kRefined);
+  EXPECT_EQ(estimates.prepared_s(SlamMethod::kRefined), estimates.log_fit()->map_s);
+  EXPECT_EQ(estimates.prepared_s(SlamMethod::kEkf), 0.0);
+  constexpr double kLongerThanACopy_s = 1e-3;
+  EXPECT_GT(make_slam_run("a", log, options).timings.front().seconds, kLongerThanACopy_s);
+  options.ties_refinement = true;  // It only starts from the fit.
+  EXPECT_EQ(estimates.prepared_s(SlamMethod::kRefined), 0.0);
+}
+
 TEST(RepairedMap, IsInTheFrameOfTheAnchorsAndPredictsHeldOutRangesBetter) {
   for (const DriveFaults& faults :
        {DriveFaults{.landmark_offset_m = 5.0}, DriveFaults{.exchanged_share = 1.0}}) {
