@@ -279,29 +279,31 @@ TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
                                               "p, incremental and 2 others"}));
 }
 
-/// The first figure of methods m and n over two levels; each has two runs.
-Figure figure_of_two(const std::string& quantity, double half_spread) {
+/// The first figure of methods m and n over two levels, of runs that are groups of their own, half
+/// of them above the mean.
+Figure figure_of_two(const std::string& quantity, double half_spread, int runs = 2) {
   Rows rows(quantity);
   for (const double noise : {0.1, 0.2})
     for (const char* method : {"m", "n"})
-      for (const double sign : {-1.0, 1.0})
-        rows.add(method, sign < 0.0 ? "a" : "b",
-                 100.0 * noise + (method[0] == 'n' ? 5.0 : 0.0) + sign * half_spread,
+      for (int run = 0; run < runs; ++run)
+        rows.add(method, std::string(1, static_cast<char>('a' + run)),
+                 100.0 * noise + (method[0] == 'n' ? 5.0 : 0.0) +
+                     (run % 2 == 0 ? -half_spread : half_spread),
                  {{"noise", noise}});
   rows.declare(study_quantity(quantity, "Coverage", "%", Better::kHigher));
   const ResultsStudy study = rows.study();
   return results_figures(ResultsView(study), {}).groups.at(0).figures.at(0);
 }
 
-TEST(ResultsFigures, NoMethodStandsOutWithinTheSpreadOfFewRuns) {
-  EXPECT_TRUE(
-      figure_of_two("share_percent", 1.0).title.ends_with("n has the highest coverage throughout"))
-      << figure_of_two("share_percent", 1.0).title;
-  EXPECT_TRUE(
-      figure_of_two("share_percent", 3.0)
-          .title.ends_with(
-              "too few runs to rank the methods, coverage between 10.0\u00A0% and 25.0\u00A0%"))
-      << figure_of_two("share_percent", 3.0).title;
+TEST(ResultsFigures, TitlesRankNoMethodsOfFewerRunsThanAnIntervalNeeds) {
+  for (const double half_spread : {0.1, 3.0})
+    EXPECT_TRUE(
+        figure_of_two("share_percent", half_spread)
+            .title.ends_with(
+                "too few runs to rank the methods, coverage between 10.0\u00A0% and 25.0\u00A0%"))
+        << figure_of_two("share_percent", half_spread).title;
+  const Figure enough = figure_of_two("share_percent", 1.0, 6);
+  EXPECT_TRUE(enough.title.ends_with("n has the highest coverage throughout")) << enough.title;
 }
 
 TEST(ResultsFigures, TheSampleOfSingleRunsOfSeveralMethodsIsGrey) {

@@ -70,6 +70,60 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   EXPECT_FALSE(warns(90.0));
 }
 
+/// Two methods of two runs, each in a group of its own, by two quantities.
+ResultsStudy study_of_two_quantities() {
+  ResultsStudy study =
+      Rows().add("m", "a", 1.0).add("m", "b", 1.1).add("n", "a", 2.0).add("n", "b", 2.3).study();
+  for (const Result& row : std::vector(study.results.rows)) {
+    study.results.rows.push_back(row);
+    study.results.rows.back().quantity = "moe_percent";
+  }
+  study.quantities.push_back("moe_percent");
+  sort_results(study.results);
+  return study;
+}
+
+TEST(ResultsReport, StatesWhyMethodsAreNotCompared) {
+  ResultsStudy study = study_of_two_quantities();
+  const auto last_words = [&] {
+    const ResultsView view(study);
+    std::vector<MethodComparison> comparisons = compare_methods(view);
+    std::erase_if(comparisons, [](const MethodComparison& one) {
+      return one.groups < 2 || one.quantity->id != "mpe_m";
+    });
+    const Report report =
+        results_report({.view = view, .comparisons = comparisons, .figures = {}, .provenance = {}});
+    return std::get<Paragraph>(report.sections.at(report.sections.size() - 2).blocks.back())
+        .phrases.at(0)
+        .text;
+  };
+  EXPECT_EQ(last_words(),
+            "MOE: the methods are not compared, since tests are made by MPE alone, which the "
+            "study judges by first.");
+  for (Result& row : study.results.rows) row.group = "a";
+  EXPECT_EQ(last_words(),
+            "MPE; MOE: the methods are not compared, since one group of runs shows nothing about "
+            "chance.");
+  for (Result& row : study.results.rows)
+    if (row.method == Name("n")) row.run = row.run == Name("a") ? "c" : "d";
+  EXPECT_EQ(last_words(),
+            "MPE; MOE: the methods are not compared, since no two have values in the same runs.");
+}
+
+TEST(ResultsReport, NamesTheWarningsOfRunsOnTheFirstScreen) {
+  ResultsStudy study = study_of_two_quantities();
+  study.results.outcomes = {{condition("s"), "m", "a", {"uncertified", "not_euclidean"}},
+                            {condition("s"), "m", "b", {}},
+                            {condition("s"), "n", "a", {"uncertified"}},
+                            {condition("s"), "n", "b", {}}};
+  const ResultsView view(study);
+  const Report report =
+      results_report({.view = view, .comparisons = {}, .figures = {}, .provenance = {}});
+  EXPECT_EQ(report.opening.findings.at(0).phrases.at(1).text,
+            ": 2 of 4 runs of a method have warnings: uncertified (2) and not Euclidean (1).");
+  EXPECT_EQ(report.opening.numbers.items.back().label, "warning");
+}
+
 TEST(ResultsReport, MarksTheTileOfFewAssociatedPoses) {
   const auto falls_short = [](double percent) {
     Rows rows("associated_percent");
@@ -205,7 +259,7 @@ TEST(ResultsFigures, OfAnOverviewHaveTheLabelOfEqualAxesOnce) {
 TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
   const ResultsStudy study = study_of_setups({"indoors", "outdoors"});
   const ResultsView view(study);
-  EXPECT_EQ(view.decimals(mpe()), 5) << "two more than three digits of the median need";
+  EXPECT_EQ(view.decimals(mpe()), 4) << "those of one digit of 0.0002, the least";
   std::vector<Table> tables;
   for (const ResultsBlock& block : view.blocks())
     for (Table& table : results_tables(view, block)) tables.push_back(std::move(table));
@@ -221,7 +275,7 @@ TEST(ResultsTables, HaveOnePrecisionForAQuantity) {
 
 TEST(ResultsTables, HaveTwoDecimalsOfMoeAtMost) {
   const ResultsStudy study =
-      Rows("moe_percent").add("m", "a1", 0.22).add("n", "a1", 45.934).study();
+      Rows("moe_percent").add("m", "a1", 0.0022).add("n", "a1", 45.934).study();
   const ResultsView view(study);
   EXPECT_EQ(view.decimals(known_quantity("moe_percent")), 2);
 }

@@ -1,8 +1,11 @@
 #include "reports/sections/results/results_tables.hpp"
 
+#include <variant>
+
 #include <gtest/gtest.h>
 
 #include "reports/model/format.hpp"
+#include "reports/sections/results/results_comparison.hpp"
 #include "reports/tables/write_tables.hpp"
 #include "tests/reports/results_rows.hpp"
 
@@ -68,10 +71,26 @@ TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
                            .study();
   const Condition at = condition("s", {{"noise", 0.1}});
   study.results.outcomes = {{at, "m", "a1", {"not_converged", "not_converged"}},
-                            {at, "m", "b1", {}}};
+                            {at, "m", "b1", {"not_euclidean"}}};
   const ResultsView view(study);
-  const std::vector<Table> tables = results_tables(view, view.blocks()[0]);
-  EXPECT_EQ(tables.at(0).notes.back(), "m: not converged in 1 of 2 at noise 0.1.");
+  const std::vector<std::string> notes = results_tables(view, view.blocks()[0]).at(0).notes;
+  ASSERT_GE(notes.size(), 2U);
+  EXPECT_EQ(notes[notes.size() - 2], "m: not converged in 1 of 2 at noise 0.1.");
+  EXPECT_EQ(notes.back(), "m: not Euclidean in 1 of 2 at noise 0.1.");
+}
+
+TEST(ResultsTables, GiveNoIntervalOfADifferenceBetweenEqualValues) {
+  Rows rows;
+  for (const char* run : {"a", "b"})
+    for (const char* method : {"m", "n", "o"})
+      rows.add(method, run, (method[0] == 'o' ? 2.0 : 1.0) + 0.1 * (run[0] - 'a') * method[0]);
+  ResultsStudy study = rows.study();
+  for (Result& row : study.results.rows)
+    if (row.method == Name("n")) row.value = row.run == Name("a") ? 1.0 : 1.0 + 0.1 * 'm';
+  const ResultsView view(study);
+  const Table table = comparison_table(view, compare_methods(view).at(0));
+  EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows.at(1).cells.at(4)));
+  EXPECT_TRUE(std::holds_alternative<IntervalCell>(table.rows.at(2).cells.at(4)));
 }
 
 TEST(ResultsTables, HaveTheStudysLabelsOfKnownQuantities) {

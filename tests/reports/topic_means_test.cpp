@@ -9,13 +9,13 @@ namespace {
 
 Condition at(double level) { return condition("s", {{"l", level}}); }
 
-/// Two method in three layouts of two runs each; the second is `by` better, but for what `jitter`
+/// Two methods in five layouts of two runs each; the second is `by` better, but for what `jitter`
 /// adds to it in every other layout.
 TopicStudy study_of(double by, double jitter) {
   TopicStudy study;
   study.design.methods = {{"one", "First"}, {"two", "Second"}};
   study.design.quantities = {known_quantity("mpe_m")};
-  for (int layout = 1; layout <= 3; ++layout)
+  for (int layout = 1; layout <= 5; ++layout)
     for (int pose = 1; pose <= 2; ++pose) {
       TopicPart part;
       part.run = RunId{layout, pose};
@@ -48,11 +48,22 @@ TEST(TopicMeans, OneLayoutTellsNothingOfChance) {
   EXPECT_EQ(verdict_words(difference(study)), "better, in one layout");
 }
 
+TEST(TopicMeans, FewerLayoutsThanAnIntervalNeedsShowNoSignificance) {
+  TopicStudy study = study_of(0.02, 0.0);
+  EXPECT_FALSE(has_few_layouts(study));
+  EXPECT_TRUE(is_apart_from_0(difference(study)));
+  study.parts.resize(4);
+  EXPECT_EQ(layouts_of(study), 2);
+  EXPECT_TRUE(has_few_layouts(study));
+  EXPECT_FALSE(is_apart_from_0(difference(study)));
+  EXPECT_EQ(verdict_words(difference(study)), "better, in 2 layouts");
+}
+
 TEST(TopicMeans, ADifferenceNeedsBothSeries) {
   TopicStudy study = study_of(0.02, 0.0);
   EXPECT_FALSE(topic_difference(study, at(6.0), "two", "one", "mpe_m"));
   study.parts[0].outcomes.pop_back();
-  EXPECT_EQ(difference(study).values, 5);
+  EXPECT_EQ(difference(study).values, 9);
   EXPECT_THROW(topic_difference(study, at(5.0), "two", "one", "moe"), InvalidInput);
 }
 

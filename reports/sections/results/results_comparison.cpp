@@ -331,6 +331,18 @@ std::vector<MethodComparison> compare_methods(const ResultsView& view) {
   return comparisons;
 }
 
+std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
+                             const Quantity& quantity) {
+  bool is_of_one_group = false;
+  for (const Condition& at : block.conditions) {
+    const auto comparison = compare_at(view, block, quantity, at);
+    if (comparison && comparison->groups > 1) return "";
+    is_of_one_group = is_of_one_group || comparison.has_value();
+  }
+  return is_of_one_group ? "one group of runs shows nothing about chance"
+                         : "no two have values in the same runs";
+}
+
 std::string where_of(const MethodComparison& comparison) {
   std::string text = comparison.block->title;
   if (!comparison.level.empty()) text += ", " + comparison.level;

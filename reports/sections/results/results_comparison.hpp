@@ -42,6 +42,11 @@ struct MethodComparison {
 /// each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 
+/// Why there is no comparison of a block's methods by a quantity: a clause; empty if there can be
+/// one, over two groups or more.
+std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
+                             const Quantity& quantity);
+
 /// Whether the corrected paired test tells a method from the best one.
 bool is_significant(const ComparedMethod& method);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -32,6 +33,13 @@ std::string in_sentence(std::string label) {
     label = fmt::format("{} ({})", label.substr(0, comma), label.substr(comma + 2));
   if (label.size() < 2 || lower_case(label.substr(1, 1)) != label.substr(1, 1)) return label;
   return lower_case(label.substr(0, 1)) + label.substr(1);
+}
+
+std::string code_words(std::string code) {
+  constexpr std::string_view kName = "euclidean";
+  std::ranges::replace(code, '_', ' ');
+  if (const std::size_t at = code.find(kName); at != std::string::npos) code[at] = 'E';
+  return code;
 }
 
 std::optional<double> aim_of(const Quantity& quantity) {

@@ -194,9 +194,16 @@ Quantity scale_to_unit(const Quantity& quantity, Curves& curves, std::vector<Err
   return shown;
 }
 
-/// Which method is best over the axis; empty of a quantity that has no better side.
-std::string finding_of(const Curves& curves, const Quantity& quantity, const std::string& x_label) {
-  if (!has_better_side(quantity) || curves.lines.size() < 2) return "";
+/// Whether repeated runs are too few for intervals: titles then rank no methods.
+bool has_too_few_runs(const ResultsView& view) {
+  return view.study().results.are_repeats && !view.has_groups_for_intervals();
+}
+
+/// Which method is best over the axis; empty of too few runs, and of a quantity that has no better
+/// side.
+std::string finding_of(const ResultsView& view, const Curves& curves, const Quantity& quantity,
+                       const std::string& x_label) {
+  if (has_too_few_runs(view) || !has_better_side(quantity) || curves.lines.size() < 2) return "";
   return best_over(curves.lines,
                    {in_sentence(quantity.label), quantity.unit, quantity.better == Better::kLower,
                     curves.joined},
@@ -303,26 +310,29 @@ void add_aim(Panel& panel, double aim, const std::vector<ErrorLine>& lines) {
 }
 
 /// Which method is best at most of the points of several panels: "ISOMAP has the lowest MPE at 7 of
-/// 9 points". Empty of a quantity that has no better side.
+/// 9 points". Empty of too few runs, and of a quantity that has no better side.
 /// @param joined  Labels of lines that are several.
-std::string most_often_best(const std::vector<std::vector<ErrorLine>>& panels,
+std::string most_often_best(const ResultsView& view,
+                            const std::vector<std::vector<ErrorLine>>& panels,
                             const Quantity& quantity, const std::vector<std::string>& joined) {
-  if (!has_better_side(quantity)) return "";
+  if (has_too_few_runs(view) || !has_better_side(quantity)) return "";
   return best_of_points(panels, {in_sentence(quantity.label), quantity.unit,
                                  quantity.better == Better::kLower, joined});
 }
 
 /// What the lines of several panels do where none is the best: see course_of().
-std::string course_over(const std::vector<std::vector<ErrorLine>>& panels, const Quantity& quantity,
-                        bool great_errors) {
+std::string course_over(const ResultsView& view, const std::vector<std::vector<ErrorLine>>& panels,
+                        const Quantity& quantity) {
   std::vector<ErrorLine> all;
   bool has_rivals = false;
   for (const std::vector<ErrorLine>& lines : panels) {
     all.insert(all.end(), lines.begin(), lines.end());
     has_rivals = has_rivals || lines.size() > 1;
   }
-  return course_of(all, quantity, quantity.unit, great_errors,
-                   has_rivals ? "no method is best at most points, " : "");
+  return course_of(all, quantity, quantity.unit, view.has_great_errors(quantity),
+                   !has_rivals              ? ""
+                   : has_too_few_runs(view) ? kTooFewRuns
+                                            : "no method is best at most points, ");
 }
 
 }  // namespace
@@ -343,7 +353,8 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
   const Quantity shown = scale_to_unit(quantity, curves, spec.points);
   spec.y_label = label_with_unit(shown);
   if (!spec.points.empty()) spec.remark = kSingleRunsRemark;
-  std::string finding = is_tiny_distance(quantity) ? "" : finding_of(curves, shown, spec.x_label);
+  std::string finding =
+      is_tiny_distance(quantity) ? "" : finding_of(view, curves, shown, spec.x_label);
   if (finding.empty())
     finding = course_of(curves.lines, quantity, shown.unit, view.has_great_errors(quantity),
                         view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
@@ -388,8 +399,8 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   }
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
-  std::string finding = most_often_best(judged, quantity, joined);
-  if (finding.empty()) finding = course_over(judged, quantity, view.has_great_errors(quantity));
+  std::string finding = most_often_best(view, judged, quantity, joined);
+  if (finding.empty()) finding = course_over(view, judged, quantity);
   spec.title =
       finding.empty()
           ? fmt::format("{}: {}", overview.title, quantity.label)

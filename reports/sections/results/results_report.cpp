@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,6 +26,7 @@
 #include "reports/sections/opening.hpp"
 #include "reports/sections/provenance.hpp"
 #include "reports/sections/results/path_error_figures.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_figures.hpp"
 #include "reports/sections/results/results_tables.hpp"
@@ -71,48 +74,65 @@ Section summary_section(const ResultsReportInput& input, bool has_opening) {
   return section;
 }
 
+/// What some quantities lack, and why: labels with the same reason in one sentence.
+class Reasons {
+ public:
+  void add(const std::string& label, const std::string& reason) {
+    const auto known = std::ranges::find(labels_, reason, &Labels::first);
+    if (known == labels_.end())
+      labels_.push_back({reason, {label}});
+    else
+      known->second.push_back(label);
+  }
+  std::vector<Paragraph> paragraphs() const {
+    std::vector<Paragraph> all;
+    for (const auto& [reason, labels] : labels_)
+      all.push_back(plain(fmt::format("{}{}", fmt::join(labels, "; "), reason)));
+    return all;
+  }
+
+ private:
+  using Labels = std::pair<std::string, std::vector<std::string>>;  ///< By reason.
+  std::vector<Labels> labels_;
+};
+
 /// Why a block has fewer comparisons than quantities to compare; empty where it has all.
 std::vector<Paragraph> uncompared(const ResultsReportInput& input, const ResultsBlock& block) {
-  std::vector<Paragraph> all;
-  if (!input.view.study().results.are_repeats) return all;
+  const ResultsStudy& study = input.view.study();
+  if (!study.results.are_repeats) return {};
+  Reasons reasons;
   for (const Quantity* quantity : input.view.quantities(block)) {
     const bool is_compared = std::ranges::any_of(input.comparisons, [&](const auto& comparison) {
       return comparison.block == &block && comparison.quantity == quantity;
     });
     if (quantity->better != Better::kNeither && !is_compared &&
-        input.view.lines(block, *quantity).size() > 1)
-      all.push_back(plain(fmt::format(
-          "{}: the methods are not compared, since no two have values in the same runs.",
-          quantity->label)));
+        input.view.lines(block, *quantity).size() > 1) {
+      std::string why = why_not_compared(input.view, block, *quantity);
+      if (why.empty())
+        why = fmt::format("tests are made by {} alone, which the study judges by first",
+                          input.view.quantity(study.quantities.front()).label);
+      reasons.add(quantity->label,
+                  fmt::format(": the methods are not compared, since {}.", std::move(why)));
+    }
   }
-  return all;
+  return reasons.paragraphs();
 }
 
 /// Why quantities have no figure, those with the same reason in one sentence.
-std::vector<std::string> why_no_figures(const ResultsView& view, const ResultsBlock& block) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> reasons;  // And the labels.
-  for (const Quantity* quantity : view.quantities(block)) {
-    const std::string why = why_no_figure(view, block, *quantity);
-    if (why.empty()) continue;
-    const std::string reason = why.substr(quantity->label.size());
-    const auto known = std::ranges::find(reasons, reason, &decltype(reasons)::value_type::first);
-    if (known == reasons.end())
-      reasons.push_back({reason, {quantity->label}});
-    else
-      known->second.push_back(quantity->label);
-  }
-  std::vector<std::string> sentences;
-  for (const auto& [reason, labels] : reasons)
-    sentences.push_back(fmt::format("{}{}", fmt::join(labels, "; "), reason));
-  return sentences;
+std::vector<Paragraph> why_no_figures(const ResultsView& view, const ResultsBlock& block) {
+  Reasons reasons;
+  for (const Quantity* quantity : view.quantities(block))
+    if (const std::string why = why_no_figure(view, block, *quantity); !why.empty())
+      reasons.add(quantity->label, why.substr(quantity->label.size()));
+  return reasons.paragraphs();
 }
 
 Section block_section(const ResultsReportInput& input, const ResultsBlock& block) {
   Section section{block.id, block.title, {}};
   const auto group = std::ranges::find(input.figures.groups, block.id, &FigureGroup::id);
   if (group != input.figures.groups.end()) section.blocks.emplace_back(gallery_of(*group));
-  for (std::string& why : why_no_figures(input.view, block))
-    section.blocks.emplace_back(plain(std::move(why)));
+  for (Paragraph& paragraph : why_no_figures(input.view, block))
+    section.blocks.emplace_back(std::move(paragraph));
   for (Table& table : results_tables(input.view, block))
     section.blocks.emplace_back(std::move(table));
   for (const MethodComparison& comparison : input.comparisons)
@@ -404,6 +424,28 @@ std::string diverged_methods(const ResultsView& view) {
   return listed(texts, kMostDiverged);
 }
 
+/// "20 of 92 runs of a method have warnings: uncertified (12) and not Euclidean (7)", the most
+/// frequent first; empty if all ended well.
+std::string warnings_of_runs(const ResultsStudy& study) {
+  std::map<std::string, long long> runs;  // By code.
+  long long with_warnings = 0;
+  for (const RunOutcome& outcome : study.results.outcomes) {
+    with_warnings += outcome.codes.empty() ? 0 : 1;
+    for (const std::string& code : std::set(outcome.codes.begin(), outcome.codes.end()))
+      ++runs[code];
+  }
+  if (with_warnings == 0) return "";
+  std::vector<std::pair<std::string, long long>> order(runs.begin(), runs.end());
+  std::ranges::stable_sort(order, std::greater(), &std::pair<std::string, long long>::second);
+  std::vector<std::string> names;
+  for (const auto& [code, count] : order)
+    names.push_back(fmt::format("{} ({})", code_words(code), count_text(count)));
+  constexpr std::size_t kMostNamed = 4;
+  return fmt::format("{} of {} runs of a method {} warnings: {}", count_text(with_warnings),
+                     count_text(std::ssize(study.results.outcomes)),
+                     with_warnings == 1 ? "has" : "have", listed(names, kMostNamed));
+}
+
 /// What is missing or lost, and what whoever knows the study says.
 std::vector<std::string> warnings_of(const ResultsReportInput& input) {
   std::vector<std::string> warnings = input.warnings;
@@ -413,6 +455,7 @@ std::vector<std::string> warnings_of(const ResultsReportInput& input) {
   if (!input.incomplete.empty()) add("incomplete: " + input.incomplete);
   add(diverged_methods(input.view));
   add(losses_of(input.view));
+  add(warnings_of_runs(input.view.study()));
   add(few_associated(input.view.study()));
   add(unequal_poses(input));
   return warnings;

@@ -12,6 +12,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/tables/cells.hpp"
 
 namespace mapproof {
@@ -107,11 +108,9 @@ void add_status_notes(const ResultsView& view, const ResultsBlock& block,
       }
     }
     for (auto& [code, where] : places) {
-      std::string words = code;
-      std::ranges::replace(words, '_', ' ');
       std::erase(where, "");
-      table.notes.push_back(fmt::format("{}: {}{}{}.", line.label, words, where.empty() ? "" : " ",
-                                        listed(where, where.size() + 1)));
+      table.notes.push_back(fmt::format("{}: {}{}{}.", line.label, code_words(code),
+                                        where.empty() ? "" : " ", listed(where, where.size() + 1)));
     }
   }
 }
@@ -287,7 +286,10 @@ Table comparison_table(const ResultsView& view, const MethodComparison& comparis
                                          : Cell(MissingCell{}));
     if (method.change) {
       row.cells.push_back(NumberCell{method.change->shift, places, true});
-      row.cells.push_back(IntervalCell{method.change->low, method.change->high, places});
+      // Equal values have no interval.
+      row.cells.push_back(method.change->low < method.change->high
+                              ? Cell(IntervalCell{method.change->low, method.change->high, places})
+                              : Cell(MissingCell{}));
       row.cells.push_back(p_cell(method.corrected_p));
     } else {
       row.cells.insert(row.cells.end(), 3, MissingCell{});

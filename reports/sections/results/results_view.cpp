@@ -275,6 +275,23 @@ std::optional<ResultsOverview> ResultsView::overview_of(
   return overview;
 }
 
+namespace {
+
+/// Those that give the median three significant digits, and the least one at least one.
+int decimals_of_means(std::vector<double> means) {
+  constexpr int kMost = 6;
+  std::erase_if(means, [](double mean) { return is_lost(mean) || mean == 0.0; });
+  for (double& mean : means) mean = std::abs(mean);
+  if (std::ranges::all_of(means, [](double mean) { return mean == std::floor(mean); })) return 0;
+  const auto decimals = [](double size, int digits) {
+    return digits - 1 - static_cast<int>(std::floor(std::log10(size)));
+  };
+  return std::clamp(std::max(decimals(median(means), 3), decimals(std::ranges::min(means), 1)), 0,
+                    kMost);
+}
+
+}  // namespace
+
 void ResultsView::set_decimals() {
   for (const auto& [id, quantity] : quantities_) {
     std::vector<double> means;
@@ -285,7 +302,7 @@ void ResultsView::set_decimals() {
     // Pages show no digits of those that diverged.
     if (has_great_errors(quantity))
       std::erase_if(means, [](double mean) { return mean > kGreatestError_m; });
-    const int decimals = decimals_of(std::move(means));
+    const int decimals = decimals_of_means(std::move(means));
     decimals_[id] = id.starts_with("moe_") ? std::min(decimals, kMoeDecimals) : decimals;
   }
 }

@@ -68,6 +68,9 @@ struct RunCounts {
   std::size_t groups = 0;
 };
 
+/// An interval of a mean over fewer groups of runs is a guess.
+inline constexpr std::size_t kFewestGroups = 5;
+
 /// A study's results as figures and tables show them.
 class ResultsView {
  public:
@@ -83,7 +86,7 @@ class ResultsView {
   std::size_t groups() const { return groups_in_all_; }
   /// Of one setup alone; none of a setup without rows.
   RunCounts counts_of(const std::string& setup) const;
-  /// Otherwise an interval of a mean is a guess: figures and tables show the runs themselves.
+  /// Otherwise figures and tables show the runs themselves, and no title ranks methods.
   bool has_groups_for_intervals() const { return groups() >= kFewestGroups; }
 
   /// One of the study's quantities, under the study's label.
@@ -131,7 +134,6 @@ class ResultsView {
     auto operator<=>(const Key&) const = default;
   };
   using Rows = std::span<const Result>;
-  static constexpr std::size_t kFewestGroups = 5;
 
   std::optional<Interval> interval(const std::optional<MeanEstimate>& mean,
                                    const Quantity& quantity) const;

@@ -155,8 +155,11 @@ std::vector<Block> topic_provenance(const TopicStudy& study, std::span<const Ses
   facts.items.push_back({"Study", {experiment.name, Emphasis::kData}});
   facts.items.push_back({"Seed", {fmt::format("{}", experiment.seed), Emphasis::kData}});
   add_extent(study, facts);
-  for (const auto& [name, values] : experiment.options)
-    facts.items.push_back({name, {fmt::format("{:g}", fmt::join(values, ", ")), Emphasis::kData}});
+  for (const auto& [name, values] : experiment.options) {
+    std::string words = name;
+    std::ranges::replace(words, '_', ' ');
+    facts.items.push_back({words, {fmt::format("{:g}", fmt::join(values, ", ")), Emphasis::kData}});
+  }
   blocks.emplace_back(std::move(facts));
   blocks.emplace_back(provenance_items(study.provenance));
   if (!sessions.empty()) blocks.emplace_back(sessions_table("sessions--" + prefix, sessions));

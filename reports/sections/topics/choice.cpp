@@ -7,6 +7,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -21,8 +22,8 @@ constexpr const char* kFixedMethod = "fixed";
 std::string choice_question(const TopicExperiment&) {
   return "All methods with several parameters map the same observations. How much worse than the "
          "best of these maps is the one that a criterion picks without the ground truth? "
-         "With anchors it judges maps fitted to them, and is judged by their MPE; without, it "
-         "judges the shapes alone, and is judged by the MPE with the affine map fitted on all "
+         "With anchors it judges maps fitted to them, and is judged by their MPE. Without anchors "
+         "it judges the shapes alone, and is judged by the MPE with the affine map fitted on all "
          "landmarks.";
 }
 
@@ -58,11 +59,14 @@ BestCriterion best_criterion(const TopicStudy& study, const char* quantity) {
 std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
   const auto [best, least] = best_criterion(study, quantity);
   return fmt::format(
-      "{} the best criterion over all sensors and numbers of steps is: {}, whose pick is {} "
-      "worse than the best map on average; a fixed method is {} worse and a random pick "
-      "{}.",
+      "{}, over all sensors and numbers of steps, the criterion with the lowest mean regret is {}: "
+      "its pick is {} worse than the best map on average; a fixed method is {} worse and a random "
+      "pick {}{}.",
       when, best, error_text(least), error_text(mean_over_all(study, kFixedMethod, quantity)),
-      error_text(mean_over_all(study, kRandomPick, quantity)));
+      error_text(mean_over_all(study, kRandomPick, quantity)),
+      has_few_layouts(study) ? fmt::format("; too few runs to rank the criteria, in {}",
+                                           counted(layouts_of(study), "layout"))
+                             : "");
 }
 
 std::vector<std::string> choice_conclusions(const TopicStudy& study) {

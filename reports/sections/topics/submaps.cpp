@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/text/number_text.hpp"
+#include "core/base/text/unit_text.hpp"
+#include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -38,20 +40,23 @@ std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
     const Condition at = condition_at(setup, level);
     const auto difference = topic_difference(study, at, parts, whole, "mpe_m");
     if (!difference) continue;
-    levels.push_back(fmt::format("{:g}", level));
+    levels.push_back(with_unit(fmt::format("{:g}", level), setup.factors.front().unit));
     of_parts.push_back(error_text(topic_mean(study, at, parts, "mpe_m")));
     of_whole.push_back(error_text(topic_mean(study, at, whole, "mpe_m")));
-    if (difference->half_width && std::abs(difference->mean) > *difference->half_width)
+    if (is_apart_from_0(*difference))
       (difference->mean > 0.0 ? worse : better).push_back(levels.back());
   }
   if (levels.empty()) return "";
   const std::set<std::string> wholes(of_whole.begin(), of_whole.end());
   std::string words = fmt::format(
       "{}, {}: at {} ({}) the mean MPE of the parts joined is {}, of the whole {}", setup.title,
-      label(setting), all_listed(levels), label_with_unit(setup.factors.front()),
-      all_listed(of_parts), wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
+      label(setting), all_listed(levels), setup.factors.front().label, all_listed(of_parts),
+      wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
   if (!worse.empty()) words += "; significantly worse at " + all_listed(worse);
   if (!better.empty()) words += "; significantly better at " + all_listed(better);
+  if (has_few_layouts(study))
+    return words + fmt::format("; too few runs to test differences, in {}.",
+                               counted(layouts_of(study), "layout"));
   return words + (worse.empty() && better.empty() ? "; no difference is significant." : ".");
 }
 

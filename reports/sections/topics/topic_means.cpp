@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +13,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
+#include "reports/sections/results/results_view.hpp"
 
 namespace mapproof {
 namespace {
@@ -95,11 +98,27 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Cond
   return clustered_mean(differences, layouts);
 }
 
+int layouts_of(const TopicStudy& study) {
+  std::set<int> layouts;
+  for (const TopicPart& part : study.parts) layouts.insert(part.run ? part.run->layout : 0);
+  return static_cast<int>(layouts.size());
+}
+
+bool has_few_layouts(const TopicStudy& study) {
+  return std::cmp_less(layouts_of(study), kFewestGroups);
+}
+
+bool is_apart_from_0(const MeanEstimate& difference) {
+  return difference.half_width && !std::cmp_less(difference.clusters, kFewestGroups) &&
+         std::abs(difference.mean) > *difference.half_width;
+}
+
 std::string verdict_words(const MeanEstimate& difference) {
   const char* side = difference.mean < 0.0 ? "better" : "worse";
   if (!difference.half_width) return fmt::format("{}, in one layout", side);
   if (std::abs(difference.mean) <= *difference.half_width) return "not significantly different";
-  return side;
+  return is_apart_from_0(difference) ? side
+                                     : fmt::format("{}, in {} layouts", side, difference.clusters);
 }
 
 }  // namespace mapproof

@@ -45,8 +45,17 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Cond
                                              std::string_view method, std::string_view other,
                                              std::string_view quantity);
 
+/// How many layouts the parts of a study are of.
+int layouts_of(const TopicStudy& study);
+
+/// Whether runs are of too few layouts for an interval (see kFewestGroups).
+bool has_few_layouts(const TopicStudy& study);
+
+/// Whether the interval of a difference leaves 0 out, over as many layouts as one needs.
+bool is_apart_from_0(const MeanEstimate& difference);
+
 /// "better", "worse" or "not significantly different", of a quantity that is better if lower;
-/// without an interval there is no statement on significance: "better, in one layout".
+/// of too few layouts for an interval there is no statement that it is: "better, in 2 layouts".
 std::string verdict_words(const MeanEstimate& difference);
 
 }  // namespace mapproof

@@ -27,6 +27,10 @@ TEST(ChoiceTopic, HasNoRegretForTheBestAndTriesEverySeries) {
   const auto sentences = conclusions_of(study);
   ASSERT_EQ(sentences.size(), 2U);
   EXPECT_EQ(sentences[0].find("nan"), std::string::npos) << sentences[0];
+  EXPECT_TRUE(sentences[0].ends_with("; too few runs to rank the criteria, in 1 layout."))
+      << sentences[0];
+  // A page's first screen may cut it after a semicolon.
+  EXPECT_EQ(question_of(experiment).find(';'), std::string::npos);
 }
 
 }  // namespace
