@@ -226,7 +226,7 @@ std::optional<Panel> panel_of(const Comparison& comparison) {
                                ? quantity.label
                                : fmt::format("{} [{}]", quantity.label, quantity.unit);
   runs.label = counted(std::ssize(runs.x), "run");
-  return Panel{.title = printable(shown_subject(comparison), 200),
+  return Panel{.title = printable(comparison.label, 200),
                .x = Axis{.label = "baseline: " + name},
                .y = Axis{.label = "current: " + name},
                .layers = {equal, runs}};

@@ -157,8 +157,8 @@ class LayerDiff {
   ComparedPanel panel_;
   FigureLog& log_;
   std::string location_;  ///< The location of the layer that is compared.
-  std::set<std::string>
-      anchors_;  ///< Landmarks with known positions: a mean error is without them.
+  /// Landmarks with known positions: a mean error is without them.
+  std::set<std::string> anchors_;
 };
 
 /// Names of the points that both panels have, in any layers.

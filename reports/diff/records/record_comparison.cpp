@@ -303,14 +303,6 @@ std::string settings_text(const RecordDiff& diff) {
   return text + (text.empty() ? "" : ": ") + why;
 }
 
-std::string shown_subject(const Comparison& comparison) {
-  if (!comparison.label.empty()) return comparison.label;
-  const bool is_same =
-      comparison.current_subject.empty() || comparison.current_subject == comparison.subject;
-  return is_same ? comparison.subject
-                 : comparison.subject + " \u2192 " + comparison.current_subject;
-}
-
 std::string comparison_text(const Comparison& comparison, const std::string& run) {
   const Quantity& quantity = comparison.quantity;
   const auto changed = [&](double baseline, double current) {

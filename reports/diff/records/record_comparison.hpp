@@ -56,7 +56,7 @@ struct PairedTest {
 struct Comparison {
   std::string subject;
   std::string current_subject;  ///< The same, unless its parameter changed.
-  std::string label = {};       ///< Of both for readers; empty: not known.
+  std::string label = {};       ///< Of both for readers: "bearing, ISOMAP, K = 8 → …, K = 9".
   Quantity quantity;            ///< From the dictionary, or as the study declares it.
   int pairs = 0;                ///< Runs that have it on both sides; of them …
   int equal = 0;
@@ -86,9 +86,6 @@ struct PointMove {
   double moved = 0.0;       ///< Infinite if it has a position on only one side.
   std::optional<double> baseline_error, current_error;  ///< Where the ground truth is known.
 };
-
-/// What tables and figures call the subject: its label, else "subject → current subject".
-std::string shown_subject(const Comparison& comparison);
 
 /// The points of one record.
 struct PointsDiff {

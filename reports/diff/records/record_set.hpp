@@ -55,8 +55,8 @@ struct RecordSet {
   std::map<std::string, SubjectFamily> families;  ///< By subject, where it has a parameter.
   /// Names in figures of subjects with a different name: the id of a single map.
   std::map<std::string, std::string> called;
-  std::map<std::string, std::string>
-      labels;  ///< Of subjects: "bearing, ISOMAP, K = 9, 2000 steps".
+  /// Of subjects: "bearing, ISOMAP, K = 9, 2000 steps".
+  std::map<std::string, std::string> labels;
   /// Numbers by run_in_name(); NaN: there is no map, or no ground truth to score it.
   std::map<SeriesKey, ValuesByRun> values;
   std::map<std::string, std::string> statuses;  ///< Of a record: its codes, in order.

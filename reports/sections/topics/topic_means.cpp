@@ -109,7 +109,7 @@ bool has_few_layouts(const TopicStudy& study) {
 }
 
 bool is_apart_from_0(const MeanEstimate& difference) {
-  return difference.half_width && !std::cmp_less(difference.clusters, kFewestGroups) &&
+  return difference.half_width && std::cmp_greater_equal(difference.clusters, kFewestGroups) &&
          std::abs(difference.mean) > *difference.half_width;
 }
 

@@ -134,7 +134,7 @@ TEST(ChangeFigure, OfRecordsShowsTheLandmarksThatMovedAndTheScoresOfTheRuns) {
   move.current = {1, 1};
   move.moved = 1.4;
   Comparison comparison;
-  comparison.subject = "bearing/isomap";
+  comparison.subject = comparison.label = "bearing/isomap";
   comparison.quantity.label = "MPE";
   comparison.quantity.unit = "m";
   comparison.beyond = 2;
@@ -265,7 +265,7 @@ TEST(ChangeFigure, OfRecordsBeginsWithWhatGotWorse) {
     comparison.beyond = 1;
     comparison.largest = {{"run-1", 0.1, 0.2}};
     comparison.outcome = outcome;
-    comparison.label = std::string(subject) == "bearing/isomap" ? "bearing, ISOMAP" : "";
+    comparison.label = std::string(subject) == "bearing/isomap" ? "bearing, ISOMAP" : subject;
     diff.comparisons.push_back(comparison);
   }
   const auto figure = change_figure(diff);

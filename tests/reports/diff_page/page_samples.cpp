@@ -76,7 +76,7 @@ RecordDiff records(Trap& text) {
   diff.new_subjects = {text()};
   diff.anchors = {text()};
   Comparison comparison;
-  comparison.subject = text();
+  comparison.subject = comparison.label = text();
   comparison.current_subject = comparison.subject;
   comparison.quantity = known_quantity("mpe_m");
   comparison.outcome = Outcome::kWorse;
