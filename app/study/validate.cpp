@@ -16,6 +16,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
+#include "core/base/text/ascii.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
@@ -309,7 +310,7 @@ std::string problems_text(const Finding& finding) {
   std::vector<Group> groups;
   const auto add = [&](const std::string& problem) {
     std::string kind = problem;
-    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+    std::erase_if(kind, is_digit);
     const auto group = std::ranges::find(groups, kind, &Group::kind);
     if (group == groups.end())
       groups.push_back({.kind = kind, .first = problem});

@@ -7,6 +7,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/files/byte_source.hpp"
+#include "core/base/text/ascii.hpp"
 #include "core/records/observations/input_kind.hpp"
 
 namespace mapproof {
@@ -63,7 +64,7 @@ void add(ItemList& items, const ItemName& name, const fs::path& file) {
 bool is_further_page(const fs::path& file) {
   const std::string number = file.stem().string();
   return file.extension() == ".html" && file.parent_path().filename() == "pages" &&
-         std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+         std::ranges::all_of(number, is_digit);
 }
 
 /// The kind of a document; empty for other files.

@@ -2,33 +2,11 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
-#include "core/base/text/number_text.hpp"
-#include "core/base/text/unit_text.hpp"
-#include "core/json/text_input.hpp"
-#include "core/model/method.hpp"
-#include "core/model/slam/slam_study.hpp"
-
 namespace mapproof {
 namespace {
-
-/// One of mapproof's settings without its variation's level.
-std::string shown_setting(const std::string& setting) {
-  if (const auto slam = slam_method_named(setting)) return std::string(info(*slam).label);
-  const std::optional<Method> known = method_named(base_method({}, setting));
-  if (!known) return setting;
-  std::string label(info(*known).label);
-  const std::string_view name = info(*known).name;
-  const auto& parameter = info(*known).parameter;
-  if (!parameter || setting.size() <= name.size() + 1 + parameter->symbol.size()) return label;
-  std::string value = setting.substr(name.size() + 1 + parameter->symbol.size());
-  if (value.starts_with('-')) value.erase(0, 1);  // Of "sigma2-10": no parameter is below 0.
-  return fmt::format("{}, {} = {}", label, parameter->shown, value);
-}
 
 /// The size of the longest declared id that a SeriesId::method begins with; 0 if it is none.
 std::size_t declared_size(const StudyLabels& labels, const std::string& method) {
@@ -76,12 +54,8 @@ std::string label_in(const std::map<std::string, std::string>& labels, const std
 std::string base_method(const StudyLabels& labels, const std::string& method) {
   if (const std::size_t size = declared_size(labels, method); size > 0)
     return method.substr(0, size);
-  std::string best;
-  for (const MethodInfo& known : all_methods())
-    if (method.starts_with(known.name) && known.name.size() > best.size() &&
-        (method.size() == known.name.size() || method[known.name.size()] == '-'))
-      best = known.name;
-  return best.empty() ? method : best;
+  const std::string own = own_method_of(method);
+  return own.empty() ? method : own;
 }
 
 std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
@@ -95,13 +69,8 @@ std::vector<ShownLevel> levels_of(const StudyLabels& labels, const std::string& 
     const std::size_t is = text.find('=', at);
     if (is == std::string::npos) break;
     const std::size_t end = level_end(text, is);
-    const std::string id = text.substr(at + 1, is - at - 1),
-                      value = text.substr(is + 1, end - is - 1);
-    const auto known = labels.factors.find(id);
-    const LabelWithUnit label = known == labels.factors.end() ? LabelWithUnit{} : known->second;
-    const std::optional<double> number = number_in(value);
-    levels.push_back({label.label.empty() ? id : label.label,
-                      number ? level_number_text(*number) : value, label.unit, number});
+    levels.push_back(
+        shown_level(labels, text.substr(at + 1, is - at - 1), text.substr(is + 1, end - is - 1)));
     at = end;
   }
   return levels;
@@ -112,17 +81,13 @@ std::string shown_method(const StudyLabels& labels, const std::string& method) {
   const std::string id = method.substr(0, id_size(labels, method));
   // A study of results labels its setups; what it does not declare is not a method of mapproof.
   const bool is_of_mapproof = labels.methods.empty() || labels.setups.empty();
-  std::string shown = declared > 0     ? labels.methods.at(id)
-                      : is_of_mapproof ? shown_setting(id)
-                                       : id;
+  std::string shown = declared > 0 ? labels.methods.at(id) : is_of_mapproof ? setting_text(id) : id;
   const Tail tail = tail_of(labels, method);
   const std::vector<ShownLevel> levels = levels_of(labels, method);
   if (levels.empty() && !tail.levels.empty()) shown += ", " + tail.levels.substr(1);
   for (const ShownLevel& level : levels) shown += ", " + level.words();
   return shown + tail.subject;
 }
-
-std::string ShownLevel::words() const { return name + " " + with_unit(value, unit); }
 
 std::string shown_method_of(const StudyLabels& labels, const SeriesId& series) {
   const std::string setup = shown_setup(labels, series.sensor);

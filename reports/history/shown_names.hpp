@@ -1,10 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "reports/history/nightly_run.hpp"
+#include "reports/model/label_text.hpp"
 
 namespace mapproof {
 
@@ -18,17 +18,6 @@ std::string base_method(const StudyLabels& labels, const std::string& method);
 
 /// Its label; the id if it has none.
 std::string shown_setup(const StudyLabels& labels, const std::string& setup);
-
-/// A level of a factor, by the factor's label and unit; the id is the label where there is none.
-struct ShownLevel {
-  std::string name;   ///< "range noise".
-  std::string value;  ///< As reports show it: "0.1", "10⁻⁴".
-  std::string unit = {};
-  std::optional<double> number = {};  ///< Of a level that is one.
-
-  /// "range noise 0.1 m".
-  std::string words() const;
-};
 
 /// The levels in a SeriesId::method: "noise" 0.1 and "pace" 2 of "ekf noise=0.1 pace=2".
 std::vector<ShownLevel> levels_of(const StudyLabels& labels, const std::string& method);

@@ -166,8 +166,7 @@ std::pair<std::string, std::string> first_sentences(const std::string& text) {
   constexpr std::size_t kMost = 240;
   std::size_t end = text.size();
   for (std::size_t at = 0; text.size() > kMost && at + 1 < text.size(); ++at) {
-    const bool ends =
-        (text[at] == '.' || text[at] == '?' || text[at] == ';') && text[at + 1] == ' ';
+    const bool ends = (text[at] == '.' || text[at] == '?') && text[at + 1] == ' ';
     if (ends && (end == text.size() || at < kMost)) end = at + 1;
   }
   return {text.substr(0, end), end < text.size() ? text.substr(end + 1) : ""};

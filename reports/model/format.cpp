@@ -36,8 +36,8 @@ struct CellFormatter {
   }
   std::string operator()(const IntervalCell& cell) const {
     if (!std::isfinite(cell.low) || !std::isfinite(cell.high)) return kMissingText;
-    const char* joint = cell.low < 0.0 ? " to " : "\u2013";
-    return format_number(cell.low, cell.decimals) + joint + format_number(cell.high, cell.decimals);
+    return format_number(cell.low, cell.decimals) + " to " +
+           format_number(cell.high, cell.decimals);
   }
   std::string operator()(const MissingCell&) const { return kMissingText; }
 };

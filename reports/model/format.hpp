@@ -15,7 +15,7 @@ inline constexpr const char* kMissingText = "\u2013";
 /// on, and where six places or more show zeros alone of a value that is none.
 std::string format_number(double value, int decimals, bool with_sign = false);
 
-/// As a reader sees it: "0.219", "0.191–0.247", "–".
+/// As a reader sees it: "0.219", "0.191 to 0.247", "–".
 std::string format_cell(const Cell& cell);
 
 /// As a page shows it in prose: as format_number(), with powers of ten set as such, "2.8 × 10¹⁴".

@@ -4,13 +4,13 @@
 #include <array>
 #include <initializer_list>
 
+#include "core/base/text/ascii.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr std::string_view kNoBreakSpace = "\u00A0", kNoBreakHyphen = "\u2011";
 constexpr std::string_view kDay = "0000-00-00";
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// What a file's name, a number or a word goes on with: "out/2026-11-27", "2026-11-270".
 bool is_of_word(char c) { return is_digit(c) || c == '-' || c == '_' || c == '/'; }

@@ -9,6 +9,7 @@
 
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
+#include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/run_scores.hpp"
 
 namespace mapproof {
@@ -156,23 +157,25 @@ std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate)
                   estimate->mean + *estimate->half_width};
 }
 
-PublishedAgreement agreement_of(std::span<const SettingSummary> summaries) {
-  PublishedAgreement all;
-  for (const SettingSummary& summary : summaries) {
-    if (!summary.published || !summary.mpe_m) continue;
-    if (!summary.published->note.empty()) {
-      ++all.apart;
-      continue;
-    }
-    const auto interval = interval_of(summary.mpe_m);
-    if (!interval) continue;
-    ++all.compared;
-    if (summary.published->mpe_m > interval->high)
-      ++all.ours_smaller;
-    else if (summary.published->mpe_m >= interval->low)
-      ++all.within;
+std::optional<PublishedError> published_error(const SettingSummary& best) {
+  if (!best.mpe_m) return std::nullopt;
+  PublishedError method{.label = short_label({best.setting.method, std::nullopt}),
+                        .key = std::string(info(best.setting.method).name),
+                        .mean_m = best.mpe_m->mean};
+  if (const auto interval = interval_of(best.mpe_m))
+    method.interval = Range{interval->low, interval->high};
+  if (best.published) {
+    method.published_m = best.published->mpe_m;
+    method.can_compare = best.published->note.empty();
   }
-  return all;
+  return method;
+}
+
+PublishedAgreement agreement_of(std::span<const SettingSummary> summaries) {
+  std::vector<PublishedError> methods;
+  for (const SettingSummary& summary : summaries)
+    if (auto method = published_error(summary)) methods.push_back(*std::move(method));
+  return agreement_of(methods);
 }
 
 std::string source_of(const SettingSummary& summary) {

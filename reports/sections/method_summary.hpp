@@ -8,6 +8,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/model/study.hpp"
 #include "core/statistics/intervals.hpp"
+#include "render/figures/diagrams/method_comparison.hpp"
 
 namespace mapproof {
 
@@ -56,14 +57,11 @@ struct Interval {
 /// The 95 % interval of an error, cut at 0; empty where one layout, or none, was run.
 std::optional<Interval> interval_of(const std::optional<MeanEstimate>& estimate);
 
-/// How the published errors compare with our 95 % intervals.
-struct PublishedAgreement {
-  int compared = 0;      ///< Methods with an interval and a published error that can be compared.
-  int within = 0;        ///< Of them, those with the published error inside the interval.
-  int ours_smaller = 0;  ///< Of the others, those with an interval below the published error.
-  int apart = 0;         ///< Methods whose published error cannot be compared, as a note says.
-};
+/// The best setting of a method as the figure of published errors shows it; empty where it has no
+/// error.
+std::optional<PublishedError> published_error(const SettingSummary& best);
 
+/// How the published errors of these settings lie to our intervals.
 PublishedAgreement agreement_of(std::span<const SettingSummary> summaries);
 
 /// "bearing/isomap-K9/2000 of 25 runs": which records a summary rests on.

@@ -62,13 +62,7 @@ std::string sources_of(const std::vector<SensorMethods>& sensors) {
 /// How the published errors compare with ours.
 void add_agreement(const std::vector<SensorMethods>& sensors, Highlights& numbers) {
   PublishedAgreement all;
-  for (const SensorMethods& sensor : sensors) {
-    const PublishedAgreement one = agreement_of(sensor.methods);
-    all.compared += one.compared;
-    all.within += one.within;
-    all.ours_smaller += one.ours_smaller;
-    all.apart += one.apart;
-  }
+  for (const SensorMethods& sensor : sensors) all += agreement_of(sensor.methods);
   if (all.compared == 0) return;
   const int outside = all.compared - all.within;
   std::string detail = sources_of(sensors) + ": ";

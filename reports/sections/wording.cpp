@@ -1,6 +1,7 @@
 #include "reports/sections/wording.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -49,11 +50,14 @@ std::string_view meaning(StatusCode code) {
   return "";
 }
 
-std::string words_of(StatusCode code) {
-  std::string words(name(code));
-  std::ranges::replace(words, '_', ' ');
-  return words;
+std::string code_words(std::string code) {
+  constexpr std::string_view kName = "euclidean";
+  std::ranges::replace(code, '_', ' ');
+  if (const std::size_t at = code.find(kName); at != std::string::npos) code[at] = 'E';
+  return code;
 }
+
+std::string words_of(StatusCode code) { return code_words(std::string(name(code))); }
 
 std::string paper_number(std::string_view id) {
   const auto with = [&](std::string_view prefix, std::string_view word) {

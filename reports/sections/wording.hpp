@@ -17,7 +17,8 @@ std::string title_of(Sensor sensor);
 /// One sentence on what a status means.
 std::string_view meaning(StatusCode code);
 
-/// The status' name as words: "arbitrary neighbours".
+/// The name of a warning as words: "not Euclidean" of "not_euclidean".
+std::string code_words(std::string code);
 std::string words_of(StatusCode code);
 
 /// "Fig. 4" of "fig-4" and "Table 1" of "table-1"; empty for other ids.

@@ -22,7 +22,9 @@ set(computing align association base choice embed experiment external graph incr
   map_fit missing mixed model observe pairs range_slam score simulate statistics studies submaps
   topics uncertainty)
 set(not_computing evaluate json records results)
-set(words base/child_process base/spelling base/version base/words)
+set(words base/child_process base/text/error_text base/text/markup base/text/number_text
+  base/text/percent base/text/raised base/text/retired_names base/text/shell_word base/text/slug
+  base/text/spelling base/text/unit_text base/text/words base/version)
 set(readers records/observations/ records/ranges/)
 
 file(GLOB entries RELATIVE ${ROOT}/core LIST_DIRECTORIES true ${ROOT}/core/*)

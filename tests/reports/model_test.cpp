@@ -71,7 +71,7 @@ TEST(PageCell, HasWordsForMapsThatDiverged) {
   EXPECT_EQ(shown(IntervalCell{0.5, 1e15, 1}, "m"), "0.5 to over 1\u00A0km");
   EXPECT_EQ(shown(IntervalCell{0.0, 1e15, 4}, "m"), "0 to over 1\u00A0km");
   EXPECT_EQ(shown(IntervalCell{1500, 1e15, 1}, "m"), "over 1\u00A0km");
-  EXPECT_EQ(shown(IntervalCell{0.5, 1.5, 1}, "m"), "0.5\u20131.5");
+  EXPECT_EQ(shown(IntervalCell{0.5, 1.5, 1}, "m"), "0.5 to 1.5");
 }
 
 TEST(PageCell, HasPositionsOfAnySizeAsNumbers) {
@@ -104,7 +104,7 @@ TEST(FormatNumber, ShowsDigitsOfWhatIsSmallAsAWhole) {
 }
 
 TEST(FormatCell, ShowsAnIntervalWithoutAnEndAsMissing) {
-  EXPECT_EQ(format_cell(IntervalCell{0.1, 0.25, 2}), "0.10\u20130.25");
+  EXPECT_EQ(format_cell(IntervalCell{0.1, 0.25, 2}), "0.10 to 0.25");
   EXPECT_EQ(format_cell(IntervalCell{-0.1, 0.25, 2}), "\u22120.10 to 0.25");
   EXPECT_EQ(format_cell(IntervalCell{0.1, std::nan(""), 2}), "\u2013");
   EXPECT_EQ(format_cell(MissingCell{}), "\u2013");

@@ -39,7 +39,7 @@ TEST(ResultsTables, OfFewGroupsHaveTheReachOfTheRunsAndNoInterval) {
   const ResultsView view(few);
   const Table table = results_tables(view, view.blocks()[0]).at(0);
   EXPECT_EQ(table.columns.at(2).title, "runs");
-  EXPECT_EQ(shown(table, 0, 2), "1.00\u20132.00");
+  EXPECT_EQ(shown(table, 0, 2), "1.00 to 2.00");
   EXPECT_NE(table.notes.at(0).find("too few for an interval"), std::string::npos);
   for (const char* run : {"c1", "d1", "e1"}) rows.add("m", run, run[0] - 'a' + 1.0);
   const ResultsStudy more = rows.study();

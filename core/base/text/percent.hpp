@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/ascii.hpp"
+
 namespace mapproof {
 
 /// The text with every byte that does not stay as %XX.
@@ -19,8 +21,7 @@ std::string percent_encoded(std::string_view text, const Stays& stays) {
 
 /// Whether a byte is a letter or a digit of ASCII, or one of `more`.
 constexpr bool is_plain(char c, std::string_view more) {
-  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-         more.find(c) != std::string_view::npos;
+  return is_letter(c) || is_digit(c) || more.find(c) != std::string_view::npos;
 }
 
 }  // namespace mapproof

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/errors.hpp"
+#include "core/base/text/ascii.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 
@@ -249,7 +250,7 @@ double factor_of(const ColumnHeading& heading) {
 
 /// Whether a column is named by its number.
 bool is_column_number(const NamedColumn& column) {
-  return std::ranges::all_of(column.header, [](char c) { return c >= '0' && c <= '9'; });
+  return std::ranges::all_of(column.header, is_digit);
 }
 
 bool is_number(std::string_view text, std::size_t number) {

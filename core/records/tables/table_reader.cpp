@@ -11,6 +11,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
+#include "core/base/text/ascii.hpp"
 #include "core/base/text/words.hpp"
 #include "core/json/text_input.hpp"
 
@@ -62,7 +63,7 @@ std::string with_decimal_point(std::string_view cell) {
     const bool is_group = c == '.' && i + 3 < cell.size() && i < comma && (comma - i) % 4 == 0;
     if (c == ',' && i == comma)
       number += '.';
-    else if ((c >= '0' && c <= '9') ||
+    else if (is_digit(c) ||
              ((c == '-' || c == '+') && (i == 0 || cell[i - 1] == 'e' || cell[i - 1] == 'E')) ||
              ((c == 'e' || c == 'E') && i > comma))
       number += c;

@@ -34,43 +34,20 @@ std::vector<PublishedError> drawn_methods(const PublishedErrorsSpec::Sensor& sen
   return methods;
 }
 
-/// How the published errors lie to our intervals.
-struct Agreement {
-  std::ptrdiff_t compared = 0;  ///< Methods with an interval and a published error.
-  std::ptrdiff_t within = 0;
-  std::ptrdiff_t ours_smaller = 0;  ///< Of those outside.
-  std::ptrdiff_t apart = 0;         ///< Published errors that cannot be compared.
-};
-
 bool is_outside(const PublishedError& method) {
   return method.interval && method.published_m && method.can_compare &&
          !(*method.published_m >= method.interval->low &&
            *method.published_m <= method.interval->high);
 }
 
-Agreement agreement_of(const std::vector<PublishedErrorsSpec::Sensor>& sensors) {
-  Agreement all;
-  for (const PublishedErrorsSpec::Sensor& sensor : sensors)
-    for (const PublishedError& method : sensor.methods) {
-      if (method.published_m && !method.can_compare) ++all.apart;
-      if (!method.interval || !method.published_m || !method.can_compare) continue;
-      ++all.compared;
-      if (!is_outside(method))
-        ++all.within;
-      else if (*method.published_m > method.interval->high)
-        ++all.ours_smaller;
-    }
-  return all;
-}
-
-std::string title_of(const Agreement& all) {
+std::string title_of(const PublishedAgreement& all) {
   if (all.compared == 0) return "Errors of the methods, ours and published";
   return fmt::format("{} of {}{} published errors lie within our 95 % intervals", all.within,
                      all.compared, all.apart > 0 ? " comparable" : "");
 }
 
-std::string note_of(const Agreement& all) {
-  const std::ptrdiff_t outside = all.compared - all.within;
+std::string note_of(const PublishedAgreement& all) {
+  const int outside = all.compared - all.within;
   if (outside == 0) return "";
   if (all.ours_smaller == outside)
     return outside == 1 ? "In the other one our error is smaller."
@@ -322,8 +299,36 @@ void require_costs(const ParetoSpec& spec) {
 
 }  // namespace
 
+PublishedAgreement& PublishedAgreement::operator+=(const PublishedAgreement& other) {
+  compared += other.compared;
+  within += other.within;
+  ours_smaller += other.ours_smaller;
+  apart += other.apart;
+  return *this;
+}
+
+PublishedAgreement agreement_of(std::span<const PublishedError> methods) {
+  PublishedAgreement all;
+  for (const PublishedError& method : methods) {
+    if (!method.published_m) continue;
+    if (!method.can_compare) {
+      ++all.apart;
+      continue;
+    }
+    if (!method.interval) continue;
+    ++all.compared;
+    if (!is_outside(method))
+      ++all.within;
+    else if (*method.published_m > method.interval->high)
+      ++all.ours_smaller;
+  }
+  return all;
+}
+
 Figure published_errors_figure(const PublishedErrorsSpec& spec) {
-  const Agreement agreement = agreement_of(spec.sensors);
+  PublishedAgreement agreement;
+  for (const PublishedErrorsSpec::Sensor& sensor : spec.sensors)
+    agreement += agreement_of(sensor.methods);
   Figure figure;
   figure.id = spec.id;
   figure.title = title_of(agreement);

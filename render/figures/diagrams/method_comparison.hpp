@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,22 @@ struct PublishedError {
   std::string label;              ///< "SMACOF, kNN weights".
   std::string key;                ///< [a-z0-9-]+, unique in the panel.
   double mean_m = 0.0;            ///< Ours, > 0; others are left out.
-  std::optional<Range> interval;  ///< 95 % interval of our mean [m].
-  std::optional<double> published_m;
+  std::optional<Range> interval = {};  ///< 95 % interval of our mean [m].
+  std::optional<double> published_m = {};
   bool can_compare = true;  ///< False: the published error is of another map, and is not counted.
 };
+
+/// How published errors lie to our 95 % intervals.
+struct PublishedAgreement {
+  int compared = 0;      ///< Methods with an interval and a published error that can be compared.
+  int within = 0;        ///< Of them, those with the published error inside the interval.
+  int ours_smaller = 0;  ///< Of the others, those with the interval below the published error.
+  int apart = 0;         ///< Methods whose published error cannot be compared.
+
+  PublishedAgreement& operator+=(const PublishedAgreement& other);
+};
+
+PublishedAgreement agreement_of(std::span<const PublishedError> methods);
 
 struct PublishedErrorsSpec {
   struct Sensor {

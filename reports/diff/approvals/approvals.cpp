@@ -18,6 +18,7 @@
 #include "core/base/files/files.hpp"
 #include "core/base/files/output_folder.hpp"
 #include "core/base/files/paths.hpp"
+#include "core/base/text/percent.hpp"
 #include "core/base/text/spelling.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
@@ -486,10 +487,7 @@ class Planner {
 };
 
 bool is_key(const std::string& key) {
-  return std::ranges::all_of(key, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  });
+  return std::ranges::all_of(key, [](char c) { return is_plain(c, "._-"); });
 }
 
 }  // namespace

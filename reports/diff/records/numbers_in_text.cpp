@@ -2,14 +2,12 @@
 
 #include <cstdlib>
 
+#include "core/base/text/ascii.hpp"
+
 namespace mapproof {
 namespace {
 
 constexpr std::string_view kMinus = "\u2212";  // As tables print it.
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 /// The number of bytes of the sign at `at`, 0 if there is none.
 std::size_t sign_at(std::string_view text, std::size_t at) {

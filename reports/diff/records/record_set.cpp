@@ -14,17 +14,14 @@
 #include "core/base/files/byte_source.hpp"
 #include "core/base/files/files.hpp"
 #include "core/base/files/input_file.hpp"
-#include "core/base/text/number_text.hpp"
-#include "core/base/text/unit_text.hpp"
 #include "core/json/json_cursor.hpp"
 #include "core/json/json_document.hpp"
 #include "core/json/record_writer.hpp"
-#include "core/model/method.hpp"
-#include "core/model/slam/slam_method.hpp"
 #include "core/records/maps/map_json.hpp"
 #include "core/records/observations/input_kind.hpp"
 #include "core/records/studies/slam_store.hpp"
 #include "core/studies/study_kind.hpp"
+#include "reports/model/label_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -90,26 +87,9 @@ void add_family(RecordSet& set, const Results& results, const Result& row) {
         series_name(row.at, family->second.name, row.subject), family->second.parameter};
 }
 
-/// A method as the study calls it, else as figures do: "ISOMAP, K = 9" of "isomap-K9".
-std::string method_text(const StudyContents& contents, const std::string& method) {
-  const auto declared = contents.labels.methods.find(method);
-  if (declared != contents.labels.methods.end()) return declared->second;
-  if (const auto slam = slam_method_named(method)) return std::string(info(*slam).label);
-  const auto family = contents.results.families.find(method);
-  const bool has_parameter = family != contents.results.families.end();
-  const std::optional<Method> known = method_named(has_parameter ? family->second.name : method);
-  if (!known) return method;
-  const std::string text(info(*known).label);
-  return has_parameter ? text + ", " + family->second.parameter : text;
-}
-
-std::string level_label(const StudyLabels& labels, const Level& level) {
-  const double* number = std::get_if<double>(&level.value);
-  const std::string value = number ? level_number_text(*number) : level_text(level);
-  if (level.factor == kStepsFactor) return value + " steps";
-  const auto factor = labels.factors.find(level.factor);
-  if (factor == labels.factors.end()) return level.factor + " " + value;
-  return factor->second.label + " " + with_unit(value, factor->second.unit);
+std::string level_words(const StudyLabels& labels, const Level& level) {
+  if (level.factor == kStepsFactor) return level_text(level) + " steps";
+  return shown_level(labels, level.factor, level_text(level)).words();
 }
 
 /// series_name() in the words of figures: "bearing, ISOMAP, K = 9, 2000 steps".
@@ -120,9 +100,9 @@ std::string subject_label(const StudyContents& contents, const Result& row) {
   const auto add = [&](const std::string& part) {
     if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
   };
-  add(method_text(contents, row.method));
+  add(method_text(contents.labels, row.method));
   const std::vector<Level>& levels = row.at.levels;
-  for (const Level& level : levels) add(level_label(contents.labels, level));
+  for (const Level& level : levels) add(level_words(contents.labels, level));
   add(row.subject);
   return text;
 }

@@ -204,11 +204,11 @@ std::size_t read_number(std::string_view text, double& number) {
   const std::string_view digits = text.substr(sign);
   const std::size_t first = digits.starts_with('-') && sign == 0 ? 1 : 0;
   if (digits.size() <= first) return 0;
-  const auto is_digit = [&](std::size_t i) {
+  const auto is_digit_at = [&](std::size_t i) {
     return i < digits.size() && std::isdigit(static_cast<unsigned char>(digits[i]));
   };
   // Neither "inf" nor "nan".
-  if (!is_digit(first) && !(digits[first] == '.' && is_digit(first + 1))) return 0;
+  if (!is_digit_at(first) && !(digits[first] == '.' && is_digit_at(first + 1))) return 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   if (error != std::errc() || !std::isfinite(number)) return 0;
   return sign + static_cast<std::size_t>(end - digits.data());

@@ -34,17 +34,9 @@ void add_published(FigureSource& source, std::vector<Figure>& figures) {
     panel.title = title_of(sensor.sensor.sensor);
     panel.source = sensor.published.source;
     for (const SettingSummary& best : source.best(sensor)) {
-      if (!best.mpe_m) continue;
-      PublishedError& method = panel.methods.emplace_back();
-      method.label = short_label({best.setting.method, std::nullopt});
-      method.key = info(best.setting.method).name;
-      method.mean_m = best.mpe_m->mean;
-      if (const auto interval = interval_of(best.mpe_m))
-        method.interval = Range{interval->low, interval->high};
-      if (best.published) {
-        method.published_m = best.published->mpe_m;
-        method.can_compare = best.published->note.empty();
-      }
+      auto method = published_error(best);
+      if (!method) continue;
+      panel.methods.push_back(*std::move(method));
       spec.record_ids.push_back(source_of(best));
     }
   }

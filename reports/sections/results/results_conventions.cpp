@@ -35,13 +35,6 @@ std::string in_sentence(std::string label) {
   return lower_case(label.substr(0, 1)) + label.substr(1);
 }
 
-std::string code_words(std::string code) {
-  constexpr std::string_view kName = "euclidean";
-  std::ranges::replace(code, '_', ' ');
-  if (const std::size_t at = code.find(kName); at != std::string::npos) code[at] = 'E';
-  return code;
-}
-
 std::optional<double> aim_of(const Quantity& quantity) {
   return quantity.id.ends_with("_covered_percent") ? std::optional(95.0) : std::nullopt;
 }

@@ -29,9 +29,6 @@ bool is_known(double value);
 /// "MOE (reflection allowed)".
 std::string in_sentence(std::string label);
 
-/// The code of a warning in words: "not Euclidean" of "not_euclidean".
-std::string code_words(std::string code);
-
 /// The coverage that 95 % ellipses are meant to have [%]: more is as wrong as less. Nothing of
 /// other quantities.
 std::optional<double> aim_of(const Quantity& quantity);

@@ -479,9 +479,10 @@ Highlights numbers_of(const ResultsReportInput& input, const std::vector<std::st
                                      study.runs.empty() ? "run" : "data set")});
   const std::string provenance = study.name + "-provenance";
   if (!warnings.empty())
-    numbers.items.push_back({warnings.size() == 1 ? "warning" : "warnings",
-                             fmt::format("{}", warnings.size()), warnings.front(), provenance,
-                             true});
+    numbers.items.push_back(
+        {warnings.size() == 1 ? "warning" : "warnings", fmt::format("{}", warnings.size()),
+         warnings.front(),
+         input.view.blocks().empty() ? provenance : input.view.blocks().front().id, true});
   else if (const auto rows = std::ssize(study.results.rows); rows > 0)
     numbers.items.push_back({fmt::format("of {} have no value", counted(rows, "result")), "0",
                              "nothing was lost", provenance});

@@ -14,6 +14,7 @@
 #include "reports/model/format.hpp"
 #include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/tables/cells.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {

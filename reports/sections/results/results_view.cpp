@@ -12,6 +12,7 @@
 
 #include "core/base/errors.hpp"
 #include "core/base/median.hpp"
+#include "core/base/text/ascii.hpp"
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/slug.hpp"
@@ -479,7 +480,6 @@ bool is_lost(double value) {
 std::string level_slug(const Level& level) {
   std::string text = level_text(level);
   std::string sign;
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (text.size() > 1 && (is_digit(text[1]) || text[1] == '.')) {
     if (text[0] == '-') sign = "minus-";
     if (text[0] == '+') sign = "plus-";

@@ -18,13 +18,11 @@ namespace {
 std::string missing_question(const TopicExperiment& experiment) {
   return fmt::format(
       "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
-      "of the most distant landmarks, or those that wide landmarks hide. PPCA and PCA of {0:g} "
-      "dimensions fill the missing data, the landmarks' means fill them, or distances are taken "
-      "over "
-      "pairwise-complete distances; covisible pairs are the {1:g} landmarks that each is most "
-      "often observed "
-      "with. kNN-SMACOF (K = {2:g}) and ISOMAP (K = {3:g}) map the distances; maps are aligned to "
-      "the anchors in least squares.",
+      "of the most distant landmarks, or those that wide landmarks hide. How well can the rest be "
+      "mapped? PPCA and PCA of {0:g} dimensions or the landmarks' means fill the missing data, or "
+      "pairwise-complete distances do without them. Covisible pairs are the {1:g} landmarks that "
+      "each is most often observed with. kNN-SMACOF (K = {2:g}) and ISOMAP (K = {3:g}) map the "
+      "distances. Maps are aligned to the anchors in least squares.",
       number_option(experiment, "dimensions"), number_option(experiment, "covisible_neighbours"),
       number_option(experiment, "smacof_neighbours"),
       number_option(experiment, "isomap_neighbours"));

@@ -22,10 +22,10 @@ constexpr const char* kMixes[] = {"equal", "reliable", "joint"};
 std::string mixed_question(const TopicExperiment&) {
   return fmt::format(
       "Is one map of several sensors better than that of the best of them? Singly, visibility is "
-      "mapped by {}, bearing and range by {}. Together, by the mean of their distances, with equal "
-      "weights or with weights by how far both halves of the steps agree; or jointly, each "
-      "sensor's distances trusted in their order alone. The joint map's way is tried on each "
-      "sensor alone, too.",
+      "mapped by {}, bearing and range by {}. Together, they are mapped by the mean of their "
+      "distances, with equal weights or with weights by how far both halves of the steps agree. "
+      "The joint map trusts each sensor's distances in their order alone, and its way is tried on "
+      "each sensor alone, too.",
       label({Method::kIsomap, 6.0}), label({Method::kSmacofKnn, 8.0}));
 }
 

@@ -12,9 +12,9 @@ namespace {
 
 std::string moved_question(const TopicExperiment& experiment) {
   return fmt::format(
-      "Landmarks seen with range and bearing from up to {:g} m; one of them is at another position "
-      "from "
-      "a random step in the middle half on. Is it named, is another one named, and how far off is "
+      "Landmarks are seen with range and bearing from up to {:g} m. One of them is at another "
+      "position from a random step in the middle half on. Is it named, is another one named, and "
+      "how far off is "
       "the step? Each run tries {:g} landmarks, one at a time.",
       number_option(experiment, "reach_m"), number_option(experiment, "tried"));
 }

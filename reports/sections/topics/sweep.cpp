@@ -17,7 +17,7 @@ namespace {
 std::string sweep_question(const TopicExperiment& experiment) {
   return fmt::format(
       "How do errors of maps depend on the world, the sensor and the anchors? One factor or two "
-      "change at a time; otherwise {} landmarks of {:g} m stand in a room of {:g} m, {} of them "
+      "change at a time. Otherwise {} landmarks of {:g} m stand in a room of {:g} m, {} of them "
       "anchors, and are observed {} times. Levels share their random numbers as far as they can, "
       "so that differences between them are paired.",
       experiment.world.landmarks, experiment.world.landmark_diameter_m, experiment.world.side_m,

@@ -16,7 +16,7 @@ namespace {
 
 std::string uncertainty_question(const TopicExperiment& experiment) {
   return fmt::format(
-      "In each layout {:g} walks are mapped; the mean of these maps is what a method tends to. Of "
+      "In each layout {:g} walks are mapped. The mean of these maps is what a method tends to. Of "
       "{:g} of them ellipses are drawn by the bootstrap, each from its own walk alone. Of the "
       "landmarks that are not anchors, how many have that mean in their 95 % ellipse, and how many "
       "the ground truth?",

@@ -1,5 +1,8 @@
 // Images that FFmpeg's libraries and libwebp decode, in mapproof-animation.
+#include <cstdint>
+#include <cstring>
 #include <stdexcept>
+#include <vector>
 
 #include "core/base/errors.hpp"
 #include "render/animation/image_decoder.hpp"
@@ -33,11 +36,10 @@ void decode(std::string_view bytes) {
           std::int64_t{frame.width} * frame.height > kMostDecodedPixels)
         found("a frame has a size within the limit",
               std::to_string(frame.width) + " " + std::to_string(frame.height));
-      unsigned sum = 0;
+      // A copy is checked whole by the sanitizer, in a fraction of the time of its bytes alone.
+      std::vector<std::uint8_t> row(4 * static_cast<std::size_t>(frame.width));
       for (int y = 0; y < frame.height; ++y)
-        for (int x = 0; x < 4 * frame.width; ++x) sum += frame.rgba[y * frame.stride + x];
-      volatile unsigned seen = sum;
-      static_cast<void>(seen);
+        std::memcpy(row.data(), frame.rgba + y * frame.stride, row.size());
     });
   } catch (const std::runtime_error&) {  // The program's answer.
   }
