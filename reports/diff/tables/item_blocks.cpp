@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -272,22 +273,8 @@ std::string common_unit(const std::vector<MarkMove>& moves) {
   return moves.empty() || std::ranges::any_of(moves, has_other) ? "" : moves.front().unit;
 }
 
-Table moves_table(const FigureDiff& diff, const std::string& suffix) {
-  Table table{"moves-" + suffix, "What moved", {}, {}, {}};
-  table.columns = {{"What", "", "", ""},
-                   {"Where", "", "", ""},
-                   {"From", "", "", ""},
-                   {"To", "", "", ""},
-                   {"Distance", common_unit(diff.moves), "", "In the units of the axes"},
-                   {"On the page", "px", "", "On the page of the report's theme"}};
-  double distance = 0.0;
-  std::map<std::size_t, double> scales;  // By panel.
-  for (const MarkMove& move : diff.moves) {
-    if (std::isfinite(move.distance)) distance = std::max(distance, move.distance);
-    for (const double at : {move.baseline.x, move.baseline.y, move.current.x, move.current.y})
-      if (std::isfinite(at)) scales[move.panel] = std::max(scales[move.panel], std::abs(at));
-  }
-  // Lines of errors draw the positions of the points again.
+/// Those of a figure, but for lines of errors, which draw the positions of the points again.
+std::vector<MarkMove> moves_once(const std::vector<MarkMove>& moves) {
   const auto is_repeated = [&](const MarkMove& move) {
     const auto is_before = [&](const MarkMove& other) {
       if (&other == &move || other.landmark != move.landmark || other.panel != move.panel ||
@@ -295,20 +282,45 @@ Table moves_table(const FigureDiff& diff, const std::string& suffix) {
         return false;
       return move.is_line == other.is_line ? &other < &move : move.is_line;
     };
-    return !move.landmark.empty() && std::ranges::any_of(diff.moves, is_before);
+    return !move.landmark.empty() && std::ranges::any_of(moves, is_before);
   };
-  for (const MarkMove& move : diff.moves) {
-    if (is_repeated(move)) continue;
+  std::vector<MarkMove> once;
+  std::ranges::remove_copy_if(moves, std::back_inserter(once), is_repeated);
+  return once;
+}
+
+Table moves_table(const FigureDiff& diff, const std::string& suffix) {
+  const std::vector<MarkMove> moves = moves_once(diff.moves);
+  const bool has_places = std::ranges::any_of(
+      moves, [&](const MarkMove& move) { return move.location != moves.front().location; });
+  Table table{"moves-" + suffix, "What moved", {}, {}, {}};
+  table.columns = {{"What", "", "", ""},
+                   {"Distance", common_unit(moves), "", "In the units of the axes"},
+                   {"On the page", "px", "", "On the page of the report's theme"},
+                   {"From", "", "", ""},
+                   {"To", "", "", ""}};
+  if (has_places) table.columns.push_back({"Where", "", "", ""});
+  double distance = 0.0;
+  std::map<std::size_t, double> scales;  // By panel.
+  for (const MarkMove& move : moves) {
+    if (std::isfinite(move.distance)) distance = std::max(distance, move.distance);
+    for (const double at : {move.baseline.x, move.baseline.y, move.current.x, move.current.y})
+      if (std::isfinite(at)) scales[move.panel] = std::max(scales[move.panel], std::abs(at));
+  }
+  for (const MarkMove& move : moves) {
     const auto [from, to] = positions_text(move, scales[move.panel]);
-    Row row{{user_text(who(move)), user_text(move.location), user_text(from), user_text(to),
-             scaled_number(move.distance, distance)},
+    NumberCell moved = scaled_number(move.distance, distance);
+    moved.error_m = move.unit == "m";
+    Row row{{user_text(who(move)), moved,
+             move.distance_px ? Cell(NumberCell{*move.distance_px, 1}) : Cell(MissingCell{}),
+             user_text(from), user_text(to)},
             "",
             false};
-    std::get<NumberCell>(row.cells.back()).error_m = move.unit == "m";
-    row.cells.push_back(move.distance_px ? Cell(NumberCell{*move.distance_px, 1})
-                                         : Cell(MissingCell{}));
+    if (has_places) row.cells.push_back(user_text(move.location));
     table.rows.push_back(std::move(row));
   }
+  if (!has_places && !moves.empty())
+    table.notes.push_back("All are of " + user_text(moves.front().location).text + ".");
   if (diff.within > 0)
     table.notes.push_back(counted(diff.within, diff.within == diff.within_landmarks
                                                    ? "more landmark"

@@ -176,6 +176,8 @@ TEST(FigureDiff, CountsALandmarkOnceHoweverManyLayersDrawIt) {
        at = body.find("landmark L", at + 1))
     ++rows;
   EXPECT_EQ(rows, 9U) << body;
+  EXPECT_EQ(body.find("Where"), std::string::npos) << body;  // One place for all: a note has it.
+  EXPECT_NE(moves.find("All are of scatter "), std::string::npos) << moves;
 }
 
 TEST(FigureDiff, CountsALandmarkWithinToleranceOnceHoweverManyLayersDrawIt) {
