@@ -1,7 +1,6 @@
 #include "core/experiment/run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "core/base/errors.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/external_input.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -341,8 +341,6 @@ SensorDetails sensor_details(const SensorStudy& study, const World& world, const
   return details;
 }
 
-using Clock = std::chrono::steady_clock;
-
 /// Where one checkpoint of a sensor is mapped by methods of others.
 class ExternalEmbedder {
  public:
@@ -411,11 +409,11 @@ void map_at(const Experiment& experiment, const ObservationHistory& history,
   const int step = external.step();
   HistoryEmbedder embedder(history, step, embedder_options(experiment.solver));
   for (const MethodSetting& setting : settings_of(study)) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     const ExternalMethod* method = find_external(experiment, setting.method);
     const Embedding embedding =
         method == nullptr ? embedder.embed(setting) : external.embed(*method, setting);
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     if (method == nullptr) maps.remembered.add(history, step, setting, embedding);
     ScoredMap map =
         scored_map(embedding, run.world.landmarks_m, run.anchors, experiment.affine_fit);

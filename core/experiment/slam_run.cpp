@@ -1,7 +1,6 @@
 #include "core/experiment/slam_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "core/base/median.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/ekf.hpp"
@@ -106,8 +106,6 @@ KnownLandmarks without(const KnownLandmarks& known, Eigen::Index row) {
   others.positions_m = known.positions_m(kept, Eigen::all);
   return others;
 }
-
-using Clock = std::chrono::steady_clock;
 
 bool is_refinement(SlamMethod method) {
   return method == SlamMethod::kRefined || method == SlamMethod::kRefinedFromOdometry ||
@@ -308,10 +306,10 @@ SlamRunResult make_slam_run(const std::string& id, RangeLog log, const SlamRunOp
   SlamEstimates estimates(near.log, options);
   for (const SlamMethod method : options.methods) {
     estimates.prepare(method);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     SlamRecord record{
         .method = method, .estimate = estimates.estimate(method), .errors = {}, .error_m = {}};
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     result.timings.push_back(
         {.run = id, .method = method, .seconds = seconds + estimates.prepared_s(method)});
     if (record.estimate.landmark_cov_m2.empty())

@@ -1,7 +1,6 @@
 #include "core/experiment/slam_worlds.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/seeds.hpp"
 #include "core/experiment/slam_run.hpp"
@@ -295,7 +295,6 @@ SlamRun make_example(const SlamExperiment& experiment, std::vector<SlamTiming>& 
 }
 
 std::vector<FactorizationCost> time_factorization(const SlamExperiment& experiment) {
-  using Clock = std::chrono::steady_clock;
   constexpr int kTimings = 5;
   std::vector<FactorizationCost> costs;
   RangeNoiseModel noise;
@@ -308,9 +307,9 @@ std::vector<FactorizationCost> time_factorization(const SlamExperiment& experime
       const Eigen::MatrixXd Y = half_squared_ranges(world.ranges_m);
       double least_s = kInfinity;  // What else runs on the machine only adds to a time.
       for (int i = 0; i < kTimings; ++i) {
-        const Clock::time_point start = Clock::now();
+        const Stopwatch stopwatch;
         metric_upgrade(factorize(Y, 4));
-        least_s = std::min(least_s, std::chrono::duration<double>(Clock::now() - start).count());
+        least_s = std::min(least_s, stopwatch.seconds());
       }
       costs.push_back({.landmarks = landmarks, .steps = steps, .seconds = least_s});
     }

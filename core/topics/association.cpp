@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -7,6 +6,7 @@
 #include "core/association/correspondence.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/simulate/sensors.hpp"
@@ -15,7 +15,6 @@
 namespace mapproof {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr const char* kUnassociated = "unassociated";
@@ -117,7 +116,7 @@ class ConfusedMaps {
       left.values = confused.confused.select(kNaN, left.values);
       add(kLeftOut, left, confused);
     }
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     const Mask all = Mask::Constant(ground_truth_.landmarks(), ground_truth_.steps(), true);
     CorrespondenceOptions options{
         .rank = static_cast<Eigen::Index>(number_option(context_.experiment, "dimensions")),
@@ -127,8 +126,7 @@ class ConfusedMaps {
       options.stretch = std::llround(number_option(context_.experiment, "assumed_stretch"));
     const Correspondence found =
         estimated_correspondence(confused.history, known ? confused.confused : all, options);
-    part_.seconds.push_back(
-        {part_.id, kEstimated, std::chrono::duration<double>(Clock::now() - start).count()});
+    part_.seconds.push_back({part_.id, kEstimated, stopwatch.seconds()});
     add(kEstimated, found.history, confused);
   }
 

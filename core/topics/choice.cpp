@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -7,6 +6,7 @@
 
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/choice/judged_maps.hpp"
 #include "core/score/map_score.hpp"
 #include "core/simulate/sensors.hpp"
@@ -14,8 +14,6 @@
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr std::pair<const char*, Sensor> kChoiceSensors[] = {{"visibility", Sensor::kVisibility},
                                                              {"bearing", Sensor::kBearing}};
@@ -133,7 +131,7 @@ TopicPart make_choice(const TopicTask& context) {
     Random noise(derive_seed(context.seed, {static_cast<std::uint64_t>(sensor)}));
     const ObservationHistory history = observe(*context.world, *context.path, options, noise);
     for (const double level : list_option(context.experiment, "observations")) {
-      const Clock::time_point start = Clock::now();
+      const Stopwatch stopwatch;
       const auto steps = std::min<Eigen::Index>(std::llround(level), history.steps());
       const MapJudge judge(
           history, steps,
@@ -145,8 +143,7 @@ TopicPart make_choice(const TopicTask& context) {
         outcome.at = condition(id, {{.factor = std::string(kStepsFactor), .value = level}});
         part.outcomes.push_back(std::move(outcome));
       }
-      add_seconds(part, info(Criterion::kCombined).name,
-                  std::chrono::duration<double>(Clock::now() - start).count());
+      add_seconds(part, info(Criterion::kCombined).name, stopwatch.seconds());
     }
   }
   return part;

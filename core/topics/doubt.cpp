@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "core/align/rigid.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/range_slam/fit/log_fit.hpp"
 #include "core/simulate/range_world.hpp"
@@ -15,8 +15,6 @@
 
 namespace mapproof {
 namespace {
-
-using DoubtClock = std::chrono::steady_clock;
 
 constexpr const char* kDoubtMethod = "slam";
 constexpr double kEllipse95 = 5.991464547107979;  ///< Chi-squared of 2 degrees of freedom.
@@ -155,7 +153,7 @@ TopicOutcome fault_outcome(const TopicTask& context, const RangeDriveOptions& op
 TopicPart make_doubt(const TopicTask& context) {
   TopicPart part;
   const RangeDriveOptions options = drive_options(context);
-  const DoubtClock::time_point start = DoubtClock::now();
+  const Stopwatch stopwatch;
   part.outcomes.push_back(fault_free_outcome(context, options));
   // False alarms are rare: they need more logs than the faults do.
   const bool is_first = context.run.pose == 1;
@@ -164,7 +162,7 @@ TopicPart make_doubt(const TopicTask& context) {
     for (const double percent : list_option(context.experiment, "sizes_percent"))
       if (fault.full * percent / 100.0 <= fault.most || percent <= 100.0)
         part.outcomes.push_back(fault_outcome(context, options, fault, percent));
-  add_seconds(part, kDoubtMethod, std::chrono::duration<double>(DoubtClock::now() - start).count());
+  add_seconds(part, kDoubtMethod, stopwatch.seconds());
   return part;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -7,14 +6,13 @@
 
 #include "core/align/aligned_to.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/incremental/incremental_map.hpp"
 #include "core/simulate/sensors.hpp"
 #include "core/topics/topics.hpp"
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr Sensor kIncrementalSensors[] = {Sensor::kBearing, Sensor::kVisibility, Sensor::kRange};
 
@@ -44,10 +42,6 @@ TopicDesign incremental_design(const TopicExperiment& experiment) {
       study_quantity("steps_gone_through", "Number of observations processed per update", "",
                      Better::kLower)};
   return design;
-}
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
 std::vector<StepEntry> step_of(const ObservationHistory& history, Eigen::Index t) {
@@ -84,17 +78,17 @@ void add_maps(const TopicTask& context, const MethodSetting& setting,
   Eigen::Index before = 0;
   double carried_on_s = 0.0, resampled_s = 0.0;
   for (Eigen::Index t = 1; t <= history.steps(); ++t) {
-    Clock::time_point start = Clock::now();
+    Stopwatch stopwatch;
     map.add(step_of(history, t - 1));
-    carried_on_s += seconds_since(start);
+    carried_on_s += stopwatch.seconds();
     const bool asked = std::ranges::find(levels, static_cast<double>(t)) != levels.end();
     if (t % every != 0 && !asked) continue;
-    start = Clock::now();
+    stopwatch = {};
     const Embedding update = map.update().embedding;
-    carried_on_s += seconds_since(start);
-    start = Clock::now();
+    carried_on_s += stopwatch.seconds();
+    stopwatch = {};
     const Embedding whole = HistoryEmbedder(history, t).embed(setting);
-    resampled_s += seconds_since(start);
+    resampled_s += stopwatch.seconds();
     differences.add(relative_gap(update.coordinates, whole.coordinates));
     const auto outcome = [&](const std::string& method, std::map<std::string, double> values) {
       part.outcomes.push_back({.at = condition(setup, {{.factor = std::string(kStepsFactor),

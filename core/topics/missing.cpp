@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/covisible.hpp"
@@ -17,8 +17,6 @@
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kAtRandom = "at-random";
 constexpr const char* kLimitedRange = "sensor-range";
@@ -139,9 +137,9 @@ class IncompleteHistory {
 
   void map_filled(Filling filling) {
     options_.filling = filling;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     const FilledProximities filled = filled_proximities(history_, steps(), options_);
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     const MethodSetting smacof = smacof_of(context_.experiment);
     part_.seconds.push_back({part_.id, method_id(filling, smacof), seconds});
     Embedder embedder(filled.proximities);

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +6,7 @@
 #include "core/association/moved.hpp"
 #include "core/base/angle.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/model/detection_log.hpp"
 #include "core/model/world.hpp"
 #include "core/simulate/sensors.hpp"
@@ -51,8 +51,6 @@ DetectionLog simulated_detections(const World& world, const Path& path,
     }
   return log;
 }
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kDistance = "distance";
 constexpr const char* kNoise = "noise";
@@ -134,12 +132,11 @@ Tally tallied(const TopicTask& context, double length, double noise, Random& ran
         *context.world, *context.path,
         {.reach_m = number_option(context.experiment, "reach_m"), .range_share = noise}, move,
         random);
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     tally.add(find_moved(log, {.least_move = number_option(context.experiment, "least_move"),
                                .seed = random.next()}),
               move);
-    part.seconds.push_back(
-        {part.id, kTest, std::chrono::duration<double>(Clock::now() - start).count()});
+    part.seconds.push_back({part.id, kTest, stopwatch.seconds()});
   }
   return tally;
 }

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -25,6 +24,7 @@
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
 #include "core/base/sha256.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/planarity.hpp"
@@ -190,8 +190,6 @@ std::vector<DataSetFolder> mrclam_sets(const fs::path& folder) {
   return sets;
 }
 
-using Clock = std::chrono::steady_clock;
-
 constexpr AffineFit kFit = AffineFit::kLeastDistances;
 constexpr int kFewestReplicates = 10;  ///< Of a bootstrap.
 constexpr const char* kSetup = "sensors";
@@ -353,10 +351,9 @@ TopicOutcome scored_outcome(TopicOutcome outcome, const MrclamMethod& entry, con
 
 void add_entry(const MrclamMethod& entry, const RealSet& set, const TopicTask& context,
                TopicPart& part) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   const Made made = make_map(entry, set, context);
-  part.seconds.push_back(
-      {context.part, entry.id, std::chrono::duration<double>(Clock::now() - start).count()});
+  part.seconds.push_back({context.part, entry.id, stopwatch.seconds()});
   TopicMap shown{.id = fmt::format("{}-{}", entry.id, context.part),
                  .at = condition(kSetup),
                  .method = entry.id,
@@ -387,21 +384,20 @@ void add_entry(const MrclamMethod& entry, const RealSet& set, const TopicTask& c
 void add_association(const RealSet& set, const TopicTask& context, TopicPart& part) {
   const MrclamMethod& entry = kMrclamMethods[std::size(kMrclamMethods) - 1];
   const auto add = [&](const std::string& method, const DetectionLog& log,
-                       Clock::time_point start) {
+                       const Stopwatch& stopwatch) {
     RealSet other = set;
     other.source.log = log;
     const Made made = make_map(entry, other, context);
-    part.seconds.push_back(
-        {context.part, method, std::chrono::duration<double>(Clock::now() - start).count()});
+    part.seconds.push_back({context.part, method, stopwatch.seconds()});
     part.outcomes.push_back(scored_outcome(
         {.at = condition(kAssociation), .method = method, .values = {}, .statuses = {}}, entry,
         other, made, record_of(entry, other, made)));
   };
   for (const SpoiltIds& spoilt : spoilt_ids(set.source.log, context.seed)) {
-    add(spoilt.id, spoilt.log, Clock::now());
-    const Clock::time_point start = Clock::now();
+    add(spoilt.id, spoilt.log, {});
+    const Stopwatch stopwatch;
     const CorrectedIds corrected = corrected_log(spoilt.log, set.source.ground_truth_m);
-    add(spoilt.id + "-corrected", corrected.log, start);
+    add(spoilt.id + "-corrected", corrected.log, stopwatch);
     part.outcomes.back().values["faults"] = corrected.faults;
   }
 }

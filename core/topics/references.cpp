@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "core/align/aligned_to.hpp"
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/isomap.hpp"
 #include "core/embed/landmark_isomap.hpp"
 #include "core/embed/landmark_mvu.hpp"
@@ -21,8 +21,6 @@
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr Sensor kReferenceSensors[] = {Sensor::kBearing, Sensor::kVisibility};
 
@@ -117,10 +115,6 @@ ReferenceGraph graph_of(const TopicTask& context, Sensor sensor) {
   return result;
 }
 
-double seconds_since_start(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 /// The map of a method; of one without references their number does not count.
 Embedding map_from(const ReferenceGraph& from, Method method, int references, int neighbours) {
   switch (method) {
@@ -160,10 +154,10 @@ void add_reference_maps(const TopicTask& context, const TopicSetup& setup, Senso
       none.statuses = from.graph.statuses;
       return none;
     }
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     Embedding map =
         from.in_all_rows(map_from(from, method, static_cast<int>(references), from.neighbours));
-    add_seconds(part, slug(setting_of(experiment, method)), seconds_since_start(start));
+    add_seconds(part, slug(setting_of(experiment, method)), stopwatch.seconds());
     return map;
   };
   for (const auto& [exact, approximate] : kApproximations) {

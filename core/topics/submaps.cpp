@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -6,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/missing/filled.hpp"
 #include "core/simulate/missing_entries.hpp"
@@ -15,8 +15,6 @@
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr const char* kSize = "size";
 constexpr const char* kOverlap = "overlap";
@@ -86,14 +84,14 @@ class SubmapOutcomes {
 
   void add(const Condition& at, const ObservationHistory& history, const MethodSetting& setting,
            const SubmapSetting& submaps) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     SubmapEmbedding made;
     if (submaps.whole)
       made.embedding =
           HistoryEmbedder(history, history.steps(), {}, submaps.parts.rule).embed(setting);
     else
       made = embed_submaps(history, history.steps(), setting, submaps.parts);
-    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     const std::string method =
         method_id(submaps.whole, setting) + (submaps.parts.rule ? kFilled : "");
     part_.seconds.push_back({part_.id, method, seconds});

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/embed/embedder.hpp"
 #include "core/experiment/run.hpp"
 #include "core/experiment/scored_map.hpp"
@@ -12,8 +12,6 @@
 
 namespace mapproof {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// A setup: one sensor's part of a sweep.
 struct SweptSetup {
@@ -67,10 +65,10 @@ void map_at(const Experiment& experiment, const TopicTask& context, const Condit
   const ObservationHistory history = observed_in(experiment, context.run, made, sensor.sensor);
   HistoryEmbedder embedder(history, history.steps(), embedder_options(experiment.solver));
   for (const MethodSetting& setting : settings_of(sensor)) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     const ScoredMap map = scored_map(embedder.embed(setting), made.world.landmarks_m, made.anchors,
                                      experiment.affine_fit);
-    add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
+    add_seconds(part, slug(setting), stopwatch.seconds());
     part.outcomes.push_back({.at = at,
                              .method = slug(setting),
                              .values = {{"mpe_m", map.score ? map.score->mpe_m : kNaN},

@@ -1,13 +1,13 @@
 #include "core/topics/uncertainty.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "core/base/random.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/experiment/scored_map.hpp"
 #include "core/linalg/decompositions.hpp"
 #include "core/simulate/robot_walk.hpp"
@@ -31,8 +31,6 @@ Points mean_map(const std::vector<Points>& maps, Eigen::Index landmarks) {
       }
   return mean.array().colwise() / counts.array();
 }
-
-using Clock = std::chrono::steady_clock;
 
 const std::vector<MethodSetting> kSettings = {{Method::kLpca, std::nullopt},
                                               {Method::kSmacof, std::nullopt},
@@ -87,7 +85,7 @@ class WalkedWorld {
   /// @param blocks  Their length in units of the usual one.
   TopicOutcome tried(const MethodSetting& setting, Eigen::Index steps, double blocks,
                      TopicPart& part) const {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch stopwatch;
     HistoryUncertaintyOptions options{.setting = setting, .embedder = {}};
     options.replicates = static_cast<int>(number_option(context_.experiment, "replicates"));
     const auto tried = static_cast<std::size_t>(number_option(context_.experiment, "tried"));
@@ -99,7 +97,7 @@ class WalkedWorld {
       options.seed = derive_seed(context_.seed, {w});
       uncertainties.push_back(history_uncertainty(histories_[w], steps, frame_, options));
     }
-    add_seconds(part, slug(setting), std::chrono::duration<double>(Clock::now() - start).count());
+    add_seconds(part, slug(setting), stopwatch.seconds());
     const Coverage found = coverage(maps, uncertainties, frame_);
     return {.at = Condition{},
             .method = slug(setting),

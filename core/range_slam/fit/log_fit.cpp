@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "core/base/stopwatch.hpp"
 #include "core/range_slam/dead_reckoning.hpp"
 #include "core/range_slam/factors/spread_rows.hpp"
 #include "core/range_slam/fit/log_tester.hpp"
@@ -22,8 +22,6 @@ constexpr Index kLeastRedundancy = 20;  ///< Ranges beyond the unknowns of landm
 constexpr double kManyOutliers = 0.04;  ///< A share that asks for other starts.
 /// A range scale so near 1 confirms the scale of odometry.
 constexpr double kAgreeingScale = 0.002;
-
-using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
@@ -194,7 +192,7 @@ void LogTester::finish(LogFit& result) const {
 }
 
 LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch;
   LogFit result;
   result.fit.verdict = FitVerdict::kNotTestable;
   problem_.emplace(make_problem(options_.test_keys, gaps_));
@@ -207,7 +205,7 @@ LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
   result.noise = plain_.noise;
   result.cost = plain_.cost;
   inflation_ = inflation_of(*problem_, plain_);
-  const Clock::time_point before_tests = Clock::now();
+  const double before_tests_s = stopwatch.seconds();
   result.inflation = inflation_;
   double squares = 0.0, count = 0.0;
   for (std::size_t i = 0; i < problem_->ranges().size(); ++i) {
@@ -232,10 +230,9 @@ LogFit LogTester::run(const std::vector<SlamEstimate>& starts) {
                         {"fit_range_sigma_m", plain_.noise.range_m},
                         {"fit_forward_sigma_m", plain_.noise.way_m},
                         {"fit_heading_sigma_rad", plain_.noise.heading_per_metre}};
-  const Clock::time_point after_tests = Clock::now();
+  const Stopwatch after_tests;
   if (!options_.only_tests) finish(result);
-  const Clock::duration map = (before_tests - start) + (Clock::now() - after_tests);
-  result.map_s = std::chrono::duration<double>(map).count();
+  result.map_s = before_tests_s + after_tests.seconds();
   return result;
 }
 

@@ -31,11 +31,10 @@ void add_scan(FigureSource& source, Sensor sensor, std::vector<Scene>& scenes) {
 std::string manifold_title(Sensor sensor, const ObservationManifold& manifold) {
   double shown = 0.0;
   for (const double share : manifold.shares) shown += share;
-  const std::string sensor_title = title_of(sensor);
-  return std::isfinite(shown)
-             ? fmt::format("{}: three coordinates hold {:.0f} % of the spread of the observations",
-                           sensor_title, 100.0 * shown)
-             : sensor_title + ": landmarks in the space of their observations";
+  const std::string subject = title_of(sensor) + ", landmarks in observation space";
+  return std::isfinite(shown) ? fmt::format("{}: three coordinates hold {:.0f} % of the spread",
+                                            subject, 100.0 * shown)
+                              : subject;
 }
 
 /// The median run of the best method: its room, and where its landmarks lie in the space of their
