@@ -77,7 +77,8 @@ std::string link_of(Emphasis emphasis, const std::string& text, const HtmlOption
   return emphasis == Emphasis::kUrl ? web_link(text) : "";
 }
 
-constexpr std::size_t kLongCell = 80;  ///< Longer texts scroll in a box of their own.
+constexpr std::size_t kLongCell = 80;     ///< Longer texts scroll in a box of their own.
+constexpr std::size_t kLongHeading = 20;  ///< Longer ones would be a word a line.
 
 bool any_group(const Table& table) {
   for (const Column& column : table.columns)
@@ -94,6 +95,7 @@ data heading_data(const Table& table, std::size_t index, bool two_rows) {
   out.set("index", fmt::format("{}", index));
   out.set("text", holds_text(table, index));
   out.set("interval", holds_intervals(table, index));
+  out.set("wide", data(column.title.size() > kLongHeading));
   out.set("group", false);
   out.set("rows", two_rows && column.group.empty() ? data("2") : data(false));
   const bool begins = index > 0 && table.columns[index - 1].group != column.group;

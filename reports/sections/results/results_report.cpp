@@ -82,7 +82,7 @@ class Reasons {
     if (known == labels_.end())
       labels_.push_back({reason, {label}});
     else
-      known->second.push_back(label);
+      known->second.push_back(in_sentence(label));
   }
   std::vector<Paragraph> paragraphs() const {
     std::vector<Paragraph> all;
