@@ -112,9 +112,10 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
     for (const Paragraph& finding : part.report.opening.findings)
       if (finding.phrases.size() > 1 && finding.phrases[0].text == "Warnings" &&
           finding.phrases[1].text.find("none;") == std::string::npos) {
-        const std::string& text = finding.phrases[1].text;  // ": no usable map of dataset6, ….".
-        shortfalls.push_back(fmt::format("{} ({})", part.report.title,
-                                         text.substr(2, text.find_last_not_of('.') - 1)));
+        // ": no usable map of dataset6, ….", of which the part has what follows a colon.
+        const std::string& text = finding.phrases[1].text;
+        const std::size_t end = std::min(text.find(": ", 2), text.find_last_not_of('.') + 1);
+        shortfalls.push_back(fmt::format("{} ({})", part.report.title, text.substr(2, end - 2)));
       }
   if (!shortfalls.empty()) wrong += fmt::format(" What falls short: {}.", listed(shortfalls, 6));
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
