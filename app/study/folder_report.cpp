@@ -101,9 +101,11 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   }
   std::vector<std::string> titles;
   for (const FolderReport& part : parts) titles.push_back(part.report.title);
+  // The contents have the titles of many.
+  const std::string which = titles.size() > 3 ? "" : ": " + listed(titles, 3);
   const std::string size =
-      fmt::format("{} studies of {}: {}. Each result stands beside the one that it has to beat.",
-                  parts.size(), counted(static_cast<long long>(runs), "run"), listed(titles, 3));
+      fmt::format("{} studies of {}{}. Each result stands beside the one that it has to beat.",
+                  parts.size(), counted(static_cast<long long>(runs), "run"), which);
   std::string wrong = incomplete.empty()
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
@@ -115,7 +117,9 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
         // ": no usable map of dataset6, ….", of which the part has what follows a colon.
         const std::string& text = finding.phrases[1].text;
         const std::size_t end = std::min(text.find(": ", 2), text.find_last_not_of('.') + 1);
-        shortfalls.push_back(fmt::format("{} ({})", part.report.title, text.substr(2, end - 2)));
+        const bool has_tile = part.reached_aim == false;  // Which gives the reason.
+        shortfalls.push_back(part.report.title +
+                             (has_tile ? "" : fmt::format(" ({})", text.substr(2, end - 2))));
       }
   if (!shortfalls.empty()) wrong += fmt::format(" What falls short: {}.", listed(shortfalls, 6));
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};

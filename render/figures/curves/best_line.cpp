@@ -105,7 +105,7 @@ std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLin
   if (names.size() > 1 && characters > kMostCharacters)
     return fmt::format("{} of {} methods", names.size(), lines.size());
   const auto has_comma = [](const std::string& one) { return one.find(", ") != std::string::npos; };
-  if (std::ranges::any_of(names, has_comma))
+  if (names.size() > 1 && std::ranges::any_of(names, has_comma))
     for (std::string& one : names) one = "\u201c" + one + "\u201d";
   return listed(names, kMostNamed);
 }
