@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <list>
 #include <mutex>
@@ -47,6 +48,11 @@ ExternalReply failed(std::string detail) {
 void set_non_blocking(const Descriptor& descriptor) {
   ::fcntl(descriptor.get(), F_SETFL, ::fcntl(descriptor.get(), F_GETFL) | O_NONBLOCK);
 }
+
+/// What OpenMP and BLAS libraries take their number of threads from. With several, the processes of
+/// --jobs contend for the processors, where threads that wait for each other take minutes for
+/// seconds, and sums depend on their number.
+constexpr const char* kThreads = "OMP_NUM_THREADS";
 
 /// Both ends of a stream; what is written to a process that ended raises no signal.
 std::pair<Descriptor, Descriptor> stream_pair() {
@@ -204,6 +210,7 @@ ExternalReply MethodProcess::map(const ExternalRequest& request) {
     // env finds the program by PATH and starts it in the folder.
     ProgramCall call{.program = "/usr/bin/env",
                      .arguments = {"-C", folder.empty() ? "." : folder.string(), "--"}};
+    if (std::getenv(kThreads) == nullptr) call.arguments.push_back(std::string(kThreads) + "=1");
     call.arguments.insert(call.arguments.end(), method_.command.begin(), method_.command.end());
     ChildProcess process(call, {theirs.get(), theirs.get(), messages.get()});
     running_ = std::make_unique<Running>(

@@ -1,6 +1,7 @@
 #include "core/external/method_process.hpp"
 
 #include <cmath>
+#include <cstdlib>
 
 #include <gtest/gtest.h>
 
@@ -110,6 +111,21 @@ TEST(MethodProcess, ThatEndsIsNamedWithItsLastMessage) {
   const ExternalReply reply = answer_of("echo first >&2; echo 'no licence.' >&2; exit 3");
   EXPECT_EQ(reply.failure.value(),
             status_of<StatusReason::kMethodEnded>({"it ended with exit code 3: no licence"}));
+}
+
+TEST(MethodProcess, HasOneThreadUnlessTheEnvironmentGivesANumber) {
+  const auto threads = [] {
+    const ExternalReply reply = answer_of("echo $OMP_NUM_THREADS threads >&2; exit 3");
+    return reply.failure.value().names.front();
+  };
+  const char* before = std::getenv("OMP_NUM_THREADS");
+  const std::string given = before == nullptr ? "" : before;
+  ::unsetenv("OMP_NUM_THREADS");
+  EXPECT_EQ(threads(), "it ended with exit code 3: 1 threads");
+  ::setenv("OMP_NUM_THREADS", "3", 1);
+  EXPECT_EQ(threads(), "it ended with exit code 3: 3 threads");
+  ::unsetenv("OMP_NUM_THREADS");
+  if (before != nullptr) ::setenv("OMP_NUM_THREADS", given.c_str(), 1);
 }
 
 TEST(MethodProcess, ThatIsNotThereCannotBeStarted) {
