@@ -54,8 +54,8 @@ std::string label_in(const std::map<std::string, std::string>& labels, const std
 std::string base_method(const StudyLabels& labels, const std::string& method) {
   if (const std::size_t size = declared_size(labels, method); size > 0)
     return method.substr(0, size);
-  const std::string own = own_method_of(method);
-  return own.empty() ? method : own;
+  const std::string found = method_in_setting(method);
+  return found.empty() ? method : found;
 }
 
 std::string shown_setup(const StudyLabels& labels, const std::string& setup) {
@@ -89,13 +89,13 @@ std::string shown_method(const StudyLabels& labels, const std::string& method) {
   return shown + tail.subject;
 }
 
-std::string shown_method_of(const StudyLabels& labels, const SeriesId& series) {
+std::string shmethod_in_setting(const StudyLabels& labels, const SeriesId& series) {
   const std::string setup = shown_setup(labels, series.sensor);
   return (setup.empty() ? "" : setup + ", ") + shown_method(labels, series.method);
 }
 
 std::string shown_subject(const StudyLabels& labels, const SeriesId& series) {
-  return shown_method_of(labels, series) +
+  return shmethod_in_setting(labels, series) +
          (series.step == 0 ? "" : fmt::format(", {} steps", series.step));
 }
 

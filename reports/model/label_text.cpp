@@ -12,7 +12,7 @@
 
 namespace mapproof {
 
-std::string own_method_of(const std::string& setting) {
+std::string method_in_setting(const std::string& setting) {
   std::string best;
   for (const MethodInfo& known : all_methods())
     if (setting.starts_with(known.name) && known.name.size() > best.size() &&
@@ -23,7 +23,7 @@ std::string own_method_of(const std::string& setting) {
 
 std::string setting_text(const std::string& setting) {
   if (const auto slam = slam_method_named(setting)) return std::string(info(*slam).label);
-  const std::optional<Method> known = method_named(own_method_of(setting));
+  const std::optional<Method> known = method_named(method_in_setting(setting));
   if (!known) return setting;
   std::string label(info(*known).label);
   const std::string_view name = info(*known).name;

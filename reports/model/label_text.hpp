@@ -12,7 +12,7 @@ namespace mapproof {
 
 /// The name of mapproof's method that a setting is of, without its parameter: "smacof-knn" of
 /// "smacof-knn-K6"; empty of other settings.
-std::string own_method_of(const std::string& setting);
+std::string method_in_setting(const std::string& setting);
 
 /// "ISOMAP, K = 6" of "isomap-K6"; a setting that is not mapproof's own as it is.
 std::string setting_text(const std::string& setting);

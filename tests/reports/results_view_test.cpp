@@ -316,7 +316,7 @@ TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
       headlines[0],
       "MPE: of 6 conditions compared, the lowest mean is that of m in 4 (4 significantly) and "
       "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
-  EXPECT_EQ(losses_of(view), "24 of 216 results have no value: o 24.");
+  EXPECT_EQ(losses_of(view), "24 of 216 results have no value: 24 of o");
   EXPECT_EQ(headlines_of(view, {comparisons[0]})[0], sentence_of(comparisons[0], view));
 }
 

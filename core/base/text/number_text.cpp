@@ -78,7 +78,17 @@ std::string rounded_text(double value, int decimals, int digits) {
   return decimals >= kMostDecimals ? significant(value, digits) : "≈ 0";
 }
 
+namespace {
+
+/// Whether a length is what rounding of coordinates leaves.
+bool is_of_rounding(double length_m) { return length_m != 0.0 && std::abs(length_m) < 1e-9; }
+
+constexpr const char* kOfRoundingText = "≈ 0 m";
+
+}  // namespace
+
 std::string quantity_text(double value, std::string_view unit) {
+  if (unit == "m" && is_of_rounding(value)) return kOfRoundingText;
   constexpr double kGreatestCount = 1e6;
   const bool is_count =
       unit.empty() && value == std::floor(value) && std::abs(value) < kGreatestCount;
@@ -88,8 +98,7 @@ std::string quantity_text(double value, std::string_view unit) {
 std::string error_text(double error_m) {
   if (error_m > kGreatestError_m) return kGreatErrorText;
   if (error_m < -kGreatestError_m) return kGreatGainText;
-  constexpr double kOfRounding_m = 1e-9;  // As rounding of coordinates leaves it.
-  if (error_m != 0.0 && std::abs(error_m) < kOfRounding_m) return "≈ 0 m";
+  if (is_of_rounding(error_m)) return kOfRoundingText;
   return std::isnan(error_m) ? significant(error_m) : significant(error_m) + " m";
 }
 

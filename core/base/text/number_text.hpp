@@ -35,7 +35,7 @@ std::string significant(double value, int digits = 3);
 std::string rounded_text(double value, int decimals, int digits = 3);
 
 /// A value of a quantity, "0.0120 m", "88.6 %", "2.06°", with a no-break space. A whole number
-/// without a unit is a count: "20".
+/// without a unit is a count: "20". A length that rounding leaves is "≈ 0 m".
 std::string quantity_text(double value, std::string_view unit);
 
 /// An error with its unit, "0.123 m"; of a map that diverged "over 1 km" (see kGreatestError_m),

@@ -19,6 +19,7 @@
 #include "core/statistics/signed_rank.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
@@ -308,8 +309,9 @@ std::string losses_of(const ResultsView& view) {
   std::ranges::stable_sort(lost, std::greater(), &decltype(lost)::value_type::first);
   constexpr std::size_t kMostNamed = 4;
   std::vector<std::string> names;
-  for (const auto& [count, label] : lost) names.push_back(fmt::format("{} {}", label, count));
-  return fmt::format("{} {} no value: {}.",
+  for (const auto& [count, label] : lost)
+    names.push_back(fmt::format("{} of {}", count_text(count), bracketed(label)));
+  return fmt::format("{} {} no value: {}",
                      part_text(all, std::ssize(view.study().results.rows), "result"),
                      all == 1 ? "has" : "have", listed(names, kMostNamed));
 }

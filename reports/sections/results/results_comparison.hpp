@@ -73,8 +73,8 @@ std::string disagreement_of(const MethodComparison& comparison, const ResultsVie
 /// As many comparisons open a report with a sentence each.
 inline constexpr std::size_t kFewComparisons = 4;
 
-/// "4 of 720 results have no value: EKF 3 and Scan matching 1.", the most first; empty if nothing
-/// is lost.
+/// "4 of 720 results have no value: 3 of EKF and 1 of Scan matching", the most first; empty if
+/// nothing is lost.
 std::string losses_of(const ResultsView& view);
 
 /// Whether the best method by the quantity is named in the opening. How many poses could be

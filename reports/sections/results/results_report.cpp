@@ -279,13 +279,12 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
       note += left_out.empty()
                   ? "not significantly better than any other method (paired test)"
                   : fmt::format("not significantly better than any compared (not {})", left_out);
-    else if (left_out.empty())
-      note += fmt::format(
-          "significantly better than {} (paired test)",
-          others == 1 ? "the other method" : fmt::format("{} of {} other methods", worse, others));
     else
-      note += fmt::format("significantly better than {} of {} compared (not {})", worse, others,
-                          left_out);
+      note +=
+          fmt::format("significantly better than {} {} ({})",
+                      others == 1 ? "the other" : fmt::format("{} of {}", worse, others),
+                      left_out.empty() ? (others == 1 ? "method" : "other methods") : "compared",
+                      left_out.empty() ? "paired test" : "not " + left_out);
     // Means of tables are over all runs of each method.
     if (!comparison.has_all_runs) note += "; over the " + counted(comparison.runs, "common run");
     numbers.items.push_back(
