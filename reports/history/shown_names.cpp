@@ -89,13 +89,13 @@ std::string shown_method(const StudyLabels& labels, const std::string& method) {
   return shown + tail.subject;
 }
 
-std::string shmethod_in_setting(const StudyLabels& labels, const SeriesId& series) {
+std::string shown_method_of(const StudyLabels& labels, const SeriesId& series) {
   const std::string setup = shown_setup(labels, series.sensor);
   return (setup.empty() ? "" : setup + ", ") + shown_method(labels, series.method);
 }
 
 std::string shown_subject(const StudyLabels& labels, const SeriesId& series) {
-  return shmethod_in_setting(labels, series) +
+  return shown_method_of(labels, series) +
          (series.step == 0 ? "" : fmt::format(", {} steps", series.step));
 }
 
