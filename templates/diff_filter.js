@@ -76,7 +76,7 @@ function addThumbnails() {
       item.querySelector(".change img");
     if (!image) continue;
     const small = document.createElement("img");
-    small.className = "thumbnail";
+    small.className = image.closest(".change") ? "thumbnail drawn" : "thumbnail";
     small.alt = "";
     small.loading = "lazy";
     small.decoding = "async";

@@ -49,7 +49,7 @@ function cropped(text) {
 }
 
 // The drawing as a narrow page shows it (see report_stack.js), for a box of that width and, if it can
-// be, of that height.
+// be, of that height. Returns what to show, and the notes that are left out.
 function narrowed(text, width_px, height_px) {
   const box = document.createElement("div");
   box.className = "measured";
@@ -58,6 +58,7 @@ function narrowed(text, width_px, height_px) {
   document.body.append(box);
   const svg = box.firstChild, parts = partsOf(svg);
   const arrangement = arrangementOf(svg, parts, width_px, height_px);
+  const notes = arrangement ? wordsOfParts(parts, ["note"]) : [];
   if (arrangement) {
     const whole = stack(svg, parts, arrangement);
     // What is too high gets smaller, as far as its words can be read.
@@ -71,7 +72,7 @@ function narrowed(text, width_px, height_px) {
     svg.setAttribute("height", whole.height);
   }
   box.remove();
-  return arrangement ? new XMLSerializer().serializeToString(svg) : text;
+  return { text: arrangement ? new XMLSerializer().serializeToString(svg) : text, notes };
 }
 
 const kLeastOpening_px = 9;  // Of words in the figure of the first screen.
@@ -220,16 +221,30 @@ function fitMainFigure() {
   }).observe(box);
 }
 
+// Notes of a drawing as text below its image and its title.
+function addNotesBelow(link, notes) {
+  link.after(...notes.map((words) => {
+    const note = document.createElement("small");
+    note.textContent = words;
+    return note;
+  }));
+}
+
 function addMainFigure() {
   const link = document.querySelector(".main-figure a");
   if (!link) return;
+  for (const note of link.parentElement.querySelectorAll("small")) note.remove();
   const kBelow_px = 8, kBorders_px = 2, kTitleGap_px = 5;
   const kLeastHeight_px = 272, kMostHeight_px = 640;
   const { clientWidth } = link.parentElement;
   const left = innerHeight - link.getBoundingClientRect().top - scrollY - kBelow_px;
   if (clientWidth === 0) return;
   if (narrowPage.matches) {
-    addImage(link, link.dataset.alt, (text) => narrowed(text, clientWidth - kBorders_px, left));
+    addImage(link, link.dataset.alt, (text) => {
+      const shown = narrowed(text, clientWidth - kBorders_px, left);
+      addNotesBelow(link, shown.notes);
+      return shown.text;
+    });
     return;
   }
   // As high as the first screen has room for, and higher where words could not be read.

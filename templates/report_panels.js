@@ -151,33 +151,47 @@ function addCopy(layer, label, right, down) {
   return moved;
 }
 
-// The frame that a label of an axis belongs to, among those of its row or column the nearest one.
-function frameOfLabel(label, frames) {
+// How far right of a label of an axis, or above it, a frame is: none has its label on another side.
+function gapOfLabel(label, frame) {
   const { x, y } = positionOf(label);
-  const gap = (frame) => (isUpright(label) ? frame.x - x : y - frame.bottom);
-  return frames.filter((frame) => gap(frame) > 0).sort((a, b) => gap(a) - gap(b))[0];
+  return isUpright(label) ? frame.x - x : y - frame.bottom;
 }
 
-// The label of each axis of a panel, with all of its lines: of several, the one that is nearest to the
-// panel.
-function axisLabelsOf(svg, parts, frame) {
-  const middle = (label) => {
-    const box = boxIn(svg, label);
-    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
-  };
+function middleOfLabel(label) {
+  const { x, y, width, height } = boxIn(label.ownerSVGElement, label);
+  return { x: x + width / 2, y: y + height / 2 };
+}
+
+// Whether a label of an axis stands in the row or column of a frame.
+function isInLine(label, frame) {
+  const { x, y } = middleOfLabel(label);
+  return isUpright(label) ? frame.y < y && y < frame.bottom : frame.x < x && x < frame.right;
+}
+
+// The frame that a label of an axis belongs to, among those of its row or column the nearest one.
+function frameOfLabel(label, frames) {
+  const gap = (frame) => gapOfLabel(label, frame);
+  return frames.filter((frame) => gap(frame) > 0)
+    .sort((a, b) => isInLine(label, b) - isInLine(label, a) || gap(a) - gap(b))[0];
+}
+
+// The label of each axis of a panel, with all of its lines: of several on its side of the panel, the one
+// in its row or column that is nearest to it.
+function axisLabelsOf(parts, frame) {
   const off = (label) => {
-    const at = middle(label);
+    const at = middleOfLabel(label);
     return Math.hypot(at.x - frame.x - frame.width / 2, at.y - frame.y - frame.height / 2);
   };
   const kMostBeside = 40;  // Lines of one label, which have one middle.
   const areOne = (a, b) => a.dataset.words === b.dataset.words &&
-    Math.abs(middle(a).y - middle(b).y) < 2 && Math.abs(middle(a).x - middle(b).x) < kMostBeside;
+    Math.abs(middleOfLabel(a).y - middleOfLabel(b).y) < 2 &&
+    Math.abs(middleOfLabel(a).x - middleOfLabel(b).x) < kMostBeside;
   return [true, false].flatMap((upright) => {
     const labels = parts.axes
-      .filter((label) => isUpright(label) === upright && frameOfLabel(label, parts.frames))
-      .sort((a, b) => off(a) - off(b));
+      .filter((label) => isUpright(label) === upright && gapOfLabel(label, frame) > 0)
+      .sort((a, b) => isInLine(b, frame) - isInLine(a, frame) || off(a) - off(b));
     return labels.filter((label) => areOne(label, labels[0]))
-      .map((label) => ({ label, upright, middle: middle(label) }));
+      .map((label) => ({ label, upright, middle: middleOfLabel(label) }));
   });
 }
 
@@ -196,7 +210,7 @@ function sharedAxes(svg, parts, step, shift = kNoShift, shown = parts.frames[ste
         .classList.add("tick-copy");
     }
   }
-  for (const { label, upright, middle } of axisLabelsOf(svg, parts, frame)) {
+  for (const { label, upright, middle } of axisLabelsOf(parts, frame)) {
     const from = frameOfLabel(label, frames);
     addCopy(layer, label, upright ? shown.x - from.x : shown.x + shown.width / 2 - middle.x,
       upright ? shown.y + shown.height / 2 - middle.y : shown.bottom - from.bottom);

@@ -12,14 +12,18 @@ function leastWords(svg) {
   return Math.min(...sizes.filter((size) => size > 0));
 }
 
+// The words of the parts of those kinds, each once, however many lines they take.
+function wordsOfParts(parts, kinds) {
+  return [...new Set(parts.rest.filter((part) => kinds.includes(kindOf(part)))
+    .flatMap((part) => [...part.children].map((line) => line.dataset.words)))];
+}
+
 // The heading and the notes of a drawing as text of the page, above it.
 function addDrawnTitle(svg, parts) {
-  const lines = parts.rest.filter((part) => /^(title|note)$/.test(kindOf(part)))
-    .flatMap((part) => [...part.children].map((line) => line.dataset.words));
   const title = document.createElement("p");
   title.className = "drawn-title";
   title.setAttribute("aria-hidden", "true");  // The drawing has it as its name.
-  title.textContent = [...new Set(lines)].join(" \u00b7 ");
+  title.textContent = wordsOfParts(parts, ["title", "note"]).join(" \u00b7 ");
   svg.parentElement.before(title);
 }
 

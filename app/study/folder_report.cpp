@@ -109,19 +109,24 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   std::string wrong = incomplete.empty()
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
-  std::vector<std::string> shortfalls;
+  std::vector<std::string> unexpected, warned;
   for (const FolderReport& part : parts)
     for (const Paragraph& finding : part.report.opening.findings)
       if (finding.phrases.size() > 1 && finding.phrases[0].text == "Warnings" &&
           finding.phrases[1].text.find("none;") == std::string::npos) {
-        // ": no usable map of dataset6, ….", of which the part has what follows a colon.
+        // ": no usable map of dataset6, ….", of which the part has what follows a colon; of what is
+        // not as expected, a tile.
         const std::string& text = finding.phrases[1].text;
         const std::size_t end = std::min(text.find(": ", 2), text.find_last_not_of('.') + 1);
-        const bool has_tile = part.reached_aim == false;  // Which gives the reason.
-        shortfalls.push_back(part.report.title +
-                             (has_tile ? "" : fmt::format(" ({})", text.substr(2, end - 2))));
+        if (part.reached_aim == false)
+          unexpected.push_back(part.report.title);
+        else
+          warned.push_back(fmt::format("{} ({})", part.report.title, text.substr(2, end - 2)));
       }
-  if (!shortfalls.empty()) wrong += fmt::format(" What falls short: {}.", listed(shortfalls, 6));
+  constexpr std::size_t kMostNamed = 4;
+  if (!unexpected.empty())
+    wrong += fmt::format(" Not as expected: {}.", listed(unexpected, kMostNamed));
+  if (!warned.empty()) wrong += fmt::format(" To be looked at: {}.", listed(warned, kMostNamed));
   return {plain(size), {{strong("Warnings"), phrase(": " + wrong)}}};
 }
 
@@ -138,7 +143,9 @@ std::optional<Highlights::Item> verdict_of(const std::vector<FolderReport>& part
   if (judged == 0) return std::nullopt;
   const std::ptrdiff_t open = std::ssize(parts) - judged;
   std::string detail = short_of.empty() ? "" : "not: " + listed(short_of, 4);
-  if (open > 0) detail += fmt::format("{}{} more expect none", detail.empty() ? "" : "; ", open);
+  if (open > 0)
+    detail += fmt::format("{}{} no expected result", detail.empty() ? "" : "; ",
+                          open == 1 ? "1 study has" : fmt::format("{} studies have", open));
   return Highlights::Item{.label = "studies gave the expected result",
                           .value = fmt::format("{} of {}", judged - std::ssize(short_of), judged),
                           .detail = std::move(detail),

@@ -40,11 +40,12 @@ nlohmann::ordered_json mean_values(const TopicStudy& study, const ResultsView& v
 }
 
 /// Methods are compared by what the design judges them by first; by all of it would be too much.
-/// One group shows nothing about chance.
+/// Few groups show nothing about chance.
 std::vector<MethodComparison> compare_series(const ResultsView& view) {
   std::vector<MethodComparison> comparisons = compare_methods(view);
   std::erase_if(comparisons, [&](const MethodComparison& comparison) {
-    return comparison.groups < 2 || comparison.quantity->id != view.study().quantities.front();
+    return !has_groups_for_tests(comparison) ||
+           comparison.quantity->id != view.study().quantities.front();
   });
   return comparisons;
 }

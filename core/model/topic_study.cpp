@@ -19,7 +19,7 @@ const std::array kSweptFactors = {
     SweptFactor{"landmarks", "landmarks", "", Factor::kLandmarks},
     SweptFactor{"landmark_diameter_m", "diameter of landmarks", "m", Factor::kDiameter},
     SweptFactor{"reach_m", "reach of the sensor", "m", Factor::kReach},
-    SweptFactor{"visibility_errors_percent", "entries of visibility that are wrong", "%",
+    SweptFactor{"visibility_errors_percent", "share of wrong visibility entries", "%",
                 Factor::kNoise, 0.01, Sensor::kVisibility, 50.0},
     SweptFactor{"bearing_noise_deg", "noise of bearings", "\u00B0", Factor::kNoise, kRadOfDegree,
                 Sensor::kBearing, 180.0},

@@ -26,7 +26,7 @@ TopicDesign mixed_design(const TopicExperiment& experiment) {
   TopicDesign design;
   const SetupFactor noise{kNoiseFactor, "noise of bearings", "°",
                           list_option(experiment, kNoiseFactor)};
-  const SetupFactor errors{kErrorsFactor, "entries of visibility that are wrong", "%",
+  const SetupFactor errors{kErrorsFactor, "share of wrong visibility entries", "%",
                            list_option(experiment, kErrorsFactor)};
   design.setups = {
       {kBearingNoise, "Visibility with bearings of more and more noise", {noise}},
@@ -35,7 +35,7 @@ TopicDesign mixed_design(const TopicExperiment& experiment) {
   for (const Sensor sensor : {Sensor::kVisibility, Sensor::kBearing, Sensor::kRange}) {
     const std::string id(name(sensor));
     design.methods.push_back({id, id + " alone"});
-    design.methods.push_back({id + "-order", id + " alone, its order"});
+    design.methods.push_back({id + "-order", id + " alone, order of distances"});
   }
   for (const auto& [id, label] :
        {std::pair{"equal", "mean distance, equal weights"},

@@ -63,7 +63,7 @@ TopicDesign moved_design(const TopicExperiment& experiment) {
   design.setups = {
       {kDistance,
        "Moves of several lengths",
-       {{kMovedFactor, "moved by", "m", list_option(experiment, "distances_m")}}},
+       {{kMovedFactor, "length of the move", "m", list_option(experiment, "distances_m")}}},
       {kNoise,
        fmt::format("A move of {:g} m under noise", number_option(experiment, "distance_m")),
        {{kNoiseShare, "noise of the range, as a share of it", "",

@@ -219,7 +219,8 @@ class MapScene {
       scene_.caption += ", the robot's path over the last " +
                         counted(last - first_shown(spec_.path_m, last, side_), "step");
     scene_.caption += fmt::format(", and where {} of {} puts each landmark.",
-                                  method_label(spec_.map), counted(spec_.map.step, "step"));
+                                  spec_.method.empty() ? method_label(spec_.map) : spec_.method,
+                                  counted(spec_.map.step, "step"));
     const Tones shown = tones(rows_of(false));
     if (!shown.values.empty())
       scene_.caption += fmt::format(

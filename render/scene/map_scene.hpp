@@ -14,7 +14,8 @@ namespace mapproof {
 struct MapSceneSpec {
   std::string id;
   std::string title;
-  std::string where = {};  ///< Begins the caption, as "Layout 1, pose 2"; may be empty.
+  std::string where = {};   ///< Begins the caption, as "Layout 1, pose 2"; may be empty.
+  std::string method = {};  ///< What made the map, in the caption; empty: method_label(map).
   MapRecord map;
   std::optional<World> world = {};  ///< The room; without one the ground is what the map covers.
   Points path_m = {};               ///< N x 2, in order; may be empty.

@@ -153,7 +153,7 @@ std::string verdict_sentence(const NightlyFacts& nightly_run,
     return nightly_run.number == 1
                ? "Not compared: it is the first nightly run."
                : "Not compared: no nightly run to compare with has the same settings.";
-  return fmt::format("Nothing {}got worse than in nightly run {}.",
+  return fmt::format("Nothing {}got worse since nightly run {}.",
                      count_findings(groups, true) > 0 ? "new " : "", *nightly_run.reference);
 }
 

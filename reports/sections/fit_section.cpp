@@ -65,7 +65,11 @@ Figure fit_figure(const Fit& fit, const std::string& id, std::vector<std::string
                          .key = fmt::format("test-{}", spec.rows.size() + 1),
                          .ratio = test.statistic / test.bound,
                          .is_cause = is_cause(fit, test)});
-  return fit_tests_figure(spec);
+  Figure figure = fit_tests_figure(spec);
+  if (std::ranges::find(fit.tests, FitCode::kWeakBridge, &FitTest::code) != fit.tests.end())
+    figure.caption +=
+        " Connection: whether only few measurements connect some landmarks with the others.";
+  return figure;
 }
 
 Highlights::Item fit_number(const Fit& fit) {

@@ -75,6 +75,14 @@ bool any_ground_truth(const MapRecord& record) {
   return record.ground_truth_m && record.ground_truth_m->array().isFinite().any();
 }
 
+/// How many landmarks that are not anchors have a true position.
+Index compared_count(const MapRecord& record) {
+  Index count = 0;
+  for (Index i = 0; record.ground_truth_m && i < record.ground_truth_m->rows(); ++i)
+    if (placed(*record.ground_truth_m, i) && !is_anchor(record, i)) ++count;
+  return count;
+}
+
 std::string unit(const MapRecord& record) { return record.frame == Frame::kGroundTruth ? "m" : ""; }
 
 /// Of the coordinates of a table.
@@ -101,10 +109,14 @@ std::vector<Column> point_columns(const MapRecord& record) {
                                  {"x", unit(record), "Map", "", false},
                                  {"y", unit(record), "Map", "", false}};
   if (!any_ground_truth(record)) return columns;
-  columns.push_back({"x", "m", "Ground truth", "", false});
-  columns.push_back({"y", "m", "Ground truth", "", false});
+  const bool has_true_positions = compared_count(record) > 0;  // Else anchors as given alone.
+  const char* group = has_true_positions ? "Ground truth" : "Given";
+  columns.push_back({"x", "m", group, "", false});
+  columns.push_back({"y", "m", group, "", false});
   if (record.frame == Frame::kGroundTruth)
-    columns.push_back({"Error", "m", "", "Distance from the true position."});
+    columns.push_back({"Error", "m", "",
+                       has_true_positions ? "Distance from the true position."
+                                          : "Distance from the given position."});
   return columns;
 }
 
@@ -217,19 +229,37 @@ std::optional<Highlights::Item> anchor_number(const MapRecord& record, bool is_f
       kPositions, worst->is_contradicted};
 }
 
-/// How many warnings the first screen has: those of the command and of the map, and the anchor that
-/// the map contradicts.
-Highlights::Item warning_number(const MapReportInput& input,
-                                const std::optional<WorstAnchor>& contradicted) {
-  const std::size_t listed = input.warnings.size() + input.record.statuses.size();
+/// "the map misses the given position of anchor L10 by 0.346 m"; empty if it contradicts no anchor.
+/// Which anchor is wrong, if one is, the map does not show.
+std::string missed_words(const MapRecord& record) {
+  const std::optional<WorstAnchor> worst = worst_anchor(record);
+  if (!worst || !worst->is_contradicted) return "";
+  return fmt::format("the map misses the given position of anchor {} by {}",
+                     printable(worst->name, 40), error_text(worst->error_m));
+}
+
+/// Those of the command, and the anchor that the map contradicts; the map has its statuses besides.
+std::vector<std::string> stated_warnings(const MapReportInput& input) {
+  std::vector<std::string> warnings = input.warnings;
+  if (const std::string missed = missed_words(input.record); !missed.empty())
+    warnings.push_back(capitalised(missed) + ".");
+  return warnings;
+}
+
+std::size_t warning_count(const MapReportInput& input) {
+  return stated_warnings(input).size() + input.record.statuses.size();
+}
+
+/// How many warnings the page lists.
+Highlights::Item warning_number(const MapReportInput& input) {
+  const std::size_t count = warning_count(input);
+  const std::string missed = missed_words(input.record);
   std::vector<std::string> details;
-  if (contradicted)
-    details.push_back("anchor " + printable(contradicted->name, 40) + " is not where it was given");
-  if (listed > 0) details.emplace_back("listed with their reasons");
-  const auto count = listed + (contradicted ? 1 : 0);
+  if (!missed.empty()) details.push_back(missed);
+  if (count > details.size()) details.emplace_back("listed with their reasons");
   return {count == 1 ? "warning or failure" : "warnings and failures", fmt::format("{}", count),
-          details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")),
-          contradicted && listed == 0 ? kPositions : kWarnings, count > 0};
+          details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")), kWarnings,
+          count > 0};
 }
 
 /// How good the map is comes first: its errors, or else whether the data fit it.
@@ -256,7 +286,7 @@ Highlights numbers_of(const MapReportInput& input) {
                          : record.anchors.empty() ? "map in metres, in a frame of its own"
                                                   : "map in metres, in their frame",
                          kPositions});
-  out.items.push_back(warning_number(input, is_contradicted ? worst_anchor(record) : std::nullopt));
+  out.items.push_back(warning_number(input));
   return out;
 }
 
@@ -272,7 +302,9 @@ Paragraph worst_finding(const MapRecord& record) {
     }
   }
   if (worst < 0) return {};
-  return {{{"Farthest from its true position is ", Emphasis::kPlain},
+  return {{{record.anchors.empty() ? "Farthest from its true position is "
+                                   : "Farthest from its true position, but for the anchors, is ",
+            Emphasis::kPlain},
            {record.names[static_cast<std::size_t>(worst)], Emphasis::kData},
            {fmt::format(", by {}.", error_text(largest)), Emphasis::kPlain}}};
 }
@@ -300,10 +332,7 @@ Paragraph what_was_done(const MapRecord& record) {
 
 /// What the map is compared with: ground truth, else the anchors as they were given.
 std::string compared_words(const MapRecord& record) {
-  Index known = 0;
-  for (Index i = 0; record.ground_truth_m && i < record.ground_truth_m->rows(); ++i)
-    if (placed(*record.ground_truth_m, i) && !is_anchor(record, i)) ++known;
-  if (known > 0)
+  if (const Index known = compared_count(record); known > 0)
     return "the true positions of " + counted(known, "landmark") +
            (record.anchors.empty() ? "" : " that are not anchors");
   if (worst_anchor(record))
@@ -344,9 +373,9 @@ Section summary(const MapReportInput& input) {
     if (Paragraph worst = worst_finding(record); !worst.phrases.empty())
       findings.items.push_back(std::move(worst));
   if (record.frame == Frame::kSimilarity) findings.items.push_back(plain(shape_finding(record)));
-  if (!record.statuses.empty())
-    findings.items.push_back(
-        plain(counted(std::ssize(record.statuses), "thing") + " need attention, listed below."));
+  if (const std::size_t count = warning_count(input); count > 0)
+    findings.items.push_back(plain(fmt::format(
+        "{} {} attention, listed below.", counted(count, "thing"), count == 1 ? "needs" : "need")));
   section.blocks.emplace_back(std::move(findings));
   return section;
 }
@@ -369,12 +398,17 @@ Section input_section(const MapReportInput& input) {
   return section;
 }
 
-Section statuses(const MapRecord& record) {
+Section warnings_section(const MapReportInput& input) {
+  const MapRecord& record = input.record;
   Section section{kWarnings, "Warnings and failures", {}};
-  if (record.statuses.empty()) {
+  if (warning_count(input) == 0) {
     section.blocks.emplace_back(plain("None."));
     return section;
   }
+  BulletList stated;
+  for (const std::string& warning : stated_warnings(input)) stated.items.push_back(plain(warning));
+  if (!stated.items.empty()) section.blocks.emplace_back(std::move(stated));
+  if (record.statuses.empty()) return section;
   StatusList list;
   for (const Status& status : record.statuses) {
     const auto same = std::ranges::find(list.items, name(status.code), &StatusList::Item::code);
@@ -459,7 +493,7 @@ Report map_report(const MapReportInput& input) {
   report.sections.push_back(input_section(input));
   if (input.record.certificate)
     report.sections.push_back(certificate_section(*input.record.certificate));
-  report.sections.push_back(statuses(input.record));
+  report.sections.push_back(warnings_section(input));
   report.sections.push_back(provenance(input));
   report.footer =
       fmt::format("Made by mapproof {} ({}).", input.provenance.version, input.provenance.commit);
@@ -467,12 +501,10 @@ Report map_report(const MapReportInput& input) {
 }
 
 std::string with_anchors(const std::string& verdict, const MapRecord& record) {
-  const std::optional<WorstAnchor> worst = worst_anchor(record);
-  if (!worst || !worst->is_contradicted) return verdict;
-  return fmt::format(
-      "{} But the map misses the given position of anchor {} by {}, {:.0f}\u00a0% of its longer "
-      "side.",
-      verdict, printable(worst->name, 40), error_text(worst->error_m), worst->share_percent);
+  const std::string missed = missed_words(record);
+  if (missed.empty()) return verdict;
+  return fmt::format("{} But {}, {:.0f}\u00a0% of its longer side.", verdict, missed,
+                     worst_anchor(record)->share_percent);
 }
 
 std::string scored_landmarks_text(const MapRecord& record) {

@@ -41,7 +41,7 @@ TEST(JoinedReport, CountsStudiesThatAimAtSomethingAlone) {
   const Highlights::Item first = joined(parts).opening.numbers.items.at(0);
   EXPECT_EQ(first.label, "studies gave the expected result");
   EXPECT_EQ(first.value, "3 of 4");
-  EXPECT_EQ(first.detail, "not: Study 2; 5 more expect none");
+  EXPECT_EQ(first.detail, "not: Study 2; 5 studies have no expected result");
   EXPECT_TRUE(first.falls_short);
 }
 

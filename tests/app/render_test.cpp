@@ -211,7 +211,8 @@ TEST_F(RenderOfAMap, ACaptionIsInOneLanguage) {
         .get<std::string>();
   };
   EXPECT_EQ(caption("de").find("LPCA, Peilung, 200 Schritte"), 0U) << caption("de");
-  EXPECT_NE(caption("fr").find("Cercles ouverts"), std::string::npos) << caption("fr");
+  EXPECT_NE(caption("fr").find("carrés : positions données des ancres"), std::string::npos)
+      << caption("fr");
   auto figure = nlohmann::json::parse(text_of("map/figures/map.figure.json"));
   figure["caption"] = "A phrase of nobody's dictionary: error of the map.";
   folder_.file("own.figure.json", figure.dump());

@@ -253,7 +253,7 @@ TEST(BestLine, IsNotTheBestWhereverTheyDifferWhereItsMeanIsBeaten) {
   a.high = {1.1, 56, 83};
   a.low = {0.9, -4, 23};
   EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
-            "A has the lowest MPE at side\u00A0=\u00A01\u00A0m; elsewhere it ties with others");
+            "A has the lowest MPE at side\u00A0=\u00A01\u00A0m; elsewhere intervals overlap");
   b.mean = {2, 27, 54};
   EXPECT_EQ(best_over({a, b}, {}, line_axis("side [m]")),
             "A has the lowest MPE wherever they differ");

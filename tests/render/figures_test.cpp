@@ -101,8 +101,32 @@ TEST(MapFigure, LabelsTheWorstLandmarksThatAreNoAnchors) {
   map.estimate(2, 0) += 0.5;
   const MapView view = view_of(map);
   EXPECT_EQ(view.worst, (std::vector<Eigen::Index>{9, 2}));
-  EXPECT_NE(map_figure(map, "map").caption.find("Worst: L10 (0.800 m) and L03 (0.500 m)."),
+  EXPECT_NE(map_figure(map, "map")
+                .caption.find(" Worst but for anchors: L10 (0.800 m) and L03 (0.500 m)."),
             std::string::npos);
+  map.anchors.clear();
+  EXPECT_NE(map_figure(map, "map").caption.find(" Worst: L05 (0.900 m), L10 (0.800 m) and"),
+            std::string::npos);
+}
+
+TEST(MapFigure, ExplainsOnlyTheMarksThatItHas) {
+  MapRecord map = sample_map(20, 0.1, 1);
+  map.anchors = {0, 5};
+  const auto caption = [&] { return map_figure(map, "map").caption; };
+  const auto has = [&](const char* words) { return caption().find(words) != std::string::npos; };
+  EXPECT_TRUE(
+      has("Open circles: true positions; dots: estimates, joined by their errors; "
+          "squares: anchors."))
+      << caption();
+  for (Eigen::Index i = 0; i < 20; ++i)
+    if (i != 0 && i != 5) map.ground_truth_m->row(i).setConstant(NAN);
+  EXPECT_TRUE(
+      has("Dots: estimates; squares: given positions of anchors, joined to their "
+          "estimates."))
+      << caption();
+  map = sample_map(20, 0.1, 1);
+  map.anchors.clear();
+  EXPECT_TRUE(has("joined by their errors.")) << caption();
 }
 
 TEST(MapFigure, ListsLandmarksWithoutAPlaceAndDrawsTheRest) {

@@ -57,6 +57,9 @@ TEST(ConvergenceFigure, EndsABarThatReachesZeroInAnArrowAndLeavesUnknownPointsOu
   ConvergenceCurve curve = white();
   curve.points[2].observation.half_width = 2.0 * curve.points[2].observation.mean;
   curve.points[4].observation = {};
+  EXPECT_FALSE(contains(convergence_figure("fig-1b", white()).caption, "arrows"));
+  EXPECT_TRUE(contains(convergence_figure("fig-1b", curve).caption,
+                       "bars: 95 % intervals; arrows: those that reach below the frame"));
   const Panel panel = convergence_figure("fig-1b", curve).panels[0];
   const auto bars = layers_of<Segments>(panel);
   ASSERT_EQ(bars.size(), 2u);

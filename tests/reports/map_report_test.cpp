@@ -10,6 +10,7 @@
 #include "render/figures/diagrams/fit.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/fit_section.hpp"
+#include "tests/reports/section_text.hpp"
 
 namespace mapproof {
 namespace {
@@ -45,6 +46,10 @@ Report report_of(const MapRecord& record,
                      {},
                      {},
                      fit_number});
+}
+
+Section warnings_of(const Report& report) {
+  return *std::ranges::find(report.sections, "warnings", &Section::id);
 }
 
 const Table& landmarks(const Report& report) { return *tables(report).back(); }
@@ -118,6 +123,33 @@ TEST(FitFigure, HasTheGreatestTestFirstAndMarksOfTheirOwnForThoseOffItsAxis) {
             "14 statistics below 0.03 of the bound: drawn at the axis as triangles.");
 }
 
+TEST(FitFigure, ExplainsATestOfConnections) {
+  const auto caption = [](FitCode code) {
+    return fit_figure({.tests = {{.code = code, .bound = 1.0}}}, "fit", {}).caption;
+  };
+  EXPECT_NE(caption(FitCode::kWeakBridge).find("Connection: "), std::string::npos);
+  EXPECT_EQ(caption(FitCode::kStress).find("Connection: "), std::string::npos);
+}
+
+TEST(FitResiduals, SayWhereThoseBeyondTheAxisAreDrawn) {
+  std::vector<FittedRange> ranges(2);
+  const std::vector<std::string> landmarks = {"a"};
+  const auto caption = [&] {
+    return fit_residuals_figure({.id = "fit",
+                                 .title = "Fit",
+                                 .ranges = ranges,
+                                 .landmarks = landmarks,
+                                 .verdict = "The data fit the map.",
+                                 .is_alarm = false,
+                                 .record_id = "x"})
+        .caption;
+  };
+  EXPECT_EQ(caption().find("are drawn at"), std::string::npos);
+  ranges[1].normalised = -7.0;
+  EXPECT_NE(caption().find("Residuals of more than 6 standard deviations are drawn at 6"),
+            std::string::npos);
+}
+
 TEST(FitResiduals, CountTheRangesBeyondThreeSigma) {
   std::vector<FittedRange> ranges(5);
   ranges[1].normalised = 3.1;
@@ -174,7 +206,10 @@ TEST(MapReport, SaysThatAnAnchorIsFarOffThoughTheDataFit) {
   record.statuses.clear();
   const Highlights::Item warnings = report_of(record).opening.numbers.items.back();
   EXPECT_EQ(warnings.value, "1");
-  EXPECT_EQ(warnings.detail, "anchor b is not where it was given");
+  EXPECT_EQ(warnings.detail, "the map misses the given position of anchor b by 0.500 m");
+  EXPECT_EQ(warnings.section, "warnings");
+  EXPECT_TRUE(test::contains_text(warnings_of(report_of(record)),
+                                  "The map misses the given position of anchor b by 0.500 m."));
 }
 
 TEST(MapReport, CountsTheWarningsOfItsFirstScreen) {
@@ -190,6 +225,9 @@ TEST(MapReport, CountsTheWarningsOfItsFirstScreen) {
   const Highlights::Item warnings = map_report(input).opening.numbers.items.back();
   EXPECT_EQ(warnings.value, "3") << "two of the command, one of the map";
   EXPECT_EQ(warnings.detail, "listed with their reasons");
+  const Section listed = warnings_of(map_report(input));
+  for (const char* warning : {"one", "two"})
+    EXPECT_TRUE(test::contains_text(listed, warning)) << warning;
 }
 
 TEST(MapReport, SaysWhatTheMapIsComparedWith) {
@@ -209,6 +247,15 @@ TEST(MapReport, SaysWhatTheMapIsComparedWith) {
   record.anchors.clear();
   record.frame = Frame::kSimilarity;
   EXPECT_EQ(compared(), ": nothing; no ground truth was given.");
+}
+
+TEST(MapReport, HeadsPositionsOfAnchorsAloneAsGiven) {
+  MapRecord record = triangle();
+  EXPECT_EQ(landmarks(report_of(record)).columns[3].group, "Ground truth");
+  record.ground_truth_m->bottomRows(1).setConstant(kNaN);
+  record.anchors = {0, 1};
+  const Report report = report_of(record);
+  for (const Table* table : tables(report)) EXPECT_EQ(table->columns[3].group, "Given");
 }
 
 TEST(MapReport, ListsTheLargestErrorsOfManyLandmarks) {

@@ -1,5 +1,6 @@
 #include "reports/sections/results/results_figures.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -257,7 +258,38 @@ TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
   const ResultsView view(study);
   EXPECT_TRUE(results_figures(view, {}).groups.empty());
   EXPECT_EQ(why_no_figure(view, view.blocks()[0], mpe()),
-            "MPE: there is no curve, since the mean is 3\u00A0m at every level, for every method.");
+            "MPE: there is no curve, since the mean is 3.00 m at every level, for every method.");
+}
+
+TEST(ResultsFigures, WhatOneLevelAloneHasIsNotCalledTheSameAtEveryLevel) {
+  Rows rows("step_error");
+  rows.declare(study_quantity("step_error", "Error of the step", "", Better::kLower));
+  rows.add("m", "a", 5.0, {{"noise", 0.1}}).add("m", "b", 6.0, {{"noise", 0.1}});
+  rows.add("m", "c", 6.0, {{"noise", 0.1}}).add("m", "a", kNaN, {{"noise", 0.2}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  EXPECT_EQ(why_no_figure(view, view.blocks()[0], view.quantity("step_error")),
+            "Error of the step: there is no curve, since one level alone has values (noise 0.1): "
+            "the mean is 5.67.");
+}
+
+TEST(ResultsFigures, OfRanksNeedAsManyGroupsAsAnInterval) {
+  const auto has_ranks = [](const std::string& runs) {
+    Rows rows;
+    for (const char run : runs)
+      for (const char method : {'m', 'n', 'o', 'p', 'q', 'r', 's'})
+        rows.add(std::string(1, method), std::string(1, run), 1.0 * method + 0.1 * run,
+                 {{"noise", 0.1}});
+    for (const char run : runs) rows.add("m", std::string(1, run), 1.0, {{"noise", 0.0}});
+    const ResultsStudy study = rows.study();
+    const ResultsView view(study);
+    const std::vector<Figure> figures =
+        results_figures(view, compare_methods(view)).groups.at(0).figures;
+    return std::ranges::any_of(
+        figures, [](const Figure& figure) { return figure.id == "test-s-ranks-mpe-m"; });
+  };
+  EXPECT_FALSE(has_ranks("abc"));
+  EXPECT_TRUE(has_ranks("abcde"));
 }
 
 TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {

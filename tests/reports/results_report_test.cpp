@@ -70,10 +70,12 @@ TEST(ResultsReport, WarnsOfPathsOfWhichFewPosesAreAssociated) {
   EXPECT_FALSE(warns(90.0));
 }
 
-/// Two methods of two runs, each in a group of its own, by two quantities.
+/// Two methods of five runs, each in a group of its own, by two quantities.
 ResultsStudy study_of_two_quantities() {
-  ResultsStudy study =
-      Rows().add("m", "a", 1.0).add("m", "b", 1.1).add("n", "a", 2.0).add("n", "b", 2.3).study();
+  Rows rows;
+  for (const char* run : {"a", "b", "c", "d", "e"})
+    rows.add("m", run, 0.01 * run[0]).add("n", run, 0.03 * run[0]);
+  ResultsStudy study = rows.study();
   for (const Result& row : std::vector(study.results.rows)) {
     study.results.rows.push_back(row);
     study.results.rows.back().quantity = "moe_percent";
@@ -105,7 +107,7 @@ TEST(ResultsReport, StatesWhyMethodsAreNotCompared) {
             "MPE; MOE: the methods are not compared, since one group of runs shows nothing about "
             "chance.");
   for (Result& row : study.results.rows)
-    if (row.method == Name("n")) row.run = row.run == Name("a") ? "c" : "d";
+    if (row.method == Name("n")) row.run = "n" + row.run.get();
   EXPECT_EQ(last_words(),
             "MPE; MOE: the methods are not compared, since no two have values in the same runs.");
 }

@@ -1,5 +1,6 @@
 #include "reports/sections/results/results_tables.hpp"
 
+#include <cmath>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -79,14 +80,51 @@ TEST(ResultsTables, SayHowOftenAMethodEndedWithAStatus) {
   EXPECT_EQ(notes.back(), "m: not Euclidean in 1 of 2 at noise 0.1.");
 }
 
+TEST(ResultsTables, SayWhereAMethodWasNotTried) {
+  Rows rows;
+  for (const double references : {10.0, 40.0, 100.0}) {
+    rows.add("all", "a1", 1.0, {{"references", references}});
+    if (references == 10.0) rows.add("few", "a1", 2.0, {{"references", references}});
+  }
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  EXPECT_EQ(results_tables(view, view.blocks()[0]).at(0).notes,
+            std::vector<std::string>{"few: not tried at references 40 and references 100."});
+}
+
+TEST(ResultsTables, SayWhatIsTheSameOfSeveralMethodsOnce) {
+  ResultsStudy study = Rows().add("m", "a", NAN).add("n", "a", NAN).add("o", "a", 1.0).study();
+  study.methods[1].label = "Range, ISOMAP";
+  for (const char* method : {"m", "n"})
+    study.results.outcomes.push_back({condition("s", {}), method, "a", {"failed"}});
+  study.results.outcomes.push_back({condition("s", {}), "o", "a", {"not_converged"}});
+  const ResultsView view(study);
+  const Table table = results_tables(view, view.blocks()[0]).at(0);
+  EXPECT_EQ(table.notes,
+            (std::vector<std::string>{"m; Range, ISOMAP: 1 value lost (MPE).",
+                                      "m; Range, ISOMAP: failed.", "o: not converged."}));
+}
+
+TEST(ResultsTables, NameWhereAMethodLostValuesInOneNote) {
+  Rows rows;
+  for (const double noise : {0.1, 0.2})
+    rows.add("m", "a", NAN, {{"noise", noise}}).add("n", "a", noise, {{"noise", noise}});
+  rows.add("m", "a", 1.0, {{"noise", 0.3}}).add("n", "a", 1.0, {{"noise", 0.3}});
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const Table table = results_tables(view, view.blocks()[0]).at(0);
+  ASSERT_EQ(table.notes.size(), 1U);
+  EXPECT_EQ(table.notes[0], "m: 1 value lost each (noise 0.1 and noise 0.2).");
+}
+
 TEST(ResultsTables, GiveNoIntervalOfADifferenceBetweenEqualValues) {
   Rows rows;
-  for (const char* run : {"a", "b"})
+  for (const char* run : {"a", "b", "c", "d", "e"})
     for (const char* method : {"m", "n", "o"})
       rows.add(method, run, (method[0] == 'o' ? 2.0 : 1.0) + 0.1 * (run[0] - 'a') * method[0]);
   ResultsStudy study = rows.study();
   for (Result& row : study.results.rows)
-    if (row.method == Name("n")) row.value = row.run == Name("a") ? 1.0 : 1.0 + 0.1 * 'm';
+    if (row.method == Name("n")) row.value = 1.0 + 0.1 * (row.run.get()[0] - 'a') * 'm';
   const ResultsView view(study);
   const Table table = comparison_table(view, compare_methods(view).at(0));
   EXPECT_TRUE(std::holds_alternative<MissingCell>(table.rows.at(1).cells.at(4)));

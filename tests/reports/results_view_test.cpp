@@ -184,26 +184,49 @@ TEST(ResultsView, CountsTheRunsAndGroupsOfEachSetup) {
 }
 
 TEST(ResultsComparison, PairsAreOfTheRunsThatAllComparedMethodsHave) {
-  // n lacks the run a2, where m is much worse: paired, they differ by 1 in both groups.
+  // n lacks the run a2, where m is much worse: paired, they differ by 1 in all groups.
   const ResultsStudy study = Rows()
                                  .add("m", "a1", 1.0)
                                  .add("m", "a2", 90.0)
                                  .add("m", "b1", 3.0)
+                                 .add("m", "c1", 3.0)
+                                 .add("m", "d1", 3.0)
+                                 .add("m", "e1", 5.0)
                                  .add("n", "a1", 2.0)
                                  .add("n", "b1", 4.0)
+                                 .add("n", "c1", 4.0)
+                                 .add("n", "d1", 4.0)
+                                 .add("n", "e1", 6.0)
                                  .study();
   const ResultsView view(study);
   const auto comparisons = compare_methods(view);
   ASSERT_EQ(comparisons.size(), 1U);
   const MethodComparison& found = comparisons[0];
-  EXPECT_EQ(found.runs, 2);
-  EXPECT_EQ(found.groups, 2);
+  EXPECT_EQ(found.runs, 5);
+  EXPECT_EQ(found.groups, 5);
   EXPECT_FALSE(found.has_all_runs);
   EXPECT_EQ(found.methods[0].method, 0U) << "over the common runs m is the better one";
-  EXPECT_DOUBLE_EQ(found.methods[0].mean, 2.0);
+  EXPECT_DOUBLE_EQ(found.methods[0].mean, 3.0);
   EXPECT_DOUBLE_EQ(found.methods[1].change->shift, 1.0);
-  EXPECT_NE(sentence_of(found, view).find("over the 2 runs that all of these methods have"),
+  EXPECT_NE(sentence_of(found, view).find("over the 5 runs that all of these methods have"),
             std::string::npos);
+}
+
+TEST(ResultsComparison, OfFewerGroupsThanAnIntervalNeedsHasNoTest) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c"})
+    rows.add("m", run, 1.0).add("n", run, 2.0 + 0.01 * run[0]).add("o", run, 3.0);
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const MethodComparison found = compare_methods(view).at(0);
+  EXPECT_FALSE(found.methods[1].change);
+  EXPECT_FALSE(found.ranks);
+  EXPECT_FALSE(has_rank_diagram(found));
+  EXPECT_TRUE(
+      sentence_of(found, view).ends_with("; too few runs to test the difference, in 3 groups."))
+      << sentence_of(found, view);
+  EXPECT_EQ(why_not_compared(view, view.blocks()[0], mpe()),
+            "3 groups of runs are too few for a test");
 }
 
 TEST(ResultsComparison, WithAllRunsItsMeansAreThoseOfTheTable) {
@@ -290,7 +313,7 @@ TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
   Rows rows;
   for (const double size : {1.0, 2.0, 3.0})
     for (const char* light : {"day", "dusk", "noon"})
-      for (const char* run : {"a", "b", "c", "d"})
+      for (const char* run : {"a", "b", "c", "d", "e"})
         for (const char* method : {"m", "n", "o"}) {
           const bool swapped = light[0] == 'n';
           const double worse = method[0] == 'o' ? 9.0 : (method[0] == 'm') == swapped ? 1.0 : 0.0;
@@ -316,7 +339,7 @@ TEST(ResultsComparison, ManyOpenAReportByWhatTheyComeTo) {
       headlines[0],
       "MPE: of 6 conditions compared, the lowest mean is that of m in 4 (4 significantly) and "
       "n in 2 (2 significantly); significantly worse than the best wherever compared: o.");
-  EXPECT_EQ(losses_of(view), "24 of 216 results have no value: 24 of o");
+  EXPECT_EQ(losses_of(view), "30 of 270 results have no value: 30 of o");
   EXPECT_EQ(headlines_of(view, {comparisons[0]})[0], sentence_of(comparisons[0], view));
 }
 

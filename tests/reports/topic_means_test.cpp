@@ -45,7 +45,7 @@ TEST(TopicMeans, OneLayoutTellsNothingOfChance) {
   TopicStudy study = study_of(0.02, 0.0);
   study.parts.resize(2);
   EXPECT_FALSE(difference(study).half_width);
-  EXPECT_EQ(verdict_words(difference(study)), "better, in one layout");
+  EXPECT_EQ(verdict_words(difference(study)), "too few runs to test the difference, in 1 layout");
 }
 
 TEST(TopicMeans, FewerLayoutsThanAnIntervalNeedsShowNoSignificance) {
@@ -56,7 +56,19 @@ TEST(TopicMeans, FewerLayoutsThanAnIntervalNeedsShowNoSignificance) {
   EXPECT_EQ(layouts_of(study), 2);
   EXPECT_TRUE(has_few_layouts(study));
   EXPECT_FALSE(is_apart_from_0(difference(study)));
-  EXPECT_EQ(verdict_words(difference(study)), "better, in 2 layouts");
+  EXPECT_EQ(verdict_words(difference(study)), "too few runs to test the difference, in 2 layouts");
+  EXPECT_EQ(few_layouts_words(study), "; too few runs to test differences, in 2 layouts");
+}
+
+TEST(TopicMeans, ADifferenceOverSeveralConditionsHasThePairsOfAllOfThem) {
+  TopicStudy study = study_of(0.02, 0.0);
+  study.parts[0].outcomes.push_back({at(6.0), "one", {{"mpe_m", 1.0}}, {}});
+  study.parts[0].outcomes.push_back({at(6.0), "two", {{"mpe_m", 1.22}}, {}});
+  const auto found = topic_difference(study, {at(5.0), at(6.0)}, "two", "one", "mpe_m");
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->values, 11);
+  EXPECT_EQ(found->clusters, 5);
+  EXPECT_NEAR(found->mean, (10 * -0.02 + 0.22) / 11.0, 1e-12);
 }
 
 TEST(TopicMeans, ADifferenceNeedsBothSeries) {

@@ -309,10 +309,13 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
     for (const std::vector<At>& one : best)
       if (are_alike(one, some) && has_others(one)) alone.push_back(one.front().x());
     if (alone.empty()) return std::string();
+    // Tests of paired runs may rank what intervals do not.
     const bool are_several = some.size() > 1 || is_plural(*some.front().line, quantity);
-    return fmt::format("{} at {}; elsewhere {} with others", finding(some),
+    return fmt::format("{} at {}; elsewhere {}", finding(some),
                        places(axis, alone, best.size(), quantity),
-                       are_several ? "they tie" : "it ties");
+                       std::ranges::any_of(some, &At::has_interval) ? "intervals overlap"
+                       : are_several                                ? "they tie with others"
+                                                                    : "it ties with others");
   };
   // Unless one of them is drawn below the best.
   const auto wherever_they_differ = [&](const std::vector<At>& some) {

@@ -74,11 +74,19 @@ int pairs_of(const ConvergenceCurve& curve) {
   return pairs;
 }
 
-std::string means_of(const ConvergenceCurve& curve) {
-  return fmt::format(
-      "Means over {} of path and environment, {}, {}; bars: 95 % intervals, arrows: those that "
-      "reach below the frame, as to 0.",
-      counted(pairs_of(curve), "random pair"), counted(curve.landmarks, "landmark"), curve.title);
+/// "; arrows: those that reach below the frame, as to 0"; empty if none does.
+std::string arrow_words(const Figure& figure) {
+  for (const Panel& panel : figure.panels)
+    for (const Layer& layer : panel.layers)
+      if (const auto* bars = std::get_if<Segments>(&layer); bars != nullptr && bars->arrow)
+        return "; arrows: those that reach below the frame, as to 0";
+  return "";
+}
+
+std::string means_of(const ConvergenceCurve& curve, const Figure& figure) {
+  return fmt::format("Means over {} of path and environment, {}, {}; bars: 95 % intervals{}.",
+                     counted(pairs_of(curve), "random pair"), counted(curve.landmarks, "landmark"),
+                     curve.title, arrow_words(figure));
 }
 
 std::string slope_of(const ErrorLine& line) {
@@ -234,13 +242,14 @@ Figure convergence_figure(const std::string& id, const ConvergenceCurve& curve) 
       line_of(curve, &ConvergencePoint::observation, "measured", "observation");
   const ErrorLine landmarks =
       line_of(curve, &ConvergencePoint::landmarks_m, "measured", "landmarks");
-  spec.caption = fmt::format(
-      "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
-      "theory: \u22121/2.",
-      means_of(curve), slope_of(observation), slope_of(landmarks));
   spec.panels = {{"Observation model", kMeasurements, kObservation, {observation}, kRootLaw, {}},
                  {"Landmarks", kMeasurements, "error [m]", {landmarks}, kRootLaw, {}}};
-  return log_log_figure(spec);
+  Figure figure = log_log_figure(spec);
+  figure.caption = fmt::format(
+      "{} Error of \u0108: Frobenius norm. Slopes by least squares: {} and {}; "
+      "theory: \u22121/2.",
+      means_of(curve, figure), slope_of(observation), slope_of(landmarks));
+  return figure;
 }
 
 Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curve) {
@@ -250,14 +259,14 @@ Figure subspace_angle_figure(const std::string& id, const ConvergenceCurve& curv
   for (const ConvergencePoint& point : curve.points) bound.mean.push_back(point.bound);
   bound.x = sine.x;
   spec.title = angle_title(sine, bound);
-  spec.caption = fmt::format(
-      "{} Dashed: N c \u221A(2 log T / T) / \u03B3, its constant fitted at the first point. Slope "
-      "of "
-      "the measured sine: {}.",
-      means_of(curve), slope_of(sine));
   spec.panels = {
       {"", kMeasurements, "sine of the largest canonical angle", {sine}, std::nullopt, {bound}}};
-  return log_log_figure(spec);
+  Figure figure = log_log_figure(spec);
+  figure.caption = fmt::format(
+      "{} Dashed: N c \u221A(2 log T / T) / \u03B3, its constant fitted at the first point. Slope "
+      "of the measured sine: {}.",
+      means_of(curve, figure), slope_of(sine));
+  return figure;
 }
 
 Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
@@ -266,13 +275,14 @@ Figure positions_figure(const std::string& id, const ConvergenceCurve& curve) {
       line_of(curve, &ConvergencePoint::landmarks_m, "landmarks", "landmarks");
   ErrorLine positions =
       line_of(curve, &ConvergencePoint::positions_m, "robot\u2019s positions", "positions");
-  spec.caption = fmt::format(
+  spec.panels = {{"", kMeasurements, "error [m]", {landmarks, positions}, kRootLaw, {}}};
+  Figure figure = log_log_figure(spec);
+  figure.caption = fmt::format(
       "{} A landmark is seen again and again, a position by {} alone: its error ends at what these "
       "allow. Slopes: {} and {}.",
-      means_of(curve), counted(curve.landmarks, "measurement"), slope_of(landmarks),
+      means_of(curve, figure), counted(curve.landmarks, "measurement"), slope_of(landmarks),
       slope_of(positions));
-  spec.panels = {{"", kMeasurements, "error [m]", {landmarks, positions}, kRootLaw, {}}};
-  return log_log_figure(spec);
+  return figure;
 }
 
 Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCurve> curves) {
@@ -292,11 +302,11 @@ Figure noise_models_figure(const std::string& id, std::span<const ConvergenceCur
                           slope_of(observation.lines.back()));
     spec.record_ids.push_back("convergence/" + curve.id);
   }
-  spec.caption = fmt::format("Means and 95 % intervals. Slopes of the observation model: {}.",
-                             slopes.empty() ? "none" : slopes);
   spec.panels = {std::move(observation), std::move(landmarks)};
   Figure figure = log_log_figure(spec);
   figure.shared_x = true;
+  figure.caption = fmt::format("Means and 95 % intervals{}. Slopes of the observation model: {}.",
+                               arrow_words(figure), slopes.empty() ? "none" : slopes);
   return figure;
 }
 

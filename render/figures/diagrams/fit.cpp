@@ -81,6 +81,17 @@ Panel residual_panel(const FitResidualsSpec& spec, bool over_time, double start_
   return panel;
 }
 
+/// Where residuals beyond the axis are drawn; empty if there are none.
+std::string edge_words(std::span<const FittedRange> ranges) {
+  const bool any = std::ranges::any_of(
+      ranges, [](const FittedRange& range) { return std::abs(range.normalised) > kMostSigmas; });
+  return any ? fmt::format(
+                   " Residuals of more than {0:g} standard deviations are drawn at {0:g}, negative "
+                   "ones at \u2212{0:g}.",
+                   kMostSigmas)
+             : "";
+}
+
 }  // namespace
 
 std::string far_residuals_text(std::span<const FittedRange> ranges) {
@@ -170,8 +181,8 @@ Figure fit_residuals_figure(const FitResidualsSpec& spec) {
   const std::string shares = far_residuals_text(spec.ranges);
   figure.caption = fmt::format(
       "Prediction less measured range over its standard deviation, over time from the first range "
-      "and over the range. Residuals beyond {:g} stand there.",
-      kMostSigmas);
+      "and over the range.{}",
+      edge_words(spec.ranges));
   figure.alt = fmt::format("Residuals of the ranges of the fit: {}. {}", shares, spec.verdict);
   require_valid(figure);
   return figure;

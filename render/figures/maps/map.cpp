@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kReach = 0.75;  // Estimates this many room sides off are still shown in place.
 constexpr std::size_t kMostWorst = 5;
+constexpr const char* kTruePosition = "true position";  // Labels of the marks.
+constexpr const char* kAnchor = "anchor";
 constexpr Eigen::Index kMostDrawn = 5000;    // Landmarks; of more they would cover each other:
 constexpr Eigen::Index kDrawnOfMore = 1000;  // so many are drawn.
 
@@ -154,9 +156,9 @@ class MapFigure {
   }
 
   Figure make() {
+    figure_.panels.push_back(panel());
     add_notes();
     add_words();
-    figure_.panels.push_back(panel());
     return std::move(figure_);
   }
 
@@ -218,11 +220,10 @@ class MapFigure {
     else if (record_.anchors.empty() && !record_.ground_truth_m)
       caption += " Dots: estimates; translation and rotation are arbitrary.";
     else
-      caption +=
-          " Open circles: true positions; dots: estimates, joined by their errors; squares: "
-          "anchors.";
+      caption += " " + marks_text(figure_.panels);
     if (every_ > 1) caption += " " + drawn_text();
-    if (!view_.worst.empty()) caption += " Worst: " + worst_text() + ".";
+    if (!view_.worst.empty())
+      caption += fmt::format(" Worst{}: {}.", beside_anchors(), worst_text());
     if (!view_.outside.empty()) caption += " " + outside_text();
     if (!view_.unmapped.empty())
       caption += " Not on the map: " + names_of(record_, view_.unmapped) + ".";
@@ -234,8 +235,12 @@ class MapFigure {
                     what_.empty() ? method_label(record_) : what_,
                     record_.frame == Frame::kGroundTruth ? "in metres" : "in an arbitrary frame");
     if (!score.empty()) figure_.alt += " " + score + ".";
-    if (!view_.worst.empty()) figure_.alt += " The largest errors: " + worst_text() + ".";
+    if (!view_.worst.empty())
+      figure_.alt += fmt::format(" The largest errors{}: {}.", beside_anchors(), worst_text());
   }
+
+  /// Anchors may have larger errors than the worst of the others.
+  const char* beside_anchors() const { return record_.anchors.empty() ? "" : " but for anchors"; }
 
   std::string worst_text() const {
     std::vector<std::string> parts;
@@ -293,7 +298,7 @@ class MapFigure {
   }
 
   Scatter ground_truth(bool anchors) const {
-    Scatter points{.label = anchors ? "anchor" : "true position",
+    Scatter points{.label = anchors ? kAnchor : kTruePosition,
                    .colour = anchors ? ThemeColour::kSeries2 : ThemeColour::kText,
                    .marker = anchors ? Marker::kSquare : Marker::kCircle,
                    .filled = false,
@@ -393,6 +398,22 @@ MapView view_of(const MapRecord& record, const std::optional<PanelBox>& limits) 
 
 Figure map_figure(const MapRecord& record, const std::string& id, const std::string& what) {
   return MapFigure(record, id, what).make();
+}
+
+std::string marks_text(const std::vector<Panel>& panels) {
+  bool has_circles = false, has_squares = false;
+  for (const Panel& panel : panels)
+    for (const Layer& layer : panel.layers)
+      if (const auto* points = std::get_if<Scatter>(&layer)) {
+        has_circles = has_circles || points->label == kTruePosition;
+        has_squares = has_squares || points->label == kAnchor;
+      }
+  if (has_circles)
+    return fmt::format("Open circles: true positions; dots: estimates, joined by their errors{}.",
+                       has_squares ? "; squares: anchors" : "");
+  return fmt::format(
+      "Dots: estimates{}.",
+      has_squares ? "; squares: given positions of anchors, joined to their estimates" : "");
 }
 
 Panel map_panel(const MapRecord& record, const std::string& prefix,

@@ -49,6 +49,10 @@ MapView view_of(const MapRecord& record, const std::optional<PanelBox>& limits =
 /// @note Pure: O(landmarks).
 Figure map_figure(const MapRecord& record, const std::string& id, const std::string& what = "");
 
+/// What the marks of maps in metres are, of those that the panels have: "Open circles: true
+/// positions; dots: estimates, joined by their errors; squares: anchors."
+std::string marks_text(const std::vector<Panel>& panels);
+
 /// The panel of map_figure, for figures of several maps: each mark's id begins with `prefix`.
 /// @param limits  As of view_of().
 /// @throws InvalidInput as map_figure.

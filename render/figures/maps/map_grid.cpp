@@ -109,14 +109,9 @@ Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& map
       without_position.push_back(in_one_line(maps[i]->title));
   }
   figure.alt = fmt::format("{}: {}.", counted(maps.size(), "map"), figure.alt);
-  const bool has_anchors =
-      std::ranges::any_of(maps, [](const TitledMap* one) { return !one->map.anchors.empty(); });
   figure.caption = spec.title + ". ";
   figure.caption += maps.front()->map.frame == Frame::kGroundTruth
-                        ? fmt::format(
-                              "Open circles: true positions; dots: estimates, joined by "
-                              "their errors{}.",
-                              has_anchors ? "; squares: anchors" : "")
+                        ? marks_text(figure.panels)
                         : "Translation, rotation, scale and reflection are arbitrary.";
   if (!without_position.empty()) {
     const std::string text =

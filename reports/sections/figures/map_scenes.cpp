@@ -30,16 +30,17 @@ double error_or_infinity(const MapRecord& map) {
   return map.score && std::isfinite(map.score->mpe_m) ? map.score->mpe_m : kInfinity;
 }
 
-std::vector<Scene> best_map_scene(
-    const std::string& id, const std::vector<std::pair<std::string, const MapRecord*>>& maps) {
-  const std::pair<std::string, const MapRecord*>* best = nullptr;
-  for (const auto& one : maps)
-    if (has_map_scene(*one.second) &&
-        (best == nullptr || error_or_infinity(*one.second) < error_or_infinity(*best->second)))
+std::vector<Scene> best_map_scene(const std::string& id, const std::vector<MapInSpace>& maps) {
+  const MapInSpace* best = nullptr;
+  for (const MapInSpace& one : maps)
+    if (has_map_scene(*one.map) &&
+        (best == nullptr || error_or_infinity(*one.map) < error_or_infinity(*best->map)))
       best = &one;
   if (best == nullptr) return {};
-  return {map_scene(
-      {.id = id, .title = with_mean_error(best->first, *best->second), .map = *best->second})};
+  return {map_scene({.id = id,
+                     .title = with_mean_error(best->title, *best->map),
+                     .method = best->method,
+                     .map = *best->map})};
 }
 
 }  // namespace mapproof

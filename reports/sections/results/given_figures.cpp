@@ -76,7 +76,7 @@ Figure path_figure(const GivenPath& path, std::string id) {
 FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord>& maps,
                           const std::vector<GivenPath>& paths) {
   FigureGroup group{study.name + "-maps", "Maps and paths", "", {}};
-  std::vector<std::pair<std::string, const MapRecord*>> titled;
+  std::vector<MapInSpace> titled;
   std::vector<std::pair<std::string, const MapRecord*>> named;
   for (const MapRecord& map : maps) named.emplace_back(map.id, &map);
   group.figures = map_walls(study.name, named);
@@ -86,7 +86,7 @@ FigureGroup given_figures(const ResultsStudy& study, const std::vector<MapRecord
     const std::string id = free_id(group, study.name + "-map-" + slug_of(map.id));
     group.figures.push_back(map_figure(map, id, map.id));
     group.figures.back().record_ids = {"maps/" + map.id};
-    titled.emplace_back(title_with_error(map.id, map), &map);
+    titled.push_back({title_with_error(map.id, map), "the map " + map.id, &map});
   }
   group.scenes = best_map_scene("scene-" + study.name + "-map", titled);
   for (const GivenPath& path : paths)

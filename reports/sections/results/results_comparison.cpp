@@ -178,7 +178,7 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
   for (const MethodValues& method : methods) {
     comparison.methods.push_back(
         {.method = method.method, .mean = method.mean, .change = std::nullopt});
-    if (&method == &methods.front() || comparison.groups < 2) continue;
+    if (&method == &methods.front() || !has_groups_for_tests(comparison)) continue;
     comparison.methods.back().change =
         paired_change(group_differences(groups, method, methods.front()));
     p.push_back(comparison.methods.back().change->p);
@@ -186,7 +186,8 @@ std::optional<MethodComparison> compare_at(const ResultsView& view, const Result
   const std::vector<double> corrected = holm(p);
   for (std::size_t i = 0; i < corrected.size(); ++i)
     comparison.methods[i + 1].corrected_p = corrected[i];
-  if (comparison.groups > 1) comparison.ranks = ranks_of(groups, std::move(methods), lower);
+  if (has_groups_for_tests(comparison))
+    comparison.ranks = ranks_of(groups, std::move(methods), lower);
   return comparison;
 }
 
@@ -335,14 +336,20 @@ std::vector<MethodComparison> compare_methods(const ResultsView& view) {
 
 std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
                              const Quantity& quantity) {
-  bool is_of_one_group = false;
+  int most = 0;
   for (const Condition& at : block.conditions) {
     const auto comparison = compare_at(view, block, quantity, at);
-    if (comparison && comparison->groups > 1) return "";
-    is_of_one_group = is_of_one_group || comparison.has_value();
+    if (!comparison) continue;
+    if (has_groups_for_tests(*comparison)) return "";
+    most = std::max(most, comparison->groups);
   }
-  return is_of_one_group ? "one group of runs shows nothing about chance"
-                         : "no two have values in the same runs";
+  if (most == 0) return "no two have values in the same runs";
+  return most == 1 ? "one group of runs shows nothing about chance"
+                   : fmt::format("{} of runs are too few for a test", counted(most, "group"));
+}
+
+bool has_groups_for_tests(const MethodComparison& comparison) {
+  return std::cmp_greater_equal(comparison.groups, kFewestGroups);
 }
 
 std::string where_of(const MethodComparison& comparison) {
@@ -367,7 +374,12 @@ std::string sentence_of(const MethodComparison& comparison, const ResultsView& v
                         counted(comparison.runs, "run"));
   const std::string left_out = left_out_words(comparison);
   const std::string end = left_out.empty() ? "." : "; " + left_out + ".";
-  if (!next.change) return text + end;
+  if (!next.change)
+    return text +
+           (comparison.groups > 1
+                ? "; too few runs to test the difference, in " + counted(comparison.groups, "group")
+                : "") +
+           end;
   text +=
       fmt::format(" ({}, {} over {}",
                   is_significant(next) ? "a significant difference" : "no significant difference",

@@ -12,10 +12,11 @@ namespace mapproof {
 
 /// A method of a block compared with the best one.
 struct ComparedMethod {
-  std::size_t method = 0;              ///< Index into ResultsStudy::methods.
-  double mean = 0.0;                   ///< Over the runs that all compared methods have.
-  std::optional<PairedChange> change;  ///< From the best method, over groups; none of the best.
-  double corrected_p = 1.0;            ///< Of the change, by Holm over the methods.
+  std::size_t method = 0;  ///< Index into ResultsStudy::methods.
+  double mean = 0.0;       ///< Over the runs that all compared methods have.
+  /// From the best method, over groups; none of the best, and of too few groups for tests.
+  std::optional<PairedChange> change;
+  double corrected_p = 1.0;  ///< Of the change, by Holm over the methods.
 };
 
 /// The methods of a block by one quantity under one condition, on the runs that all of them have.
@@ -33,8 +34,11 @@ struct MethodComparison {
   int runs = 0;  ///< That all compared methods have.
   int groups = 0;
   bool has_all_runs = true;  ///< None of the methods has another run: means are the tables'.
-  std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with two groups or more.
+  std::optional<FriedmanTest> ranks;  ///< In the order of `methods`; with groups for tests.
 };
+
+/// Whether it has as many groups of runs as an interval needs: of fewer nothing is tested.
+bool has_groups_for_tests(const MethodComparison& comparison);
 
 /// Compares methods at the last level of each block at which two of them can be, or where levels
 /// are texts at each, by each quantity that has a direction. Pairs are of the runs that all
@@ -42,8 +46,7 @@ struct MethodComparison {
 /// each other nothing is compared.
 std::vector<MethodComparison> compare_methods(const ResultsView& view);
 
-/// Why there is no comparison of a block's methods by a quantity: a clause; empty if there can be
-/// one, over two groups or more.
+/// Why a block's methods are not tested by a quantity: a clause; empty if they can be.
 std::string why_not_compared(const ResultsView& view, const ResultsBlock& block,
                              const Quantity& quantity);
 

@@ -210,6 +210,12 @@ std::string finding_of(const ResultsView& view, const Curves& curves, const Quan
                    line_axis(x_label));
 }
 
+/// A value of a quantity in words; in a power of ten without it.
+std::string value_words(double value, const std::string& unit, bool great_errors) {
+  if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
+  return unit == "m" && great_errors ? error_text(value) : quantity_text(value, unit);
+}
+
 /// What lines do where none of them is called the best: of one, how it goes from the first x to the
 /// last; of several, why they are not ranked and between which values they lie; of tiny distances,
 /// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
@@ -222,10 +228,7 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   for (const ErrorLine& line : lines)
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
   if (known.empty()) return "";
-  const auto words = [&](double value) {
-    if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
-    return unit == "m" && great_errors ? error_text(value) : quantity_text(value, unit);
-  };
+  const auto words = [&](double value) { return value_words(value, unit, great_errors); };
   if (is_tiny_distance(quantity))
     return fmt::format("{} is at most {}", in_sentence(quantity.label),
                        words(std::ranges::max(known)));
@@ -417,20 +420,50 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   return figure;
 }
 
+namespace {
+
+/// The levels of a block at which any of the curves has a value.
+std::vector<Level> levels_with_values(const ResultsBlock& block,
+                                      const std::vector<ErrorLine>& curves) {
+  std::vector<Level> levels;
+  for (const Level& level : block.levels) {
+    const double x = std::get<double>(level.value);
+    const auto has_value = [&](const ErrorLine& curve) {
+      for (std::size_t i = 0; i < curve.x.size(); ++i)
+        if (curve.x[i] == x && is_known(curve.mean[i])) return true;
+      return false;
+    };
+    if (std::ranges::any_of(curves, has_value)) levels.push_back(level);
+  }
+  return levels;
+}
+
+}  // namespace
+
 std::string why_no_curve(const ResultsView& view, const ResultsBlock& block,
                          const Quantity& quantity) {
   const std::vector<ErrorLine> curves = curves_of(view, block, quantity).lines;
   if (curves.empty())
     return fmt::format("{}: there is no curve, since no run gave a value.", quantity.label);
   if (distinguishes(curves)) return "";
-  const double mean = *std::ranges::find_if(curves.front().mean, is_known);
-  const std::string value = with_unit(fmt::format("{:.6g}", mean), quantity.unit);
+  const std::string value = value_words(*std::ranges::find_if(curves.front().mean, is_known),
+                                        quantity.unit, view.has_great_errors(quantity));
   const bool are_repeats = view.study().results.are_repeats;
-  return fmt::format("{}: there is no curve, since the {} is {} at every level{}.", quantity.label,
-                     are_repeats ? "mean" : "value", value,
-                     curves.size() == 1 ? ""
-                     : are_repeats      ? ", for every method"
-                                        : ", for every method and run");
+  const std::string what = are_repeats ? "mean" : "value";
+  const std::string of_all = curves.size() == 1 ? ""
+                             : are_repeats      ? ", for every method"
+                                                : ", for every method and run";
+  const std::vector<Level> levels = levels_with_values(block, curves);
+  if (levels.size() == 1 && block.levels.size() > 1)
+    return fmt::format(
+        "{}: there is no curve, since one level alone has values ({}): the {} is {}{}.",
+        quantity.label, view.level_words(levels.front()), what, value, of_all);
+  std::vector<std::string> places;
+  for (const Level& level : levels) places.push_back(view.level_words(level));
+  constexpr std::size_t kMostNamed = 4;
+  return fmt::format(
+      "{}: there is no curve, since the {} is {} at {}{}.", quantity.label, what, value,
+      levels.size() == block.levels.size() ? "every level" : listed(places, kMostNamed), of_all);
 }
 
 }  // namespace mapproof

@@ -108,8 +108,8 @@ std::optional<Range> span_of_known(std::vector<double> values, double most) {
   return Range{least, greatest};
 }
 
-/// Nothing where no two mean ranks can differ by the critical difference, as over few groups of
-/// runs, and of distances from one of the methods itself.
+/// Nothing of too few groups of runs for tests, where no two mean ranks can differ by the critical
+/// difference, and of distances from one of the methods itself.
 std::optional<Figure> rank_figure(const ResultsView& view, const MethodComparison& comparison) {
   if (!has_rank_diagram(comparison) || is_distance_from_another(*comparison.quantity))
     return std::nullopt;

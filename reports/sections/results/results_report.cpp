@@ -201,6 +201,7 @@ std::vector<Section> sections_of(const ResultsReportInput& input, bool has_openi
   const auto group = std::ranges::find(input.figures.groups, maps, &FigureGroup::id);
   if (group != input.figures.groups.end()) {
     Section section{maps, group->title, {}};
+    if (!group->words.empty()) section.blocks.emplace_back(plain(group->words));
     section.blocks.emplace_back(gallery_of(*group));
     sections.push_back(std::move(section));
   }
@@ -272,7 +273,7 @@ void add_best_values(const ResultsReportInput& input, Highlights& numbers) {
     const ComparedMethod& next = comparison.methods[1];
     const bool is_one = input.view.runs() < 2;
     std::string note = name_with_poses(input, best.method) + "; ";
-    if (comparison.groups < 2)
+    if (!has_groups_for_tests(comparison))
       note += fmt::format("{} {}", name_with_poses(input, next.method),
                           quantity_text(next.mean, comparison.quantity->unit));
     else if (worse == 0)

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/text/error_text.hpp"
 #include "core/base/text/number_text.hpp"
@@ -44,6 +45,66 @@ bool has_repeats(const ResultsView& view) {
   return view.study().results.are_repeats && view.runs() > 1;
 }
 
+/// As listed(), all of them, parted by semicolons where a name has a comma.
+std::string all_of(const std::vector<std::string>& names) {
+  const bool have_commas = std::ranges::any_of(
+      names, [](const std::string& name) { return name.find(", ") != std::string::npos; });
+  return have_commas ? fmt::format("{}", fmt::join(names, "; ")) : listed(names, names.size() + 1);
+}
+
+/// What is said of lines of a table, in the order in which it is first said.
+class LineNotes {
+ public:
+  void add(const std::string& label, const std::string& words) {
+    auto note = std::ranges::find(notes_, words, &Note::words);
+    if (note == notes_.end()) note = notes_.insert(note, {words, {}});
+    note->labels.push_back(label);
+  }
+
+  /// Of the same words one note: "Isomap and SDE: failed."
+  void append_to(Table& table) const {
+    for (const auto& [words, labels] : notes_)
+      table.notes.push_back(fmt::format("{}: {}.", all_of(labels), words));
+  }
+
+ private:
+  struct Note {
+    std::string words;
+    std::vector<std::string> labels;
+  };
+  std::vector<Note> notes_;
+};
+
+/// Values lost by the lines of a table: of each line by their number, where.
+class LostValues {
+ public:
+  /// @param where  May be empty.
+  void add(const std::string& label, int lost, const std::string& where) {
+    if (losses_.empty() || losses_.back().label != label) losses_.push_back({label, {}});
+    losses_.back().places[lost].push_back(where);
+  }
+
+  /// "Isomap and SDE: 1 value lost each (MPE and MOE)."
+  void append_to(Table& table) const {
+    LineNotes notes;
+    for (const auto& [label, places] : losses_)
+      for (auto [lost, where] : places) {
+        std::erase(where, "");
+        notes.add(label, fmt::format("{} lost{}{}", counted(lost, "value"),
+                                     where.size() > 1 ? " each" : "",
+                                     where.empty() ? "" : fmt::format(" ({})", all_of(where))));
+      }
+    notes.append_to(table);
+  }
+
+ private:
+  struct Losses {
+    std::string label;
+    std::map<int, std::vector<std::string>> places;
+  };
+  std::vector<Losses> losses_;
+};
+
 /// The cells of one condition, and the notes on them.
 class CellMaker {
  public:
@@ -58,9 +119,11 @@ class CellMaker {
     if (has_repeats(view_))
       row.cells.push_back(interval_cell_of(view_.spread(at, line, quantity), decimals));
     if (const int lost = view_.numbers(at, line, quantity).lost; lost > 0)
-      table_.notes.push_back(fmt::format("{}{}{}: {} lost.", line.label, where.empty() ? "" : ", ",
-                                         where, counted(lost, "value")));
+      lost_.add(line.label, lost, where);
   }
+
+  /// After the last cell.
+  void add_notes() { lost_.append_to(table_); }
 
   /// @param title  Of the column; empty: the quantity and its unit.
   void add_column(const Quantity& quantity, const std::string& title = "",
@@ -78,6 +141,7 @@ class CellMaker {
  private:
   const ResultsView& view_;
   Table& table_;
+  LostValues lost_;
 };
 
 void add_note(const ResultsView& view, const std::string& setup, Table& table) {
@@ -93,9 +157,10 @@ void add_note(const ResultsView& view, const std::string& setup, Table& table) {
                   counted(static_cast<long long>(counts.groups), "group")));
 }
 
-/// "SDE: not converged in 3 of 9 at noise 0.5.": one note per line and status.
+/// "SDE: not converged in 3 of 9 at noise 0.5.": lines of which the same is said are in one note.
 void add_status_notes(const ResultsView& view, const ResultsBlock& block,
                       const std::vector<ResultsLine>& lines, Table& table) {
+  LineNotes notes;
   for (const ResultsLine& line : lines) {
     std::map<std::string, std::vector<std::string>> places;  // By code.
     for (std::size_t i = 0; i < block.conditions.size(); ++i) {
@@ -110,10 +175,34 @@ void add_status_notes(const ResultsView& view, const ResultsBlock& block,
     }
     for (auto& [code, where] : places) {
       std::erase(where, "");
-      table.notes.push_back(fmt::format("{}: {}{}{}.", line.label, code_words(code),
-                                        where.empty() ? "" : " ", listed(where, where.size() + 1)));
+      notes.add(line.label, fmt::format("{}{}{}", code_words(code), where.empty() ? "" : " ",
+                                        listed(where, where.size() + 1)));
     }
   }
+  notes.append_to(table);
+}
+
+/// Whether any quantity of the study has a result, or a lost one.
+bool is_tried(const ResultsView& view, const Condition& at, const ResultsLine& line) {
+  return std::ranges::any_of(view.study().quantities, [&](const std::string& id) {
+    const RunNumbers numbers = view.numbers(at, line, view.quantity(id));
+    return !numbers.values.empty() || numbers.lost > 0;
+  });
+}
+
+/// "Landmark MVU: not tried at landmarks 500.": why cells are empty of which nothing was lost.
+/// @param places  The conditions in words.
+void add_notes_of_not_tried(const ResultsView& view, const std::vector<Condition>& conditions,
+                            const std::vector<std::string>& places,
+                            const std::vector<ResultsLine>& lines, Table& table) {
+  LineNotes notes;
+  for (const ResultsLine& line : lines) {
+    std::vector<std::string> without;
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      if (!is_tried(view, conditions[i], line)) without.push_back(places[i]);
+    if (!without.empty()) notes.add(line.label, "not tried at " + all_of(without));
+  }
+  notes.append_to(table);
 }
 
 /// One quantity over the levels.
@@ -137,8 +226,12 @@ Table level_table(const ResultsView& view, const ResultsBlock& block, const Quan
       cells.add(row, block.conditions[i], line, quantity, view.level_words(block.levels[i]));
     table.rows.push_back(std::move(row));
   }
+  cells.add_notes();
+  std::vector<std::string> places;
+  for (const Level& level : block.levels) places.push_back(view.level_words(level));
+  add_notes_of_not_tried(view, block.conditions, places, lines, table);
   add_note(view, block.conditions.front().setup, table);
-  add_status_notes(view, block, view.lines(block, quantity), table);
+  add_status_notes(view, block, lines, table);
   return table;
 }
 
@@ -183,6 +276,7 @@ Table single_table(const ResultsView& view, const ResultsBlock& block) {
       cells.add(row, block.conditions.front(), line, *quantity, quantity->label);
     table.rows.push_back(std::move(row));
   }
+  cells.add_notes();
   add_note(view, block.conditions.front().setup, table);
   add_status_notes(view, block, lines, table);
   return table;
@@ -213,6 +307,7 @@ std::optional<Table> run_table(const ResultsView& view, const ResultsBlock& bloc
       table.rows.push_back(std::move(row));
     }
   }
+  cells.add_notes();
   add_status_notes(view, block, lines, table);
   return table;
 }
@@ -255,6 +350,8 @@ std::vector<Table> overview_tables(const ResultsView& view, const ResultsOvervie
         cells.add(row, overview.conditions[i], line, quantity, overview.names[i]);
       table.rows.push_back(std::move(row));
     }
+    cells.add_notes();
+    add_notes_of_not_tried(view, overview.conditions, overview.names, lines, table);
     add_note(view, overview.conditions.front().setup, table);
     tables.push_back(std::move(table));
   }

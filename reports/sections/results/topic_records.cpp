@@ -85,16 +85,42 @@ std::string title_of(const TopicStudy& study, const TopicPart& part, const Topic
   return std::isfinite(score->mpe_m) ? name + ": " + error_text(score->mpe_m) + " off" : name;
 }
 
+bool has_a_position(const MapRecord& map) {
+  for (Eigen::Index i = 0; i < map.estimate.rows(); ++i)
+    if (map.estimate.row(i).allFinite()) return true;
+  return false;
+}
+
+/// "No landmark has a position: dataset1: Bearing, CMDS; dataset1: Range, CMDS; 3 more."
+std::string words_of_empty(std::vector<std::string> names) {
+  if (names.empty()) return "";
+  constexpr std::size_t kMost = 12;
+  if (names.size() > kMost) {
+    const std::size_t more = names.size() - (kMost - 1);
+    names.resize(kMost - 1);
+    names.push_back(fmt::format("{} more", more));
+  }
+  return fmt::format("No landmark has a position: {}.", fmt::join(names, "; "));
+}
+
 }  // namespace
 
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
-  std::vector<std::pair<std::string, const MapRecord*>> named, titled;
+  std::vector<std::pair<std::string, const MapRecord*>> named;
+  std::vector<std::string> empty;
   for (const TopicPart& part : study.parts)
-    for (const TopicMap& map : part.maps) named.emplace_back(name_of(study, part, map), &map.map);
+    for (const TopicMap& map : part.maps)
+      if (has_a_position(map.map))
+        named.emplace_back(name_of(study, part, map), &map.map);
+      else
+        empty.push_back(name_of(study, part, map));
+  maps.words = words_of_empty(std::move(empty));
   maps.figures = map_walls(prefix, named);
+  std::vector<MapInSpace> in_space;
   for (const TopicPart& part : study.parts)
     for (const TopicMap& map : part.maps) {
+      if (!has_a_position(map.map)) continue;
       const std::string title = title_of(study, part, map);
       const std::string ellipses =
           map.uncertainty ? ellipses_text(map.map, *map.uncertainty) : std::string();
@@ -105,9 +131,9 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
         maps.figures.push_back(
             pair_distances_figure({prefix + "-pairs-" + slug_of(map.id), title + ", measured pairs",
                                    map.map, map.pairs}));
-      titled.emplace_back(title, &map.map);
+      in_space.push_back({title, series_label(study.design, map.method), &map.map});
     }
-  maps.scenes = best_map_scene("scene-" + prefix + "-map", titled);
+  maps.scenes = best_map_scene("scene-" + prefix + "-map", in_space);
   return maps;
 }
 

@@ -14,7 +14,8 @@ namespace mapproof {
 /// Ends the title of the figure of a map that is of no use.
 inline constexpr const char* kNoUsableMap = ": no usable map";
 
-/// The maps of the study of a topic, and the distances of the pairs that they were made of.
+/// The maps of the study of a topic, and the distances of the pairs that they were made of. Maps in
+/// which no landmark has a position are named and not drawn.
 /// @param prefix  Begins the ids: "missing" gives "missing-map-ID", "missing-pairs-ID".
 FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix);
 

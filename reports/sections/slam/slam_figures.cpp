@@ -17,6 +17,7 @@
 #include "render/figures/diagrams/fit.hpp"
 #include "render/figures/maps/map_grid.hpp"
 #include "render/figures/maps/path_map.hpp"
+#include "render/figures/maps/path_styles.hpp"
 #include "render/scene/drive_scene.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/space_scene.hpp"
@@ -54,29 +55,25 @@ std::string numbered(const std::string& id) {
   return number + ". ";
 }
 
-/// How far a method's path is off: "0.19 m off"; empty without ground truth.
-std::string off_words(const SlamRun& run, SlamMethod method) {
-  const TrajectoryError* error = error_of(run, method);
-  return error == nullptr || !std::isfinite(error->mean_m) ? ""
-                                                           : error_text(error->mean_m) + " off";
-}
-
-/// The error of the path that is shown, and what it is compared with.
+/// The error of the path that is shown, and what it is compared with, each with its alignment:
+/// "Plaza 1: the path is 0.411 m off over 2.0 km (rigid), dead reckoning 9.83 m (unaligned)".
 std::string path_title(const SlamRun& run, SlamMethod shown) {
   const std::string name = run.simulated ? "Simulation" : title_of(run);
-  const std::string off = off_words(run, shown);
-  if (off.empty())
+  const TrajectoryError* off = error_of(run, shown);
+  if (off == nullptr || !std::isfinite(off->mean_m))
     return fmt::format("{}: {} from ranges", name,
                        counted(std::ssize(run.log.landmarks), "landmark"));
   const auto length = run.simulated ? std::nullopt : length_m(run.log);
-  std::string title =
-      fmt::format("{}: the path is {}{}", name, off, length ? " over " + length_text(*length) : "");
+  const std::string title =
+      fmt::format("{}: the path is {} off{} ({})", name, error_text(off->mean_m),
+                  length ? " over " + length_text(*length) : "", alignment_words(off->alignment));
   for (const auto& [method, words] :
        {std::pair{SlamMethod::kDeadReckoning, "dead reckoning"},
         std::pair{SlamMethod::kSpectralKnown, "with known landmarks"}})
     if (const TrajectoryError* error = error_of(run, method);
         method != shown && error != nullptr && std::isfinite(error->mean_m))
-      return title + fmt::format(", {} {}", words, error_text(error->mean_m));
+      return title + fmt::format(", {} {} ({})", words, error_text(error->mean_m),
+                                 alignment_words(error->alignment));
   return title;
 }
 

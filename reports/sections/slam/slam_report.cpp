@@ -380,7 +380,7 @@ std::string best_of_drives(const SlamStudy& study) {
 }
 
 /// "0.19 m" of the refined map or else of the spectral one, with what it compares with: the method
-/// of least error if that is another one, and the other ones.
+/// of least error if that is another one, and the other ones; each with its alignment.
 std::optional<Highlights::Item> error_number(const SlamRun& run) {
   const SlamMethod* method = shown_method(run);
   if (method == kFirstMethods.end()) return std::nullopt;
@@ -388,16 +388,18 @@ std::optional<Highlights::Item> error_number(const SlamRun& run) {
   for (const SlamMethod* other = method + 1; other != kFirstMethods.end(); ++other)
     if (const TrajectoryError* error = error_of(run, *other);
         error != nullptr && std::isfinite(error->mean_m))
-      details.push_back(fmt::format("{} {}", info(*other).label, error_text(error->mean_m)));
+      details.push_back(fmt::format("{} {} ({})", info(*other).label, error_text(error->mean_m),
+                                    alignment_words(error->alignment)));
   std::ranges::reverse(details);  // Dead reckoning, which every reader knows, first.
   const std::string shown = error_text(error_of(run, *method)->mean_m);
+  const std::string aligned = alignment_words(error_of(run, *method)->alignment);
   const std::vector<MethodError> errors = comparable_errors(run);
   if (!errors.empty() && error_text(errors.front().mean_m) != shown)
     if (const auto& [least, least_m] = errors.front();
         std::ranges::find(kFirstMethods, least) == kFirstMethods.end())
-      details.insert(details.begin(),
-                     fmt::format("least: {} {}", info(least).label, error_text(least_m)));
-  details.insert(details.begin(), std::string(info(*method).label));
+      details.insert(details.begin(), fmt::format("least: {} {} ({})", info(least).label,
+                                                  error_text(least_m), aligned));
+  details.insert(details.begin(), fmt::format("{} ({})", info(*method).label, aligned));
   if (const auto length = length_m(run.log)) details.push_back("over " + length_text(*length));
   return Highlights::Item{"mean position error, " + title_of(run), shown,
                           fmt::format("{}", fmt::join(details, "; ")), "slam-accuracy"};
@@ -426,13 +428,44 @@ void add_slope(const SlamStudy& study, Highlights& numbers) {
        slope_words(slope), "theory: \u22121/2", kSlamSimulation});
 }
 
-/// All warnings and failures, and in how many records.
+/// "the logs of Plaza 1 and Plaza 2 are missing"; empty if none is.
+std::string missing_words(const SlamStudy& study) {
+  const std::vector<std::string> titles = missing_titles(study);
+  if (titles.empty()) return "";
+  return titles.size() == 1 ? fmt::format("the log of {} is missing", titles.front())
+                            : fmt::format("the logs of {} are missing", listed(titles, 4));
+}
+
+/// What the page lacks without the logs that are missing.
+std::string lacks_words(const SlamStudy& study) {
+  const bool has_drives = std::ranges::count(study.runs, false, &SlamRun::simulated) > 0;
+  return is_of_paper(study) && !has_drives ? "the half of the paper on real data"
+                                           : "their part of the results";
+}
+
+/// All warnings and failures of records, and where they occurred.
 std::vector<std::string> warnings_of(const SlamStudy& study) {
   std::vector<std::string> codes;
   const StatusList list = status_list(study);
   for (const StatusList::Item& item : list.items)
     codes.push_back(fmt::format("{} ({})", item.code, item.where));
   return codes;
+}
+
+/// What the numbers of this study stand beside.
+std::string compared_words(const SlamStudy& study) {
+  std::vector<std::string> others;
+  for (const auto& [method, words] :
+       {std::pair{SlamMethod::kDeadReckoning, "dead reckoning"},
+        std::pair{SlamMethod::kSpectral, "the paper\u2019s own spectral method"},
+        std::pair{SlamMethod::kEkf, "an extended Kalman filter"}})
+    if (std::ranges::any_of(study.runs, [&](const SlamRun& run) {
+          return !run.simulated && record_of(run, method) != nullptr;
+        }))
+      others.emplace_back(words);
+  if (!study.convergence.empty()) others.emplace_back("theory");
+  if (study.histories) others.emplace_back("the mapping methods");
+  return others.empty() ? "nothing" : listed(others, others.size());
 }
 
 /// "Positions of landmarks and the path of a robot …: 2 recorded drives", and which estimates are
@@ -575,11 +608,12 @@ Report slam_report(const SlamReportInput& input) {
 
 Section slam_statuses_section(const SlamStudy& study) {
   Section section{"slam-warnings", "Range-only SLAM: warnings and failures", {}};
+  BulletList missing;
+  for (const std::string& text : missing_logs(study)) missing.items.push_back(plain(text));
   StatusList list = status_list(study);
-  if (list.items.empty())
-    section.blocks.emplace_back(plain("None."));
-  else
-    section.blocks.emplace_back(std::move(list));
+  if (missing.items.empty() && list.items.empty()) section.blocks.emplace_back(plain("None."));
+  if (!missing.items.empty()) section.blocks.emplace_back(std::move(missing));
+  if (!list.items.empty()) section.blocks.emplace_back(std::move(list));
   return section;
 }
 
@@ -589,19 +623,27 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   add_run_numbers(study, opening.numbers);
   add_slope(study, opening.numbers);
   const std::vector<std::string> warnings = warnings_of(study);
+  const std::string missing = missing_words(study);
+  const std::size_t count = missing_titles(study).size() + warnings.size();
+  std::vector<std::string> details;
+  if (!missing.empty()) details.push_back(missing);
+  if (!warnings.empty()) details.emplace_back("each listed with its reason");
   opening.numbers.items.push_back(
-      {warnings.size() == 1 ? "warning or failure" : "warnings and failures",
-       fmt::format("{}", warnings.size()),
-       warnings.empty() ? "none" : "each listed with its reason", "slam-warnings",
-       !warnings.empty()});
+      {count == 1 ? "warning or failure" : "warnings and failures", fmt::format("{}", count),
+       details.empty() ? "none" : fmt::format("{}", fmt::join(details, "; ")), "slam-warnings",
+       count > 0});
   opening.findings.push_back(what_was_done(study));
+  if (!missing.empty())
+    opening.findings.push_back(
+        {{strong("Data missing"),
+          phrase(fmt::format(": {}, and with them {}.", missing, lacks_words(study)))}});
   if (is_of_paper(study))
     opening.findings.push_back(
         {{strong("Compared with"),
-          phrase(
-              ": dead reckoning, the paper\u2019s own spectral method, an extended Kalman filter "
-              "and theory. The paper prints no errors of its methods, so that no published "
-              "number stands beside ours.")}});
+          phrase(fmt::format(
+              ": {}. The paper prints no errors of its methods, so that no published number stands "
+              "beside ours.",
+              compared_words(study)))}});
   for (const SlamRun& run : study.runs)
     if (run.fit)
       opening.findings.push_back({{strong(title_of(run)), phrase(": " + verdict_text(*run.fit))}});

@@ -20,6 +20,14 @@ std::string redrawn_words(const ConvergenceOptions& convergence) {
       convergence.most_condition);
 }
 
+std::vector<const SlamDataSet*> missing_data(const SlamStudy& study) {
+  std::vector<const SlamDataSet*> missing;
+  for (const SlamDataSet& data : study.experiment.data)
+    if (std::ranges::find(study.runs, data.id, &SlamRun::id) == study.runs.end())
+      missing.push_back(&data);
+  return missing;
+}
+
 }  // namespace
 
 std::string record_id(const SlamRun& run, const SlamRecord& record) {
@@ -78,12 +86,17 @@ std::vector<std::pair<std::string, std::string>> simulation_facts(
   return facts;
 }
 
+std::vector<std::string> missing_titles(const SlamStudy& study) {
+  std::vector<std::string> titles;
+  for (const SlamDataSet* data : missing_data(study)) titles.push_back(data->title);
+  return titles;
+}
+
 std::vector<std::string> missing_logs(const SlamStudy& study) {
-  std::vector<std::string> missing;
-  for (const SlamDataSet& data : study.experiment.data)
-    if (std::ranges::find(study.runs, data.id, &SlamRun::id) == study.runs.end())
-      missing.push_back(data.title + " is missing. " + data.source);
-  return missing;
+  std::vector<std::string> sentences;
+  for (const SlamDataSet* data : missing_data(study))
+    sentences.push_back(data->title + " is missing. " + data->source);
+  return sentences;
 }
 
 std::string title_of(const SlamRun& run) { return run.log.name.empty() ? run.id : run.log.name; }

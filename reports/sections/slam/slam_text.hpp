@@ -26,6 +26,9 @@ bool is_of_paper(const SlamStudy& study);
 /// What the experiment simulates, {"Simulated area", "20 m x 20 m"}; empty if it simulates nothing.
 std::vector<std::pair<std::string, std::string>> simulation_facts(const SlamExperiment& experiment);
 
+/// The names of the logs of the experiment that are not there.
+std::vector<std::string> missing_titles(const SlamStudy& study);
+
 /// A sentence on each log of the experiment that is not there: its name and how to get it.
 std::vector<std::string> missing_logs(const SlamStudy& study);
 

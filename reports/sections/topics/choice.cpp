@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,20 +28,28 @@ std::string choice_question(const TopicExperiment&) {
          "landmarks.";
 }
 
+/// Of all setups and levels.
+std::vector<Condition> all_conditions(const TopicStudy& study) {
+  std::vector<Condition> all;
+  for (const TopicSetup& setup : study.design.setups)
+    for (Condition& at : conditions_of(setup)) all.push_back(std::move(at));
+  return all;
+}
+
 /// The mean of a quantity over all setups and levels.
 double mean_over_all(const TopicStudy& study, std::string_view method, const char* quantity) {
   double sum = 0.0;
   int count = 0;
-  for (const TopicSetup& setup : study.design.setups)
-    for (const Condition& at : conditions_of(setup))
-      for (const double value : topic_values(study, at, method, quantity)) {
-        sum += value;
-        ++count;
-      }
+  for (const Condition& at : all_conditions(study))
+    for (const double value : topic_values(study, at, method, quantity)) {
+      sum += value;
+      ++count;
+    }
   return count > 0 ? sum / count : kNaN;
 }
 
 struct BestCriterion {
+  std::string id = {};  ///< Empty: none has a value.
   std::string label = {};
   double regret_m = HUGE_VAL;
 };
@@ -51,18 +60,19 @@ BestCriterion best_criterion(const TopicStudy& study, const char* quantity) {
     const double regret = mean_over_all(study, method.id, quantity);
     if (std::isnan(regret)) continue;
     if (method.id == kRandomPick || method.id == kFixedMethod || regret >= best.regret_m) continue;
-    best = {method.label, regret};
+    best = {method.id, method.label, regret};
   }
   return best;
 }
 
 std::string choice_sentence(const TopicStudy& study, const char* quantity, const char* when) {
-  const auto [best, least] = best_criterion(study, quantity);
+  const BestCriterion best = best_criterion(study, quantity);
   return fmt::format(
       "{}, over all sensors and numbers of steps, the criterion with the lowest mean regret is {}: "
       "its pick is {} worse than the best map on average; a fixed method is {} worse and a random "
       "pick {}{}.",
-      when, best, error_text(least), error_text(mean_over_all(study, kFixedMethod, quantity)),
+      when, best.label, error_text(best.regret_m),
+      error_text(mean_over_all(study, kFixedMethod, quantity)),
       error_text(mean_over_all(study, kRandomPick, quantity)),
       has_few_layouts(study) ? fmt::format("; too few runs to rank the criteria, in {}",
                                            counted(layouts_of(study), "layout"))
@@ -75,16 +85,26 @@ std::vector<std::string> choice_conclusions(const TopicStudy& study) {
 }
 
 TopicHeadline choice_headline(const TopicStudy& study) {
-  const auto [best, least] = best_criterion(study, "regret_m");
-  if (best.empty()) return {};
-  const double fixed = mean_over_all(study, kFixedMethod, "regret_m");
-  const auto [value, words] = regret_words(least);
-  return {
-      value, fmt::format("{} the best map: the map that a criterion picks", words), "by " + best,
-      std::isnan(fixed) ? ""
-                        : fmt::format("{} than a fixed method, {}",
-                                      least < fixed ? "better" : "no better", error_text(fixed)),
-      least >= fixed};
+  const BestCriterion best = best_criterion(study, "regret_m");
+  if (best.id.empty()) return {};
+  const auto [value, words] = regret_words(best.regret_m);
+  TopicHeadline headline{
+      .value = value,
+      .label = fmt::format("{} the best map: the map that a criterion picks", words),
+      .detail = "by " + best.label};
+  const auto difference =
+      topic_difference(study, all_conditions(study), best.id, kFixedMethod, "regret_m");
+  if (!difference) return headline;
+  const std::string fixed = error_text(mean_over_all(study, kFixedMethod, "regret_m"));
+  if (has_few_layouts(*difference)) {
+    headline.detail += "; a fixed method: " + fixed;
+    return headline;
+  }
+  const bool is_better = is_apart_from_0(*difference) && difference->mean < 0.0;
+  headline.verdict = fmt::format("{} than a fixed method, {}",
+                                 is_better ? "better" : "not significantly better", fixed);
+  headline.falls_short = !is_better;
+  return headline;
 }
 
 }  // namespace

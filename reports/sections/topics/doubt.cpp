@@ -1,9 +1,11 @@
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/text/words.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 
@@ -16,9 +18,10 @@ std::string doubt_question(const TopicExperiment& experiment) {
   return fmt::format(
       "Simulated drives with single ranges to four to seven landmarks have noise from a third to "
       "three times the usual one, and in every other drive errors that hang together in time. One "
-      "fault is put into a copy of each, at several sizes. Does the test of the fit report it, is "
-      "its cause the right one, and how often is there an alarm without any fault? The landmarks' "
-      "constant offsets have a standard deviation of {:g} m.",
+      "fault is put into a copy of each, at {}. Does the test of the fit report it, is its cause "
+      "the right one, and how often is there an alarm without any fault? The landmarks' constant "
+      "offsets have a standard deviation of {:g} m.",
+      counted(std::ssize(list_option(experiment, "sizes_percent")), "size"),
       number_option(experiment, "offset_sigma_m"));
 }
 

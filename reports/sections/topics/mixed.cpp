@@ -11,6 +11,7 @@
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
+#include "reports/sections/wording.hpp"
 
 namespace mapproof {
 namespace {
@@ -46,16 +47,18 @@ BestSeries best_series(const TopicStudy& study, const Condition& at, const Names
   return best;
 }
 
-/// "at noise of bearings 20° joint map has a mean MPE of 0.012 m, range alone 0.013 m (better)".
+/// "at noise of bearings 20° the mean MPE is 0.012 m by joint map and 0.013 m by range alone
+/// (better)"; of too few layouts without the verdict.
 std::string mixed_words_at(const TopicStudy& study, const TopicSetup& setup, const Condition& at) {
   const BestSeries single = best_series(study, at, kSingles);
   const BestSeries mix = best_series(study, at, kMixes);
   if (single.method == nullptr || mix.method == nullptr) return "";
   const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
-  return fmt::format("at {}, {} has a mean MPE of {} and {} one of {} ({})", level_words(setup, at),
-                     mix.method->label, error_text(mix.mean_m), single.method->label,
-                     error_text(single.mean_m),
-                     difference ? verdict_words(*difference) : "no run has both");
+  const std::string verdict = difference ? verdict_words(*difference) : "no run has both";
+  return fmt::format("at {} the mean MPE is {} by {} and {} by {}{}", level_words(setup, at),
+                     error_text(mix.mean_m), bracketed(mix.method->label),
+                     error_text(single.mean_m), bracketed(single.method->label),
+                     has_few_layouts(study) ? "" : " (" + verdict + ")");
 }
 
 /// What it costs to take the map that keeps most neighbourhoods: its MPE less that of the best map,
@@ -93,19 +96,14 @@ std::vector<std::string> mixed_conclusions(const TopicStudy& study) {
     std::erase(ends, "");
     if (!ends.empty())
       sentences.push_back(
-          fmt::format("{}: the best map of both sensors compared with the best of one sensor: {}.",
-                      setup.title, fmt::join(ends, "; ")));
+          fmt::format("{}: the best map of several sensors compared with the best of one sensor: "
+                      "{}{}.",
+                      setup.title, fmt::join(ends, "; "), few_layouts_words(study)));
   }
   for (const TopicSetup& setup : study.design.setups)
     if (std::string words = choice_words(study, setup); !words.empty())
       sentences.push_back(std::move(words));
   return sentences;
-}
-
-/// "better than", "not significantly better than", "better, in one layout, than".
-std::string comparative(const std::string& verdict) {
-  if (verdict.starts_with("not")) return "not significantly better than";
-  return verdict + (verdict.find(',') == std::string::npos ? " than" : ", than");
 }
 
 /// At the last level of the first setup that has maps of several sensors and of one.
@@ -116,14 +114,21 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
     const BestSeries mix = best_series(study, at, kMixes);
     if (single.method == nullptr || mix.method == nullptr) continue;
     const auto difference = topic_difference(study, at, mix.method->id, single.method->id, "mpe_m");
-    const std::string verdict = difference ? verdict_words(*difference) : "";
-    return {
-        error_text(mix.mean_m), "MPE of several sensors together, " + level_words(setup, at),
-        verdict.empty() ? fmt::format("the best sensor alone {}", error_text(single.mean_m)) : "",
-        verdict.empty() ? ""
-                        : fmt::format("{} the best sensor alone, {}", comparative(verdict),
-                                      error_text(single.mean_m)),
-        difference && !verdict.starts_with("better")};
+    TopicHeadline headline{.value = error_text(mix.mean_m),
+                           .label = "MPE of several sensors together, " + level_words(setup, at),
+                           .detail = {}};
+    const std::string alone = "the best sensor alone";
+    if (!difference || has_few_layouts(*difference)) {
+      headline.detail = fmt::format("{} {}", alone, error_text(single.mean_m));
+      if (difference) headline.detail += "; " + verdict_words(*difference);
+      return headline;
+    }
+    const bool is_apart = is_apart_from_0(*difference);
+    headline.verdict = fmt::format(
+        "{} than {}, {}", is_apart ? verdict_words(*difference) : "not significantly better", alone,
+        error_text(single.mean_m));
+    headline.falls_short = !is_apart || difference->mean > 0.0;
+    return headline;
   }
   return {};
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -19,21 +20,37 @@ std::string moved_question(const TopicExperiment& experiment) {
       number_option(experiment, "reach_m"), number_option(experiment, "tried"));
 }
 
-/// The mean of a quantity at each level that has one: "0, 50 and 100".
-std::string means_text(const TopicStudy& study, const TopicSetup& setup, const char* quantity) {
-  std::vector<std::string> means;
-  for (const Condition& at : conditions_of(setup))
-    if (const double mean = topic_mean(study, at, "permutations", quantity); !std::isnan(mean))
-      means.push_back(fmt::format("{:.3g}", mean));
-  return all_listed(means);
+/// The levels of a setup at which a landmark moved.
+std::vector<double> levels_with_move(const TopicStudy& study, const TopicSetup& setup) {
+  std::vector<double> levels = levels_of(setup);
+  std::erase_if(levels, [&](double level) {
+    return std::isnan(
+        topic_mean(study, condition_at(setup, level), "permutations", "named_percent"));
+  });
+  return levels;
 }
 
-double greatest_mean(const TopicStudy& study, const TopicSetup& setup, const char* quantity) {
-  double greatest = 0.0;
-  for (const Condition& at : conditions_of(setup))
-    if (const double mean = topic_mean(study, at, "permutations", quantity); mean > greatest)
-      greatest = mean;
-  return greatest;
+/// The means of a quantity at these levels that have one.
+std::vector<double> means_at(const TopicStudy& study, const TopicSetup& setup,
+                             const std::vector<double>& levels, const char* quantity) {
+  std::vector<double> means;
+  for (const double level : levels)
+    if (const double mean = topic_mean(study, condition_at(setup, level), "permutations", quantity);
+        !std::isnan(mean))
+      means.push_back(mean);
+  return means;
+}
+
+/// "0, 50 and 100".
+std::string numbers_text(const std::vector<double>& numbers) {
+  std::vector<std::string> words;
+  for (const double number : numbers) words.push_back(fmt::format("{:.3g}", number));
+  return all_listed(words);
+}
+
+/// 0 of none.
+double greatest_of(const std::vector<double>& numbers) {
+  return numbers.empty() ? 0.0 : std::ranges::max(numbers);
 }
 
 /// How often a landmark is named where nothing moves; NaN if that was not tried.
@@ -50,20 +67,21 @@ std::vector<std::string> moved_conclusions(const TopicStudy& study) {
         "Where nothing moves, a landmark is named in {:.3g} % of the logs; the level is 5 %.",
         still));
   for (const TopicSetup& setup : study.design.setups) {
-    std::vector<std::string> levels;
-    for (const double level : levels_of(setup))
-      if (!std::isnan(
-              topic_mean(study, condition_at(setup, level), "permutations", "named_percent")))
-        levels.push_back(fmt::format("{:g}", level));
+    const std::vector<double> levels = levels_with_move(study, setup);
     if (levels.empty()) continue;
+    const auto means = [&](const char* quantity) {
+      return means_at(study, setup, levels, quantity);
+    };
+    std::vector<std::string> level_texts;
+    for (const double level : levels) level_texts.push_back(fmt::format("{:g}", level));
     const SetupFactor& factor = setup.factors.front();
     sentences.push_back(fmt::format(
         "{}: at {} {} the moved landmark is named in {} % of the logs, another one in {:.3g} % at "
         "most; the step is {:.0f} steps off on average at most.",
-        setup.title, all_listed(levels),
+        setup.title, all_listed(level_texts),
         factor.unit.empty() ? "(" + factor.label + ")" : factor.unit,
-        means_text(study, setup, "named_percent"), greatest_mean(study, setup, "false_percent"),
-        greatest_mean(study, setup, "step_error")));
+        numbers_text(means("named_percent")), greatest_of(means("false_percent")),
+        greatest_of(means("step_error"))));
   }
   return sentences;
 }

@@ -55,8 +55,8 @@ std::vector<std::string> references_conclusions(const TopicStudy& study) {
           levels.back(), error_text(of(levels.back(), approximate, "mpe_m")));
       if (!exact.empty())
         sentence += fmt::format(
-            "; that of {} is {}. The maps with {:g} references differ from those by {:.2g} % of "
-            "their size",
+            "; that of {0} is {1}. The maps with {2:g} references differ from those of {0} by "
+            "{3:.2g} % of their size",
             info(*info(method).approximates).label, error_text(of(levels.back(), exact, "mpe_m")),
             levels.back(), of(levels.back(), approximate, "gap_percent"));
       sentences.push_back(sentence + ".");
@@ -78,14 +78,17 @@ TopicHeadline references_headline(const TopicStudy& study) {
     const double exact_m = topic_mean(study, at, exact, "mpe_m");
     if (std::isnan(error_m + exact_m)) continue;
     const auto difference = topic_difference(study, at, approximate, exact, "mpe_m");
-    const std::string verdict = difference ? verdict_words(*difference) : "";
-    return {
-        error_text(error_m),
-        fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
-        fmt::format("{} by {}; the maps differ by {:.2g} % of their size", error_text(exact_m),
-                    info(exact_method).label, topic_mean(study, at, approximate, "gap_percent")),
-        verdict.empty() ? "" : verdict + ", compared with all landmarks as references",
-        verdict.starts_with("worse")};
+    TopicHeadline headline{
+        .value = error_text(error_m),
+        .label =
+            fmt::format("MPE by {}, {}", info(*method_named(name)).label, level_words(setup, at)),
+        .detail = fmt::format("{} by {}; the maps differ by {:.2g} % of their size",
+                              error_text(exact_m), info(exact_method).label,
+                              topic_mean(study, at, approximate, "gap_percent"))};
+    if (difference)
+      judge(headline, *difference,
+            verdict_words(*difference) + ", compared with all landmarks as references");
+    return headline;
   }
   return {};
 }

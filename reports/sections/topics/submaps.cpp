@@ -7,7 +7,6 @@
 
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
-#include "core/base/text/words.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/topics/topic_means.hpp"
 #include "reports/sections/topics/topic_text.hpp"
@@ -54,9 +53,7 @@ std::string submaps_comparison(const TopicStudy& study, const TopicSetup& setup,
       wholes.size() == 1 ? of_whole.front() : all_listed(of_whole));
   if (!worse.empty()) words += "; significantly worse at " + all_listed(worse);
   if (!better.empty()) words += "; significantly better at " + all_listed(better);
-  if (has_few_layouts(study))
-    return words + fmt::format("; too few runs to test differences, in {}.",
-                               counted(layouts_of(study), "layout"));
+  if (has_few_layouts(study)) return words + few_layouts_words(study) + ".";
   return words + (worse.empty() && better.empty() ? "; no difference is significant." : ".");
 }
 
@@ -79,10 +76,13 @@ TopicHeadline submaps_headline(const TopicStudy& study) {
   const double whole = topic_mean(study, at, "whole-" + name, "mpe_m");
   if (std::isnan(parts + whole)) return {};
   const auto difference = topic_difference(study, at, "parts-" + name, "whole-" + name, "mpe_m");
-  return {error_text(parts), "MPE of joined sub-maps, " + level_words(setup, at),
-          fmt::format("{}; {}", error_text(whole), label(setting)),
-          difference ? verdict_words(*difference) + ", compared with the whole map" : "",
-          difference && verdict_words(*difference).starts_with("worse")};
+  TopicHeadline headline{
+      .value = error_text(parts),
+      .label = "MPE of joined sub-maps, " + level_words(setup, at),
+      .detail = fmt::format("of the whole map {}; {}", error_text(whole), label(setting))};
+  if (difference)
+    judge(headline, *difference, verdict_words(*difference) + ", compared with the whole map");
+  return headline;
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ std::string subject_of(const SetupFactor& factor) {
   return (factor.unit.empty() ? "the number of " : "the ") + factor.label;
 }
 
-/// "as the side of the room goes from 1.5 m to 4 m": from the first condition to the last.
+/// "with the side of the room from 1.5 m to 4 m": from the first condition to the last.
 std::string change_words(const TopicSetup& setup) {
   std::vector<std::string> words;
   for (const SetupFactor& factor : setup.factors) {
@@ -37,26 +38,64 @@ std::string change_words(const TopicSetup& setup) {
     const auto level = [&](double value) {
       return with_unit(fmt::format("{:g}", value), factor.unit);
     };
-    words.push_back(fmt::format("{}{} from {} to {}", subject_of(factor),
-                                words.empty() ? " goes" : "", level(factor.levels.front()),
-                                level(factor.levels.back())));
+    words.push_back(fmt::format("{} from {} to {}", subject_of(factor),
+                                level(factor.levels.front()), level(factor.levels.back())));
   }
-  return "as " + all_listed(words);
+  return "with " + all_listed(words);
 }
 
-/// "of ISOMAP (K = 6) grows from 0.05 m to 0.1 m": a method's mean MPE at the first and the last
-/// condition; empty where one of them has none.
-std::string ends_words(const TopicStudy& study, const TopicSetup& setup,
-                       const StudiedMethod& method) {
+/// A method's mean MPE at a condition.
+struct MeanAt {
+  Condition at;
+  double mean_m = 0.0;
+};
+
+/// Those of a method that are known, in the order of the conditions.
+std::vector<MeanAt> means_of(const TopicStudy& study, const TopicSetup& setup,
+                             const StudiedMethod& method) {
+  std::vector<MeanAt> means;
+  for (const Condition& at : conditions_of(setup))
+    if (const double mean = topic_mean(study, at, method.id, "mpe_m"); !std::isnan(mean))
+      means.push_back({at, mean});
+  return means;
+}
+
+/// Whether no factor is lower at `after`.
+bool is_beyond(const Condition& after, const Condition& before) {
+  return std::ranges::equal(after.levels, before.levels, [](const Level& a, const Level& b) {
+    return std::get<double>(a.value) >= std::get<double>(b.value);
+  });
+}
+
+/// "grows" or "falls", if the means do wherever a factor grows and none falls; else "goes".
+std::string course_word(const std::vector<MeanAt>& means) {
+  bool grows = true, falls = true;
+  for (const MeanAt& before : means)
+    for (const MeanAt& after : means) {
+      if (!is_beyond(after.at, before.at)) continue;
+      grows = grows && after.mean_m >= before.mean_m;
+      falls = falls && after.mean_m <= before.mean_m;
+    }
+  return grows ? "grows" : falls ? "falls" : "goes";
+}
+
+/// "of ISOMAP (K = 6) grows from 0.05 m to 0.1 m": a method's mean MPE from the first condition to
+/// the last; empty where one of them has none.
+std::string course_words(const TopicStudy& study, const TopicSetup& setup,
+                         const StudiedMethod& method) {
   const std::vector<Condition> conditions = conditions_of(setup);
-  const double first = topic_mean(study, conditions.front(), method.id, "mpe_m");
-  const double last = topic_mean(study, conditions.back(), method.id, "mpe_m");
-  if (std::isnan(first) || std::isnan(last)) return "";
-  const auto metres = [](double value) { return error_text(value); };
-  if (metres(first) == metres(last))
-    return fmt::format("of {} stays at {}", bracketed(method.label), metres(first));
-  return fmt::format("of {} {} from {} to {}", bracketed(method.label),
-                     last > first ? "grows" : "falls", metres(first), metres(last));
+  const std::vector<MeanAt> means = means_of(study, setup, method);
+  if (means.empty() || means.front().at != conditions.front() ||
+      means.back().at != conditions.back())
+    return "";
+  const auto [least, greatest] = std::ranges::minmax(means, {}, &MeanAt::mean_m);
+  const std::string name = bracketed(method.label), low = error_text(least.mean_m),
+                    high = error_text(greatest.mean_m);
+  if (low == high) return fmt::format("of {} stays at {}", name, low);
+  const std::string word = course_word(means);
+  return fmt::format("of {} {} from {} to {}{}", name, word, error_text(means.front().mean_m),
+                     error_text(means.back().mean_m),
+                     word == "goes" ? fmt::format(" (between {} and {})", low, high) : "");
 }
 
 std::vector<std::string> sweep_conclusions(const TopicStudy& study) {
@@ -64,8 +103,8 @@ std::vector<std::string> sweep_conclusions(const TopicStudy& study) {
   for (const TopicSetup& setup : study.design.setups) {
     std::vector<std::string> words;
     for (const StudiedMethod& method : study.design.methods)
-      if (std::string ends = ends_words(study, setup, method); !ends.empty())
-        words.push_back((words.empty() ? "the mean MPE " : "that ") + ends);
+      if (std::string course = course_words(study, setup, method); !course.empty())
+        words.push_back((words.empty() ? "the mean MPE " : "that ") + course);
     const std::vector<Condition> conditions = conditions_of(setup);
     if (words.empty() || conditions.size() < 2) continue;
     sentences.push_back(

@@ -84,16 +84,24 @@ std::string all_listed(const std::vector<std::string>& words) {
 std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Condition& at,
                                              std::string_view method, std::string_view other,
                                              std::string_view quantity) {
+  return topic_difference(study, std::vector{at}, method, other, quantity);
+}
+
+std::optional<MeanEstimate> topic_difference(const TopicStudy& study,
+                                             const std::vector<Condition>& conditions,
+                                             std::string_view method, std::string_view other,
+                                             std::string_view quantity) {
   check_quantity(study, quantity);
   std::vector<double> differences;
   std::vector<int> layouts;
-  for (const TopicPart& part : study.parts) {
-    const double difference =
-        value_in(part, at, method, quantity) - value_in(part, at, other, quantity);
-    if (!std::isfinite(difference)) continue;
-    differences.push_back(difference);
-    layouts.push_back(part.run ? part.run->layout : 0);
-  }
+  for (const TopicPart& part : study.parts)
+    for (const Condition& at : conditions) {
+      const double difference =
+          value_in(part, at, method, quantity) - value_in(part, at, other, quantity);
+      if (!std::isfinite(difference)) continue;
+      differences.push_back(difference);
+      layouts.push_back(part.run ? part.run->layout : 0);
+    }
   if (differences.empty()) return std::nullopt;
   return clustered_mean(differences, layouts);
 }
@@ -108,17 +116,27 @@ bool has_few_layouts(const TopicStudy& study) {
   return std::cmp_less(layouts_of(study), kFewestGroups);
 }
 
+std::string few_layouts_words(const TopicStudy& study) {
+  return has_few_layouts(study)
+             ? "; too few runs to test differences, in " + counted(layouts_of(study), "layout")
+             : "";
+}
+
+bool has_few_layouts(const MeanEstimate& difference) {
+  return std::cmp_less(difference.clusters, kFewestGroups);
+}
+
 bool is_apart_from_0(const MeanEstimate& difference) {
-  return difference.half_width && std::cmp_greater_equal(difference.clusters, kFewestGroups) &&
+  return difference.half_width && !has_few_layouts(difference) &&
          std::abs(difference.mean) > *difference.half_width;
 }
 
 std::string verdict_words(const MeanEstimate& difference) {
-  const char* side = difference.mean < 0.0 ? "better" : "worse";
-  if (!difference.half_width) return fmt::format("{}, in one layout", side);
-  if (std::abs(difference.mean) <= *difference.half_width) return "not significantly different";
-  return is_apart_from_0(difference) ? side
-                                     : fmt::format("{}, in {} layouts", side, difference.clusters);
+  if (has_few_layouts(difference))
+    return fmt::format("too few runs to test the difference, in {}",
+                       counted(difference.clusters, "layout"));
+  if (!is_apart_from_0(difference)) return "not significantly different";
+  return difference.mean < 0.0 ? "better" : "worse";
 }
 
 }  // namespace mapproof

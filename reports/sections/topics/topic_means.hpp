@@ -45,17 +45,30 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study, const Cond
                                              std::string_view method, std::string_view other,
                                              std::string_view quantity);
 
+/// The same over several conditions together.
+std::optional<MeanEstimate> topic_difference(const TopicStudy& study,
+                                             const std::vector<Condition>& conditions,
+                                             std::string_view method, std::string_view other,
+                                             std::string_view quantity);
+
 /// How many layouts the parts of a study are of.
 int layouts_of(const TopicStudy& study);
 
 /// Whether runs are of too few layouts for an interval (see kFewestGroups).
 bool has_few_layouts(const TopicStudy& study);
 
+/// "; too few runs to test differences, in 2 layouts", the end of a sentence; empty if they are
+/// not.
+std::string few_layouts_words(const TopicStudy& study);
+
+/// Whether the runs of a difference are of too few layouts.
+bool has_few_layouts(const MeanEstimate& difference);
+
 /// Whether the interval of a difference leaves 0 out, over as many layouts as one needs.
 bool is_apart_from_0(const MeanEstimate& difference);
 
-/// "better", "worse" or "not significantly different", of a quantity that is better if lower;
-/// of too few layouts for an interval there is no statement that it is: "better, in 2 layouts".
+/// "better", "worse" or "not significantly different", of a quantity that is better if lower; of
+/// too few layouts for an interval "too few runs to test the difference, in 2 layouts".
 std::string verdict_words(const MeanEstimate& difference);
 
 }  // namespace mapproof

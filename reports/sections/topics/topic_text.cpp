@@ -1,7 +1,11 @@
 #include "reports/sections/topics/topic_text.hpp"
-#include "core/base/text/number_text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/text/number_text.hpp"
+#include "reports/sections/topics/topic_means.hpp"
 
 namespace mapproof {
 namespace {
@@ -20,6 +24,15 @@ std::span<const TopicWords* const> all_topic_words() {
       &kMissingWords,     &kMixedWords,   &kMovedWords,       &kMrclamWords,
       &kIncrementalWords, &kSubmapsWords, &kSweepWords,       &kReferencesWords};
   return kAll;
+}
+
+void judge(TopicHeadline& headline, const MeanEstimate& difference, std::string verdict) {
+  if (has_few_layouts(difference)) {
+    headline.detail += (headline.detail.empty() ? "" : "; ") + verdict_words(difference);
+    return;
+  }
+  headline.verdict = std::move(verdict);
+  headline.falls_short = is_apart_from_0(difference) && difference.mean > 0.0;
 }
 
 RegretWords regret_words(double regret_m) {

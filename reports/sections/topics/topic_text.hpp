@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/topic_study.hpp"
+#include "core/statistics/intervals.hpp"
 
 namespace mapproof {
 
@@ -19,6 +20,11 @@ struct TopicHeadline {
   std::string verdict = {};
   bool falls_short = false;
 };
+
+/// Judges a headline by a tested difference, which falls short if it is worse. Of too few layouts
+/// it is not judged, and its detail ends with why.
+/// @param verdict  What the test found, in words.
+void judge(TopicHeadline& headline, const MeanEstimate& difference, std::string verdict);
 
 /// By how much a mean error is larger than that of the best map, with the words that follow it:
 /// {"0.022 m", "worse than"}, {"< 0.001 m", "worse than"}, {"equal", "to"}.

@@ -76,7 +76,7 @@ TEST(Nightly, RecordsANightlyRunAndItsReportAndFindsNothingWorseInTheNext) {
     return read_file(store / "nightly_runs" / number / "small/report.html");
   };
   EXPECT_NE(report_of("0001").find("Nightly run 1: not compared"), std::string::npos);
-  EXPECT_NE(report_of("0002").find("Nightly run 2: nothing got worse than in nightly run 1"),
+  EXPECT_NE(report_of("0002").find("Nightly run 2: nothing got worse since nightly run 1"),
             std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 #include "core/topics/topics.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/errors.hpp"
+#include "reports/sections/results/topic_records.hpp"
 #include "reports/sections/topics/topic_text.hpp"
 #include "tests/support/samples/scans.hpp"
 #include "tests/support/samples/worlds.hpp"
@@ -100,6 +102,34 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
       EXPECT_FALSE(std::isnan(value)) << one.method << ", " << quantity;
   EXPECT_FALSE(outcome(part, "bearing-cmds").values.contains("pair_m"));
   EXPECT_FALSE(outcome(part, "swapped").values.contains("faults"));
+}
+
+TEST(MrclamTopic, MapsWithoutAPositionAreNamedAndNotDrawn) {
+  const test::TemporaryFolder folder;
+  write_set(folder, "set", true);
+  TopicStudy study;
+  study.experiment = experiment();
+  study.design = kMrclamTopic.design(study.experiment);
+  study.parts = {made(study.experiment, kMrclamTopic.data_sets(folder.path()).at(0))};
+  const std::string one = "m-map-visibility-cmds", other = "m-map-visibility-isomap";
+  const auto is_of = [](const std::string& id) {
+    return [id](const Figure& figure) { return figure.id.starts_with(id); };
+  };
+  const FigureGroup all = topic_maps(study, "m");
+  EXPECT_EQ(all.words, "");
+  EXPECT_TRUE(std::ranges::any_of(all.figures, is_of(one)));
+  // The caption of the scene names what the topic calls the method.
+  ASSERT_EQ(all.scenes.size(), 1U);
+  for (TopicMap& map : study.parts[0].maps)
+    if (map.method != "bearing-cmds") map.map.estimate.setConstant(std::nan(""));
+  const FigureGroup single = topic_maps(study, "m");
+  ASSERT_EQ(single.scenes.size(), 1U);
+  EXPECT_NE(single.scenes[0].caption.find("where Bearing, CMDS of"), std::string::npos)
+      << single.scenes[0].caption;
+  EXPECT_FALSE(std::ranges::any_of(single.figures, is_of(one)));
+  EXPECT_FALSE(std::ranges::any_of(single.figures, is_of(other)));
+  EXPECT_TRUE(single.words.starts_with("No landmark has a position: ")) << single.words;
+  EXPECT_NE(single.words.find("Visibility, ISOMAP"), std::string::npos) << single.words;
 }
 
 TEST(MrclamTopic, WithoutGroundTruthThereAreMapsAndNoErrors) {

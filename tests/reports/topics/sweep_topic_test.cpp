@@ -109,14 +109,37 @@ TEST(SweepTopic, SaysInPlainEnglishWhatCameOut) {
   const std::vector<std::string> found = conclusions_of(study);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(with_plain_spaces(found[1]),
-            "Maps from bearing by side of the room: as the side of the room goes from 1.5 m to 4 "
-            "m, the mean MPE of LPCA grows from 0.100 m to 0.400 m and that of SMACOF (kNN "
+            "Maps from bearing by side of the room: with the side of the room from 1.5 m to 4 m, "
+            "the mean MPE of LPCA grows from 0.100 m to 0.400 m and that of SMACOF (kNN "
             "weights, K = 6) stays at 0.200 m.");
   EXPECT_EQ(with_plain_spaces(found[2]),
-            "Maps from bearing by anchors and noise of bearings: as the number of anchors goes "
-            "from 3 to 6 and the noise of bearings from 0\u00B0 to 5\u00B0, the mean MPE of LPCA "
+            "Maps from bearing by anchors and noise of bearings: with the number of anchors from "
+            "3 to 6 and the noise of bearings from 0\u00B0 to 5\u00B0, the mean MPE of LPCA "
             "grows from 0.100 m to 1.00 m and that of SMACOF (kNN weights, K = 6) stays at "
             "0.200 m.");
+}
+
+TEST(SweepTopic, SaysThatAMeanGrowsOrFallsOnlyIfItDoesAtEveryLevel) {
+  const TopicExperiment experiment = parsed(R"({"landmarks": [16, 20, 24]})");
+  TopicStudy study;
+  study.experiment = experiment;
+  study.design = kSweepTopic.design(experiment);
+  const TopicSetup& setup = study.design.setups.back();
+  const auto sentence = [&](std::vector<double> means_m) {
+    study.parts = {TopicPart{}};
+    std::size_t i = 0;
+    for (const Condition& at : conditions_of(setup))
+      study.parts[0].outcomes.push_back(
+          {.at = at, .method = "lpca", .values = {{"mpe_m", means_m[i++]}}, .statuses = {}});
+    return with_plain_spaces(conclusions_of(study).at(0));
+  };
+  const std::string start =
+      "Maps from bearing by landmarks: with the number of landmarks from 16 to 24, the mean MPE of "
+      "LPCA ";
+  EXPECT_EQ(sentence({0.107, 0.097, 0.105}),
+            start + "goes from 0.107 m to 0.105 m (between 0.0970 m and 0.107 m).");
+  EXPECT_EQ(sentence({0.107, 0.106, 0.105}), start + "falls from 0.107 m to 0.105 m.");
+  EXPECT_EQ(sentence({0.105, 0.106, 0.107}), start + "grows from 0.105 m to 0.107 m.");
 }
 
 TEST(SweepTopic, SpellsMethodsAsAllStudiesDo) {

@@ -1,5 +1,10 @@
 #include "reports/sections/topics/topic_text.hpp"
 
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "core/topics/topic.hpp"
@@ -38,6 +43,105 @@ TEST(TopicWords, SayEqualOrLessThanThePrecisionInPlaceOfNoMetres) {
   EXPECT_EQ(regret_words(0.0004).value, "< 0.001\u00a0m");
   EXPECT_EQ(regret_words(0.0012).value, "0.00120 m");
   EXPECT_EQ(regret_words(0.022).words, "worse than");
+}
+
+TopicStudy empty_study(const Topic& topic) {
+  TopicStudy study;
+  study.experiment.topic = topic.name;
+  for (const TopicOption& option : topic.options)
+    study.experiment.options[std::string(option.name)] = option.usual;
+  study.design = topic.design(study.experiment);
+  return study;
+}
+
+/// A study of layouts that have the same means at every level: by the method's id, of one quantity.
+/// Each layout's are a little larger than those of the one before.
+TopicStudy study_of(const Topic& topic, int layouts, const std::string& quantity,
+                    const std::vector<std::pair<std::string, double>>& means) {
+  TopicStudy study = empty_study(topic);
+  for (int layout = 1; layout <= layouts; ++layout) {
+    TopicPart& part = study.parts.emplace_back();
+    part.run = RunId{layout, 1};
+    for (const TopicSetup& setup : study.design.setups)
+      for (const Condition& at : conditions_of(setup))
+        for (const auto& [method, mean] : means)
+          part.outcomes.push_back({.at = at,
+                                   .method = method,
+                                   .values = {{quantity, mean * (1.0 + 0.01 * layout)}},
+                                   .statuses = {}});
+  }
+  return study;
+}
+
+TEST(TopicWords, OfFewLayoutsJudgeNoHeadlineByADifference) {
+  struct Case {
+    const Topic& topic;
+    std::string quantity, better, other;
+  };
+  const std::string few = "too few runs to test the difference, in 2 layouts";
+  for (const Case& one : {Case{kSubmapsTopic, "mpe_m", "parts-smacof-knn", "whole-smacof-knn"},
+                          Case{kReferencesTopic, "mpe_m", "landmark-isomap-K8", "isomap-K8"},
+                          Case{kMixedTopic, "mpe_m", "joint", "bearing"},
+                          Case{kChoiceTopic, "regret_m", "trustworthiness", "fixed"}}) {
+    const auto headline = [&](int layouts, double mean) {
+      return headline_of(
+          study_of(one.topic, layouts, one.quantity, {{one.better, mean}, {one.other, 0.2}}));
+    };
+    const TopicHeadline of_few = headline(2, 0.1);
+    EXPECT_EQ(of_few.verdict, "") << one.topic.name;
+    EXPECT_FALSE(of_few.falls_short) << one.topic.name;
+    EXPECT_TRUE(of_few.detail.ends_with(few) || one.topic.name == "choice") << of_few.detail;
+    EXPECT_EQ(of_few.detail.find("better"), std::string::npos) << of_few.detail;
+    EXPECT_TRUE(headline(5, 0.1).verdict.starts_with("better")) << headline(5, 0.1).verdict;
+    EXPECT_TRUE(headline(5, 0.3).falls_short) << one.topic.name;
+  }
+}
+
+TEST(TopicWords, OfMovedLandmarksNameOthersAtTheSameLevelsAlone) {
+  TopicStudy study = empty_study(kMovedTopic);
+  TopicPart& part = study.parts.emplace_back();
+  const auto add = [&](double by_m, std::map<std::string, double> values) {
+    part.outcomes.push_back({.at = condition("distance", {{"moved_m", by_m}}),
+                             .method = "permutations",
+                             .values = std::move(values),
+                             .statuses = {}});
+  };
+  add(0.0, {{"false_percent", 16.7}});
+  add(0.1, {{"false_percent", 2.0}, {"named_percent", 66.7}, {"step_error", 4.0}});
+  const std::vector<std::string> sentences = conclusions_of(study);
+  ASSERT_EQ(sentences.size(), 2U);
+  EXPECT_NE(sentences[0].find("16.7 %"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[1].find("at 0.1 m the moved landmark is named in 66.7 % of the logs, another "
+                              "one in 2 % at most"),
+            std::string::npos)
+      << sentences[1];
+}
+
+TEST(TopicWords, OfUncertaintyCountTheMeansThatAreAsAimedAt) {
+  const auto sentence = [](double first, double second) {
+    TopicStudy study = study_of(kUncertaintyTopic, 1, "mean_covered_percent",
+                                {{"lpca", first / 1.01}, {"smacof", second / 1.01}});
+    return conclusions_of(study).at(0);
+  };
+  // Two methods at two levels.
+  EXPECT_NE(sentence(98.0, 99.0).find("aimed at are met by none of 4 values."), std::string::npos)
+      << sentence(98.0, 99.0);
+  EXPECT_NE(sentence(95.0, 99.0).find("met by 2 of 4 values."), std::string::npos);
+  EXPECT_NE(sentence(95.0, 96.0).find("met by all of 4 values."), std::string::npos);
+}
+
+TEST(TopicWords, OfFaultsCountTheirSizes) {
+  TopicExperiment experiment = empty_study(kDoubtTopic).experiment;
+  EXPECT_NE(question_of(experiment).find("at 5 sizes."), std::string::npos);
+  experiment.options["sizes_percent"] = {100.0};
+  EXPECT_NE(question_of(experiment).find("at 1 size."), std::string::npos);
+}
+
+TEST(TopicWords, OfReferencesSayFromWhichMapsTheyDiffer) {
+  const TopicStudy study =
+      study_of(kReferencesTopic, 1, "mpe_m", {{"landmark-isomap-K8", 0.1}, {"isomap-K8", 0.1}});
+  EXPECT_NE(conclusions_of(study).at(0).find("differ from those of ISOMAP by"), std::string::npos)
+      << conclusions_of(study).at(0);
 }
 
 TEST(TopicWords, AreNoneOfATopicThatIsNotKnown) {
