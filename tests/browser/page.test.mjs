@@ -532,6 +532,35 @@ test("on a phone the panels of a figure stand below each other, and no figure is
   await close();
 });
 
+const folderOf = (kind) => kinds.find(([name]) => name === kind)?.[1];
+const boots = folderOf("boots"), mrclam = folderOf("mrclam");
+const phone = { viewport: { width: 390, height: 844 } };
+
+test("on a phone each panel keeps the label of its own axis", { skip: !boots }, async () => {
+  const { page, close } = await open(phone, boots);
+  const shown = await figure(page, "fig-1b");
+  await shown.locator(".step-axes").first().waitFor({ state: "attached" });
+  const labels = await shown.locator(".step-axes").evaluateAll((layers) => layers.map(
+    (layer) => [...layer.querySelectorAll("[data-words]")].map((each) => each.dataset.words)));
+  assert.deepEqual(labels, [["error of \u0108", "ranges"], ["error [m]", "ranges"]]);
+  await close();
+});
+
+test("on a phone the main figure keeps its notes, as text below it", { skip: !mrclam }, async () => {
+  const { page, close } = await open(phone, mrclam);
+  const notes = page.locator(".main-figure small");
+  await notes.first().waitFor();
+  assert.match((await notes.allTextContents()).join(" "), /\u26a0 The landmarks are in 2 groups/);
+  assert.ok(await notes.first().evaluate((each) => parseFloat(getComputedStyle(each).fontSize)) >= 10);
+  await close();
+});
+
+test("a phone shows where the head tells how to make it again", async () => {
+  const { page, close } = await open(phone);
+  assert.ok(await page.locator(".made a").isVisible());
+  await close();
+});
+
 test("on a phone a colour bar of a single panel stands below it, and no longer beside it", async () => {
   const { page, errors, close } = await open({ viewport: { width: 390, height: 844 } });
   const found = await page.evaluate(() => {
