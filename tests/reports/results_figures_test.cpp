@@ -292,6 +292,22 @@ TEST(ResultsFigures, OfRanksNeedAsManyGroupsAsAnInterval) {
   EXPECT_TRUE(has_ranks("abcde"));
 }
 
+TEST(ResultsFigures, ManyLinesMayLackValuesAtALevel) {
+  Rows rows;
+  for (const char* run : {"a", "b", "c", "d", "e"})
+    for (const char* method : {"m", "n", "o", "p", "q", "r", "s"}) {
+      rows.add(method, run, method[0] < 'p' ? 1.0 : 2.0, {{"steps", 100.0}});
+      if (method[0] < 'r') rows.add(method, run, 3.0, {{"steps", 200.0}});
+    }
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const StudyFigures figures = results_figures(view, {});
+  std::vector<std::string> labels;
+  for (const Layer& layer : figures.groups.at(0).figures.at(0).panels.at(0).layers)
+    if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
+  EXPECT_EQ(labels, (std::vector<std::string>{"m and 2 others", "p and q", "r and s"}));
+}
+
 TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
   Rows rows;
   for (const char* run : {"a", "b", "c", "d", "e"})

@@ -118,13 +118,16 @@ std::vector<ErrorLine> drawn(Curves curves) {
   return std::move(curves.lines);
 }
 
+/// Whether both are known and equal, or neither is known.
+bool are_same_means(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 /// Joins curves that are the same to one, in the style of the first: drawn each, the last would
 /// hide the others.
 void join_same(Curves& curves) {
   std::vector<ErrorLine> apart;
   for (const ErrorLine& first : curves.lines) {
     const auto is_same = [&](const ErrorLine& one) {
-      return one.x == first.x && one.mean == first.mean;
+      return one.x == first.x && std::ranges::equal(one.mean, first.mean, are_same_means);
     };
     if (std::ranges::any_of(apart, is_same)) continue;
     std::vector<std::string> labels, others;
