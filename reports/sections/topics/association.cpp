@@ -57,12 +57,18 @@ TopicHeadline association_headline(const TopicStudy& study) {
     const double given = topic_mean(study, at, "given", "mpe_m");
     const double estimated = topic_mean(study, at, "estimated", "mpe_m");
     if (level == 0.0 || std::isnan(given + estimated)) continue;
-    return {
-        fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
-        fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
-        fmt::format("MPE {}; {} with the IDs as given", error_text(estimated), error_text(given)),
-        estimated < given ? "a better map than without" : "no better map than without",
-        estimated >= given};
+    TopicHeadline headline{
+        .value =
+            fmt::format("{:.0f}\u00a0%", topic_mean(study, at, "estimated", "correct_percent")),
+        .label = fmt::format("of landmark IDs corrected, where {:g}\u00a0% are wrong", level),
+        .detail = fmt::format("MPE {}; {} with the IDs as given", error_text(estimated),
+                              error_text(given))};
+    const auto difference = topic_difference(study, at, "estimated", "given", "mpe_m");
+    if (!difference || has_few_layouts(*difference)) return headline;
+    const bool is_better = is_apart_from_0(*difference) && difference->mean < 0.0;
+    headline.verdict = is_better ? "a better map than without" : "no significantly better map";
+    headline.falls_short = !is_better;
+    return headline;
   }
   return {};
 }
