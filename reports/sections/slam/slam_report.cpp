@@ -636,7 +636,7 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   if (!missing.empty())
     opening.findings.push_back(
         {{strong("Data missing"),
-          phrase(fmt::format(": {}, and with them {}.", missing, lacks_words(study)))}});
+          phrase(fmt::format(": {}, and so is {}.", missing, lacks_words(study)))}});
   if (is_of_paper(study))
     opening.findings.push_back(
         {{strong("Compared with"),
