@@ -65,9 +65,9 @@ TopicHeadline association_headline(const TopicStudy& study) {
                               error_text(given))};
     const auto difference = topic_difference(study, at, "estimated", "given", "mpe_m");
     if (!difference || has_few_layouts(*difference)) return headline;
-    const bool is_better = is_apart_from_0(*difference) && difference->mean < 0.0;
-    headline.verdict = is_better ? "a better map than without" : "no significantly better map";
-    headline.falls_short = !is_better;
+    headline.falls_short = !is_better(*difference);
+    headline.verdict =
+        headline.falls_short ? "no significantly better map" : "a better map than without";
     return headline;
   }
   return {};

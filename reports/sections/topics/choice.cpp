@@ -100,10 +100,10 @@ TopicHeadline choice_headline(const TopicStudy& study) {
     headline.detail += "; a fixed method: " + fixed;
     return headline;
   }
-  const bool is_better = is_apart_from_0(*difference) && difference->mean < 0.0;
-  headline.verdict = fmt::format("{} than a fixed method, {}",
-                                 is_better ? "better" : "not significantly better", fixed);
-  headline.falls_short = !is_better;
+  headline.falls_short = !is_better(*difference);
+  headline.verdict =
+      fmt::format("{} than a fixed method, {}",
+                  headline.falls_short ? "not significantly better" : "better", fixed);
   return headline;
 }
 

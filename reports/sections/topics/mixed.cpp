@@ -123,11 +123,11 @@ TopicHeadline mixed_headline(const TopicStudy& study) {
       if (difference) headline.detail += "; " + verdict_words(*difference);
       return headline;
     }
-    const bool is_apart = is_apart_from_0(*difference);
+    headline.falls_short = !is_better(*difference);
     headline.verdict = fmt::format(
-        "{} than {}, {}", is_apart ? verdict_words(*difference) : "not significantly better", alone,
-        error_text(single.mean_m));
-    headline.falls_short = !is_apart || difference->mean > 0.0;
+        "{} than {}, {}",
+        is_apart_from_0(*difference) ? verdict_words(*difference) : "not significantly better",
+        alone, error_text(single.mean_m));
     return headline;
   }
   return {};

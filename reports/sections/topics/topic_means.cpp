@@ -131,6 +131,10 @@ bool is_apart_from_0(const MeanEstimate& difference) {
          std::abs(difference.mean) > *difference.half_width;
 }
 
+bool is_better(const MeanEstimate& difference) {
+  return is_apart_from_0(difference) && difference.mean < 0.0;
+}
+
 std::string verdict_words(const MeanEstimate& difference) {
   if (has_few_layouts(difference))
     return fmt::format("too few runs to test the difference, in {}",

@@ -67,6 +67,9 @@ bool has_few_layouts(const MeanEstimate& difference);
 /// Whether the interval of a difference leaves 0 out, over as many layouts as one needs.
 bool is_apart_from_0(const MeanEstimate& difference);
 
+/// Whether that interval is below 0, of a quantity that is better if lower.
+bool is_better(const MeanEstimate& difference);
+
 /// "better", "worse" or "not significantly different", of a quantity that is better if lower; of
 /// too few layouts for an interval "too few runs to test the difference, in 2 layouts".
 std::string verdict_words(const MeanEstimate& difference);
