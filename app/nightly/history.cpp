@@ -110,7 +110,7 @@ void add_settings(HistoryStore& history, std::vector<NightlyNote>& notes) {
       trends.push_back(
           history.trend(study.name, study.experiment_digest, kTrendRuns, note.nightly_run));
     const std::vector<NightlyFinding> findings = history.findings(note.nightly_run);
-    for (const FindingGroup& group : grouped(findings, trends, {}))
+    for (const FindingGroup& group : grouped(note.nightly_run, findings, trends, {}))
       if (std::ranges::find(group.numbers, note.finding) != group.numbers.end())
         for (const int number : group.numbers)
           if (number != note.finding) {

@@ -55,7 +55,7 @@ std::vector<NightlySummary> last_summaries(const IndexFacts& facts) {
     NightlySummary summary{.facts = nightly_run,
                            .notes = notes_on(nightly_run.number, facts.notes)};
     if (found != facts.findings.end())
-      summary.groups = grouped(found->second, facts.trends, facts.notes);
+      summary.groups = grouped(nightly_run.number, found->second, facts.trends, facts.notes);
     summaries.push_back(std::move(summary));
   }
   return summaries;

@@ -188,7 +188,8 @@ class ReportWriter {
         invocation_(invocation),
         lost_(history.nightly_runs().empty() ? lost_nightly_runs(outputs.store, {})
                                              : LostNightlyRuns{}),
-        groups_(grouped(nightly_run.findings, trends_with(history, nightly_run), history.notes())),
+        groups_(grouped(nightly_run.facts.number, nightly_run.findings,
+                        trends_with(history, nightly_run), history.notes())),
         plan_(planned_comparisons(groups_, outputs)) {}
 
   const std::vector<PlannedComparison>& plan() const { return plan_; }

@@ -102,7 +102,7 @@ std::vector<FindingGroup> groups_between(const IndexFacts& facts, int before, in
   const auto found = facts.findings.find(after);
   const auto nightly_run = std::ranges::find(facts.nightly_runs, after, &NightlyFacts::number);
   if (found == facts.findings.end() || nightly_run == facts.nightly_runs.end()) return {};
-  std::vector<FindingGroup> groups = grouped(found->second, facts.trends, facts.notes);
+  std::vector<FindingGroup> groups = grouped(after, found->second, facts.trends, facts.notes);
   if (nightly_run->reference != before)
     std::erase_if(groups, [&](const FindingGroup& group) {
       return group.commits.before.number != before || group.commits.since.number != after;

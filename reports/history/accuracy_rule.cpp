@@ -310,7 +310,9 @@ NightlyFinding finding_of(const Comparison& comparison, const PairedChange& chan
           .sentence = fmt::format(
               "{}: {} {} than in nightly run {}{}; median {} → {}{}; {}", comparison.shown,
               quantity.label, worse_words(quantity, change.shift), evidence.reference->nightly_run,
-              equal ? " in each of " + units : ", " + interval_words(quantity, change),
+              equal ? " in each of " + units
+                    : fmt::format(" in pairs of {}s, {}", comparison.unit,
+                                  interval_words(quantity, change)),
               significant(comparison.before), quantity_text(comparison.after, quantity.unit),
               comparison.has_steps ? " at the last step" : "", test),
           .change = change_of(quantity, change.shift)};

@@ -24,6 +24,7 @@ namespace {
 
 constexpr std::size_t kShownDigits = 9;
 constexpr double kMostPercent = 1e6;  ///< More is shown as this.
+constexpr double kLeastAmount = 0.005;  ///< Less is shown as 0.
 
 /// The series that a finding is about; null if it is about others, or is not there any more.
 const SeriesId* series_of(const NightlyFinding& finding, const StudyTrend& trend) {
@@ -62,19 +63,57 @@ FindingSetting setting_of(const StudyLabels& labels, const std::string& method,
   return setting;
 }
 
-/// The medians at the last step of what a finding on accuracy is about, by nightly run; empty of
-/// one that is about several steps.
-std::map<int, double> medians_of(const NightlyFinding& finding, const StudyTrend& trend) {
-  const std::pair<const SeriesId, std::vector<double>>* last = nullptr;
-  for (const auto& series : trend.medians)
-    if (is_about(finding, series.first)) last = &series;
-  std::map<int, double> medians;
-  if (finding.rule != HistoryRule::kAccuracy || last == nullptr ||
-      (finding.subject != subject_of(last->first) && finding.subject != method_of(last->first)))
-    return medians;
-  for (std::size_t i = 0; i < trend.nightly_runs.size(); ++i)
-    medians[trend.nightly_runs[i].number] = last->second[i];
+/// The last step of what a finding is about; null if it is about no series that is there.
+const SeriesId* last_step_of(const NightlyFinding& finding, const StudyTrend& trend) {
+  const SeriesId* last = nullptr;  // Series ascend by step.
+  for (const auto& [id, values] : trend.medians)
+    if (is_about(finding, id)) last = &id;
+  return last;
+}
+
+/// The nightly run that changes up to `last` are shown against: see base_index().
+std::size_t base_before(const StudyTrend& trend, const NightlyFacts& last,
+                        std::span<const NightlyFinding> findings) {
+  int base = last.reference.value_or(0);
+  for (const NightlyFinding& finding : findings)
+    if (finding.study == trend.name && finding.since <= base)
+      base = commits_of(trend, finding.since).before.number;
+  const auto found = std::ranges::find(trend.nightly_runs, base, &NightlyFacts::number);
+  return found == trend.nightly_runs.end()
+             ? 0
+             : static_cast<std::size_t>(found - trend.nightly_runs.begin());
+}
+
+/// The medians of what a finding by rule kAccuracy is about; nothing where one is not known, or the
+/// nightly run was not compared.
+std::optional<MedianPair> medians_of(const NightlyFinding& finding, const SeriesId& series,
+                                     const StudyTrend& trend, int nightly_run,
+                                     std::span<const NightlyFinding> findings) {
+  const auto last = std::ranges::find(trend.nightly_runs, nightly_run, &NightlyFacts::number);
+  if (finding.rule != HistoryRule::kAccuracy || last == trend.nightly_runs.end() ||
+      !last->reference)
+    return std::nullopt;
+  const std::vector<double>& values = trend.medians.at(series);
+  const MedianPair medians{values[base_before(trend, *last, findings)],
+                           values[static_cast<std::size_t>(last - trend.nightly_runs.begin())]};
+  if (!std::isfinite(medians.before) || !std::isfinite(medians.after)) return std::nullopt;
   return medians;
+}
+
+/// Shows the change of the median in place of the rule's estimate, where the finding has medians.
+void show_median(const NightlyFinding& finding, const StudyTrend& trend, int nightly_run,
+                 std::span<const NightlyFinding> findings, FindingGroup& group) {
+  const SeriesId* series = last_step_of(finding, trend);
+  if (series == nullptr || finding.subject == kAllMethods) return;
+  group.over_steps = finding.rule == HistoryRule::kAccuracy &&
+                     finding.subject != subject_of(*series) &&
+                     finding.subject != method_of(*series);
+  if (group.over_steps) return;
+  group.medians = medians_of(finding, *series, trend, nightly_run, findings);
+  if (!group.medians) return;
+  const double change = median_change(trend.quantities.at(series->quantity), group.medians->before,
+                                      group.medians->after);
+  if (std::isfinite(change)) group.changes = {change};
 }
 
 /// One finding as a group.
@@ -92,6 +131,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   if (const Quantity* quantity = trend->quantities.find(finding.quantity)) {
     group.quantity = quantity->label;
     group.in_points = quantity->nightly == NightlyRule::kPoints;
+    group.higher_is_better = quantity->better == Better::kHigher;
     group.is_time = is_time_unit(quantity->unit);
     group.unit = quantity->unit;
   }
@@ -101,7 +141,6 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
   const std::string shown = shown_method(trend->labels, series->method);
   group.lines.push_back(shown);
   group.series.push_back(*series);
-  group.medians = medians_of(finding, *trend);
   group.method = shown_method(trend->labels, base_method(trend->labels, series->method));
   if (shown.starts_with(group.method + ", "))
     group.settings.push_back(
@@ -115,7 +154,7 @@ FindingGroup group_of(const NightlyFinding& finding, const StudyTrend* trend) {
 bool is_same(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const FindingGroup& group) {
     return std::tie(group.study, group.rule, group.setup, group.family, group.quantity_id,
-                    group.commits.since.number);
+                    group.commits.since.number, group.over_steps);
   };
   const bool both_known = a.known.has_value() == b.known.has_value();
   return both_known && key(a) == key(b) && (!a.known || a.known->text == b.known->text) &&
@@ -283,11 +322,16 @@ std::string commit_url(const std::string& repository, const std::string& commit)
 
 std::string FindingGroup::change_text() const {
   if (rule == HistoryRule::kLostResults) return quantity + ": results are lost";
-  if (changes.empty()) return quantity + " got worse";
+  const std::string subject = over_steps ? quantity + " over all steps" : quantity;
+  if (changes.empty()) return subject + " got worse";
   const auto [least, most] = std::ranges::minmax(changes);
   const std::string low = amount(least), high = amount(most);
-  return fmt::format("{} {}\u00a0{}", quantity, low == high ? low : low + " to " + high,
-                     in_points ? "points" : "%");
+  const std::string change = fmt::format("{}\u00a0{}", low == high ? low : low + " to " + high,
+                                         in_points ? "points" : "%");
+  const double worsening = higher_is_better ? -least : most;
+  return worsening >= kLeastAmount
+             ? subject + " " + change
+             : fmt::format("{} got worse in pairs of runs, its median {}", subject, change);
 }
 
 std::string FindingGroup::change_of_settings() const {
@@ -296,14 +340,10 @@ std::string FindingGroup::change_of_settings() const {
 
 std::string FindingGroup::headline() const { return method + ": " + change_of_settings(); }
 
-std::string FindingGroup::values_text(const NightlyFacts& nightly_run) const {
-  const auto before = medians.find(nightly_run.reference.value_or(0)),
-             after = medians.find(nightly_run.number);
-  if (numbers.size() > 1 || before == medians.end() || after == medians.end() ||
-      !std::isfinite(before->second) || !std::isfinite(after->second))
-    return "";
-  return fmt::format("median {} → {}", significant(before->second),
-                     quantity_text(after->second, unit));
+std::string FindingGroup::values_text() const {
+  if (numbers.size() > 1 || !medians) return "";
+  return fmt::format("median {} → {}", significant(medians->before),
+                     quantity_text(medians->after, unit));
 }
 
 std::string FindingGroup::count_text() const {
@@ -317,13 +357,14 @@ std::size_t count_findings(std::span<const FindingGroup> groups, bool known) {
   return count;
 }
 
-std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
+std::vector<FindingGroup> grouped(int nightly_run, std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,
                                   std::span<const NightlyNote> notes) {
   std::vector<FindingGroup> groups;
   for (std::size_t i = 0; i < findings.size(); ++i) {
     const auto trend = std::ranges::find(trends, findings[i].study, &StudyTrend::name);
     FindingGroup group = group_of(findings[i], trend == trends.end() ? nullptr : &*trend);
+    if (trend != trends.end()) show_median(findings[i], *trend, nightly_run, findings, group);
     group.numbers.push_back(static_cast<int>(i) + 1);
     if (group.commits.since.number == 0) group.commits.since.number = findings[i].since;
     if (const NightlyNote* known = known_by(notes, findings[i])) group.known = *known;
@@ -347,14 +388,7 @@ std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
 }
 
 std::size_t base_index(const StudyTrend& trend, std::span<const NightlyFinding> findings) {
-  int base = trend.nightly_runs.back().reference.value_or(0);
-  for (const NightlyFinding& finding : findings)
-    if (finding.study == trend.name && finding.since <= base)
-      base = commits_of(trend, finding.since).before.number;
-  const auto found = std::ranges::find(trend.nightly_runs, base, &NightlyFacts::number);
-  return found == trend.nightly_runs.end()
-             ? 0
-             : static_cast<std::size_t>(found - trend.nightly_runs.begin());
+  return base_before(trend, trend.nightly_runs.back(), findings);
 }
 
 std::string local_time(const NightlyFacts& nightly_run) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -57,6 +56,11 @@ struct FindingSetting {
   std::vector<ShownLevel> levels = {};
 };
 
+/// The medians at the last step in the nightly run that changes are shown against and in this one.
+struct MedianPair {
+  double before = 0.0, after = 0.0;
+};
+
 /// Findings of one nightly run on the settings of one method: by the same rule, of the same
 /// quantity, begun in the same nightly run.
 struct FindingGroup {
@@ -68,36 +72,42 @@ struct FindingGroup {
   std::vector<FindingSetting> settings = {};  ///< None: the method has none.
   std::string quantity = {};               ///< Its label.
   std::string quantity_id = {};
-  std::vector<double> changes = {};  ///< NightlyFinding::change, those that are known.
+  /// Of each finding that has one: by rule kAccuracy the change of the median at the last step, as
+  /// figures and tables show it; else NightlyFinding::change.
+  std::vector<double> changes = {};
   bool in_points = false;            ///< The changes are in points rather than in percent.
+  bool higher_is_better = false;     ///< A change for the worse is below 0.
+  bool over_steps = false;           ///< The findings are about the mean over the steps.
   bool is_time = false;              ///< The quantity is a time, which a study declares itself.
   std::vector<int> numbers = {};     ///< Index of each finding in its nightly run, from 1.
   std::vector<std::string> sentences = {};
   std::vector<std::string> lines =
       {};  ///< Each as trend figures and tables call it: "ISOMAP, K = 6".
   std::vector<SeriesId> series = {};      ///< The first step of each that the findings are about.
-  std::map<int, double> medians = {};  ///< Of the first finding at the last step, by nightly run.
+  std::optional<MedianPair> medians = {};  ///< Of the first finding by rule kAccuracy.
   std::string unit = {};               ///< Of the medians.
   std::optional<NightlyNote> known = {};  ///< By which all of them are known.
   CommitRange commits = {};
 
-  /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost".
+  /// "MPE +17.6 %", "seconds +12.0 to +14.1 %", "results are lost"; of an error that got worse in
+  /// pairs of runs alone "MPE got worse in pairs of runs, its median −0.3 %".
   std::string change_text() const;
   /// "MPE +17.6 % (K = 6 and 8)".
   std::string change_of_settings() const;
   /// "ISOMAP: MPE +17.6 % (K = 6 and 8)".
   std::string headline() const;
-  /// "median 0.0857 → 0.0985 m": in the reference run and in this one, of a single finding on
-  /// accuracy at the last step; else empty.
-  std::string values_text(const NightlyFacts& nightly_run) const;
+  /// "median 0.0857 → 0.0985 m" of a single finding that has medians; else empty.
+  std::string values_text() const;
   /// "2 findings"; empty for one.
   std::string count_text() const;
 };
 
 /// The findings of a nightly run in groups: those that are new first, times behind what else a
 /// study measures, else in their order.
+/// @param nightly_run  The number of that nightly run.
+/// @param findings  All of that nightly run: they determine what changes are shown against.
 /// @param trends  Of the studies; findings of a study without one have no method and no commits.
-std::vector<FindingGroup> grouped(std::span<const NightlyFinding> findings,
+std::vector<FindingGroup> grouped(int nightly_run, std::span<const NightlyFinding> findings,
                                   std::span<const StudyTrend> trends,
                                   std::span<const NightlyNote> notes);
 

@@ -111,6 +111,14 @@ double known_median(const std::vector<RunValue>& values) {
   return known.empty() ? kNaN : median(known);
 }
 
+double percent_change(double before, double after) {
+  return before > 0.0 ? 100.0 * (after / before - 1.0) : kNaN;
+}
+
+double median_change(const Quantity& quantity, double before, double after) {
+  return quantity.nightly == NightlyRule::kPoints ? after - before : percent_change(before, after);
+}
+
 double level_of(const Quantity& quantity, const std::vector<RunValue>& values) {
   constexpr double kLeastError = 1e-9;
   const bool ratio = quantity.nightly == NightlyRule::kRatio;

@@ -103,8 +103,9 @@ struct NightlyFinding {
   std::string quantity = {};  ///< Quantity::id, or "memory".
   int since = 0;              ///< The nightly run in which it began, as far as can be determined.
   std::string sentence = {};  ///< With numbers.
-  /// By how much the value changed: in percent of what it was, or in points of a quantity that is
-  /// judged by points. Its sign is that of the value's change. Empty: results are lost.
+  /// By how much the value changed as the rule estimates it (pages show the change of the median
+  /// where they can, see FindingGroup): in percent of what it was, or in points of a quantity that
+  /// is judged by points. Its sign is that of the value's change. Empty: results are lost.
   std::optional<double> change = {};
 };
 
@@ -165,6 +166,13 @@ struct StudyTrend {
 
 /// The median of the values that are not NaN; NaN without any.
 double known_median(const std::vector<RunValue>& values);
+
+/// By how much a value changed, in percent of what it was; NaN of what was 0 or less.
+double percent_change(double before, double after);
+
+/// By how much the median of a quantity changed, as figures, tables and words of pages show it: in
+/// percent, or as a difference of what is judged by points.
+double median_change(const Quantity& quantity, double before, double after);
 
 /// The mean over the runs of the logarithm of a quantity that is judged by ratio, 1e-9 for less;
 /// of any other its mean; of a quantity that is better if higher, the negative of these. Runs

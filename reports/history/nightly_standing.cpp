@@ -26,12 +26,10 @@ std::string share_words(std::size_t own, std::size_t all) {
 
 /// What, by how much, since when, and how to list the commits.
 /// @param all  New findings in all.
-std::string sentence_of(const FindingGroup& group, const NightlyFacts& nightly_run,
-                        std::size_t all) {
+std::string sentence_of(const FindingGroup& group, std::size_t all) {
   std::string text = group.setup.empty() ? "" : group.setup + ", ";
   text += group.headline();
-  if (const std::string values = group.values_text(nightly_run); !values.empty())
-    text += " (" + values + ")";
+  if (const std::string values = group.values_text(); !values.empty()) text += " (" + values + ")";
   const std::string count =
       group.known ? group.count_text() : share_words(group.numbers.size(), all);
   if (!count.empty()) text += " (" + count + ")";
@@ -41,14 +39,14 @@ std::string sentence_of(const FindingGroup& group, const NightlyFacts& nightly_r
 }
 
 /// @param before  Put before each sentence.
-void add_findings(std::span<const FindingGroup> groups, const NightlyFacts& nightly_run,
-                  const std::string& study, const std::string& before, Standing& standing) {
+void add_findings(std::span<const FindingGroup> groups, const std::string& study,
+                  const std::string& before, Standing& standing) {
   std::size_t count = 0, more = 0;
   const std::size_t all = count_findings(groups, false);
   for (const FindingGroup& group : groups) {
     if (group.study != study) continue;
     if (++count <= kMostReported)
-      standing.sentences.push_back(before + sentence_of(group, nightly_run, all));
+      standing.sentences.push_back(before + sentence_of(group, all));
     else
       more += group.numbers.size();
   }
@@ -74,7 +72,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
   std::vector<FindingGroup> of_study;
   std::ranges::copy_if(groups, std::back_inserter(of_study),
                        [&](const FindingGroup& group) { return group.study == study; });
-  add_findings(of_study, nightly_run, study, "", result);
+  add_findings(of_study, study, "", result);
   result.worse = count_findings(of_study, false) > 0;
   NightlyFacts facts = nightly_run;
   if (!is_compared) facts.reference.reset();
@@ -87,7 +85,7 @@ Standing study_standing(const NightlyFacts& nightly_run, std::span<const Finding
 Standing nightly_standing(const NightlySummary& summary) {
   Standing result;
   for (const std::string& study : studies_of(summary.groups))
-    add_findings(summary.groups, summary.facts, study, study + ": ", result);
+    add_findings(summary.groups, study, study + ": ", result);
   result.worse = summary.new_findings() > 0;
   result.title = summary.title();
   return result;

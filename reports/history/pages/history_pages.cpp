@@ -45,8 +45,7 @@ Paragraph ways(std::vector<Phrase> to, const std::optional<Phrase>& reference) {
 
 /// What got worse in one group, and where to find it.
 /// @param to  Links to pages on it.
-FindingBlock finding_block(const FindingGroup& group, const NightlyFacts& nightly_run,
-                           std::vector<Phrase> to, NightlyLinks& links) {
+FindingBlock finding_block(const FindingGroup& group, std::vector<Phrase> to, NightlyLinks& links) {
   const CommitRange& commits = group.commits;
   FindingBlock block;
   block.title = group.headline();
@@ -60,7 +59,7 @@ FindingBlock finding_block(const FindingGroup& group, const NightlyFacts& nightl
   if (!group.setup.empty()) phrases.push_back({", " + group.setup});
   if (const std::string count = group.count_text(); !count.empty())
     phrases.push_back({", " + count});
-  if (const std::string values = group.values_text(nightly_run); !values.empty())
+  if (const std::string values = group.values_text(); !values.empty())
     phrases.push_back({", " + values});
   phrases.push_back({", " + commits.dated_words()});
   if (commits.has_commits()) {
@@ -195,7 +194,7 @@ std::optional<Section> worse_section(const IndexFacts& facts, const NightlySumma
       to.push_back(links.comparison(before, since, group.study));
     to.push_back(links.trends(group.study));
     to.push_back(links.report(summary.facts.number, group.study));
-    FindingBlock block = finding_block(group, summary.facts, std::move(to), links);
+    FindingBlock block = finding_block(group, std::move(to), links);
     if (!block.known) block.keys = keys_of(group, summary.facts.number);
     for (const NightlyNote& note : summary.notes)
       if (note.kind == NoteKind::kNote && is_on(note, group)) {
@@ -274,7 +273,7 @@ NightlySummary last_summary(const IndexFacts& facts) {
   if (facts.nightly_runs.empty()) return summary;
   summary.facts = facts.nightly_runs.back();
   const auto found = found_on(summary.facts.number, facts.findings);
-  summary.groups = grouped(found, facts.trends, facts.notes);
+  summary.groups = grouped(summary.facts.number, found, facts.trends, facts.notes);
   summary.trends = facts.trends;
   summary.remarks = facts.remarks;
   summary.notes = notes_on(summary.facts.number, facts.notes);
@@ -375,7 +374,7 @@ HistoryPage trend_page(const StudyTrend& trend, const NightlyFindings& findings,
       fmt::format("Nightly runs {} to {}, the last one: {}", trend.nightly_runs.front().number,
                   this_run.number, dated_name(this_run));
   const std::vector<FindingGroup> groups =
-      grouped(found_on(this_run.number, findings), std::span(&trend, 1), notes);
+      grouped(this_run.number, found_on(this_run.number, findings), std::span(&trend, 1), notes);
   page.report.opening.standing = study_standing(this_run, groups, trend.name, is_compared);
   std::optional<Phrase> reference;
   if (is_compared && this_run.reference) reference = links.report(*this_run.reference, trend.name);
@@ -449,8 +448,7 @@ Section worse_of_study(const StudyOfNightlyRun& study, NightlyLinks& links) {
     if (study.comparisons.contains(comparison_file(before, since, group.study)))
       to.push_back(links.comparison(before, since, group.study));
     to.push_back(links.trends(group.study));
-    section.blocks.emplace_back(
-        finding_block(group, study.nightly_run.facts, std::move(to), links));
+    section.blocks.emplace_back(finding_block(group, std::move(to), links));
   }
   add_rest(count, section);
   return section;

@@ -192,7 +192,8 @@ Table findings_table(const NightlyFindings& findings, const std::string& study) 
 
 Table accuracy_table(const StudyTrend& trend, std::span<const NightlyFinding> found) {
   const std::vector<SeriesId> shown = last_steps(trend);
-  const std::vector<FindingGroup> groups = grouped(found, std::span(&trend, 1), {});
+  const std::vector<FindingGroup> groups =
+      grouped(trend.nightly_runs.back().number, found, std::span(&trend, 1), {});
   const std::size_t base = base_index(trend, found);
   const bool has_before = base + 1 < trend.nightly_runs.size();
   const bool has_steps = std::ranges::any_of(shown, [](const SeriesId& id) { return id.step > 0; });

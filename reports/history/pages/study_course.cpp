@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/not_finite.hpp"
 #include "core/base/text/words.hpp"
-#include "reports/history/accuracy_rule.hpp"
 #include "reports/history/regression_rules.hpp"
 #include "reports/history/shown_names.hpp"
 #include "reports/model/format.hpp"
@@ -41,28 +43,31 @@ constexpr int kDecimals = 1;  ///< Of a change, in percent or in points.
 /// The least change that is shown as one: half of its last digit.
 double least_shown() { return 0.5 * std::pow(10.0, -kDecimals); }
 
-/// By how much a quantity changed between two levels (see level_of()): in percent, or in points of
-/// what is judged by points. The sign is that of the change of its values.
-double change_between(const Quantity& quantity, double before, double after) {
-  return quantity.nightly == NightlyRule::kDuration ? 100.0 * (after / before - 1.0)
-                                                    : change_of(quantity, after - before);
-}
-
-/// The same over the nightly runs, above zero where it is worse.
-std::vector<double> changes_of(const Quantity& quantity, const std::vector<double>& levels,
+/// The changes of the medians over the nightly runs, above zero where they are for the worse.
+std::vector<double> changes_of(const Quantity& quantity, const std::vector<double>& medians,
                                std::size_t from) {
   const double sign = quantity.better == Better::kHigher ? -1.0 : 1.0;
   std::vector<double> changes;
-  for (const double level : levels)
-    changes.push_back(sign * change_between(quantity, levels[from], level));
+  for (const double median : medians)
+    changes.push_back(sign * median_change(quantity, medians[from], median));
   return changes;
+}
+
+/// The last step of each method and quantity.
+std::vector<SeriesId> last_steps_of(const StudyTrend& trend) {
+  std::map<std::tuple<std::string, std::string, std::string>, SeriesId> last;
+  for (const auto& [id, values] : trend.medians)  // Series ascend by step.
+    last[{id.sensor, id.method, id.quantity}] = id;
+  std::vector<SeriesId> ids;
+  for (auto& [key, id] : last) ids.push_back(std::move(id));
+  return ids;
 }
 
 /// The course of a series, red where a finding is about it.
 ChangeCurve curve_of(const StudyTrend& trend, const SeriesId& id, std::size_t from,
                      const std::vector<std::vector<NightlyFinding>>& findings) {
   const Quantity& quantity = trend.quantities.at(id.quantity);
-  ChangeCurve curve{.changes = changes_of(quantity, trend.levels.at(id), from),
+  ChangeCurve curve{.changes = changes_of(quantity, trend.medians.at(id), from),
                     .least = least_of(is_by_points(quantity))};
   for (const auto& found : findings)
     curve.is_found.push_back(std::ranges::any_of(
@@ -70,19 +75,20 @@ ChangeCurve curve_of(const StudyTrend& trend, const SeriesId& id, std::size_t fr
   return curve;
 }
 
-/// The series that a finding is about and whose change is nearest to its own; null if it is about
-/// none that is still there.
-const SeriesId* series_of(const NightlyFinding& finding, const StudyTrend& trend,
-                          std::size_t from) {
-  const SeriesId* nearest = nullptr;
+/// The series at its last step that a finding is about, of several the one whose change is nearest
+/// to its own; nothing if it is about none that is still there.
+std::optional<SeriesId> series_of(const NightlyFinding& finding, const StudyTrend& trend,
+                                  std::size_t from) {
+  std::optional<SeriesId> nearest;
   double least = kInfinity;
-  for (const auto& [id, levels] : trend.levels) {
+  for (const SeriesId& id : last_steps_of(trend)) {
+    const std::vector<double>& medians = trend.medians.at(id);
     const double change =
-        change_between(trend.quantities.at(id.quantity), levels[from], levels.back());
+        median_change(trend.quantities.at(id.quantity), medians[from], medians.back());
     const double distance = std::abs(change - finding.change.value_or(change));
     if (!is_about(finding, id) || !std::isfinite(distance) || distance > least) continue;
     least = distance;
-    nearest = &id;
+    nearest = id;
   }
   return nearest;
 }
@@ -91,7 +97,7 @@ ChangeCurve memory_curve(const StudyTrend& trend, std::size_t from,
                          const std::vector<std::vector<NightlyFinding>>& findings) {
   ChangeCurve curve;
   for (const double mib : trend.peak_memory_mib)
-    curve.changes.push_back(100.0 * (mib / trend.peak_memory_mib[from] - 1.0));
+    curve.changes.push_back(percent_change(trend.peak_memory_mib[from], mib));
   for (const auto& found : findings)
     curve.is_found.push_back(std::ranges::any_of(
         found, [](const NightlyFinding& finding) { return finding.rule == HistoryRule::kMemory; }));
@@ -106,10 +112,10 @@ double size_of(const FindingGroup& group) {
 }
 
 /// "MPE +17.6 %" of a change of a series.
-std::string change_words(const StudyTrend& trend, const SeriesId& id, double worsening) {
+std::string change_words(const StudyTrend& trend, const SeriesId& id, double change) {
   const Quantity& quantity = trend.quantities.at(id.quantity);
   return fmt::format("{}: {} {}\u00a0{}", shown_method_of(trend.labels, id), quantity.label,
-                     format_number(change_of(quantity, worsening), kDecimals, true),
+                     format_number(change, kDecimals, true),
                      is_by_points(quantity) ? "points" : "%");
 }
 
@@ -125,22 +131,24 @@ std::optional<Course> greatest_course(const StudyTrend& trend, const NightlyFind
                                       double sign, Shown shown) {
   const auto found = findings_of(trend, findings);
   const std::size_t from = base_index(trend, found.back());
-  const SeriesId* greatest = nullptr;
+  std::optional<SeriesId> greatest;
   double most = 0.0;
-  for (const auto& [id, levels] : trend.levels) {
-    if (!is_accuracy(rule_of(id, trend.quantities, trend.levels))) continue;
+  for (const SeriesId& id : last_steps_of(trend)) {
+    if (!is_accuracy(rule_of(id, trend.quantities, trend.medians))) continue;
     const Quantity& quantity = trend.quantities.at(id.quantity);
-    const double change = sign * changes_of(quantity, levels, from).back();
+    const double change = sign * changes_of(quantity, trend.medians.at(id), from).back();
     const double least = least_of(is_by_points(quantity)), size = change / least;
     const bool is_shown = change >= (shown == Shown::kAll ? least_shown() : least);
     if (!std::isfinite(size) || !is_shown || size < most) continue;
     most = size;
-    greatest = &id;
+    greatest = id;
   }
-  if (greatest == nullptr) return std::nullopt;
-  const std::vector<double>& levels = trend.levels.at(*greatest);
-  return Course{change_words(trend, *greatest, levels.back() - levels[from]),
-                curve_of(trend, *greatest, from, found)};
+  if (!greatest) return std::nullopt;
+  const std::vector<double>& medians = trend.medians.at(*greatest);
+  const Quantity& quantity = trend.quantities.at(greatest->quantity);
+  return Course{
+      change_words(trend, *greatest, median_change(quantity, medians[from], medians.back())),
+      curve_of(trend, *greatest, from, found)};
 }
 
 }  // namespace
@@ -149,7 +157,8 @@ std::optional<Course> worst_course(const StudyTrend& trend, const NightlyFinding
                                    std::span<const NightlyNote> notes) {
   const auto found = findings_of(trend, findings);
   const std::vector<NightlyFinding>& last = found.back();
-  const std::vector<FindingGroup> groups = grouped(last, std::span(&trend, 1), notes);
+  const std::vector<FindingGroup> groups =
+      grouped(trend.nightly_runs.back().number, last, std::span(&trend, 1), notes);
   if (groups.empty()) return greatest_course(trend, findings, 1.0, Shown::kAll);
   const auto is_less = [](const FindingGroup& a, const FindingGroup& b) {
     if (a.known.has_value() != b.known.has_value()) return a.known.has_value();
@@ -170,7 +179,7 @@ std::optional<Course> worst_course(const StudyTrend& trend, const NightlyFinding
   const NightlyFinding& finding = last[static_cast<std::size_t>(number) - 1];
   if (worst.rule == HistoryRule::kMemory)
     course.curve = memory_curve(trend, from, found);
-  else if (const SeriesId* id = series_of(finding, trend, from))
+  else if (const auto id = series_of(finding, trend, from))
     course.curve = curve_of(trend, *id, from, found);
   return course;
 }

@@ -214,24 +214,31 @@ std::vector<double> places_of(const StudyTrend& trend) {
   return x;
 }
 
-/// Values as changes since the nightly run of index `from`, or the first that has a value: in
-/// percent of that value, or as differences. NaN where there is no such value.
-std::vector<double> changes_of(const std::vector<double>& values, std::size_t from, bool by_ratio) {
+/// Values as changes since the nightly run of index `from`, or the first that has a value. NaN
+/// where there is no such value.
+/// @param change  Between two values: percent_change(), median_change().
+template <typename Change>
+std::vector<double> changes_of(const std::vector<double>& values, std::size_t from,
+                               const Change& change) {
   double base = values[from];
   for (const double value : values)
     if (!std::isfinite(base)) base = value;
   std::vector<double> changes;
-  for (const double value : values)
-    changes.push_back(!by_ratio ? value - base : base > 0.0 ? 100.0 * (value / base - 1.0) : kNaN);
+  for (const double value : values) changes.push_back(change(base, value));
   return changes;
+}
+
+/// The findings of the last nightly run.
+std::vector<NightlyFinding> last_findings_of(const Reported& reported) {
+  std::vector<NightlyFinding> last;
+  for (const auto& [nightly_run, finding] : reported.findings)
+    if (nightly_run + 1 == reported.trend.nightly_runs.size()) last.push_back(*finding);
+  return last;
 }
 
 /// The nightly run that changes are of.
 std::size_t base_of(const Reported& reported) {
-  std::vector<NightlyFinding> last;
-  for (const auto& [nightly_run, finding] : reported.findings)
-    if (nightly_run + 1 == reported.trend.nightly_runs.size()) last.push_back(*finding);
-  return base_index(reported.trend, last);
+  return base_index(reported.trend, last_findings_of(reported));
 }
 
 std::string base_words(const Reported& reported) {
@@ -307,14 +314,12 @@ std::string course_without_finding(const Quantity& quantity, const std::vector<d
 /// @param last  As for course_without_finding().
 std::string course_of(const Reported& reported, const std::string& sensor, const Quantity& quantity,
                       const std::vector<double>& last) {
-  std::vector<NightlyFinding> worse;
-  for (const auto& [nightly_run, finding] : reported.findings)
-    if (nightly_run + 1 == reported.trend.nightly_runs.size() && finding->quantity == quantity.id)
-      worse.push_back(*finding);
+  const std::vector<NightlyFinding> found = last_findings_of(reported);
   const std::string setup = shown_setup(reported.trend.labels, sensor);
   std::vector<std::string> words;
-  for (const FindingGroup& group : grouped(worse, std::span(&reported.trend, 1), {}))
-    if (group.setup == setup || group.setup.empty())
+  for (const FindingGroup& group :
+       grouped(reported.trend.nightly_runs.back().number, found, std::span(&reported.trend, 1), {}))
+    if (group.quantity_id == quantity.id && (group.setup == setup || group.setup.empty()))
       words.push_back(group.method + ": " + group.change_text());
   constexpr std::size_t kMostNamed = 2;
   const std::string text =
@@ -416,7 +421,11 @@ std::optional<Figure> lines_figure(const Reported& reported, const std::string& 
       facts.nightly == NightlyRule::kRatio || facts.nightly == NightlyRule::kDuration;
   const bool changes = by_ratio || facts.nightly == NightlyRule::kPoints;
   const auto shown_of = [&](const Line& line) {
-    return changes ? changes_of(*line.values, base_of(reported), by_ratio) : *line.values;
+    return changes ? changes_of(*line.values, base_of(reported),
+                                [&](double before, double after) {
+                                  return median_change(facts, before, after);
+                                })
+                   : *line.values;
   };
   std::vector<double> last;
   for (const Line& line : lines)
@@ -533,7 +542,7 @@ std::string memory_title(const Reported& reported, const std::vector<double>& ch
 std::optional<Figure> memory_figure(const Reported& reported) {
   if (!has_memory_course(reported)) return std::nullopt;
   const std::vector<double>& known = reported.trend.peak_memory_mib;
-  const std::vector<double> mib = changes_of(known, base_of(reported), true);
+  const std::vector<double> mib = changes_of(known, base_of(reported), percent_change);
   ErrorLinesSpec spec = named_spec(reported, "memory", memory_title(reported, mib));
   spec.y_label = "change of peak memory [%]";
   spec.log_from = kInfinity;

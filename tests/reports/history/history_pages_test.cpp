@@ -54,7 +54,7 @@ TEST(HistoryPages, BeginWithThreeFindingsAndSayHowManyMore) {
                                     .quantity = "mpe_m",
                                     .since = 5,
                                     .change = i});
-  const std::vector<FindingGroup> groups = grouped(nightly_run.findings, {}, {});
+  const std::vector<FindingGroup> groups = grouped(5, nightly_run.findings, {}, {});
   const Standing stands = study_standing(nightly_run.facts, groups, "mine", true);
   EXPECT_EQ(stands.title, "Nightly run 5: accuracy got worse: 7 findings");
   ASSERT_EQ(stands.sentences.size(), 4U);

@@ -1,7 +1,5 @@
 #include "reports/history/nightly_summary.hpp"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -9,6 +7,7 @@
 #include "reports/history/pages/history_pages.hpp"
 #include "reports/history/pages/history_tables.hpp"
 #include "reports/history/pages/study_course.hpp"
+#include "reports/history/pages/trend_figures.hpp"
 
 namespace mapproof::test {
 namespace {
@@ -30,8 +29,6 @@ StudyTrend two_settings() {
   trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.10, 0.12, 0.12};
   trend.medians[{"bearing", "isomap-K8", 150, "mpe_m"}] = {0.10, 0.12, 0.12};
   trend.medians[{"bearing", "lpca", 150, "mpe_m"}] = {0.20, 0.20, 0.20};
-  trend.levels[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.0, std::log(1.2), std::log(1.2)};
-  trend.levels[{"bearing", "lpca", 150, "mpe_m"}] = {0.0, 0.0, 0.0};
   return trend;
 }
 
@@ -66,14 +63,14 @@ TEST(FindingGroups, AreOfOneMethodAndSayWhatChangedByHowMuchAndSinceWhichCommits
   const NightlySummary summary = summary_of();
   ASSERT_EQ(summary.groups.size(), 1U);
   const FindingGroup& group = summary.groups[0];
-  EXPECT_EQ(group.headline(), "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(group.headline(), "ISOMAP: MPE +20.0\u00a0% (K = 6 and 8)");
   EXPECT_EQ(group.commits.text(), "aaaaaaaaa..bbbbbbbbb");
   EXPECT_EQ(group.commits.url(), "https://github.com/me/x/compare/" + std::string(40, 'a') + "..." +
                                      std::string(40, 'b'));
   EXPECT_EQ(group.commits.bisect(),
             "git bisect start bbbbbbbbb aaaaaaaaa && git bisect run sh -c '(make -j4) || exit 125; "
             "mapproof nightly mine --store '\\''my history'\\'' --bisect 2'");
-  EXPECT_EQ(summary.short_verdict(), "MPE +17.6\u00a0%");
+  EXPECT_EQ(summary.short_verdict(), "MPE +20.0\u00a0%");
   EXPECT_EQ(group.count_text(), "2 findings");
 }
 
@@ -87,9 +84,9 @@ TEST(FindingGroups, OfAnotherProgramJoinMethodsWhoseNamesDifferInTheirLastNumber
   const NightlySummary summary = last_summary(
       {.nightly_runs = trend.nightly_runs, .findings = {{3, findings}}, .trends = {trend}});
   ASSERT_EQ(summary.groups.size(), 2U);
-  EXPECT_EQ(summary.groups[0].headline(), "isomap-K6 and isomap-K8: MPE +17.6\u00a0%");
+  EXPECT_EQ(summary.groups[0].headline(), "isomap-K6 and isomap-K8: MPE +20.0\u00a0%");
   EXPECT_EQ(summary.groups[0].count_text(), "2 findings");
-  EXPECT_EQ(summary.groups[1].headline(), "lpca: MPE +17.6\u00a0%");
+  EXPECT_EQ(summary.groups[1].headline(), "lpca: MPE +20.0\u00a0%");
 }
 
 TEST(FindingGroups, SearchWithACommandThatNamesNoCommitAndWritesNothing) {
@@ -132,15 +129,47 @@ TEST(FindingGroups, OfOneFindingHaveItsValuesInTheReferenceRunAndThisOne) {
   StudyTrend trend = two_settings();
   trend.medians[{"bearing", "isomap-K6", 50, "mpe_m"}] = {0.50, 0.60, 0.60};
   std::vector<NightlyFinding> findings = {two_findings()[0]};
-  const auto values = [&](const NightlyFacts& nightly_run) {
-    return grouped(findings, std::span(&trend, 1), {}).at(0).values_text(nightly_run);
-  };
-  const NightlyFacts last{.number = 3, .reference = 1};
-  EXPECT_EQ(values(last), "median 0.100 → 0.120\u00a0m");
-  EXPECT_EQ(values({.number = 3}), "") << "it was not compared";
+  const auto group = [&] { return grouped(3, findings, std::span(&trend, 1), {}).at(0); };
+  EXPECT_EQ(group().values_text(), "median 0.100 → 0.120\u00a0m");
+  EXPECT_EQ(summary_of().groups[0].values_text(), "") << "of two settings";
   findings[0].subject = "bearing, isomap-K6, mean of 2 steps";
-  EXPECT_EQ(values(last), "") << "the medians are of the last step";
-  EXPECT_EQ(summary_of().groups[0].values_text(last), "") << "of two settings";
+  EXPECT_EQ(group().values_text(), "") << "the medians are of the last step";
+  findings[0].subject = "bearing, isomap-K6, 150 steps";
+  trend.nightly_runs.back().reference.reset();
+  EXPECT_EQ(group().values_text(), "") << "it was not compared";
+}
+
+TEST(FindingGroups, StateTheChangeOfTheMedianAsFiguresAndTablesDo) {
+  StudyTrend trend = two_settings();
+  std::vector<NightlyFinding> findings = {two_findings()[0]};
+  const auto change = [&] {
+    return grouped(3, findings, std::span(&trend, 1), {}).at(0).change_text();
+  };
+  EXPECT_EQ(change(), "MPE +20.0\u00a0%") << "not the 17.6 % of the paired test";
+  const Figure figure = trend_figures(trend, {{3, findings}}).front();
+  EXPECT_EQ(figure.title, "Bearing: ISOMAP: MPE +20.0\u00a0%");
+  std::vector<double> drawn;
+  for (const Layer& layer : figure.panels.at(0).layers)
+    if (const auto* line = std::get_if<Polyline>(&layer); line && line->label == "ISOMAP, K = 6")
+      drawn = line->y;
+  ASSERT_EQ(drawn.size(), 3U);
+  EXPECT_NEAR(drawn.back(), 20.0, 1e-9);
+  EXPECT_NEAR(worst_course(trend, {{3, findings}}, {})->curve.changes.back(), 20.0, 1e-9);
+
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.10, 0.12, 0.099};
+  EXPECT_EQ(change(), "MPE got worse in pairs of runs, its median −1.0\u00a0%");
+  findings[0].subject = "bearing, isomap-K6, mean of 2 steps";
+  EXPECT_EQ(change(), "MPE over all steps +17.6\u00a0%");
+}
+
+TEST(FindingGroups, AreShownAgainstTheNightlyRunBeforeTheyBegan) {
+  StudyTrend trend = two_settings();
+  trend.nightly_runs.back().reference = 2;
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.10, 0.11, 0.12};
+  const std::vector<NightlyFinding> findings = {two_findings()[0]};  // Since nightly run 2.
+  const FindingGroup group = grouped(3, findings, std::span(&trend, 1), {}).at(0);
+  EXPECT_EQ(group.values_text(), "median 0.100 → 0.120\u00a0m");
+  EXPECT_EQ(std::get<NumberCell>(accuracy_table(trend, findings).rows[0].cells[4]).value, 0.10);
 }
 
 TEST(FindingGroups, KnowTheStoreOfACommand) {
@@ -209,7 +238,7 @@ TEST(NightlySummary, AsBadgeIsAnSvgWithTextAlone) {
   EXPECT_NE(badge.find("&lt;script"), std::string::npos);
   const auto json = nlohmann::json::parse(nightly_badge_json(summary_of()));
   EXPECT_EQ(json["schemaVersion"], 1);
-  EXPECT_EQ(json["message"], "MPE +17.6 %");
+  EXPECT_EQ(json["message"], "MPE +20.0 %");
 }
 
 TEST(NightlyFeed, HasAnEntryPerNightlyRunWhoseIdentifierStays) {
@@ -241,7 +270,7 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   EXPECT_NO_THROW(check(index.report));
   EXPECT_EQ(
       index.report.opening.standing->sentences.front(),
-      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8) (both findings), between nightly "
+      "mine: bearing, ISOMAP: MPE +20.0\u00a0% (K = 6 and 8) (both findings), between nightly "
       "runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
   EXPECT_EQ(index.report.opening.standing->title, "Nightly run 3: accuracy got worse: 2 findings");
   ASSERT_EQ(index.report.sections.front().id, "worse");
@@ -266,7 +295,7 @@ TEST(HistoryPages, BeginWithWhatGotWorseWhereItBeganAndALinePerStudy) {
   ASSERT_EQ(studies->id, "studies");
   ASSERT_EQ(studies->rows.size(), 1U);
   EXPECT_EQ(std::get<TextCell>(studies->rows[0].cells[1]).text,
-            "bearing, ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+            "bearing, ISOMAP: MPE +20.0\u00a0% (K = 6 and 8)");
   EXPECT_EQ(std::get<TextCell>(studies->rows[0].cells[2]).text, "none");
   ASSERT_EQ(studies->rows[0].curves.size(), 1U);
   const ChangeCurve& curve = studies->rows[0].curves[0];
@@ -285,7 +314,7 @@ TEST(HistoryPages, ShowASearchOnTheFirstScreenOnlyWhereItCanBeRun) {
                                        {});
   EXPECT_EQ(
       index.report.opening.standing->sentences.front(),
-      "mine: bearing, ISOMAP: MPE +17.6\u00a0% (K = 6) (median 0.100 → 0.120\u00a0m), between "
+      "mine: bearing, ISOMAP: MPE +20.0\u00a0% (K = 6) (median 0.100 → 0.120\u00a0m), between "
       "nightly runs 1 and 2: git log aaaaaaaaa..bbbbbbbbb.");
   EXPECT_EQ(index.report.opening.findings.at(2).phrases.size(), 3U) << "the diff alone";
   const auto& found = std::get<FindingBlock>(index.report.sections.front().blocks.front());
@@ -301,15 +330,15 @@ TEST(HistoryPages, CompareTheValuesOfATrendWithTheRunBeforeItGotWorse) {
   const Row& worse = table.rows[0];
   EXPECT_EQ(std::get<NumberCell>(worse.cells[4]).value, 0.10);
   EXPECT_EQ(std::get<NumberCell>(worse.cells[5]).value, 0.12);
-  EXPECT_EQ(worse.regressed, "MPE +17.6\u00a0%");
-  EXPECT_EQ(table.rows[1].regressed, "MPE +17.6\u00a0%");
+  EXPECT_EQ(worse.regressed, "MPE +20.0\u00a0%");
+  EXPECT_EQ(table.rows[1].regressed, "MPE +20.0\u00a0%");
   EXPECT_EQ(table.rows[2].regressed, "") << "LPCA did not change";
 }
 
 TEST(StudyCourse, ShowsAnImprovementBesideAFindingThatItOutweighs) {
   StudyTrend trend = two_settings();
   for (const char* method : {"lem-K7", "lle-K8"})
-    trend.levels[{"bearing", method, 150, "mpe_m"}] = {0.0, std::log(0.7), std::log(0.7)};
+    trend.medians[{"bearing", method, 150, "mpe_m"}] = {0.10, 0.07, 0.07};
   const NightlyFindings findings = {{3, two_findings()}};
   const auto worst = worst_course(trend, findings, {}), best = best_course(trend, findings);
   ASSERT_TRUE(worst && best);
@@ -325,7 +354,6 @@ TEST(StudyCourse, IsThatOfTheFindingWhateverItIsAbout) {
   StudyTrend trend = two_settings();
   trend.peak_memory_mib = {100.0, 100.0, 112.0};
   trend.medians[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
-  trend.levels[{"bearing", "lpca", 150, "seconds"}] = {1.0, 1.0, 1.5};
   const NightlyFinding memory{.study = "mine",
                               .rule = HistoryRule::kMemory,
                               .subject = kAllMethods,
@@ -355,7 +383,7 @@ TEST(StudyCourse, IsThatOfTheFindingWhateverItIsAbout) {
 TEST(StudyCourse, OfAChangeThatIsNoFindingIsNotRed) {
   const auto course = worst_course(two_settings(), {}, {});
   ASSERT_TRUE(course);
-  EXPECT_EQ(course->words, "bearing, ISOMAP, K = 6: MPE +20.0\u00a0%");
+  EXPECT_EQ(course->words, "bearing, ISOMAP, K = 8: MPE +20.0\u00a0%");
   EXPECT_EQ(course->curve.is_found, (std::vector<bool>{false, false, false}));
   EXPECT_FALSE(best_course(two_settings(), {}));
 }
@@ -365,7 +393,6 @@ StudyTrend in_points(double last) {
   StudyTrend trend = two_settings();
   const SeriesId id{"bearing", "isomap-K6", 150, "moe_percent"};
   trend.medians = {{id, {10.0, 10.0, last}}};
-  trend.levels = trend.medians;
   return trend;
 }
 
@@ -382,11 +409,11 @@ TEST(StudyCourse, ComparesPointsWithPercentByWhatARuleFindsOfEach) {
   StudyTrend trend = in_points(14.0);
   const StudyTrend errors = two_settings();
   trend.medians.insert(errors.medians.begin(), errors.medians.end());
-  trend.levels.insert(errors.levels.begin(), errors.levels.end());
   NightlyFinding percent = two_findings()[0], points = percent;
-  percent.change = 6.0;  // Six times the least that is found.
+  // Six times the least that is found.
+  trend.medians[{"bearing", "isomap-K6", 150, "mpe_m"}] = {0.10, 0.10, 0.106};
   points.quantity = "moe_percent";
-  points.change = 4.0;  // Eight times.
+  points.change = 3.9;  // The median rose by 4.0, eight times.
   const auto course = worst_course(trend, {{3, {percent, points}}}, {});
   ASSERT_TRUE(course);
   EXPECT_TRUE(course->words.starts_with("bearing, ISOMAP: MOE +4.0\u00a0points")) << course->words;
@@ -413,7 +440,7 @@ TEST(RegressionMarks, ComeFirstInTheReportOfANightlyRun) {
   EXPECT_EQ(report.sections[1].id, "errors");
   EXPECT_FALSE(std::get<Table>(report.sections[1].blocks[0]).secondary) << "it is not folded";
   const auto& found = std::get<FindingBlock>(report.sections[0].blocks[0]);
-  EXPECT_EQ(found.title, "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(found.title, "ISOMAP: MPE +20.0\u00a0% (K = 6 and 8)");
   EXPECT_NE(found.command.find("git bisect start"), std::string::npos);
   EXPECT_TRUE(found.keys.empty()) << "decisions are made on the index";
   EXPECT_TRUE(links.words().contains("compare/0001-0002/mine.html"));
@@ -478,9 +505,9 @@ TEST(RegressionMarks, AreOnTheRowsAndFiguresOfWhatGotWorse) {
   other.title = "Bearing: MOE over steps";
   mark_regressed(report, std::vector{figure, other}, summary.groups, "mine");
   const auto& blocks = report.sections[0].blocks;
-  EXPECT_EQ(std::get<Table>(blocks[0]).rows[0].regressed, "MPE +17.6\u00a0%");
+  EXPECT_EQ(std::get<Table>(blocks[0]).rows[0].regressed, "MPE +20.0\u00a0%");
   EXPECT_EQ(std::get<Table>(blocks[0]).rows[1].regressed, "");
-  EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed, "ISOMAP: MPE +17.6\u00a0% (K = 6 and 8)");
+  EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed, "ISOMAP: MPE +20.0\u00a0% (K = 6 and 8)");
   EXPECT_EQ(std::get<FigureBlock>(blocks[1]).regressed_curves,
             (std::vector<RegressedCurve>{{.label = "ISOMAP, K = 8"}}));
   EXPECT_EQ(std::get<FigureBlock>(blocks[2]).regressed, "");
