@@ -185,6 +185,15 @@ std::vector<int> counts_of(const DiffResult& result) {
   return counts;
 }
 
+std::string counts_text(const DiffResult& result) {
+  const std::vector<int> counts = counts_of(result);
+  std::string text;
+  for (std::size_t v = kVerdicts.size(); v-- > 0;)
+    if (counts[v] > 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[v], label(kVerdicts[v]));
+  return text;
+}
+
 std::vector<std::string> version_changes(const DiffResult& result) {
   std::vector<std::string> changes;
   for (const DiffItem& item : result.items) {

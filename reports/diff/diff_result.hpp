@@ -93,6 +93,8 @@ inline const std::string& shown_current(const DiffResult& result) {
 
 /// The number of items of each verdict, in the order of kVerdicts.
 std::vector<int> counts_of(const DiffResult& result);
+/// "1 data, worse, 2 style, 51 identical": those that occur, the heaviest first.
+std::string counts_text(const DiffResult& result);
 
 /// The versions that the records name and that differ, each once: "FreeType 2.12 → 2.13". They are
 /// not judged.

@@ -194,16 +194,12 @@ DiffItem missing_report(std::size_t items, const std::string& current,
 Judgement judge_whole(const DiffResult& result) {
   Judgement whole;
   whole.visible = false;
-  std::string counts;
-  const std::vector<int> all = counts_of(result);
-  for (std::size_t v = kVerdicts.size(); v-- > 0;)
-    if (all[v] > 0) {
-      counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", all[v], label(kVerdicts[v]));
-      whole.verdict = heavier(whole.verdict, kVerdicts[v]);
-    }
-  for (const DiffItem& item : result.items) whole.visible |= item.judgement.visible;
+  for (const DiffItem& item : result.items) {
+    whole.verdict = heavier(whole.verdict, item.judgement.verdict);
+    whole.visible |= item.judgement.visible;
+  }
   if (whole.verdict == Verdict::kIdentical) return whole;
-  whole.cause = fmt::format("{}. The first is {}: {}", counts, result.items[0].id,
+  whole.cause = fmt::format("{}. The first is {}: {}", counts_text(result), result.items[0].id,
                             result.items[0].judgement.cause);
   return whole;
 }

@@ -271,6 +271,16 @@ void set_items(data& page, const DiffResult& result, const std::vector<ShownImag
   page.set("identical", identical);
 }
 
+/// The counts and the first item that differs, whose cause stands beside it; nothing of one item
+/// alone, and where none differs.
+std::string whole_text(const DiffResult& result) {
+  const auto first = std::ranges::find_if(result.items, [](const DiffItem& item) {
+    return item.judgement.verdict != Verdict::kIdentical;
+  });
+  if (first == result.items.end() || result.items.size() == 1) return "";
+  return fmt::format("{}. The first is {}.", counts_text(result), printable(first->id, kMostName));
+}
+
 /// The names of two paths without the folders that they share: "a/b" and "a/c" are "b" and "c".
 std::pair<std::string, std::string> distinct_names(const std::string& a, const std::string& b) {
   std::size_t shared = 0;
@@ -289,10 +299,7 @@ std::string diff_html(const DiffResult& result, const std::vector<ShownImages>& 
   page.set("passes", result.passes);
   page.set("verdict", std::string(name(result.judgement.verdict)));
   page.set("label", std::string(label(result.judgement.verdict)));
-  // Of one item alone it stands beside the item.
-  const bool is_one =
-      result.items.size() == 1 && result.items[0].judgement.verdict != Verdict::kIdentical;
-  page.set("cause", text_or_false(is_one ? "" : printable(result.judgement.cause, kLongestNote)));
+  page.set("whole", text_or_false(whole_text(result)));
   page.set("compared", counted(std::ssize(result.items), "item"));
   const auto [baseline, current] = distinct_names(shown_baseline(result), shown_current(result));
   page.set("baseline_name", page_text(printable(baseline, kMostPath)));

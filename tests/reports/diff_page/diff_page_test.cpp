@@ -48,6 +48,18 @@ TEST(DiffPage, IsNamedByWhatDistinguishesItsSides) {
             std::string::npos);
 }
 
+TEST(DiffPage, SaysTheCauseOfTheFirstItemOnceBesideIt) {
+  const test::TemporaryFolder folder;
+  DiffResult result = test::compared_folders(folder.path());
+  result.items[0].judgement.cause = "the cause of the first";
+  result.judgement.cause = "counts. The first is it: the cause of the first";
+  const std::string page = page_of(result);
+  EXPECT_EQ(count_of(page, "the cause of the first"), 1);
+  EXPECT_EQ(
+      all_matches(page, "class=\"subtitle\"><bdi>([^<]*)<"),
+      std::vector<std::string>{counts_text(result) + ". The first is " + result.items[0].id + "."});
+}
+
 TEST(PercentEncoding, TurnsNoTwoTextsIntoOneAndLeavesNothingThatHtmlReads) {
   EXPECT_EQ(percent_encoded("sub/fig-7.b_c"), "sub/fig-7.b_c");
   EXPECT_EQ(percent_encoded("a b%20:<\"'&\xff"), "a%20b%2520%3A%3C%22%27%26%FF");
