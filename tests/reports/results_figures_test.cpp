@@ -9,6 +9,7 @@
 #include "core/base/not_finite.hpp"
 #include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/results_comparison.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/results/results_data_sets.hpp"
 #include "reports/sections/results/results_report.hpp"
 #include "tests/reports/results_rows.hpp"
@@ -258,7 +259,7 @@ TEST(ResultsFigures, WhatIsTheSameEverywhereHasNone) {
   const ResultsView view(study);
   EXPECT_TRUE(results_figures(view, {}).groups.empty());
   EXPECT_EQ(why_no_figure(view, view.blocks()[0], mpe()),
-            "MPE: there is no curve, since the mean is 3.00 m at every level, for every method.");
+            "MPE: there is no curve, since the mean is 3.00\u00A0m at every level, for every method.");
 }
 
 TEST(ResultsFigures, WhatOneLevelAloneHasIsNotCalledTheSameAtEveryLevel) {
@@ -325,6 +326,24 @@ TEST(ResultsFigures, LinesOnEachOtherAreOneThatSaysOfHowMany) {
     if (const auto* line = std::get_if<Polyline>(&layer)) labels.push_back(line->label);
   EXPECT_EQ(labels, (std::vector<std::string>{"K = 6, from scratch (3 methods)",
                                               "p, incremental and 2 others"}));
+}
+
+TEST(ResultsWords, OfAValueHaveItsUnitUnlessThatIsAPowerOfTen) {
+  EXPECT_EQ(value_words(0.25, "m", true), "0.250\u00A0m");
+  EXPECT_EQ(value_words(2e3, "m", true), "over 1\u00A0km");
+  EXPECT_NE(value_words(2e3, "m", false), value_words(2e3, "m", true));
+  EXPECT_EQ(value_words(250.0, "10⁻³", false), "0.250");
+
+  // A comparison's sentence uses the same words.
+  Rows rows("share");
+  rows.add("m", "a", 250.0).add("m", "b", 250.0).add("n", "a", 500.0).add("n", "b", 500.0);
+  rows.declare(study_quantity("share", "Share", "10⁻³", Better::kLower));
+  const ResultsStudy study = rows.study();
+  const ResultsView view(study);
+  const std::vector<MethodComparison> comparisons = compare_methods(view);
+  ASSERT_EQ(comparisons.size(), 1U);
+  const std::string sentence = sentence_of(comparisons[0], view);
+  EXPECT_NE(sentence.find(", 0.250; "), std::string::npos) << sentence;
 }
 
 /// The first figure of methods m and n over two levels, of runs that are groups of their own, half

@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.hpp"
-#include "core/base/text/error_text.hpp"
-#include "core/base/text/number_text.hpp"
 #include "core/base/text/unit_text.hpp"
 #include "core/base/text/words.hpp"
 #include "core/evaluate/evaluation_rows.hpp"
@@ -19,6 +17,7 @@
 #include "core/statistics/signed_rank.hpp"
 #include "reports/model/format.hpp"
 #include "reports/sections/method_ranks.hpp"
+#include "reports/sections/results/results_conventions.hpp"
 #include "reports/sections/wording.hpp"
 
 namespace mapproof {
@@ -225,11 +224,6 @@ std::vector<MethodComparison> compare_at_last(const ResultsView& view, const Res
   return {};
 }
 
-std::string value_words(double value, const Quantity& quantity, const ResultsView& view) {
-  if (view.has_great_errors(quantity) && value > kGreatestError_m) return kGreatErrorText;
-  return quantity_text(value, quantity.unit);
-}
-
 std::string label_of(const ComparedMethod& method, const ResultsView& view) {
   return view.study().methods[method.method].label;
 }
@@ -364,11 +358,13 @@ std::string where_of(const MethodComparison& comparison) {
 std::string sentence_of(const MethodComparison& comparison, const ResultsView& view) {
   const Quantity& quantity = *comparison.quantity;
   const ComparedMethod &best = comparison.methods[0], &next = comparison.methods[1];
+  const auto words = [&](double mean) {
+    return value_words(mean, quantity.unit, view.has_great_errors(quantity));
+  };
   std::string text =
       fmt::format("{}: {} has the {} {}{}, {}; {} follows with {}", where_of(comparison),
                   label_of(best, view), best_word(quantity), view.runs() > 1 ? "mean " : "",
-                  quantity.label, value_words(best.mean, quantity, view), label_of(next, view),
-                  value_words(next.mean, quantity, view));
+                  quantity.label, words(best.mean), label_of(next, view), words(next.mean));
   if (!comparison.has_all_runs)
     text += fmt::format(", over the {} that all of these methods have",
                         counted(comparison.runs, "run"));

@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text/error_text.hpp"
+#include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/figures/diagrams/value_dots.hpp"
+#include "render/figures/unit_scale.hpp"
 
 namespace mapproof {
 
@@ -19,6 +22,12 @@ std::string figure_id(const std::string& block, std::string what) {
 std::string key_of(std::size_t line) { return fmt::format("line-{}", line + 1); }
 
 std::string record_of(const ResultsBlock& block) { return block.conditions.front().setup; }
+
+std::string value_words(double value, const std::string& unit, bool great_errors) {
+  if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
+  const bool diverged = unit == "m" && great_errors && std::abs(value) > kGreatestError_m;
+  return diverged ? error_text(value) : quantity_text(value, unit);
+}
 
 bool spans_widely(const std::vector<double>& values) {
   if (values.empty()) return false;

@@ -20,6 +20,13 @@ std::string key_of(std::size_t line);
 /// The subject of all results of the block's setup: a diff finds them by it.
 std::string record_of(const ResultsBlock& block);
 
+/// A value in words with its unit, without the unit where this is a power of ten.
+/// @param unit          Of the value: the quantity's, or one that a figure scales it to.
+/// @param great_errors  Whether an error in m beyond kGreatestError_m is of a map that diverged,
+/// and
+///                      is "over 1 km": see ResultsView::has_great_errors().
+std::string value_words(double value, const std::string& unit, bool great_errors);
+
 /// Whether the values need a logarithmic axis.
 bool spans_widely(const std::vector<double>& values);
 

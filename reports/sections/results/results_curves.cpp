@@ -213,12 +213,6 @@ std::string finding_of(const ResultsView& view, const Curves& curves, const Quan
                    line_axis(x_label));
 }
 
-/// A value of a quantity in words; in a power of ten without it.
-std::string value_words(double value, const std::string& unit, bool great_errors) {
-  if (const auto power = power_of(unit)) return significant(value * std::pow(10.0, *power));
-  return unit == "m" && great_errors ? error_text(value) : quantity_text(value, unit);
-}
-
 /// What lines do where none of them is called the best: of one, how it goes from the first x to the
 /// last; of several, why they are not ranked and between which values they lie; of tiny distances,
 /// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
