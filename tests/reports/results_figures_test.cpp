@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/not_finite.hpp"
+#include "core/base/text/unit_text.hpp"
 #include "reports/sections/results/given_figures.hpp"
 #include "reports/sections/results/results_comparison.hpp"
 #include "reports/sections/results/results_conventions.hpp"
@@ -371,6 +372,27 @@ TEST(ResultsFigures, TitlesRankNoMethodsOfFewerRunsThanAnIntervalNeeds) {
         << figure_of_two("share_percent", half_spread).title;
   const Figure enough = figure_of_two("share_percent", 1.0, 6);
   EXPECT_TRUE(enough.title.ends_with("n has the highest coverage throughout")) << enough.title;
+}
+
+TEST(ResultsFigures, TitlesJudgeTheWholeLineOfAMethodAlone) {
+  const auto title_of = [](const std::vector<double>& values) {
+    Rows rows;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      for (const char* run : {"a", "b"})
+        rows.add("m", run, values[i], {{"noise", 0.1 * static_cast<double>(i + 1)}});
+    const ResultsStudy study = rows.study();
+    const std::string title =
+        with_plain_spaces(results_figures(ResultsView(study), {}).groups.at(0).figures.at(0).title);
+    return title.substr(title.rfind("MPE "));
+  };
+  EXPECT_EQ(title_of({0.5, 0.4, 0.3}), "MPE falls from 0.500 m to 0.300 m");
+  EXPECT_EQ(title_of({0.3, 0.3, 0.5}), "MPE rises from 0.300 m to 0.500 m");
+  EXPECT_EQ(title_of({0.5, 0.2, 0.1, 0.4}),
+            "MPE falls from 0.500 m to 0.100 m at noise = 0.3, then rises to 0.400 m");
+  EXPECT_EQ(title_of({0.2, 0.6, 0.2}),
+            "MPE rises from 0.200 m to 0.600 m at noise = 0.2, then falls to 0.200 m");
+  EXPECT_EQ(title_of({0.5, 0.2, 0.4, 0.1}),
+            "MPE goes from 0.500 m to 0.100 m, between 0.100 m and 0.500 m");
 }
 
 TEST(ResultsFigures, TheSampleOfSingleRunsOfSeveralMethodsIsGrey) {

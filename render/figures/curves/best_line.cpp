@@ -68,14 +68,6 @@ std::string has_the_best(const LineQuantity& quantity, bool several) {
                      quantity.lower_is_better ? "lowest" : "highest", quantity.label);
 }
 
-/// Of x without its name where the unit says what it is: "10°", but "K = 7" and, of a quantity in
-/// the same unit, "noise = 10 %".
-std::string place(const LineAxis& axis, double x, const LineQuantity& quantity) {
-  const std::string value = with_unit(data_number(x), axis.unit);
-  const bool is_clear = !axis.unit.empty() && axis.unit != quantity.unit;
-  return is_clear ? value : fmt::format("{}\u00A0=\u00A0{}", axis.name, value);
-}
-
 std::string value_text(double value, const LineQuantity& quantity) {
   return quantity_text(value, quantity.unit);
 }
@@ -214,8 +206,8 @@ std::string change_of_lead(const std::vector<std::vector<At>>& best,
   const auto change = std::ranges::find_if_not(best, leads(first));
   if (change == best.end() || !std::all_of(change, best.end(), leads(last))) return "";
   const auto before = std::prev(change);
-  const std::string until = place(axis, before->front().x(), quantity);
-  const std::string from = place(axis, change->front().x(), quantity);
+  const std::string until = x_text(axis, before->front().x(), quantity);
+  const std::string from = x_text(axis, change->front().x(), quantity);
   return fmt::format("{} has the {} mean {} {}, {} {}", line_name(*first, lines),
                      quantity.lower_is_better ? "lowest" : "highest", quantity.label,
                      (before == best.begin() ? "at " : "up to ") + until, line_name(*last, lines),
@@ -226,13 +218,19 @@ std::string change_of_lead(const std::vector<std::vector<At>>& best,
 std::string places(const LineAxis& axis, const std::vector<double>& some, std::size_t all,
                    const LineQuantity& quantity) {
   if (some.size() > kMostNamed) return fmt::format("{} of {} points", some.size(), all);
-  std::vector<std::string> texts = {place(axis, some.front(), quantity)};
+  std::vector<std::string> texts = {x_text(axis, some.front(), quantity)};
   for (std::size_t i = 1; i < some.size(); ++i)
     texts.push_back(with_unit(data_number(some[i]), axis.unit));
   return listed(texts, kMostNamed);
 }
 
 }  // namespace
+
+std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity) {
+  const std::string value = with_unit(data_number(x), axis.unit);
+  const bool is_clear = !axis.unit.empty() && axis.unit != quantity.unit;
+  return is_clear ? value : fmt::format("{}\u00A0=\u00A0{}", axis.name, value);
+}
 
 LineAxis line_axis(const std::string& label) {
   const std::size_t unit = label.find(" [");
@@ -361,14 +359,14 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
              std::ranges::any_of(first, [&](const At& at) { return has_line(one, at.line); });
     });
     // One point is left alone if at all others too many lines are equal to be named.
-    const std::string where = from == to ? place(axis, from, quantity)
-                                         : fmt::format("{} and {}", place(axis, from, quantity),
+    const std::string where = from == to ? x_text(axis, from, quantity)
+                                         : fmt::format("{} and {}", x_text(axis, from, quantity),
                                                        with_unit(data_number(to), axis.unit));
     return fmt::format("{} at {}, but not {}", finding(first), where,
                        is_between || from == to ? "throughout" : "between");
   }
-  return fmt::format("{} at {}, {} at {}", finding(first), place(axis, first.front().x(), quantity),
-                     listed_names(last, lines),
+  return fmt::format("{} at {}, {} at {}", finding(first),
+                     x_text(axis, first.front().x(), quantity), listed_names(last, lines),
                      with_unit(data_number(last.front().x()), axis.unit));
 }
 
@@ -376,6 +374,10 @@ bool ends_tie(const ErrorLine& line) {
   const std::vector<ErrorLine> alone = {line};
   const std::vector<At> known = all_known(alone);
   return !known.empty() && overlap(known.front(), known.back());
+}
+
+bool intervals_overlap(const ErrorLine& line, std::size_t i, std::size_t k) {
+  return overlap({&line, i}, {&line, k});
 }
 
 std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity& quantity,
@@ -387,12 +389,12 @@ std::string best_of_all(const std::vector<ErrorLine>& lines, const LineQuantity&
     return fmt::format("the {} {} of {} is {} at {}",
                        quantity.lower_is_better ? "lowest" : "highest", quantity.label,
                        line_name(*best.line, lines), value_text(best.mean(), quantity),
-                       place(axis, best.x(), quantity));
+                       x_text(axis, best.x(), quantity));
   const bool has_tie = std::ranges::any_of(
       known, [&](const At& at) { return at.line != best.line && tie(at, best, quantity); });
   if (has_tie) return "";
   return fmt::format("{} {}, {} at {}", line_name(*best.line, lines), has_the_best(quantity, false),
-                     value_text(best.mean(), quantity), place(axis, best.x(), quantity));
+                     value_text(best.mean(), quantity), x_text(axis, best.x(), quantity));
 }
 
 std::string best_of_points(const std::vector<std::vector<ErrorLine>>& panels,

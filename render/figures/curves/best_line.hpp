@@ -25,6 +25,10 @@ struct LineAxis {
 /// Of the label of an axis: "noise of bearings [°]".
 LineAxis line_axis(const std::string& label);
 
+/// An x without its name where the unit says what it is: "10°", but "K = 7" and, of a quantity in
+/// the same unit, "noise = 10 %".
+std::string x_text(const LineAxis& axis, double x, const LineQuantity& quantity);
+
 /// A label short and without its parameter: "SMACOF kNN" of "SMACOF, kNN weights, K = 7".
 std::string name_alone(const std::string& label);
 
@@ -55,6 +59,9 @@ std::string best_over(const std::vector<ErrorLine>& lines, const LineQuantity& q
 
 /// Whether the intervals of a line's first and last known values overlap.
 bool ends_tie(const ErrorLine& line);
+
+/// Whether the intervals of two known values of a line, by their indices, overlap.
+bool intervals_overlap(const ErrorLine& line, std::size_t i, std::size_t k);
 
 /// Which line has the best value of all, and at which x: "SDE has the lowest MPE, 0.14 m at K = 7".
 /// Empty if nothing is known, or another line's best ties with it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <utility>
@@ -213,14 +214,71 @@ std::string finding_of(const ResultsView& view, const Curves& curves, const Quan
                    line_axis(x_label));
 }
 
-/// What lines do where none of them is called the best: of one, how it goes from the first x to the
-/// last; of several, why they are not ranked and between which values they lie; of tiny distances,
-/// how much they are at most; of what is aimed at, the aim. Empty if nothing is known.
+/// The known values of one line in the words shown. What differs less than the words and the
+/// intervals show counts as the same.
+struct KnownValues {
+  const ErrorLine& line;
+  std::vector<std::size_t> at = {};  ///< Indices in the line.
+  std::vector<std::string> words = {};
+
+  double value(std::size_t i) const { return line.mean[at[i]]; }
+  bool differ(std::size_t i, std::size_t k) const {
+    return words[i] != words[k] && !intervals_overlap(line, at[i], at[k]);
+  }
+  /// Whether no value from the one to the other goes back.
+  bool are_steady(std::size_t first, std::size_t last) const {
+    const double sign = value(last) < value(first) ? -1.0 : 1.0;
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t k = i + 1; k <= last; ++k)
+        if (sign * (value(k) - value(i)) < 0.0 && differ(i, k)) return false;
+    return true;
+  }
+};
+
+/// How a line with known values goes from the first x to the last: that it falls or rises if it
+/// does so all the way, or up to one turn, which is named; else between which values it goes.
+/// @param place  An x in words.
+template <typename Place>
+std::string course_of_one(const KnownValues& known, const Place& place) {
+  const std::size_t last = known.at.size() - 1;
+  const auto index_of = [&](auto better) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i <= last; ++i)
+      if (better(known.value(i), known.value(best))) best = i;
+    return best;
+  };
+  const std::size_t least = index_of(std::less<>()), most = index_of(std::greater<>());
+  const auto is_turn = [&](std::size_t i) { return known.differ(i, 0) && known.differ(i, last); };
+  const std::string &from = known.words.front(), &to = known.words.back();
+  if (known.words[least] == known.words[most]) return "stays at " + from;
+  if (!is_turn(least) && !is_turn(most)) {
+    if (!known.differ(0, last))
+      return fmt::format("has no clear trend, {} and {} at the ends", from, to);
+    if (known.are_steady(0, last))
+      return fmt::format("{} from {} to {}", known.value(last) < known.value(0) ? "falls" : "rises",
+                         from, to);
+  } else if (is_turn(least) != is_turn(most)) {
+    const bool falls = is_turn(least);
+    const std::size_t turn = falls ? least : most;
+    if (known.are_steady(0, turn) && known.are_steady(turn, last))
+      return fmt::format("{} from {} to {} at {}, then {} to {}", falls ? "falls" : "rises", from,
+                         known.words[turn], place(known.line.x[known.at[turn]]),
+                         falls ? "rises" : "falls", to);
+  }
+  return fmt::format("goes from {} to {}, between {} and {}", from, to, known.words[least],
+                     known.words[most]);
+}
+
+/// What lines do where none of them is called the best: of one, see course_of_one(); of several,
+/// why they are not ranked and between which values they lie; of tiny distances, how much they are
+/// at most; of what is aimed at, the aim. Empty if nothing is known.
 /// @param unit         Of the lines' values.
 /// @param great_errors  See ResultsView::has_great_errors().
+/// @param x_label      Of the axis of one line.
 /// @param not_ranked   Why, before what they do; kNoneIsBest or kTooFewRuns of one panel.
 std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quantity,
-                      const std::string& unit, bool great_errors, const std::string& not_ranked) {
+                      const std::string& unit, bool great_errors, const std::string& x_label,
+                      const std::string& not_ranked) {
   std::vector<double> known;
   for (const ErrorLine& line : lines)
     std::ranges::copy_if(line.mean, std::back_inserter(known), is_known);
@@ -229,14 +287,18 @@ std::string course_of(const std::vector<ErrorLine>& lines, const Quantity& quant
   if (is_tiny_distance(quantity))
     return fmt::format("{} is at most {}", in_sentence(quantity.label),
                        words(std::ranges::max(known)));
-  const std::string first = words(known.front()), last = words(known.back());
-  if (lines.size() == 1)
-    return first == last ? fmt::format("{} stays at {}", in_sentence(quantity.label), first)
-           : ends_tie(lines.front())
-               ? fmt::format("{} has no clear trend, {} and {} at the ends",
-                             in_sentence(quantity.label), first, last)
-               : fmt::format("{} {} from {} to {}", in_sentence(quantity.label),
-                             known.back() < known.front() ? "falls" : "rises", first, last);
+  if (lines.size() == 1) {
+    KnownValues values{lines.front()};
+    for (std::size_t i = 0; i < values.line.mean.size(); ++i)
+      if (is_known(values.line.mean[i])) {
+        values.at.push_back(i);
+        values.words.push_back(words(values.line.mean[i]));
+      }
+    const auto place = [&](double x) {
+      return x_text(line_axis(x_label), x, {.label = quantity.label, .unit = unit});
+    };
+    return in_sentence(quantity.label) + " " + course_of_one(values, place);
+  }
   const auto [least, greatest] = std::ranges::minmax(known);
   const std::string span = words(least) == words(greatest)
                                ? words(least)
@@ -321,15 +383,16 @@ std::string most_often_best(const ResultsView& view,
 }
 
 /// What the lines of several panels do where none is the best: see course_of().
+/// @param x_label  Of the first panel.
 std::string course_over(const ResultsView& view, const std::vector<std::vector<ErrorLine>>& panels,
-                        const Quantity& quantity) {
+                        const Quantity& quantity, const std::string& x_label) {
   std::vector<ErrorLine> all;
   bool has_rivals = false;
   for (const std::vector<ErrorLine>& lines : panels) {
     all.insert(all.end(), lines.begin(), lines.end());
     has_rivals = has_rivals || lines.size() > 1;
   }
-  return course_of(all, quantity, quantity.unit, view.has_great_errors(quantity),
+  return course_of(all, quantity, quantity.unit, view.has_great_errors(quantity), x_label,
                    !has_rivals              ? ""
                    : has_too_few_runs(view) ? kTooFewRuns
                                             : "no method is best at most points, ");
@@ -357,7 +420,7 @@ std::optional<Figure> curve_figure(const ResultsView& view, const ResultsBlock& 
       is_tiny_distance(quantity) ? "" : finding_of(view, curves, shown, spec.x_label);
   if (finding.empty())
     finding = course_of(curves.lines, quantity, shown.unit, view.has_great_errors(quantity),
-                        view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
+                        spec.x_label, view.has_groups_for_intervals() ? kNoneIsBest : kTooFewRuns);
   spec.title = fmt::format("{}: {}", block.title, finding.empty() ? quantity.label : finding);
   if (quantity.unit == "%") spec.log_from = HUGE_VAL;
   spec.methods = drawn(std::move(curves));
@@ -400,7 +463,7 @@ std::optional<Figure> overview_figure(const ResultsView& view, const ResultsOver
   if (std::ranges::all_of(spec.panels, [](const ErrorPanel& panel) { return panel.lines.empty(); }))
     return std::nullopt;
   std::string finding = most_often_best(view, judged, quantity, joined);
-  if (finding.empty()) finding = course_over(view, judged, quantity);
+  if (finding.empty()) finding = course_over(view, judged, quantity, spec.panels.front().x.label);
   spec.title =
       finding.empty()
           ? fmt::format("{}: {}", overview.title, quantity.label)
