@@ -283,9 +283,10 @@ RuleOutcome judge_costs(const StudyEvidence& evidence, const RegressionRules& ru
   const std::vector<std::size_t> usual = usual_nightly_runs(trend, rules);
   if (std::cmp_less(usual.size(), rules.least_passing_nightly_runs)) {
     outcome.remarks.push_back(
-        fmt::format("{}: {} of {} passing nightly runs on this machine so far; seconds and memory "
-                    "of one nightly run are not judged yet, only their course over all of them",
-                    trend.name, usual.size(), rules.least_passing_nightly_runs));
+        fmt::format("{}: seconds and memory of a single nightly run are not judged yet: that takes "
+                    "{} earlier nightly runs on this machine that passed, and so far there {} {}",
+                    trend.name, rules.least_passing_nightly_runs, usual.size() == 1 ? "is" : "are",
+                    usual.size()));
     return outcome;
   }
   const std::vector<NightlySeries> seconds = seconds_series(trend, usual, rules);
