@@ -85,7 +85,8 @@ std::set<double> xs_of(const std::vector<ErrorLine>& lines) {
   return xs;
 }
 
-/// "LLE and HLLE"; "3 of 8 methods" of names that would take the most of a title.
+/// "LLE and HLLE"; "3 of 8 methods" of names that would take the most of a title. Commas separate
+/// the names of a list: where one has a comma, all are in quotes. A name alone is not in a list.
 std::string listed_names(const std::vector<At>& some, const std::vector<ErrorLine>& lines) {
   constexpr std::size_t kMostCharacters = 50;
   std::vector<std::string> names;
