@@ -91,6 +91,13 @@ std::string main_figure_of(const std::vector<FolderReport>& parts) {
   return std::ranges::max_element(parts, {}, lines_of_main_figure)->report.opening.main_figure;
 }
 
+/// "no usable map of dataset6 and 2 more": the first of a part's warnings without its details.
+std::string first_warning(const std::vector<std::string>& warnings) {
+  const std::string& first = warnings.front();
+  const std::string what = first.substr(0, first.find(": "));
+  return warnings.size() == 1 ? what : fmt::format("{} and {} more", what, warnings.size() - 1);
+}
+
 /// "10 studies of 23 runs", and what is missing of them.
 std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
   std::size_t runs = 0;
@@ -110,19 +117,15 @@ std::vector<Paragraph> extent_of(const std::vector<FolderReport>& parts) {
                           ? std::string("no run is missing.")
                           : fmt::format("runs are missing in {}.", listed(incomplete, 3));
   std::vector<std::string> unexpected, warned;
-  for (const FolderReport& part : parts)
-    for (const Paragraph& finding : part.report.opening.findings)
-      if (finding.phrases.size() > 1 && finding.phrases[0].text == "Warnings" &&
-          finding.phrases[1].text.find("none;") == std::string::npos) {
-        // ": no usable map of dataset6, ….", of which the part has what follows a colon; of what is
-        // not as expected, a tile.
-        const std::string& text = finding.phrases[1].text;
-        const std::size_t end = std::min(text.find(": ", 2), text.find_last_not_of('.') + 1);
-        if (part.reached_aim == false)
-          unexpected.push_back(part.report.title);
-        else
-          warned.push_back(fmt::format("{} ({})", part.report.title, text.substr(2, end - 2)));
-      }
+  for (const FolderReport& part : parts) {
+    const std::vector<std::string>& warnings = part.report.opening.warnings;
+    if (warnings.empty()) continue;
+    // Of what is not as expected, a tile has the rest.
+    if (part.reached_aim == false)
+      unexpected.push_back(part.report.title);
+    else
+      warned.push_back(fmt::format("{} ({})", part.report.title, first_warning(warnings)));
+  }
   constexpr std::size_t kMostNamed = 4;
   if (!unexpected.empty())
     wrong += fmt::format(" Not as expected: {}.", listed(unexpected, kMostNamed));

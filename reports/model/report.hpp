@@ -242,6 +242,9 @@ struct Opening {
   std::string main_figure = {};  ///< Id of the figure that is shown whole; empty: none.
   std::string question = {};     ///< What was asked, before the findings; empty: they say it.
   std::string other_pages = {};  ///< What other pages of the report hold, in words.
+  /// What is wrong, a clause each, whose details follow a colon; empty: nothing is. A finding says
+  /// it to readers; reports of several studies name it.
+  std::vector<std::string> warnings = {};
 };
 
 /// What a report says; how it looks is another matter.

@@ -266,7 +266,10 @@ Opening study_opening(const Study& study, const StudyFigures& figures) {
     if (const SettingSummary* best = best_of(sensor.methods))
       ids.push_back(fmt::format("map-{}-{}", name(best->sensor), info(best->setting.method).name));
   }
-  add_ends(count(study), opening.numbers);
+  const StudyCounts counts = count(study);
+  add_ends(counts, opening.numbers);
+  if (counts.with_status + counts.unscored + counts.failed > 0)
+    opening.warnings.push_back(endings_text(counts));
   opening.findings = {what_was_done(study), what_is_wrong(study)};
   ids.push_back(first_of(figures, "scenes"));
   if (!sensors.empty())

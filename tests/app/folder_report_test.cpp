@@ -45,6 +45,23 @@ TEST(JoinedReport, CountsStudiesThatAimAtSomethingAlone) {
   EXPECT_TRUE(first.falls_short);
 }
 
+TEST(JoinedReport, NamesTheStudiesThatHaveWarnings) {
+  std::vector<FolderReport> parts = studies(StudyOrigin::kTopic, 4);
+  // What a finding says to readers is not what is named.
+  for (FolderReport& part : parts)
+    part.report.opening.findings = {
+        {{strong("Warnings"), phrase(": every map is as it should be.")}}};
+  const auto warnings = [&] { return joined(parts).opening.findings.at(1).phrases.at(1).text; };
+  EXPECT_EQ(warnings(), ": no run is missing.");
+  parts[0].report.opening.warnings = {"no map of b: too few data", "one run is short"};
+  parts[1].report.opening.warnings = {"2 of 9 maps have warnings"};
+  parts[2].report.opening.warnings = {"the sensor does not win"};
+  parts[2].reached_aim = false;
+  EXPECT_EQ(warnings(),
+            ": no run is missing. Not as expected: Study 2. To be looked at: Study 0 (no map of b "
+            "and 1 more) and Study 1 (2 of 9 maps have warnings).");
+}
+
 TEST(JoinedReport, OfTablesWithoutAnAimHasTheirNumbersAlone) {
   for (const Highlights::Item& item : joined(studies(StudyOrigin::kTable, 9)).opening.numbers.items)
     EXPECT_EQ(item.label, "MPE");

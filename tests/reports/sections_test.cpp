@@ -383,7 +383,10 @@ TEST(StudyOpening, SaysWhatIsWrongWithAStudy) {
       << wrong();
   EXPECT_NE(number_of(study_opening(study, {}), "of 1").find("could not be scored"),
             std::string::npos);
+  EXPECT_EQ(study_opening(study, {}).warnings,
+            std::vector<std::string>{endings_text(count(study))});
   study.runs.clear();
+  EXPECT_TRUE(study_opening(study, {}).warnings.empty());
   EXPECT_NE(wrong().find("0 of 25 runs are done."), std::string::npos) << wrong();
 }
 

@@ -555,9 +555,9 @@ Opening opening_of(const ResultsReportInput& input) {
   else
     for (const std::string& conclusion : input.conclusions)
       if (opening.findings.size() < kFewComparisons) opening.findings.push_back(plain(conclusion));
-  const std::vector<std::string> warnings = warnings_of(input);
-  opening.numbers = numbers_of(input, warnings);
-  opening.findings.insert(opening.findings.begin(), warnings_paragraph(warnings));
+  opening.warnings = warnings_of(input);
+  opening.numbers = numbers_of(input, opening.warnings);
+  opening.findings.insert(opening.findings.begin(), warnings_paragraph(opening.warnings));
   choose_figures(figure_ids_of(input.view, input.figures), input.figures, opening);
   return opening;
 }

@@ -622,7 +622,8 @@ Opening slam_opening(const SlamStudy& study, const StudyFigures& figures) {
   if (study.runs.empty() && study.convergence.empty()) return opening;
   add_run_numbers(study, opening.numbers);
   add_slope(study, opening.numbers);
-  const std::vector<std::string> warnings = warnings_of(study);
+  opening.warnings = warnings_of(study);
+  const std::vector<std::string>& warnings = opening.warnings;
   const std::string missing = missing_words(study);
   const std::size_t count = missing_titles(study).size() + warnings.size();
   std::vector<std::string> details;
