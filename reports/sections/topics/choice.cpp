@@ -1,7 +1,6 @@
 #include <cmath>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,14 +25,6 @@ std::string choice_question(const TopicExperiment&) {
          "With anchors it judges maps fitted to them, and is judged by their MPE. Without anchors "
          "it judges the shapes alone, and is judged by the MPE with the affine map fitted on all "
          "landmarks.";
-}
-
-/// Of all setups and levels.
-std::vector<Condition> all_conditions(const TopicStudy& study) {
-  std::vector<Condition> all;
-  for (const TopicSetup& setup : study.design.setups)
-    for (Condition& at : conditions_of(setup)) all.push_back(std::move(at));
-  return all;
 }
 
 /// The mean of a quantity over all setups and levels.

@@ -15,6 +15,11 @@
 namespace mapproof {
 namespace {
 
+/// Series that the topic compares: the strategy chosen, and the two that it chooses from.
+constexpr const char* kAdvised = "auto";
+constexpr const char* kPairwiseComplete = "pairwise-complete-smacof-knn";
+constexpr const char* kPpca = "ppca-smacof-knn";
+
 std::string missing_question(const TopicExperiment& experiment) {
   return fmt::format(
       "Bearings of all landmarks are simulated and a share of them is taken away: at random, those "
@@ -72,37 +77,45 @@ std::string advice_words(const TopicStudy& study) {
       "Choosing the strategy by the pattern of missing data costs {} of MPE over the best "
       "map of each outcome "
       "on average; pairwise-complete distances always cost {}, PPCA always {}.",
-      error_text(regret_m(study, "auto")),
-      error_text(regret_m(study, "pairwise-complete-smacof-knn")),
-      error_text(regret_m(study, "ppca-smacof-knn")));
+      error_text(regret_m(study, kAdvised)), error_text(regret_m(study, kPairwiseComplete)),
+      error_text(regret_m(study, kPpca)));
 }
 
 std::vector<std::string> missing_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
-  if (const double regret = regret_m(study, "auto"); !std::isnan(regret))
+  if (const double regret = regret_m(study, kAdvised); !std::isnan(regret))
     sentences.push_back(advice_words(study));
   for (const TopicSetup& setup : study.design.setups)
     for (const double level : levels_of(setup)) {
       const Condition at = condition_at(setup, level);
       const std::string words = ranking(study, at);
       if (words.empty() || (level != levels_of(setup).back() && level != 50.0)) continue;
-      sentences.push_back(
-          fmt::format("{}, {}, mean MPE: {}.", setup.title, level_words(setup, at), words));
+      sentences.push_back(fmt::format("{}, {}, mean MPE: {}{}.", setup.title,
+                                      level_words(setup, at), words, few_layouts_words(study)));
     }
   return sentences;
 }
 
+/// Compared with whichever fixed strategy has the smaller mean error.
 TopicHeadline missing_headline(const TopicStudy& study) {
-  const double regret = regret_m(study, "auto");
+  const double regret = regret_m(study, kAdvised);
   if (std::isnan(regret)) return {};
-  const double pairwise = regret_m(study, "pairwise-complete-smacof-knn");
-  const double ppca = regret_m(study, "ppca-smacof-knn");
-  const bool is_best = !(regret > pairwise) && !(regret > ppca);
+  const double pairwise = regret_m(study, kPairwiseComplete);
+  const double ppca = regret_m(study, kPpca);
   const auto [value, words] = regret_words(regret);
-  return {value, fmt::format("{} the best map: the strategy chosen for missing data", words),
-          fmt::format("always pairwise-complete {}, always PPCA {}", error_text(pairwise),
-                      error_text(ppca)),
-          is_best ? "as good as the better of both" : "one of both is better everywhere", !is_best};
+  TopicHeadline headline{
+      .value = value,
+      .label = fmt::format("{} the best map: the strategy chosen for missing data", words),
+      .detail = fmt::format("always pairwise-complete {}, always PPCA {}", error_text(pairwise),
+                            error_text(ppca))};
+  const bool is_ppca = ppca < pairwise;
+  const auto difference = topic_difference(study, all_conditions(study), kAdvised,
+                                           is_ppca ? kPpca : kPairwiseComplete, "mpe_m");
+  if (difference)
+    judge(headline, *difference,
+          fmt::format("{}, compared with always {}", verdict_words(*difference),
+                      is_ppca ? "PPCA" : "pairwise-complete"));
+  return headline;
 }
 
 }  // namespace

@@ -106,6 +106,13 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study,
   return clustered_mean(differences, layouts);
 }
 
+std::vector<Condition> all_conditions(const TopicStudy& study) {
+  std::vector<Condition> all;
+  for (const TopicSetup& setup : study.design.setups)
+    for (Condition& at : conditions_of(setup)) all.push_back(std::move(at));
+  return all;
+}
+
 int layouts_of(const TopicStudy& study) {
   std::set<int> layouts;
   for (const TopicPart& part : study.parts) layouts.insert(part.run ? part.run->layout : 0);

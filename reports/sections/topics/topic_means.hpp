@@ -51,6 +51,9 @@ std::optional<MeanEstimate> topic_difference(const TopicStudy& study,
                                              std::string_view method, std::string_view other,
                                              std::string_view quantity);
 
+/// The conditions of all setups and levels.
+std::vector<Condition> all_conditions(const TopicStudy& study);
+
 /// How many layouts the parts of a study are of.
 int layouts_of(const TopicStudy& study);
 

@@ -82,6 +82,7 @@ TEST(TopicWords, OfFewLayoutsJudgeNoHeadlineByADifference) {
   for (const Case& one : {Case{kSubmapsTopic, "mpe_m", "parts-smacof-knn", "whole-smacof-knn"},
                           Case{kReferencesTopic, "mpe_m", "landmark-isomap-K8", "isomap-K8"},
                           Case{kMixedTopic, "mpe_m", "joint", "bearing"},
+                          Case{kMissingTopic, "mpe_m", "auto", "pairwise-complete-smacof-knn"},
                           Case{kChoiceTopic, "regret_m", "trustworthiness", "fixed"}}) {
     const auto headline = [&](int layouts, double mean) {
       return headline_of(
@@ -95,6 +96,21 @@ TEST(TopicWords, OfFewLayoutsJudgeNoHeadlineByADifference) {
     EXPECT_TRUE(headline(5, 0.1).verdict.starts_with("better")) << headline(5, 0.1).verdict;
     EXPECT_TRUE(headline(5, 0.3).falls_short) << one.topic.name;
   }
+}
+
+TEST(TopicWords, OfMissingDataJudgeTheStrategyByTheBetterOfTheOthers) {
+  const auto verdict = [](double advised_m, int layouts) {
+    return headline_of(study_of(kMissingTopic, layouts, "mpe_m",
+                                {{"auto", advised_m},
+                                 {"pairwise-complete-smacof-knn", 0.3},
+                                 {"ppca-smacof-knn", 0.2}}))
+        .verdict;
+  };
+  EXPECT_EQ(verdict(0.25, 5), "worse, compared with always PPCA");
+  EXPECT_EQ(verdict(0.2, 5), "not significantly different, compared with always PPCA");
+  EXPECT_EQ(verdict(0.25, 4), "");
+  const TopicStudy study = study_of(kMissingTopic, 4, "mpe_m", {{"ppca-smacof-knn", 0.2}});
+  EXPECT_TRUE(conclusions_of(study).at(0).ends_with("in 4 layouts.")) << conclusions_of(study)[0];
 }
 
 TEST(TopicWords, OfMovedLandmarksNameOthersAtTheSameLevelsAlone) {
