@@ -33,8 +33,22 @@ TEST(MapWalls, HaveTheBestMapFirstAndUselessOnesLast) {
   ASSERT_EQ(walls.size(), 1U);
   EXPECT_EQ(walls[0].id, "s-world-1");
   EXPECT_EQ(titles_of(walls[0]), (std::vector<std::string>{"C", "A", "B (not usable)"}));
-  EXPECT_EQ(walls[0].title, "hall: C is best, 0.100 m off; 1 of 3 maps is not usable");
+  EXPECT_EQ(walls[0].title,
+            "hall: C is the best of the 3 maps drawn, 0.100 m off; 1 is not usable");
   EXPECT_TRUE(walls[0].shared_x && walls[0].shared_y) << "one scale";
+}
+
+TEST(MapWalls, CountTheMapsThatTheirTitleRanks) {
+  const MapRecord good = map_off(0.1), turned = map_off(0.2, 60.0);
+  std::vector<std::pair<std::string, const MapRecord*>> maps(15, {"hall: A", &good});
+  const auto title = [&] { return map_walls("s", maps).at(0).title; };
+  EXPECT_EQ(
+      title(),
+      "hall: A is the best of 15 maps, 12 of them drawn, 0.100 m off; the others in the order of "
+      "their errors");
+  maps[13].second = maps[14].second = &turned;
+  EXPECT_TRUE(title().ends_with("; 2 are not usable")) << title();
+  EXPECT_EQ(map_walls("s", maps)[0].panels.size(), 12U);
 }
 
 TEST(MapWalls, AreOfOneWorldEach) {
@@ -50,8 +64,8 @@ TEST(MapWalls, AreOfOneWorldEach) {
                                      {"yard: A", &one},
                                      {"yard: B", &two}});
   ASSERT_EQ(walls.size(), 2U);
-  EXPECT_TRUE(walls[0].title.starts_with("hall: A is best")) << walls[0].title;
-  EXPECT_TRUE(walls[1].title.starts_with("yard: A is best")) << walls[1].title;
+  EXPECT_TRUE(walls[0].title.starts_with("hall: A is the best")) << walls[0].title;
+  EXPECT_TRUE(walls[1].title.starts_with("yard: A is the best")) << walls[1].title;
   EXPECT_EQ(walls[0].panels.size(), 2U);
 }
 

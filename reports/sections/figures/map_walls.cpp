@@ -65,6 +65,12 @@ std::string in_two_lines(std::string name) {
   return name;
 }
 
+/// "of the 3 maps drawn", "of 15 maps, 12 of them drawn": a study may have more methods than maps.
+std::string ranked_words(std::size_t maps, std::size_t drawn) {
+  return maps == drawn ? fmt::format("of the {} maps drawn", maps)
+                       : fmt::format("of {} maps, {} of them drawn", maps, drawn);
+}
+
 Figure wall_of(const MapsOfWorld& world, std::string id) {
   MapGridSpec spec{.id = std::move(id), .title = "", .maps = {}};
   const std::size_t cut = world.subject.empty() ? 0 : world.subject.size() + kOf.size();
@@ -78,15 +84,16 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
   const MapRecord& best = spec.maps.front().map;
   const std::string subject = world.subject.empty() ? "" : world.subject + std::string(kOf);
   if (has_use(best) && std::isfinite(error_or_infinity(best))) {
-    const auto useless =
-        std::ranges::count_if(spec.maps, [](const TitledMap& one) { return !has_use(one.map); });
+    const auto useful = static_cast<std::size_t>(std::ranges::count_if(
+        world.maps, [](const NamedMap& one) { return has_use(*one.second); }));
+    const std::size_t useless = world.maps.size() - useful;
     // Those that are of no use would make the others small.
-    spec.framing = spec.maps.size() - static_cast<std::size_t>(useless);
+    spec.framing = std::min(useful, spec.maps.size());
     spec.title = fmt::format(
-        "{} is best, {} off; {}", world.maps.front().first, error_text(error_or_infinity(best)),
+        "{} is the best {}, {} off; {}", world.maps.front().first,
+        ranked_words(world.maps.size(), spec.maps.size()), error_text(error_or_infinity(best)),
         useless == 0 ? "the others in the order of their errors"
-                     : fmt::format("{} of {} maps {} not usable", useless, spec.maps.size(),
-                                   useless == 1 ? "is" : "are"));
+                     : fmt::format("{} {} not usable", useless, useless == 1 ? "is" : "are"));
   } else {
     spec.title = subject + (best.score ? "no map is usable" : "maps of one world");
   }

@@ -17,7 +17,7 @@ bool is_usable(const Score& score);
 
 /// A figure for each world with two maps or more: maps of one subject with the same landmarks at
 /// the same true positions, with the same limits, the best first, those of no use last, twelve at
-/// most.
+/// most. The title counts the maps that it ranks.
 /// @param prefix  Of the ids, which go on with "-world-1".
 /// @param maps    Each with its name, "dataset1: Range, CMDS"; what is before the first ": " is the
 ///                subject.
