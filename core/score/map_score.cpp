@@ -172,14 +172,18 @@ std::optional<Score> score_map(const Points& estimate_m, const Points& ground_tr
   const double nan = kNaN;
   Score score;
   score.mpe_m = count > 0 ? sum / count : nan;
-  score.moe_percent = orientation_error_percent(ground_truth, estimate);
+  // Some affine map takes any three landmarks to any three positions.
+  const bool is_any_map_right = both.size() == 3;
+  score.moe_percent =
+      is_any_map_right && count == 0 ? nan : orientation_error_percent(ground_truth, estimate);
   // Not 100 less the other: triples that the map flattens are wrong in both orientations.
   const Points mirrored = estimate.rowwise().reverse();
   score.moe_unmirrored_percent =
-      score.moe_percent > 50.0
+      is_any_map_right ? nan
+      : score.moe_percent > 50.0
           ? std::min(score.moe_percent, orientation_error_percent(ground_truth, mirrored))
           : score.moe_percent;
-  score.mpe_all_fitted_m = planarity(estimate) > kFlatPlanarity
+  score.mpe_all_fitted_m = !is_any_map_right && planarity(estimate) > kFlatPlanarity
                                ? (fit_affine(estimate, ground_truth, fit)(estimate) - ground_truth)
                                      .rowwise()
                                      .norm()

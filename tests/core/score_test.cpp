@@ -204,6 +204,28 @@ TEST(ScoreMap, LeavesOutWhatIsNotOnTheMap) {
   EXPECT_FALSE(score_map(Points::Constant(9, 2, NAN), ground_truth, {}, AffineFit::kLeastSquares));
 }
 
+TEST(ScoreMap, HasNoErrorOfThreeLandmarksThatAnyMapMeets) {
+  const Points ground_truth = scattered(4, 1);
+  const auto score = [&](Eigen::Index landmarks) {
+    Points estimate = scattered(4, 2);
+    estimate.bottomRows(4 - landmarks).setConstant(NAN);
+    const AlignedMap map =
+        align_to_anchors(estimate, ground_truth, {0, 1, 2}, AffineFit::kLeastSquares);
+    return score_map(map.positions_m, ground_truth, {0, 1, 2}, AffineFit::kLeastSquares).value();
+  };
+  for (const double error : {score(3).mpe_m, score(3).moe_percent, score(3).mpe_all_fitted_m,
+                             score(3).moe_unmirrored_percent})
+    EXPECT_TRUE(std::isnan(error)) << error;
+  EXPECT_GT(score(4).mpe_m, 0.0);
+  EXPECT_GE(score(4).moe_unmirrored_percent, 0.0);
+  // The third landmark of two anchors has an error and an orientation.
+  const Score of_other =
+      score_map(scattered(3, 2), scattered(3, 1), {0, 1}, AffineFit::kLeastSquares).value();
+  EXPECT_GT(of_other.mpe_m, 0.0);
+  EXPECT_GE(of_other.moe_percent, 0.0);
+  EXPECT_TRUE(std::isnan(of_other.moe_unmirrored_percent));
+}
+
 TEST(AlignToAnchors, ForgetsTheFrameOfTheEmbedding) {
   const Points ground_truth = scattered(10, 1);
   const AlignedMap map = align_to_anchors(kSheared(ground_truth), ground_truth, {0, 3, 5, 7},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/not_finite.hpp"
+
 namespace mapproof::test {
 namespace {
 
@@ -73,6 +75,13 @@ TEST(MapWalls, WithoutAUsableMapSaySo) {
   const MapRecord a = map_off(0.1, 50.0), b = map_off(0.2, 40.0);
   EXPECT_EQ(map_walls("s", {{"hall: A", &a}, {"hall: B", &b}}).at(0).title,
             "hall: no map is usable");
+}
+
+TEST(MapWalls, OfMapsWithoutAnErrorDoNotCallThemUnusable) {
+  MapRecord unknown = map_off(0.1);
+  unknown.score->mpe_m = unknown.score->moe_percent = kNaN;
+  EXPECT_EQ(map_walls("s", {{"hall: A", &unknown}, {"hall: B", &unknown}}).at(0).title,
+            "hall: maps of one world");
 }
 
 }  // namespace

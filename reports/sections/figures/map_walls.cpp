@@ -95,7 +95,8 @@ Figure wall_of(const MapsOfWorld& world, std::string id) {
         useless == 0 ? "the others in the order of their errors"
                      : fmt::format("{} {} not usable", useless, useless == 1 ? "is" : "are"));
   } else {
-    spec.title = subject + (best.score ? "no map is usable" : "maps of one world");
+    const bool is_useless = best.score && !has_use(best);
+    spec.title = subject + (is_useless ? "no map is usable" : "maps of one world");
   }
   Figure figure = map_wall_figure(spec);
   figure.columns = kColumns;
