@@ -245,8 +245,8 @@ TopicDesign mrclam_design(const TopicExperiment&) {
 /// A set as the strategies take it.
 struct RealSet {
   DetectionSource source;
-  std::vector<Eigen::Index>
-      anchors;  ///< Empty: without ground truth, or with too few usable anchors.
+  std::vector<Eigen::Index> anchors;  ///< Empty: without ground truth, with too few usable anchors,
+                                      ///< or no other landmark that could be scored.
 };
 
 std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
@@ -255,7 +255,9 @@ std::vector<Eigen::Index> anchors_of(const DetectionSource& source) {
   for (const Detection& seen : source.log.detections)
     known.row(seen.landmark) = source.ground_truth_m->row(seen.landmark);
   std::vector<Eigen::Index> anchors = diagonal_anchors(known);
-  if (anchors.size() < 3 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity) return {};
+  const auto others = known.col(0).array().isFinite().count() - std::ssize(anchors);
+  if (anchors.size() < 3 || others == 0 || planarity(known(anchors, Eigen::all)) <= kFlatPlanarity)
+    return {};
   return anchors;
 }
 

@@ -17,18 +17,22 @@
 namespace mapproof {
 namespace {
 
+constexpr int kLandmarks = 9;
+
 /// Files of a set whose robots measure without error.
+/// @param known  Landmarks with a true position; none: there is no ground truth.
 void write_set(const test::TemporaryFolder& folder, const std::string& name,
-               bool with_ground_truth) {
-  const Points landmarks = 6.0 * test::scattered(9, 3);
+               int known = kLandmarks) {
+  const Points landmarks = 6.0 * test::scattered(kLandmarks, 3);
   std::string barcodes = "# subject barcode\n1 5\n";
   std::string ground_truth;
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < kLandmarks; ++i) {
     barcodes += fmt::format("{} {}\n", 6 + i, 60 + i);
+    if (i >= known) continue;
     ground_truth += fmt::format("{} {} {} 0.001 0.001\n", 6 + i, landmarks(i, 0), landmarks(i, 1));
   }
   folder.file(name + "/Barcodes.dat", barcodes);
-  if (with_ground_truth) folder.file(name + "/Landmark_Groundtruth.dat", ground_truth);
+  if (known > 0) folder.file(name + "/Landmark_Groundtruth.dat", ground_truth);
   for (const int robot : {1, 4}) {
     std::string rows;
     for (const Detection& seen :
@@ -64,8 +68,8 @@ const TopicOutcome& outcome(const TopicPart& part, const std::string& method) {
 
 TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
   const test::TemporaryFolder folder;
-  write_set(folder, "MRCLAM_Dataset2", true);
-  write_set(folder, "an other", true);
+  write_set(folder, "MRCLAM_Dataset2");
+  write_set(folder, "an other");
   folder.file("notes/readme.txt", "no set");
   const std::vector<DataSetFolder> sets = kMrclamTopic.data_sets(folder.path());
   ASSERT_EQ(sets.size(), 2U);
@@ -78,7 +82,7 @@ TEST(MrclamSets, AreTheFoldersThatHoldRobotsOrTheFolderItself) {
 
 TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
   const test::TemporaryFolder folder;
-  write_set(folder, "set", true);
+  write_set(folder, "set");
   const TopicExperiment ordered = experiment();
   const TopicPart part = made(ordered, kMrclamTopic.data_sets(folder.path()).at(0));
   const TopicDesign design = kMrclamTopic.design(ordered);
@@ -106,7 +110,7 @@ TEST(MrclamTopic, PairsOfPerfectRobotsGiveThePerfectMap) {
 
 TEST(MrclamTopic, MapsWithoutAPositionAreNamedAndNotDrawn) {
   const test::TemporaryFolder folder;
-  write_set(folder, "set", true);
+  write_set(folder, "set");
   TopicStudy study;
   study.experiment = experiment();
   study.design = kMrclamTopic.design(study.experiment);
@@ -134,7 +138,7 @@ TEST(MrclamTopic, MapsWithoutAPositionAreNamedAndNotDrawn) {
 
 TEST(MrclamTopic, WithoutGroundTruthThereAreMapsAndNoErrors) {
   const test::TemporaryFolder folder;
-  write_set(folder, "set", false);
+  write_set(folder, "set", 0);
   const TopicPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
   EXPECT_FALSE(outcome(part, "pairs").values.contains("mpe_m"));
   EXPECT_FALSE(outcome(part, "pairs").values.contains("rigid_m"));
@@ -147,9 +151,21 @@ TEST(MrclamTopic, WithoutGroundTruthThereAreMapsAndNoErrors) {
   EXPECT_EQ(conclusions_of(study).size(), 1U);
 }
 
+TEST(MrclamTopic, HasNoErrorsOfAnchorsAlone) {
+  for (const int known : {3, 4}) {
+    const test::TemporaryFolder folder;
+    write_set(folder, "set", known);
+    const TopicPart part = made(experiment(), kMrclamTopic.data_sets(folder.path()).at(0));
+    for (const TopicOutcome& one : part.outcomes)
+      for (const char* quantity : {"mpe_m", "moe_percent", "mpe_all_fitted_m"})
+        EXPECT_FALSE(one.values.contains(quantity)) << one.method << ", " << quantity;
+    EXPECT_LT(outcome(part, "pairs").values.at("rigid_m"), 1e-8);
+  }
+}
+
 TEST(MrclamTopic, ReportsASetThatCannotBeRead) {
   const test::TemporaryFolder folder;
-  write_set(folder, "set", true);
+  write_set(folder, "set");
   folder.file("set/Robot1_Measurement.dat", "1 2\n");
   try {
     kMrclamTopic.data_sets(folder.path());
