@@ -74,6 +74,8 @@ std::optional<WorstAnchor> worst_anchor(const MapRecord& record) {
   WorstAnchor out{.name = record.names[static_cast<std::size_t>(worst)],
                   .error_m = errors_m(worst),
                   .share_percent = side_m > 0.0 ? 100.0 * errors_m(worst) / side_m : kNaN};
+  constexpr double kRounding_percent = 1e-7;
+  if (record.anchors.size() == 3 && out.share_percent < kRounding_percent) return std::nullopt;
   out.is_contradicted = out.share_percent > kMost_percent;
   return out;
 }

@@ -43,7 +43,8 @@ struct WorstAnchor {
   bool is_contradicted = false;
 };
 
-/// None without anchors, and for a map that was not aligned to them.
+/// None without anchors, for a map that was not aligned to them, and where the map meets three
+/// anchors exactly: an affine map takes any three landmarks to any positions.
 std::optional<WorstAnchor> worst_anchor(const MapRecord& record);
 
 }  // namespace mapproof

@@ -279,5 +279,19 @@ TEST(ScoreWords, NameTheAnchorThatAMapMissesMost) {
   EXPECT_FALSE(worst_anchor(record));
 }
 
+TEST(ScoreWords, NameNoAnchorOfThreeThatAnyMapMeets) {
+  MapRecord record;
+  record.names = {"a", "b", "c", "d"};
+  record.estimate.resize(4, 2);
+  record.estimate << 0, 0, 4, 1, 2, 3, 1, 1;
+  record.ground_truth_m = record.estimate;
+  (*record.ground_truth_m)(1, 1) += 1e-15;
+  record.anchors = {0, 1, 2};
+  EXPECT_FALSE(worst_anchor(record));
+  EXPECT_EQ(title_with_error("A map", record), "A map");
+  record.anchors = {0, 1, 2, 3};
+  EXPECT_TRUE(worst_anchor(record));
+}
+
 }  // namespace
 }  // namespace mapproof::test
