@@ -233,6 +233,23 @@ TEST(SlamOpening, IsAFewNumbersAndWhatTheyCompareWith) {
   EXPECT_LT(all.size(), 1300U) << all;
 }
 
+TEST(SlamOpening, SaysOnItsTileWhatTheSlopeRestsOn) {
+  SlamStudy study = sample_slam_study();
+  const auto detail = [&] {
+    for (const Highlights::Item& item : slam_opening(study, {}).numbers.items)
+      if (item.label.starts_with("power of the measurements")) return item.detail;
+    return std::string();
+  };
+  EXPECT_EQ(detail(), "theory: \u22121/2");
+  study.convergence.push_back(test::sample_convergence("plain", "plain SVD", 1.0));
+  study.experiment.convergence = ConvergenceOptions{};
+  EXPECT_EQ(detail(),
+            "theory: \u22121/2; with the variance of the noise taken off, without that, as in the "
+            "paper, \u22120.50; some worlds are drawn again");
+  study.experiment.name = "other";
+  EXPECT_EQ(detail(), "theory: \u22121/2");
+}
+
 TEST(SlamOpening, NamesTheBestEstimateAndByHowMuch) {
   SlamStudy study = sample_slam_study();
   SlamRun& run = study.runs[1];

@@ -425,7 +425,7 @@ void add_slope(const SlamStudy& study, Highlights& numbers) {
   numbers.items.push_back(
       {fmt::format("power of the measurements: the model error falls {} than in theory",
                    slope < kTheory ? "faster" : "more slowly"),
-       slope_words(slope), "theory: \u22121/2", kSlamSimulation});
+       slope_words(slope), "theory: \u22121/2" + brief_variant_words(study), kSlamSimulation});
 }
 
 /// "the logs of Plaza 1 and Plaza 2 are missing"; empty if none is.

@@ -28,6 +28,13 @@ std::vector<const SlamDataSet*> missing_data(const SlamStudy& study) {
   return missing;
 }
 
+/// The curve of the paper's own decomposition; null for other studies, and where it was not made.
+const ConvergenceCurve* plain_svd_of(const SlamStudy& study) {
+  if (!is_of_paper(study)) return nullptr;
+  const auto found = std::ranges::find(study.convergence, "plain", &ConvergenceCurve::id);
+  return found == study.convergence.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::string record_id(const SlamRun& run, const SlamRecord& record) {
@@ -130,9 +137,8 @@ double convergence_slope(const ConvergenceCurve& curve) {
 }
 
 std::string variant_words(const SlamStudy& study) {
-  if (study.convergence.empty() || !is_of_paper(study)) return "";
-  const auto plain_svd = std::ranges::find(study.convergence, "plain", &ConvergenceCurve::id);
-  if (plain_svd == study.convergence.end()) return "";
+  const ConvergenceCurve* plain_svd = plain_svd_of(study);
+  if (plain_svd == nullptr) return "";
   std::string text =
       " The exactly known variance of the noise is taken off the factorised matrix, which the "
       "paper does not do";
@@ -143,6 +149,17 @@ std::string variant_words(const SlamStudy& study) {
   text += ".";
   if (const auto& convergence = study.experiment.convergence)
     text += " Not all worlds count: " + redrawn_words(*convergence) + ".";
+  return text;
+}
+
+std::string brief_variant_words(const SlamStudy& study) {
+  const ConvergenceCurve* plain_svd = plain_svd_of(study);
+  if (plain_svd == nullptr) return "";
+  std::string text = "; with the variance of the noise taken off";
+  const double slope = convergence_slope(*plain_svd);
+  if (std::isfinite(slope))
+    text += fmt::format(", without that, as in the paper, {}", slope_words(slope));
+  if (study.experiment.convergence) text += "; some worlds are drawn again";
   return text;
 }
 

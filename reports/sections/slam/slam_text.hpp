@@ -50,4 +50,8 @@ double convergence_slope(const ConvergenceCurve& curve);
 /// worlds that were drawn again. Empty for other studies.
 std::string variant_words(const SlamStudy& study);
 
+/// The same for a tile: "; with the variance of the noise taken off, without that, as in the paper,
+/// −0.20; some worlds are drawn again".
+std::string brief_variant_words(const SlamStudy& study);
+
 }  // namespace mapproof
