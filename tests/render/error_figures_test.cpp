@@ -441,6 +441,20 @@ TEST(ErrorLinesFigure, CountsTheIntervalsThatEndAboveItsFrame) {
   EXPECT_EQ(figure.notes[0].text, "1 interval ends above the frame.");
 }
 
+TEST(ErrorLinesFigure, CountsTheIntervalsThatEndBelowALogarithmicFrame) {
+  ErrorLinesSpec spec;
+  spec.id = "lines";
+  spec.panels.resize(1);
+  ErrorLine line = three_points("A", {0.1, 1.0, 3.0}, 0.05);
+  line.low = {0.001, -2.0, 0.05};
+  spec.panels[0].lines = {line};
+  const Figure figure = error_lines_figure(spec);
+  ASSERT_EQ(figure.notes.size(), 1U);
+  EXPECT_EQ(figure.notes[0].text, "2 intervals end below the frame.");
+  spec.log_from = 100.0;  // A linear axis holds them all.
+  EXPECT_TRUE(error_lines_figure(spec).notes.empty());
+}
+
 TEST(ErrorByParameterFigure, HasAPanelForEachKindOfParameter) {
   const Figure figure = error_by_parameter_figure(sample_parameters());
   ASSERT_EQ(figure.panels.size(), 3u);

@@ -191,6 +191,22 @@ TEST(FigureRules, FindABarThatIsCutByTheFrame) {
   EXPECT_EQ(rules_broken_by({panel}).find(rule), std::string::npos);
 }
 
+TEST(FigureRules, FindABandThatIsCutByTheFrameWithoutANote) {
+  Figure figure = plot_of(
+      {{.title = "",
+        .layers = {Band{.label = "b", .x = {0.0, 10.0}, .low = {0.0, 1.0}, .high = {4.0, 12.0}},
+                   straight("b", 2.0, 8.0)}}});
+  const auto is_found = [&] {
+    return joined(broken_rules(figure, report_theme())).find("the band of 'b' is cut") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(is_found());
+  figure.panels[0].y.limits = Range{0.0, 10.0};
+  EXPECT_TRUE(is_found());
+  figure.notes.push_back({"1 interval ends above the frame."});
+  EXPECT_FALSE(is_found());
+}
+
 TEST(FigureRules, FindAPointThatMayBeAnywhereBelowItsAxis) {
   Panel panel{.title = "",
               .layers = {straight("a", 1.0, 10.0), Scatter{.label = "b", .x = {5.0}, .y = {1.0}}}};

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
-#include <tuple>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -95,25 +95,35 @@ Labels labels_of(const ErrorLinesSpec& spec) {
   return all;
 }
 
-/// Notes how many means and points lie above the frame, and how many intervals end there whose
-/// means do not.
-void note_above(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
+/// "3 intervals end above the frame."
+void note_count(long long count, std::string_view what, std::string_view verb,
+                std::string_view side, Figure& figure) {
+  if (count > 0)
+    figure.notes.push_back({fmt::format("{} {}{} {} the frame.", counted(count, what), verb,
+                                        count == 1 ? "s" : "", side),
+                            ThemeColour::kMuted});
+}
+
+/// Notes how many means and points lie above the frame, and how many intervals end above or below
+/// it whose means do not lie above.
+void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
   const auto is_above = [&](double value) { return value > axis.limits.high; };
-  long long values = 0, intervals = 0;
+  const auto is_below = [&](double value) { return value < axis.limits.low; };
+  long long values = 0, above = 0, below = 0;
   for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
       values += std::ranges::count_if(line.mean, is_above);
-      for (std::size_t i = 0; i < line.high.size(); ++i)
-        intervals += is_above(line.high[i]) && !is_above(line.mean[i]) ? 1 : 0;
+      for (std::size_t i = 0; i < line.high.size(); ++i) {
+        if (is_above(line.mean[i])) continue;
+        above += is_above(line.high[i]) ? 1 : 0;
+        below += is_below(line.low[i]) ? 1 : 0;
+      }
     }
     values += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
   }
-  for (const auto& [count, what, ends] :
-       {std::tuple{values, "value", "lie"}, std::tuple{intervals, "interval", "end"}})
-    if (count > 0)
-      figure.notes.push_back({fmt::format("{} {}{} above the frame.", counted(count, what), ends,
-                                          count == 1 ? "s" : ""),
-                              ThemeColour::kMuted});
+  note_count(values, "value", "lie", "above", figure);
+  note_count(above, "interval", "end", "above", figure);
+  note_count(below, "interval", "end", "below", figure);
 }
 
 std::string words_of(const ErrorLine& line) {
@@ -339,7 +349,7 @@ Figure error_lines_figure(const ErrorLinesSpec& spec) {
   figure.record_ids = spec.record_ids;
   figure.alt = spec.alt.empty() ? alt_of(spec, axis) : spec.alt;
   figure.notes = spec.notes;
-  note_above(spec, axis, figure);
+  note_beyond(spec, axis, figure);
   const Builder builder(spec, axis);
   for (std::size_t i = 0; i < spec.panels.size(); ++i) figure.panels.push_back(builder.panel(i));
   if (labels_of(spec).labels.empty())

@@ -93,9 +93,9 @@ std::vector<std::size_t> series_of(const std::vector<std::optional<std::size_t>>
 /// Lines with their 95 % intervals in panels that share the y axis. Intervals are bands, or bars
 /// where more than three bands would lie on each other. The axis is logarithmic if the means span
 /// more than `log_from`, and then holds the upper ends of intervals as far as these take no more of
-/// it than the means do; a note counts those beyond. Else it holds all intervals and is from 0, or
-/// from the lowest interval if that reaches below, or if the values would take less than a third of
-/// an axis from 0.
+/// it than the means do, and the lower ends down to a third of the least mean; notes count those
+/// beyond. Else it holds all intervals and is from 0, or from the lowest interval if that reaches
+/// below, or if the values would take less than a third of an axis from 0.
 /// @throws InvalidInput if a line's vectors disagree in length, or a key is not an id or there
 /// twice.
 Figure error_lines_figure(const ErrorLinesSpec& spec);

@@ -171,8 +171,8 @@ class Rules {
       add(fmt::format("the title '{}'", figure_.title));
   }
 
-  /// Bars that end outside the frame without an arrow, and points at the foot of a logarithmic
-  /// axis, where they may be anything below.
+  /// Bars that end outside the frame without an arrow, bands beyond it without a note, and points
+  /// at the foot of a logarithmic axis, where they may be anything below.
   void check_cut_data(const Panel& panel) {
     const PanelLimits limits = panel_limits(panel);
     const auto holds = [](Range range, double value) {
@@ -186,11 +186,23 @@ class Rules {
             add(fmt::format("a bar of '{}' is cut by the frame", bars->label));
             break;
           }
+      if (const auto* band = std::get_if<Band>(&layer); band != nullptr && !notes_frame()) {
+        const auto is_cut = [&](double y) { return !holds(limits.y, y); };
+        if (std::ranges::any_of(band->low, is_cut) || std::ranges::any_of(band->high, is_cut))
+          add(fmt::format("the band of '{}' is cut by the frame without a note", band->label));
+      }
       if (const auto* points = std::get_if<Scatter>(&layer);
           points != nullptr && panel.y.scale == Scale::kLog &&
           std::ranges::any_of(points->y, [&](double y) { return y <= limits.y.low; }))
         add(fmt::format("a point of '{}' is at the foot of its axis", points->label));
     }
+  }
+
+  /// Whether a note says what lies beyond the frame.
+  bool notes_frame() const {
+    return std::ranges::any_of(figure_.notes, [](const Note& note) {
+      return note.text.find(" the frame") != std::string::npos;
+    });
   }
 
   void check_start(const Panel& panel) {
