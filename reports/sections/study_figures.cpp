@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -52,18 +53,12 @@ class ShownMarks {
   /// 0 without marks.
   std::uint64_t number() const {
     if (x_.empty() && y_.empty()) return 0;
-    Hash hash;
-    hash.add(std::hash<std::string>()(labels_));
-    for (const std::vector<double>* values : {&x_, &y_}) add_parts(*values, hash);
-    return hash.value;
+    std::string shown = labels_;
+    for (const std::vector<double>* values : {&x_, &y_}) append_parts(*values, shown);
+    return std::hash<std::string>()(shown);
   }
 
  private:
-  struct Hash {
-    std::uint64_t value = 14695981039346656037U;  // FNV-1a, of words instead of bytes.
-    void add(std::uint64_t word) { value = (value ^ word) * 1099511628211U; }
-  };
-
   void see(const std::string& label, const std::vector<double>& x, const std::vector<double>& y) {
     labels_ += label + '\n';
     x_.insert(x_.end(), x.begin(), x.end());
@@ -71,18 +66,17 @@ class ShownMarks {
   }
 
   /// As parts of the greatest, which no change of unit moves but by a rounding error.
-  static void add_parts(const std::vector<double>& values, Hash& hash) {
+  static void append_parts(const std::vector<double>& values, std::string& shown) {
     constexpr double kParts = 1e5;
     double greatest = 0.0;
     for (const double value : values)
       if (std::isfinite(value)) greatest = std::max(greatest, std::abs(value));
+    if (greatest == 0.0) greatest = 1.0;
     for (const double value : values)
-      if (!std::isfinite(value))
-        hash.add(std::uint64_t{1} << 63U);
-      else
-        hash.add(greatest == 0.0
-                     ? 0
-                     : static_cast<std::uint64_t>(std::llround(kParts * (value / greatest))));
+      shown += std::isfinite(value)
+                   ? std::to_string(std::llround(kParts * (value / greatest))) + ','
+                   : "-,";
+    shown += '\n';
   }
 
   std::string labels_;
