@@ -71,17 +71,20 @@ void make_small(Panel& panel) {
     if (auto* points = std::get_if<Scatter>(&layer)) points->size *= kSmall;
 }
 
-/// Common limits of all panels: those that the first maps need, but for maps with estimates far
-/// off. Unset if no estimate is outside.
-std::optional<PanelBox> limits_of(const MapGridSpec& spec,
-                                  const std::vector<const TitledMap*>& maps) {
+Panel grid_panel(const std::vector<const TitledMap*>& maps, std::size_t i,
+                 const std::optional<PanelBox>& limits = std::nullopt) {
+  return map_panel(maps[i]->map, fmt::format("map-{}-", i + 1), limits);
+}
+
+/// Common limits of all panels: those that the first panels need, but for those with estimates far
+/// off. Unset if these are all, and no estimate is outside.
+std::optional<PanelBox> limits_of(const std::vector<Panel>& first, std::size_t all) {
   std::vector<PanelBox> whole, cut;
-  for (std::size_t i = 0; i < std::min(maps.size(), spec.framing); ++i) {
-    const Panel panel = map_panel(maps[i]->map, "");
+  for (const Panel& panel : first) {
     const auto [x, y] = panel_limits(panel);
     (panel.x.limits ? cut : whole).push_back({x, y});
   }
-  if (whole.size() == maps.size()) return std::nullopt;
+  if (whole.size() == all) return std::nullopt;
   const std::vector<PanelBox>& framing = whole.empty() ? cut : whole;
   PanelBox limits = framing.front();
   for (const auto& [x, y] : framing)
@@ -90,19 +93,31 @@ std::optional<PanelBox> limits_of(const MapGridSpec& spec,
   return limits;
 }
 
+/// The panels of all maps with their common limits. Each is drawn once, and once more only if it
+/// needs other limits than its own.
+std::vector<Panel> grid_panels(const MapGridSpec& spec, const std::vector<const TitledMap*>& maps) {
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < std::min(maps.size(), spec.framing); ++i)
+    panels.push_back(grid_panel(maps, i));
+  const std::optional<PanelBox> limits = limits_of(panels, maps.size());
+  if (!limits) return panels;
+  panels.clear();
+  for (std::size_t i = 0; i < maps.size(); ++i) panels.push_back(grid_panel(maps, i, limits));
+  return panels;
+}
+
 Figure grid_of(const MapGridSpec& spec, const std::vector<const TitledMap*>& maps, bool named) {
   Figure figure;
   figure.id = spec.id;
   figure.title = spec.title;
   figure.shared_x = figure.shared_y = true;
-  const std::optional<PanelBox> limits = limits_of(spec, maps);
+  figure.panels = grid_panels(spec, maps);
   std::vector<std::string> without_position;
   for (std::size_t i = 0; i < maps.size(); ++i) {
     const MapRecord& record = maps[i]->map;
-    Panel panel = map_panel(record, fmt::format("map-{}-", i + 1), limits);
+    Panel& panel = figure.panels[i];
     panel.title = maps[i]->title + "\n" + in_lines(scored(*maps[i], named));
     if (!named) make_small(panel);
-    figure.panels.push_back(std::move(panel));
     figure.record_ids.push_back(record.id);
     figure.alt += (i == 0 ? "" : "; ") + in_one_line(maps[i]->title) + " " + scored(*maps[i], true);
     if (record.estimate.array().isNaN().any())
