@@ -37,11 +37,9 @@ struct Spans {
   }
   void operator()(const Ellipses& ellipses) {
     for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-      const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
-      const double across = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
-      const double up = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
-      see(ellipses.x[i] - across, ellipses.y[i] - up);
-      see(ellipses.x[i] + across, ellipses.y[i] + up);
+      const PanelLimits box = ellipse_box(ellipses, i);
+      see(box.x.low, box.y.low);
+      see(box.x.high, box.y.high);
     }
   }
   void operator()(const Cells& cells) {
@@ -100,6 +98,14 @@ AxisMap::AxisMap(Scale scale, Range limits, double start_pt, double end_pt)
 double AxisMap::operator()(double value) const {
   const double position = scale_ == Scale::kLog ? std::log10(value) : value;
   return start_pt_ + (position - low_) * points_per_unit_;
+}
+
+PanelLimits ellipse_box(const Ellipses& ellipses, std::size_t i) {
+  const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
+  const double across = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
+  const double up = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
+  return {{ellipses.x[i] - across, ellipses.x[i] + across},
+          {ellipses.y[i] - up, ellipses.y[i] + up}};
 }
 
 PanelLimits panel_limits(const Panel& panel) {

@@ -32,6 +32,9 @@ struct PanelLimits {
   Range x, y;
 };
 
+/// The upright box about one of the ellipses; NaN if the ellipse has one.
+PanelLimits ellipse_box(const Ellipses& ellipses, std::size_t i);
+
 /// The limits asked for, or what the layers span and a little more; never empty. Equal aspect keeps
 /// the longer side below 2.5 times the shorter.
 PanelLimits panel_limits(const Panel& panel);

@@ -67,6 +67,24 @@ TEST(MeasuredMap, DrawsTheSameEllipsesAsTheMapOfOneCommand) {
   EXPECT_EQ(drawn.a, layer_of<Ellipses>(of_command, "95 % ellipse").a);
 }
 
+TEST(MapEllipses, AreCountedInANoteWhereTheFrameCutsThem) {
+  MapRecord map = sample_map(5, 0.1, 1);
+  MapUncertainty uncertainty{.squared_radius = 9.0, .replicates = 20, .maps = 20, .block_steps = 4};
+  uncertainty.covariances.assign(5, Eigen::Matrix2d::Identity() * 1e-4);
+  const auto drawn = [&] {
+    Figure figure = map_figure(map, "map");
+    add_ellipses(map, uncertainty, figure);
+    return figure;
+  };
+  EXPECT_FALSE(has_note(drawn(), "beyond the frame"));
+  uncertainty.covariances[3] *= 1e8;
+  const std::string cut =
+      "1 ellipse beyond the frame; half the longest axis, of " + map.names[3] + ", is 300";
+  EXPECT_TRUE(has_note(drawn(), cut + " m."));
+  map.frame = Frame::kSimilarity;
+  EXPECT_TRUE(has_note(drawn(), cut + ".")) << "no unit";
+}
+
 TEST(MapFigure, SaysItsScoreInTheCaption) {
   MapRecord map = sample_map(50, 0.1, 1);
   map.score = Score{0.2190, 4.7, 0.2, 4.7};

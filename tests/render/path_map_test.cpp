@@ -100,6 +100,23 @@ TEST(PathMap, CutsNoEllipseOfALandmarkAtTheFrame) {
     }
 }
 
+TEST(PathMap, CutsAnEllipseFarLargerThanTheMapAndSaysSo) {
+  SlamRun run = sample_drive("plaza-1", 2000, 1);
+  const auto width = [](const Figure& figure) {
+    const Range x = *figure.panels[0].x.limits;
+    return x.high - x.low;
+  };
+  const double usual = width(figure_of(run));
+  EXPECT_FALSE(notes_contain(figure_of(run), "beyond the frame"));
+  run.records[5].estimate.landmark_cov_m2[2] = Eigen::Matrix2d::Identity() * 1e6;
+  const Figure figure = figure_of(run);
+  EXPECT_LE(width(figure), 2.0 * usual);
+  EXPECT_TRUE(notes_contain(figure,
+                            "refined, scale free: 1 ellipse beyond the frame; half the "
+                            "longest axis, of " +
+                                run.log.landmarks[2] + ", is 2448 m."));
+}
+
 /// What pages hide with an entry of the legend.
 std::string curve_of(const Mark& mark) {
   for (const auto& [key, value] : mark.data)

@@ -9,6 +9,7 @@
 #include "core/base/text/number_text.hpp"
 #include "core/base/text/words.hpp"
 #include "render/base/span.hpp"
+#include "render/figures/maps/ellipse_frame.hpp"
 
 namespace mapproof {
 namespace {
@@ -68,7 +69,10 @@ void add_ellipses(const MapRecord& record, const MapUncertainty& uncertainty, Fi
   Ellipses shapes = ellipses_of(record, uncertainty, panel);
   if (shapes.x.empty()) return;
   limit(record, shapes, panel);
-  panel.layers.insert(panel.layers.begin(), std::move(shapes));
+  panel.layers.insert(panel.layers.begin(), shapes);
+  const char* unit = record.frame == Frame::kGroundTruth ? " m" : "";
+  if (auto note = cut_ellipses_note(shapes, panel_limits(panel), unit))
+    figure.notes.push_back(*std::move(note));
   figure.caption += " " + ellipse_words(uncertainty);
 }
 

@@ -9,7 +9,7 @@
 namespace mapproof {
 
 /// Puts the ellipses of a map under what its figure shows, and describes them in the caption. Where
-/// some are as large as the map, the frame cuts them.
+/// some are as large as the map, the frame cuts them, and a note counts them.
 /// @param figure  map_figure() of the record.
 /// @throws InvalidInput unless there is a covariance a landmark.
 void add_ellipses(const MapRecord& record, const MapUncertainty& uncertainty, Figure& figure);

@@ -15,6 +15,7 @@
 #include "render/figures/curves/thinning.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
+#include "render/figures/maps/ellipse_frame.hpp"
 #include "render/figures/maps/path_styles.hpp"
 #include "render/figures/status_text.hpp"
 
@@ -136,24 +137,22 @@ double enlargement(const PathView& view) {
   return 1.0;
 }
 
-/// Of landmarks within the limits: none is cut by the frame.
+/// Of landmarks within the limits, as far as with_ellipses() widens these.
 void make_room_for_ellipses(PathView& view) {
-  const PathView before = view;
+  Ellipses rims;
   for (const SlamRecord* record : view.shown) {
     const auto& covariances = record->estimate.landmark_cov_m2;
     for (Index i = 0; i < std::ssize(covariances); ++i) {
       const Eigen::RowVector2d at = record->estimate.landmarks_m.row(i);
-      if (!covariances[i].allFinite() || !before.shows(at)) continue;
+      if (!covariances[i].allFinite() || !view.shows(at)) continue;
       const Ellipse ellipse = covariance_ellipse(covariances[i]);
-      const double cos = std::cos(ellipse.rotation_rad), sin = std::sin(ellipse.rotation_rad);
-      const double rim = 1.0 + kRim;
-      const double across = rim * view.enlarged * std::hypot(ellipse.a * cos, ellipse.b * sin);
-      const double up = rim * view.enlarged * std::hypot(ellipse.a * sin, ellipse.b * cos);
-      auto& [x, y] = view.limits;
-      x = {std::min(x.low, at.x() - across), std::max(x.high, at.x() + across)};
-      y = {std::min(y.low, at.y() - up), std::max(y.high, at.y() + up)};
+      const double drawn = (1.0 + kRim) * view.enlarged;
+      rims.x.push_back(at.x()), rims.y.push_back(at.y());
+      rims.a.push_back(drawn * ellipse.a), rims.b.push_back(drawn * ellipse.b);
+      rims.rotation_rad.push_back(ellipse.rotation_rad);
     }
   }
+  view.limits = with_ellipses(view.limits, rims);
 }
 
 bool any_finite(const Points& points) { return points.array().isFinite().any(); }
@@ -342,6 +341,10 @@ class PathMap {
     if (!view_.leaving.empty())
       notes.push_back(
           {"Outside the image: " + listed(view_.leaving, 4) + ".", ThemeColour::kWarning});
+    for (const SlamRecord* record : view_.shown)
+      if (const auto note =
+              cut_ellipses_note(ellipses(*record), view_.limits, " m", view_.enlarged))
+        notes.push_back({fmt::format("{}: {}", label_of(*record), note->text), note->colour});
     std::vector<std::string> others;
     for (const SlamRecord* record : view_.failed) {
       const auto& statuses = record->estimate.statuses;

@@ -19,8 +19,8 @@ struct PathMapSpec {
 /// Paths and landmarks of a run, true and recovered: the map above and, where there is ground
 /// ground truth, the error of each position over time below. Paths are thinned to what the eye can
 /// see. Landmarks that carry a covariance have the ellipse of 95 %, enlarged by a stated factor
-/// where it would be too small to be seen. A path that leaves the image, and a method without a
-/// path, is named.
+/// where it would be too small to be seen; a note counts those that the frame cuts. A path that
+/// leaves the image, and a method without a path, is named.
 /// @throws InvalidInput if parts of a record disagree in size.
 /// @note Pure. O(T log T) a method.
 Figure path_map_figure(const PathMapSpec& spec);
@@ -40,7 +40,7 @@ struct PathView {
 };
 
 /// The image is where the ground truth is, or, without one, the bulk of the paths, and what lies
-/// within half its side about it, with the ellipses of its landmarks.
+/// within half its side about it, with the ellipses of its landmarks (see with_ellipses()).
 /// @throws InvalidInput if parts of a record disagree in size.
 PathView path_view(const PathMapSpec& spec);
 

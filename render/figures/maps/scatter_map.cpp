@@ -12,6 +12,7 @@
 #include "render/base/span.hpp"
 #include "render/figures/layer_shapes.hpp"
 #include "render/figures/maps/covariance_ellipse.hpp"
+#include "render/figures/maps/ellipse_frame.hpp"
 #include "render/plot/axis_map.hpp"
 
 namespace mapproof {
@@ -82,47 +83,11 @@ struct EllipseLayers {
   }
 };
 
-/// The frame about an ellipse.
-PanelLimits box_of(const Ellipses& ellipses, std::size_t i) {
-  const double c = std::cos(ellipses.rotation_rad[i]), s = std::sin(ellipses.rotation_rad[i]);
-  const double x = std::hypot(ellipses.a[i] * c, ellipses.b[i] * s);
-  const double y = std::hypot(ellipses.a[i] * s, ellipses.b[i] * c);
-  return {{ellipses.x[i] - x, ellipses.x[i] + x}, {ellipses.y[i] - y, ellipses.y[i] + y}};
-}
-
-/// The limits with all of the ellipses, as far as half the width beyond where they began.
-PanelLimits widened(const PanelLimits& limits, const Ellipses& ellipses) {
-  const auto widen = [](Range& range, const Range& first, const Range& box) {
-    const double most = 0.5 * (first.high - first.low);
-    range.low = std::clamp(box.low, first.low - most, range.low);
-    range.high = std::clamp(box.high, range.high, first.high + most);
-  };
-  PanelLimits all = limits;
-  for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-    const PanelLimits box = box_of(ellipses, i);
-    widen(all.x, limits.x, box.x);
-    widen(all.y, limits.y, box.y);
-  }
-  return all;
-}
-
-/// How many ellipses the frame cuts.
-std::size_t count_cut(const Ellipses& ellipses, const PanelLimits& limits) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < ellipses.x.size(); ++i) {
-    const PanelLimits box = box_of(ellipses, i);
-    count += box.x.low < limits.x.low || box.x.high > limits.x.high || box.y.low < limits.y.low ||
-             box.y.high > limits.y.high;
-  }
-  return count;
-}
-
 /// What the text reports.
 struct EllipseSummary {
   std::size_t placed = 0;        ///< Landmarks with a mean.
   std::size_t with_ellipse = 0;  ///< With three runs or more.
   std::size_t outside = 0;       ///< Means outside the image.
-  std::size_t cut = 0;           ///< Ellipses that the image does not hold whole.
   double sum_bias_m = 0.0;       ///< Over those placed.
   double sum_a_m = 0.0;          ///< Over those with an ellipse.
   double worst_a_m = 0.0;
@@ -167,11 +132,6 @@ std::vector<Note> notes_of(const EllipseSummary& summary) {
   if (summary.outside > 0)
     notes.push_back(
         {counted(summary.outside, "mean estimate") + " outside the image.", ThemeColour::kWarning});
-  if (summary.cut > 0)
-    notes.push_back({fmt::format("{} beyond the frame; half the longest axis, of {}, is {} m.",
-                                 counted(summary.cut, "ellipse"), summary.worst,
-                                 significant(summary.worst_a_m)),
-                     ThemeColour::kWarning});
   return notes;
 }
 
@@ -221,9 +181,8 @@ Figure ellipse_map_figure(const EllipseMapSpec& spec) {
     ellipses.push_back(scatter_ellipse(spec.estimates_m, i));
     layers.add(spec, i, ellipses.back());
   }
-  const PanelLimits limits = widened(limits_of(spec.ground_truth_m), layers.scatter);
+  const PanelLimits limits = with_ellipses(limits_of(spec.ground_truth_m), layers.scatter);
   EllipseSummary summary;
-  summary.cut = count_cut(layers.scatter, limits);
   for (Eigen::Index i = 0; i < spec.ground_truth_m.rows(); ++i)
     summary.add(spec, i, ellipses[static_cast<std::size_t>(i)], limits);
   Figure figure;
@@ -244,6 +203,8 @@ Figure ellipse_map_figure(const EllipseMapSpec& spec) {
       counted(spec.names.size(), "landmark"), counted(spec.estimates_m.size(), "run"));
   figure.alt = alt_of(spec, summary);
   figure.notes = notes_of(summary);
+  if (auto note = cut_ellipses_note(layers.scatter, limits, " m"))
+    figure.notes.push_back(*std::move(note));
   require_valid(figure);
   return figure;
 }
