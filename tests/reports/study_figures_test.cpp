@@ -105,6 +105,20 @@ TEST(StudyFigures, TitlesOfSomeOfTheMethodsSayOfWhich) {
   EXPECT_EQ(alone.find("lowest"), std::string::npos) << alone;
 }
 
+/// How many lines of a figure have the style of one of the mapping methods.
+int lines_in_the_style_of_a_method(const Figure& figure) {
+  int count = 0;
+  for (const Panel& panel : figure.panels)
+    for (const Layer& layer : panel.layers)
+      if (const auto* line = std::get_if<Polyline>(&layer))
+        for (std::size_t i = 0; i < kMethodStyles; ++i) {
+          const SeriesStyle style = series_style(i);
+          count += line->colour == style.colour && line->dash == style.dash &&
+                   line->marker == style.marker;
+        }
+  return count;
+}
+
 TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
   Study study{.experiment = experiment_with_everything(), .provenance = {}, .runs = {}};
   std::map<RunId, RunResult> results;
@@ -140,6 +154,10 @@ TEST(StudyFigures, AreOfEveryKindThatAStudyAllows) {
       << "two methods have no diagram of ranks";
   EXPECT_EQ(ids_of(figures, "conditions"),
             (std::vector<std::string>{"anchors-visibility", "level-noise", "level-together"}));
+  for (const Figure* figure : all_figures(figures))
+    if (figure->id == "anchors-visibility" || figure->id == "level-together") {
+      EXPECT_EQ(lines_in_the_style_of_a_method(*figure), 0) << figure->id;
+    }
   EXPECT_EQ(ids_of(figures, "cost"), (std::vector<std::string>{"cost-visibility", "cost-bearing"}));
   for (const Figure* figure : all_figures(figures)) {
     EXPECT_EQ(problem(*figure), "") << figure->id;

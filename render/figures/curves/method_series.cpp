@@ -14,7 +14,7 @@
 namespace mapproof {
 namespace {
 
-/// What the studies of a topic compare besides mapproof's mapping methods.
+/// What studies compare besides mapproof's mapping methods.
 struct Compared {
   std::size_t first = 0;  ///< The colour of its first id; the others have those behind it.
   std::vector<std::string_view> ids;  ///< At most as many as there are colours.
@@ -29,8 +29,10 @@ const std::vector<Compared>& all_compared() {
       {6,
        {"stress", "residual-variance", "trustworthiness", "continuity", "stability", "anchors",
         "fixed", "combined", "random"}},
-      // doubt and moved
-      {1, {"slam", "permutations"}},
+      // doubt and moved; what the figures of one method compare
+      {1,
+       {"slam", "permutations", "anchors-walls", "anchors-random", "anchors-cluster", "level-1",
+        "level-2"}},
       // incremental, beside SMACOF, kNN weights and ISOMAP
       {7, {"smacof-whole", "smacof-knn-whole", "isomap-whole"}},
       // missing

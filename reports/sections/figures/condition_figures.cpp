@@ -15,6 +15,7 @@
 #include "render/figures/curves/error_curve.hpp"
 #include "render/figures/curves/error_lines.hpp"
 #include "render/figures/curves/level_curve.hpp"
+#include "render/figures/curves/method_series.hpp"
 #include "reports/sections/figures/line_findings.hpp"
 #include "reports/sections/figures/method_styles.hpp"
 #include "reports/sections/variation_summary.hpp"
@@ -126,7 +127,7 @@ std::vector<ErrorPanel> panels_of_methods(const std::vector<ErrorPanel>& levels)
       ErrorLine line = levels[level].lines[k];
       line.label = levels[level].title;
       line.key += fmt::format("-{}", level + 1);
-      line.series.reset();
+      line.series = series_of_methods({fmt::format("level-{}", level + 1)}).front();
       panel.lines.push_back(std::move(line));
     }
     panels.push_back(std::move(panel));
@@ -205,7 +206,7 @@ void add_anchors(const Study& study, Sensor sensor, std::vector<Figure>& figures
       ErrorLine line = line_over_levels(study.experiment, variation, setting);
       line.label = std::string(name(placement));
       line.key = variation.id;
-      line.series.reset();
+      line.series = series_of_methods({fmt::format("anchors-{}", name(placement))}).front();
       panel->placements.push_back(std::move(line));
     }
     spec.record_ids.push_back(record_of(variation));
