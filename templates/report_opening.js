@@ -149,8 +149,11 @@ function highlightImages() {
 
 const kLeastDrawn = .02;  // Of the pixels of a small image.
 
-// The share of an image's pixels that differ from its commonest colour.
-async function drawnShare(image) {
+// The share of a drawing's pixels that differ from their commonest colour. The drawing has an image of
+// its own, since that of the page gets another source once a method is chosen.
+async function drawnShare(drawing) {
+  const image = new Image();
+  image.src = svgUrl(drawing);
   await image.decode();
   const canvas = new OffscreenCanvas(120, 60), kStep = 32;
   const context = canvas.getContext("2d");
@@ -166,11 +169,20 @@ async function drawnShare(image) {
 
 // Small images that show next to nothing are left out.
 async function dropEmpty(link) {
-  const image = link.querySelector("img");
-  if (!image || await drawnShare(image) >= kLeastDrawn) return;
+  const drawing = openingDrawings.get(link.querySelector("img"));
+  if (!drawing || await drawnShare(drawing) >= kLeastDrawn) return;
   const list = link.closest(".thumbnails");
   link.closest("li").remove();
-  if (list.childElementCount === 0) list.remove();
+  if (list?.childElementCount === 0) list.remove();
+}
+
+// Waits until an image is decoded, whatever source it gets meanwhile.
+async function waitForImage(image) {
+  let src;
+  do {
+    ({ src } = image);
+    await image.decode().catch(() => {});
+  } while (image.src !== src);
 }
 
 // The small images stand beside the figure, below the words, as large as the figure's height leaves
@@ -199,14 +211,15 @@ function placeThumbnails() {
   put(true, kMostColumns, foot);
 }
 
-function addOpeningImages() {
-  for (const link of document.querySelectorAll(".thumbnails a")) {
-    addImage(link, "", cropped);  // The link has the title.
-    dropEmpty(link);
-  }
+// The small images are placed when those that show next to nothing are left out, and when the figure
+// has its height.
+async function addOpeningImages() {
+  const links = [...document.querySelectorAll(".thumbnails a")];
+  for (const link of links) addImage(link, "", cropped);  // The link has the title.
   addMainFigure();
-  // The figure has its height once it is decoded.
-  document.querySelector(".main-figure img")?.decode().then(placeThumbnails, () => {});
+  const figures = [...document.querySelectorAll(".main-figure img")];
+  await Promise.all([...links.map(dropEmpty), ...figures.map(waitForImage)]);
+  placeThumbnails();
 }
 
 // The figure is arranged again whenever its box has another width, as when a phone is turned.

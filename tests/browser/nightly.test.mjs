@@ -5,7 +5,7 @@ import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { open, violations } from "./support.mjs";
+import { open, until, violations } from "./support.mjs";
 
 /// The folder of a history of two nightly runs.
 const history = process.env.MAPPROOF_HISTORY;
@@ -147,7 +147,8 @@ test("the index has commands that can be copied as they stand", ofRegressed, asy
   const { page, close } = await open({ permissions: ["clipboard-read", "clipboard-write"] }, regressed,
     "index.html");
   await page.locator("#opening").getByRole("button", { name: "Copy the search for the commit" }).click();
-  await page.getByText("Copied").first().waitFor();
+  // The button names it for two seconds, and the status stays.
+  await until(page, () => document.querySelector("#status")?.textContent.includes("copied"));
   assert.match(await page.evaluate(() => navigator.clipboard.readText()), /^git bisect start .*\(make\)/);
   const selects = page.locator(".compare select");
   await selects.nth(0).selectOption("2");

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { comparison, figure, kinds, open, study, until, violations } from "./support.mjs";
+import { comparison, figure, kinds, open, openingPlaced, study, until, violations } from "./support.mjs";
 
 // One figure in six: axe-core examines each element of a drawing.
 const insertSome = (page) => page.evaluate(() =>
@@ -14,6 +14,7 @@ const insertAll = (page) => page.evaluate(() => dispatchEvent(new Event("beforep
 
 test("the first screen has the verdict, the figure it rests on, what is wrong and the rest", async () => {
   const { page, errors, requests, close } = await open({ viewport: { width: 1280, height: 800 } });
+  await openingPlaced(page);
   const opening = page.locator("#opening"), text = await opening.innerText();
   assert.match(text, /simulated robot.+10 methods.+runs?\./);  // What was done.
   assert.match(text, /published errors inside our 95\s% intervals\s+\d+ of \d+/);  // Is it good?
@@ -47,6 +48,7 @@ test("the first screen has the verdict, the figure it rests on, what is wrong an
 
 test("the first screen of a phone has the verdict and the figure it rests on", async () => {
   const { page, close } = await open({ viewport: { width: 390, height: 844 } });
+  await openingPlaced(page);
   const { numbers, figure, words } = await page.evaluate(() => {
     const box = (selector) => document.querySelector(selector).getBoundingClientRect().toJSON();
     return { numbers: box(".opening .highlights"), figure: box(".main-figure img"),
@@ -58,12 +60,31 @@ test("the first screen of a phone has the verdict and the figure it rests on", a
   await close();
 });
 
+test("a method that is chosen before the first screen is decoded leaves its small images in place",
+  async () => {
+    const { page, errors, close } = await open({ viewport: { width: 1280, height: 800 } });
+    await page.locator("select.method").waitFor({ state: "attached" });
+    await openingPlaced(page);
+    const placed = () => page.locator(".thumbnails").evaluate(
+      (list) => [list.style.getPropertyValue("--columns"), list.childElementCount]);
+    const before = await placed();
+    await page.evaluate(() => {
+      document.querySelector(".thumbnails").style.removeProperty("--columns");
+      addOpeningImages();
+      chooseMethod("ISOMAP");  // Gives each image another source.
+    });
+    await openingPlaced(page);
+    assert.deepEqual(await placed(), before);
+    assert.deepEqual(errors, []);
+    await close();
+  });
+
 for (const [name, folder] of kinds) {
   for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
     test(`${name}: the first screen of ${viewport.width} px cuts no words, and repeats no small figure`,
       async () => {
         const { page, close } = await open({ viewport }, folder);
-        await page.waitForTimeout(500);  // Until empty small images are dropped.
+        await openingPlaced(page);
         const { cut, titles, links, images } = await page.evaluate(() => ({
           cut: [...document.querySelectorAll(".masthead *, #opening *")]
             .filter((each) => getComputedStyle(each).overflow === "hidden" &&
@@ -84,6 +105,7 @@ for (const [name, folder] of kinds) {
   test(`${name}: on a phone the main figure has words of 10 px at least, none of them cut`,
     async () => {
       const { page, close } = await open({ viewport: { width: 390, height: 844 } }, folder);
+      await openingPlaced(page);
       const found = await page.evaluate(() => {
         const image = document.querySelector(".main-figure img");
         if (!image) return null;
@@ -106,6 +128,7 @@ for (const [name, folder] of kinds) {
   test(`${name}: the first screen has a figure that can be read, and the page 15.5 screens at most`,
     async () => {
       const { page, errors, close } = await open({ viewport: { width: 1280, height: 800 } }, folder);
+      await openingPlaced(page);
       const { screens, opening, words, bottom, made } = await page.evaluate(async () => {
         const image = document.querySelector(".main-figure img");
         const found = { screens: document.documentElement.scrollHeight / innerHeight,
@@ -723,8 +746,7 @@ test("at the head of the page the contents start with their first entry", async 
   await page.locator("main > section").last().evaluate((section) => section.scrollIntoView());
   await until(page, () => document.querySelector(".contents").scrollTop > 0);
   await page.evaluate(() => scrollTo(0, 0));
-  await until(page, () => document.querySelector(".contents").scrollTop === 0,
-    undefined, { timeout: 5000 });
+  await until(page, () => document.querySelector(".contents").scrollTop === 0);
   assert.equal(await page.locator(".contents a[aria-current]").count(), 0);
   await close();
 });

@@ -5,6 +5,7 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { drawingsNear, openingPlaced } from "./waits.mjs";
 
 const folder = process.argv[2];
 mkdirSync(folder, { recursive: true });
@@ -18,6 +19,7 @@ async function take(name, options, prepare = () => {}) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 1000 }, ...options });
   const page = await context.newPage();
   await page.goto(report);
+  await openingPlaced(page);
   await page.evaluate(() => Promise.all(Array.from(document.images, (image) => image.decode())));
   await page.locator("select.method").waitFor({ state: "attached" });  // Made when there is time.
   // Its date and commit are those of the run.
@@ -34,7 +36,7 @@ async function showMap(page) {
   await map.scrollIntoViewIfNeeded();
   await map.locator("svg").waitFor();
   await map.evaluate((figure) => figure.scrollIntoView({ block: "start" }));
-  await page.waitForTimeout(500);  // Its neighbours are inserted, too.
+  await drawingsNear(page);
   await map.getByRole("combobox").selectOption({ label: "L10" });
 }
 

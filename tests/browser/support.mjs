@@ -5,6 +5,9 @@ import { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
 import axe from "axe-core";
 import { chromium } from "playwright-core";
+import { drawingsNear } from "./waits.mjs";
+
+export { openingPlaced, until } from "./waits.mjs";
 
 /// The folder of `mapproof reproduce yairi2007 --profile quick`, and that of a comparison's page.
 export const study = process.env.MAPPROOF_REPORT;
@@ -43,20 +46,13 @@ export async function open(options = {}, folder = study, file = "report.html", h
   return { page, requests, errors, context, close: () => context.close() };
 }
 
-/// Waits until a function of the page holds; its policy forbids what waitForFunction() does.
-export async function until(page, holds, argument) {
-  for (let tries = 0; !await page.evaluate(holds, argument); ++tries) {
-    if (tries > 300) throw new Error(`not within 30 s: ${holds}`);
-    await page.waitForTimeout(100);
-  }
-}
-
-/// A figure of the report, with its drawing inserted.
+/// A figure of the report, with its drawing inserted, and those near it, which could move it later.
 export async function figure(page, id) {
   const found = page.locator(`#figure-${id}`);
   await found.evaluate((each) => unfold(each));
   await found.scrollIntoViewIfNeeded();
   await found.locator(".drawing > svg").waitFor();
+  await drawingsNear(page);
   return found;
 }
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { open, textOf } from "./support.mjs";
+import { open, textOf, until } from "./support.mjs";
 
 async function firstTable(page) {
   const holder = page.locator(".table:has(input[type=search])").first();
@@ -12,9 +12,10 @@ async function firstTable(page) {
 const clipboard = (page) => page.evaluate(() => navigator.clipboard.readText());
 
 async function copied(page, holder, name) {
+  // An earlier copy has left its words.
+  await page.evaluate(() => document.querySelector("#status")?.replaceChildren());
   await holder.getByRole("button", { name }).click();
-  await page.waitForFunction(
-    () => document.querySelector("#status")?.textContent.includes("copied"));
+  await until(page, () => document.querySelector("#status")?.textContent.includes("copied"));
   return clipboard(page);
 }
 
