@@ -186,7 +186,8 @@ async function waitForImage(image) {
 }
 
 // The small images stand beside the figure, below the words, as large as the figure's height leaves
-// room for; where that is too little, in a row below both, as far as the first screen shows it.
+// room for; where that is too little, in a row below both, as far as the first screen shows it. Long
+// sentences may leave them no room on the first screen: then they are not shown.
 function placeThumbnails() {
   const list = document.querySelector(".thumbnails"), beside = document.querySelector(".glance > .beside");
   const figure = document.querySelector(".main-figure");
@@ -198,6 +199,7 @@ function placeThumbnails() {
     return list.getBoundingClientRect().bottom <= end;
   };
   list.style.removeProperty("--columns");
+  list.hidden = false;
   beside.append(list);
   if (narrowPage.matches) return;
   const count = list.childElementCount, kMostColumns = 3, kSlack_px = 4;
@@ -205,10 +207,11 @@ function placeThumbnails() {
   for (let columns = 1; columns < kMostColumns && columns <= count; ++columns) {
     if (put(true, columns, foot + kSlack_px)) return;
   }
+  const screenEnd = innerHeight - scrollY;
   for (let columns = kMostColumns; columns <= 2 * kMostColumns; ++columns) {
-    if (columns >= count && put(false, columns, innerHeight - scrollY)) return;
+    if (columns >= count && put(false, columns, screenEnd)) return;
   }
-  put(true, kMostColumns, foot);
+  list.hidden = !put(true, kMostColumns, Math.max(foot, screenEnd));
 }
 
 // The small images are placed when those that show next to nothing are left out, and when the figure

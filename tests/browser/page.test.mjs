@@ -79,6 +79,24 @@ test("a method that is chosen before the first screen is decoded leaves its smal
     await close();
   });
 
+test("long sentences take the room of the small figures, which come back with it", async () => {
+  const { page, close } = await open({ viewport: { width: 1280, height: 800 } });
+  await openingPlaced(page);
+  // The sentences get longer by twice the height of the window, or as short as they were.
+  const isShownWith = async (isLong) => {
+    await page.evaluate((long) => {
+      document.querySelector(".opening .finding").style.paddingBottom = long ? "1600px" : "";
+      document.querySelector(".thumbnails").style.removeProperty("--columns");
+      addOpeningImages();
+    }, isLong);
+    await openingPlaced(page);
+    return page.locator(".thumbnails").isVisible();
+  };
+  assert.equal(await isShownWith(true), false);
+  assert.equal(await isShownWith(false), true);
+  await close();
+});
+
 for (const [name, folder] of kinds) {
   for (const viewport of [{ width: 1280, height: 800 }, { width: 390, height: 844 }]) {
     test(`${name}: the first screen of ${viewport.width} px cuts no words, and repeats no small figure`,
