@@ -12,8 +12,8 @@ export async function until(page, holds, argument) {
 export const drawingsNear = (page) => until(page, () => {
   const kNear = .6, kRounding_px = 1;  // As in putInWhenNear().
   return held.every((figure) => {
-    const { top, bottom, width } = figure.getBoundingClientRect();
-    const isNear = width > 0 && bottom > kRounding_px - kNear * innerHeight &&
+    const { top, bottom } = figure.getBoundingClientRect();
+    const isNear = figure.checkVisibility() && bottom > kRounding_px - kNear * innerHeight &&
       top < (1 + kNear) * innerHeight - kRounding_px;
     return !isNear || !figure.querySelector(".drawing > noscript");
   });
