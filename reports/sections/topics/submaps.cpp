@@ -19,13 +19,24 @@ std::vector<MethodSetting> submap_settings(const TopicExperiment& experiment) {
   return {{Method::kSmacofKnn, K}, {Method::kIsomap, K}, {Method::kSde, K}};
 }
 
+/// "12, 16 and 20": the values of an option, times a factor.
+std::string values_words(const TopicExperiment& experiment, const char* option,
+                         double factor = 1.0) {
+  std::vector<std::string> words;
+  for (const double value : list_option(experiment, option))
+    words.push_back(fmt::format("{:.4g}", factor * value));
+  return all_listed(words);
+}
+
 std::string submaps_question(const TopicExperiment& experiment) {
   return fmt::format(
       "Bearings are mapped as a whole, and in overlapping groups of landmarks whose maps are "
-      "joined by similarities: with groups of several sizes, with overlaps of several shares of "
-      "groups of {0:g}, and in groups of {0:g} where a share of the entries, those of distant "
-      "landmarks, is missing. Maps are aligned to the anchors in least squares.",
-      number_option(experiment, "usual_size"));
+      "joined by similarities: with groups of {1} landmarks at most, with overlaps of {2} % of "
+      "groups of {0:g}, and in groups of {0:g} where {3} % of the entries, those of distant "
+      "landmarks, are missing. Maps are aligned to the anchors in least squares.",
+      number_option(experiment, "usual_size"), values_words(experiment, "sizes"),
+      values_words(experiment, "overlaps", 100.0),
+      values_words(experiment, "shares_sensor_range", 100.0));
 }
 
 /// Sub-maps compared with the whole with one method: means by level, and where chance does not

@@ -153,6 +153,17 @@ TEST(TopicWords, OfFaultsCountTheirSizes) {
   EXPECT_NE(question_of(experiment).find("at 1 size."), std::string::npos);
 }
 
+TEST(TopicWords, OfSubmapsNameTheSizesAndShares) {
+  TopicExperiment experiment = empty_study(kSubmapsTopic).experiment;
+  experiment.options["sizes"] = {16.0, 30.0};
+  experiment.options["overlaps"] = {0.2, 0.35};
+  experiment.options["shares_sensor_range"] = {0.89};
+  const std::string question = question_of(experiment);
+  for (const char* words : {"with groups of 16 and 30 landmarks at most", "overlaps of 20 and 35 %",
+                            "where 89 % of the entries"})
+    EXPECT_NE(question.find(words), std::string::npos) << question;
+}
+
 TEST(TopicWords, OfReferencesSayFromWhichMapsTheyDiffer) {
   const TopicStudy study =
       study_of(kReferencesTopic, 1, "mpe_m", {{"landmark-isomap-K8", 0.1}, {"isomap-K8", 0.1}});
