@@ -104,15 +104,6 @@ std::string file_below(const DiffResult& result, const DiffItem& item) {
   return "";
 }
 
-std::string counts_text(const DiffResult& result) {
-  const std::vector<int> counts = counts_of(result);
-  std::string text;
-  for (std::size_t v = kVerdicts.size(); v-- > 0;)
-    if (counts[v] > 0)
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[v], label(kVerdicts[v]));
-  return text;
-}
-
 int failures_of(const DiffResult& result, bool unreadable) {
   int count = 0;
   for (const DiffItem& item : result.items)

@@ -78,8 +78,8 @@ void check_tolerances(const std::vector<DiffItem>& items, const DiffSettings& se
   const auto is_read = [](const DiffItem& item) { return item.records.has_value(); };
   if (items.empty() || !std::ranges::all_of(items, is_read)) return;
   for (const auto& [id, tolerance] : settings.records.tolerances) {
-    const auto has_it = [&id = id](const DiffItem& item) {
-      return std::ranges::find(item.records->declared, id, &Quantity::id) !=
+    const auto has_it = [&named = id](const DiffItem& item) {
+      return std::ranges::find(item.records->declared, named, &Quantity::id) !=
              item.records->declared.end();
     };
     if (find_quantity(id) == nullptr && id != kOtherNumbers && std::ranges::none_of(items, has_it))

@@ -424,7 +424,7 @@ std::string path_errors_finding(const PathErrorsSpec& spec) {
 
 std::string path_medians_finding(const PathErrorsSpec& spec) {
   check(spec);
-  constexpr std::size_t kMostNamed = 3;
+  constexpr std::size_t kMostLines = 3;
   const ScaledUnit unit = unit_of(spec);
   std::vector<const PathErrorLine*> lines;
   for (const PathErrorLine& line : spec.lines) lines.push_back(&line);
@@ -432,14 +432,14 @@ std::string path_medians_finding(const PathErrorsSpec& spec) {
     return median_of(line->poses->error_m);
   };
   std::ranges::stable_sort(lines, {}, median_error);
-  if (lines.size() > kMostNamed)
+  if (lines.size() > kMostLines)
     return fmt::format("half of the poses err by less than {} with {}, {} with {}",
                        in_unit(median_error(lines.front()), unit), lines.front()->label,
                        in_unit(median_error(lines.back()), unit), lines.back()->label);
   std::vector<std::string> words;
   for (const PathErrorLine* line : lines)
     words.push_back(fmt::format("{} with {}", in_unit(median_error(line), unit), line->label));
-  return "half of the poses err by less than " + listed(words, kMostNamed);
+  return "half of the poses err by less than " + listed(words, kMostLines);
 }
 
 }  // namespace mapproof
