@@ -26,7 +26,7 @@ std::string association_question(const TopicExperiment& experiment) {
 std::vector<std::string> association_conclusions(const TopicStudy& study) {
   std::vector<std::string> sentences;
   for (const TopicSetup& setup : study.design.setups) {
-    std::vector<std::string> levels, right, given, estimated;
+    std::vector<std::string> levels, right, given, left_out, estimated;
     for (const double level : levels_of(setup)) {
       const auto mean = [&](const char* method, const char* quantity) {
         return topic_mean(study, condition_at(setup, level), method, quantity);
@@ -37,13 +37,20 @@ std::vector<std::string> association_conclusions(const TopicStudy& study) {
       levels.push_back(fmt::format("{:g}", level));
       right.push_back(fmt::format("{:.0f}", mean("estimated", "correct_percent")));
       given.push_back(error_text(mean("given", "mpe_m")));
+      if (const double error = mean("left-out", "mpe_m"); !std::isnan(error))
+        left_out.push_back(error_text(error));
       estimated.push_back(error_text(mean("estimated", "mpe_m")));
     }
     if (levels.empty()) continue;
+    // Where it is not known which measurements are doubtful, none are left out.
+    const std::string without =
+        left_out.size() == levels.size()
+            ? fmt::format(", {} with doubtful measurements left out", all_listed(left_out))
+            : "";
     sentences.push_back(
         fmt::format("{}: of {} % of wrong landmark IDs, {} % are corrected; the mean MPE is {} "
-                    "with the IDs as given and {} with those estimated.",
-                    setup.title, all_listed(levels), all_listed(right), all_listed(given),
+                    "with the IDs as given{} and {} with those estimated.",
+                    setup.title, all_listed(levels), all_listed(right), all_listed(given), without,
                     all_listed(estimated)));
   }
   return sentences;

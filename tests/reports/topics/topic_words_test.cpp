@@ -153,6 +153,19 @@ TEST(TopicWords, OfFaultsCountTheirSizes) {
   EXPECT_NE(question_of(experiment).find("at 1 size."), std::string::npos);
 }
 
+TEST(TopicWords, OfDataAssociationStateWhatLeavingMeasurementsOutGives) {
+  TopicStudy study = study_of(kAssociationTopic, 1, "mpe_m",
+                              {{"given", 0.3}, {"left-out", 0.2}, {"estimated", 0.1}});
+  const std::string sentence = conclusions_of(study).at(0);
+  for (const char* words : {"0.303 m with the IDs as given, 0.202 m",
+                            "0.202 m with doubtful measurements left out and 0.101 m"})
+    EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+  for (TopicPart& part : study.parts)
+    std::erase_if(part.outcomes,
+                  [](const TopicOutcome& outcome) { return outcome.method == "left-out"; });
+  EXPECT_EQ(conclusions_of(study).at(0).find("left out"), std::string::npos);
+}
+
 TEST(TopicWords, OfSubmapsNameTheSizesAndShares) {
   TopicExperiment experiment = empty_study(kSubmapsTopic).experiment;
   experiment.options["sizes"] = {16.0, 30.0};
