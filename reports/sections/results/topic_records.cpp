@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -109,30 +110,28 @@ FigureGroup topic_maps(const TopicStudy& study, const std::string& prefix) {
   FigureGroup maps{prefix + "-maps", "Maps", "", {}};
   std::vector<std::pair<std::string, const MapRecord*>> named;
   std::vector<std::string> empty;
-  for (const TopicPart& part : study.parts)
-    for (const TopicMap& map : part.maps)
-      if (has_a_position(map.map))
-        named.emplace_back(name_of(study, part, map), &map.map);
-      else
-        empty.push_back(name_of(study, part, map));
-  maps.words = words_of_empty(std::move(empty));
-  maps.figures = map_walls(prefix, named);
+  std::vector<Figure> singly;
   std::vector<MapInSpace> in_space;
   for (const TopicPart& part : study.parts)
     for (const TopicMap& map : part.maps) {
-      if (!has_a_position(map.map)) continue;
+      if (!has_a_position(map.map)) {
+        empty.push_back(name_of(study, part, map));
+        continue;
+      }
+      named.emplace_back(name_of(study, part, map), &map.map);
       const std::string title = title_of(study, part, map);
       const std::string ellipses =
           map.uncertainty ? ellipses_text(map.map, *map.uncertainty) : std::string();
-      maps.figures.push_back(
-          measured_map_figure({prefix + "-map-" + slug_of(map.id), title + ellipses, map.map,
-                               map.pairs, map.uncertainty}));
+      singly.push_back(measured_map_figure({prefix + "-map-" + slug_of(map.id), title + ellipses,
+                                            map.map, map.pairs, map.uncertainty}));
       if (!map.pairs.empty())
-        maps.figures.push_back(
-            pair_distances_figure({prefix + "-pairs-" + slug_of(map.id), title + ", measured pairs",
-                                   map.map, map.pairs}));
+        singly.push_back(pair_distances_figure({prefix + "-pairs-" + slug_of(map.id),
+                                                title + ", measured pairs", map.map, map.pairs}));
       in_space.push_back({title, series_label(study.design, map.method), &map.map});
     }
+  maps.words = words_of_empty(std::move(empty));
+  maps.figures = map_walls(prefix, named);
+  std::ranges::move(singly, std::back_inserter(maps.figures));
   maps.scenes = best_map_scene("scene-" + prefix + "-map", in_space);
   return maps;
 }
