@@ -355,6 +355,22 @@ TEST(SlamErrorTable, HasARowAMethodWithItsAlignmentAndMarksTheBestRigidOne) {
     EXPECT_FALSE(note.starts_with("Marked: ")) << "no path is aligned rigidly";
 }
 
+TEST(SlamErrorTable, SaysWhyRefinedErrorsDifferFromThoseOfTheOtherCommand) {
+  SlamRun run = plaza(sample_slam_study());
+  const auto note = [&] {
+    const std::vector<const SlamRun*> runs = {&run};
+    return slam_error_table("e", "Methods", runs).notes.back();
+  };
+  EXPECT_TRUE(note().starts_with("Refined: without constant errors")) << note();
+  run.fit = Fit{};
+  EXPECT_FALSE(note().starts_with("Refined")) << "Known landmarks tie it: " << note();
+  run.known.clear();
+  EXPECT_NE(note().find("the map of the test of the fit"), std::string::npos) << note();
+  std::erase_if(run.records,
+                [](const SlamRecord& one) { return one.method == SlamMethod::kRefined; });
+  EXPECT_FALSE(note().starts_with("Refined")) << note();
+}
+
 TEST(SlamErrorTable, KeepsARowForAMethodThatGaveNothing) {
   SlamStudy study = sample_slam_study();
   study.runs[1].records[5].errors.clear();

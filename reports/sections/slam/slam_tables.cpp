@@ -73,6 +73,26 @@ const SlamRecord* best_rigid(const SlamRun& run) {
   return best;
 }
 
+/// Why the refined paths of one log differ between a study and `mapproof slam`; empty of runs that
+/// refine none.
+std::string model_words(std::span<const SlamRun* const> runs) {
+  const auto is_refined = [](const SlamRun* run) {
+    return error_of(*run, SlamMethod::kRefined) != nullptr;
+  };
+  const auto refined = std::ranges::find_if(runs, is_refined);
+  if (refined == runs.end()) return "";
+  const bool is_of_fit = (*refined)->fit.has_value();
+  if (is_of_fit && (*refined)->known.size() >= 2) return "";  // They tie a refinement of its own.
+  return is_of_fit
+             ? "Refined, scale free: the map of the test of the fit, whose model of the ranges has "
+               "constant errors of landmarks and outliers. Studies such as boots2013 refine "
+               "without "
+               "these, as refined (from odometry) does here, so that their errors on the same log "
+               "differ."
+             : "Refined: without constant errors of landmarks. `mapproof slam` models these and "
+               "outliers in its refined map, so that its errors on the same log differ.";
+}
+
 std::optional<MeanEstimate> known(const MeanEstimate& estimate) {
   return estimate.values > 0 ? std::optional(estimate) : std::nullopt;
 }
@@ -140,6 +160,8 @@ Table slam_error_table(std::string id, std::string caption, std::span<const Slam
       "scale."};
   if (std::ranges::any_of(table.rows, &Row::marked))
     table.notes.emplace_back("Marked: the least mean of a data set among rigidly aligned paths.");
+  if (std::string model = model_words(runs); !model.empty())
+    table.notes.push_back(std::move(model));
   return table;
 }
 
