@@ -29,11 +29,28 @@ TEST(SeriesStyle, NoTwoOfTheFirst350AreAlikeAndAnyTenDifferInColour) {
   }
 }
 
+TEST(ErrorLinesFigure, CountsSingleRunsOf0ThatALogarithmicAxisDoesNotHave) {
+  ErrorLinesSpec spec;
+  spec.id = "errors";
+  ErrorPanel& panel = spec.panels.emplace_back();
+  panel.lines = {{.label = "one", .key = "one", .x = {1.0, 2.0}, .mean = {0.1, 9.0}}};
+  panel.points = {{"runs", "one", 1.0, 0.0}, {"runs", "one", 1.0, 0.2}};
+  const Figure figure = error_lines_figure(spec);
+  EXPECT_EQ(figure.panels[0].y.scale, Scale::kLog);
+  ASSERT_EQ(figure.notes.size(), 1U);
+  EXPECT_EQ(figure.notes[0].text, "1 value lies below the frame.");
+}
+
 TEST(ErrorAxis, IsLogarithmicOnlyWhereTheMeansSpanMuch) {
   EXPECT_EQ(error_axis({0.1, 1.0}, {}).scale, Scale::kLinear);
   EXPECT_EQ(error_axis({0.1, 1.0}, {}, 6.0).scale, Scale::kLog);
   EXPECT_EQ(error_axis({0.0, 9.0}, {}, 6.0).scale, Scale::kLinear);
   EXPECT_EQ(error_axis({NAN}, {}).limits, (Range{0.0, 1.0}));
+  // A single run may be 0 where no mean is.
+  EXPECT_EQ(error_axis({0.1, 9.0}, {}, 20.0, {0.0, 0.2}).scale, Scale::kLog);
+  EXPECT_GT(error_axis({0.1, 9.0}, {}, 20.0, {0.0, 0.2}).limits.low, 0.0);
+  EXPECT_EQ(error_axis({0.1, 1.0}, {}, 20.0, {0.0, 0.2}).limits.low, 0.0);
+  EXPECT_EQ(error_axis({0.1, 9.0}, {}, 20.0, {-0.2}).scale, Scale::kLinear);
 }
 
 TEST(ErrorAxis, DoesNotBeginAt0WhereAllValuesLieInItsUppermostPart) {

@@ -104,12 +104,12 @@ void note_count(long long count, std::string_view what, std::string_view verb,
                             ThemeColour::kMuted});
 }
 
-/// Notes how many means and points lie above the frame, and how many intervals end above or below
-/// it whose means do not lie above.
+/// Notes how many means and points lie above the frame, how many points lie below it, and how many
+/// intervals end above or below it whose means do not lie above.
 void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figure) {
   const auto is_above = [&](double value) { return value > axis.limits.high; };
   const auto is_below = [&](double value) { return value < axis.limits.low; };
-  long long values = 0, above = 0, below = 0;
+  long long values = 0, points_below = 0, above = 0, below = 0;
   for (const ErrorPanel& panel : spec.panels) {
     for (const ErrorLine& line : panel.lines) {
       values += std::ranges::count_if(line.mean, is_above);
@@ -120,8 +120,10 @@ void note_beyond(const ErrorLinesSpec& spec, const ErrorAxis& axis, Figure& figu
       }
     }
     values += std::ranges::count_if(panel.points, is_above, &ErrorPoint::y);
+    points_below += std::ranges::count_if(panel.points, is_below, &ErrorPoint::y);
   }
   note_count(values, "value", "lie", "above", figure);
+  note_count(points_below, "value", "lie", "below", figure);
   note_count(above, "interval", "end", "above", figure);
   note_count(below, "interval", "end", "below", figure);
 }
@@ -306,7 +308,9 @@ ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>
   Span of_means, lines, all;
   for (Span* span : {&of_means, &lines, &all}) span->see(means);
   for (Span* span : {&lines, &all}) span->see(intervals);
-  for (Span* span : {&of_means, &all}) span->see(points);
+  all.see(points);
+  for (const double point : points)
+    if (point != 0.0) of_means.see(point);  // Of a single run 0 is by chance.
   if (!of_means.known()) return {Scale::kLinear, {0.0, 1.0}};
   if (of_means.low > 0.0 && of_means.high / of_means.low > log_from) {
     // Below, intervals end near a 0 that the axis has not; above, they may take as much of it as

@@ -113,7 +113,8 @@ struct ErrorAxis {
 };
 
 /// @param intervals  Both ends of the intervals; may be empty.
-/// @param points     Other values that the frame holds, as of single runs.
+/// @param points     Other values that the frame holds, as of single runs. One of 0 does not keep
+///                   the axis from being logarithmic, and then lies below it.
 ErrorAxis error_axis(const std::vector<double>& means, const std::vector<double>& intervals,
                      double log_from = 20.0, const std::vector<double>& points = {});
 

@@ -86,9 +86,8 @@ std::string model_words(std::span<const SlamRun* const> runs) {
   return is_of_fit
              ? "Refined, scale free: the map of the test of the fit, whose model of the ranges has "
                "constant errors of landmarks and outliers. Studies such as boots2013 refine "
-               "without "
-               "these, as refined (from odometry) does here, so that their errors on the same log "
-               "differ."
+               "without these, as refined (from odometry) does here, so that their errors on the "
+               "same log differ."
              : "Refined: without constant errors of landmarks. `mapproof slam` models these and "
                "outliers in its refined map, so that its errors on the same log differ.";
 }
