@@ -57,6 +57,7 @@ struct FieldRule {
   std::size_t columns = 0;  ///< Of a matrix; 0: as the type has, or as many as the first row.
   std::size_t min_items = 0;
   std::size_t max_items = std::numeric_limits<std::size_t>::max();
+  std::size_t max_keys = std::numeric_limits<std::size_t>::max();  ///< Of a map.
   bool not_empty = false;          ///< Of a text, and the rows of a matrix.
   std::size_t max_bytes = 10'000;  ///< Of a text.
   const struct TextForm* form = nullptr;

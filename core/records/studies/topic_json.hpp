@@ -27,6 +27,7 @@ inline constexpr std::size_t kMostOfATopic =
     10'000;  ///< Setups, methods, quantities, levels, maps.
 inline constexpr std::size_t kMostSweeps = 100;
 inline constexpr std::size_t kMostSweptFactors = 2;
+inline constexpr std::size_t kMostFactors = 10;  ///< Of a setup.
 
 }  // namespace record_rules
 
@@ -190,7 +191,7 @@ void fields(Visitor& v, TopicSetup& setup) {
   v.field("factors", setup.factors,
           {.description = "What its conditions differ in: every combination of the levels. Empty: "
                           "there is one condition.",
-           .max_items = 10});
+           .max_items = record_rules::kMostFactors});
   check_ids(v, "factors", setup.factors);
 }
 
@@ -230,7 +231,10 @@ void tried_fields(Visitor& v, Condition& at, std::string& method) {
   v.field("method", method);
   std::map<std::string, double> levels;
   for (const Level& level : at.levels) levels[level.factor] = std::get<double>(level.value);
-  v.field("levels", levels, {.description = "By factor.", .whole_as_integers = true});
+  v.field("levels", levels,
+          {.description = "By factor.",
+           .whole_as_integers = true,
+           .max_keys = record_rules::kMostFactors});
   if constexpr (Visitor::kReads) {
     std::vector<Level> all;
     for (const auto& [factor, level] : levels) all.push_back({factor, level});

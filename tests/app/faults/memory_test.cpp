@@ -91,6 +91,12 @@ TEST(LittleMemory, OfTenTimesAFileIsEnoughToReadIt) {
     for (int i = 1; i < 1000; ++i) row += ",-1.25";
     return row + "\n";
   };
+  // Of the shortest names and rows that there are.
+  constexpr int kNames = 400'000;
+  const auto names_and_values = [](int i) {
+    if (i < kNames) return fmt::format("{}\"{:x}\"", i == 0 ? "" : ",", i);
+    return std::string(i == kNames ? R"(],"values":[[1])" : ",[1]");
+  };
   for (const std::string& file :
        {file_of(
             folder, "names.csv", "step,landmark,range,bearing\n", 900'000,
@@ -104,6 +110,10 @@ TEST(LittleMemory, OfTenTimesAFileIsEnoughToReadIt) {
         file_of(
             folder, "objects.json", json, 2'000'000,
             [](int i) { return i == 0 ? R"({"a":[]})" : R"(,{"a":[]})"; }, "]}"),
+        file_of(folder, "names.json",
+                R"({"schema":{"name":"mapproof.observations","version":1},"sensor":"range",)"
+                R"("landmarks":[)",
+                2 * kNames, names_and_values, "]}"),
         file_of(folder, "wide.csv", "", 3'000, values, "")}) {
     const auto bytes = static_cast<double>(fs::file_size(file));
     EXPECT_LT((most_memory({"validate", file}) - itself) / bytes, 10.0) << file;

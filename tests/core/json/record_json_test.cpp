@@ -353,7 +353,8 @@ constexpr FieldRule kOrder = {.unique = true, .min_items = 2};
 
 template <typename Visitor>
 void fields(Visitor& v, Freedom& freedom) {
-  v.field("numbers", freedom.numbers, {.integer = true, .or_one = true, .min_items = 1});
+  v.field("numbers", freedom.numbers,
+          {.integer = true, .or_one = true, .min_items = 1, .max_keys = 2});
   v.field("steps", freedom.steps, {.ascending = true});
   v.field("orders", freedom.orders, {.items = &kOrder});
   v.field("word", freedom.word, {.decides = true, .known = kKnownWords});
@@ -379,6 +380,7 @@ TEST(RecordJson, TakesKeysThatFilesChooseAndHoldsArraysToTheirBounds) {
   EXPECT_FALSE(is_taken<Freedom>(text("\"b\"", "\"c\"")));
   EXPECT_FALSE(is_taken<Freedom>(text("[1, 2]", "[]")));
   EXPECT_FALSE(is_taken<Freedom>(text("[1, 2]", "[1.5]")));
+  EXPECT_FALSE(is_taken<Freedom>(text("\"x\": 3", "\"x\": 3, \"z\": 3")));
   EXPECT_FALSE(is_taken<Freedom>(text("\"red\", ", "")));
   EXPECT_FALSE(is_taken<Freedom>(text("red", "blue")));
   EXPECT_FALSE(is_taken<Freedom>(text("\"left\": 1", "")));
@@ -386,6 +388,15 @@ TEST(RecordJson, TakesKeysThatFilesChooseAndHoldsArraysToTheirBounds) {
   const JsonDocument document = parse_json(text("[1, 4]", "[4, 1]"), "f.json");
   EXPECT_EQ(error_of([&] { from_json_value<Freedom>(document.cursor()); }),
             "f.json: /steps/1: expected values in ascending order, got 1 after 4");
+}
+
+TEST(RecordJson, NamesTheFirstItemThatIsThereTwice) {
+  const std::string text =
+      R"({"numbers": {}, "steps": [], "orders": [["blue", "red", "green", "red", "blue"]],)"
+      R"( "word": "a"})";
+  const JsonDocument document = parse_json(text, "f.json");
+  EXPECT_EQ(error_of([&] { from_json_value<Freedom>(document.cursor()); }),
+            "f.json: /orders/0/3: is there twice: at /orders/0/1 before");
 }
 
 TEST(RecordJson, WritesAMapKeyByKeyAndLeavesOutAGroupThatIsNotThere) {

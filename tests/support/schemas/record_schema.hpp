@@ -209,6 +209,7 @@ Json value_schema(const FieldRule& rule, Definitions& definitions) {
   } else if constexpr (Kind<T>::is_map) {
     Json schema = {{"type", "object"}};
     schema["additionalProperties"] = value_schema<typename T::mapped_type>(rule, definitions);
+    if (rule.max_keys != FieldRule{}.max_keys) schema["maxProperties"] = rule.max_keys;
     return schema;
   } else if constexpr (Kind<T>::is_tuple || AsTuple<T>) {
     T value{};
