@@ -52,8 +52,10 @@ bool is_shown(std::string_view path) {
   return std::ranges::any_of(kShown, [&](std::string_view end) { return path.ends_with(end); });
 }
 
-/// A table with the images of one file.
+/// A table with the images of one file, or why they cannot be read.
 std::string image_table(const ItemImages& images, const ImageLinks& links) {
+  if (!images.unreadable.empty())
+    return fmt::format("Not shown, as it is unreadable: {}\n", cell(images.unreadable));
   std::string head, rule, row;
   for (const auto& [name, path] :
        {std::pair("baseline", &images.baseline), std::pair("current", &images.current),

@@ -16,6 +16,7 @@
 #include "render/theme/theme.hpp"
 #include "reports/diff/figures/change_figure.hpp"
 #include "reports/diff/kept_heat_maps.hpp"
+#include "reports/diff/svg/svg_parser.hpp"
 
 namespace mapproof {
 namespace {
@@ -85,6 +86,23 @@ std::string possible_paths(const DiffResult& result) {
   return list;
 }
 
+/// Why the images of a file are left out: what mapproof cannot read may run or load something where
+/// it is shown. Of a file of one side, which nothing compares, an SVG alone can.
+/// @return "" if the images can be read.
+std::string left_out_reason(const ImageFile& file) {
+  if (!file.baseline.empty() && !file.current.empty())
+    return file.diff.state == ImageState::kUnreadable ? file.diff.reason : "";
+  if (file.format != "svg") return "";
+  try {
+    parse_svg(read_file(file.baseline.empty() ? file.current : file.baseline, kLargestImage));
+  } catch (const InvalidInput& error) {
+    return error.what();
+  } catch (const IoError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// Copies one side. @return Its path; empty if it cannot be read.
 std::string copy(const fs::path& from, const std::string& to, const OutputFolder& folder) {
   if (from.empty()) return "";
@@ -101,8 +119,7 @@ std::string copy(const fs::path& from, const std::string& to, const OutputFolder
 /// The heat map. @return Its path; empty if there is none.
 std::string write_difference(const ImageFile& file, const ImageOptions& options,
                              const std::string& to, const OutputFolder& folder) {
-  if (file.baseline.empty() || file.current.empty() || file.diff.state == ImageState::kUnreadable ||
-      file.diff.state == ImageState::kIdentical)
+  if (file.baseline.empty() || file.current.empty() || file.diff.state == ImageState::kIdentical)
     return "";
   std::optional<HeatMapFile> heat;
   try {
@@ -161,7 +178,7 @@ std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSe
     if (!has_images(item)) continue;
     const auto keep = [&](ItemImages images) {
       for (const std::string& path : images.paths()) list += path + "\n";
-      if (!images.paths().empty()) all.push_back(std::move(images));
+      if (!images.paths().empty() || !images.unreadable.empty()) all.push_back(std::move(images));
     };
     ItemImages change{.id = item.id, .format = "change"};
     change.difference = write_change(item, change_path(item), folder);
@@ -169,10 +186,13 @@ std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSe
     for (const ImageFile& file : item.images) {
       const std::string start = images_path(item, file);
       ItemImages images{.id = item.id, .format = file.format};
-      images.baseline = copy(file.baseline, start + "baseline." + file.format, folder);
-      images.current = copy(file.current, start + "current." + file.format, folder);
-      images.difference =
-          write_difference(file, settings.images_of(item.id), start + "difference.png", folder);
+      images.unreadable = left_out_reason(file);
+      if (images.unreadable.empty()) {
+        images.baseline = copy(file.baseline, start + "baseline." + file.format, folder);
+        images.current = copy(file.current, start + "current." + file.format, folder);
+        images.difference =
+            write_difference(file, settings.images_of(item.id), start + "difference.png", folder);
+      }
       keep(std::move(images));
     }
   }

@@ -14,6 +14,7 @@ struct ItemImages {
   std::string id, format;       ///< "png"; "change": a figure of what changed in the data.
   std::string difference = {};  ///< A PNG: the heat map (heat_map() in image_diff.hpp).
   std::string current = {}, baseline = {};
+  std::string unreadable = {};  ///< Why the file cannot be read; it then has no paths.
 
   std::vector<std::string> paths() const;  ///< Those that exist, in this order.
 };
@@ -30,9 +31,10 @@ struct ImageLinks {
 
 /// Writes the images of each item that is neither identical nor within tolerance:
 /// ID.FORMAT/baseline.FORMAT, /current.FORMAT as they are, and /difference.png if both can be
-/// compared pixel by pixel; and where data changed, ID.change/difference.png: change_figure(). In
-/// names, bytes other than letters, digits and "-._/@+" are "%XX". The folder is locked meanwhile.
-/// What an earlier call wrote to it is removed first, also if that was stopped.
+/// compared pixel by pixel. A file of which a side cannot be read has none. And where data changed,
+/// ID.change/difference.png: change_figure(). In names, bytes other than letters, digits and
+/// "-._/@+" are "%XX". The folder is locked meanwhile. What an earlier call wrote to it is removed
+/// first, also if that was stopped.
 /// @throws IoError; InvalidInput if the folder holds files, but none of an earlier call.
 /// @note Compares the images of one file after the other again.
 std::vector<ItemImages> write_item_images(const DiffResult& result, const DiffSettings& settings,

@@ -10,6 +10,7 @@
 #include "core/base/files/files.hpp"
 #include "reports/diff/diff_settings.hpp"
 #include "reports/diff/folder_diff.hpp"
+#include "reports/diff/item_images.hpp"
 #include "tests/reports/diff/small_study.hpp"
 #include "tests/reports/diff/value_cases.hpp"
 #include "tests/support/schemas/comparison_schemas.hpp"
@@ -85,6 +86,27 @@ TEST(DiffOutputs, TextNamesStaleFiguresAndVersionsThatDiffer) {
   EXPECT_NE(text.find("Stale:  map-lpca"), std::string::npos) << text;
   EXPECT_NE(text.find("Versions that differ:  mapproof"), std::string::npos) << text;
   EXPECT_NE(text.find("9.9.9"), std::string::npos) << text;
+}
+
+TEST(DiffOutputs, ImagesThatCannotBeReadAreNeitherCopiedNorLinked) {
+  const TemporaryFolder folder;
+  const std::string active = "<svg><script>alert(1)</script></svg>";
+  write_file(folder / "a/both.svg", "<svg><rect x='1'/></svg>");
+  write_file(folder / "b/both.svg", active);
+  write_file(folder / "b/new.svg", active);
+  write_file(folder / "b/plain.svg", "<svg><rect x='1'/></svg>");
+  const DiffResult result = folder_diff(folder / "a", folder / "b");
+  const ImageLinks links{.images = write_item_images(result, {}, folder / "images"), .prefix = ""};
+  const std::string markdown = diff_markdown(result, links);
+  for (const char* id : {"both", "new"}) {
+    EXPECT_FALSE(fs::exists(folder / "images" / (id + std::string(".svg")))) << id;
+    EXPECT_EQ(markdown.find(id + std::string(".svg/")), std::string::npos) << markdown;
+    const std::size_t section = markdown.find("#### " + std::string(id) + ", svg\n\nNot shown");
+    ASSERT_NE(section, std::string::npos) << markdown;
+    EXPECT_NE(markdown.find("unreadable", section), std::string::npos) << markdown;
+  }
+  EXPECT_TRUE(fs::exists(folder / "images/plain.svg/current.svg"));
+  EXPECT_NE(markdown.find("](plain.svg/current.svg)"), std::string::npos) << markdown;
 }
 
 TEST(DiffOutputs, MarkdownEndsAtFiftyRowsAndCountsTheOthers) {
