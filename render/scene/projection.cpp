@@ -28,13 +28,15 @@ Extent extent_of(const Projection& projection, std::span<const Point3> points) {
   return extent;
 }
 
-/// The least distance from the target at which no point is outside the share of the image.
-double distance_for(std::span<const Point3> points, const Camera& camera, double share) {
+/// The least distance from the target, not below `least`, at which no point is outside the share of
+/// the image.
+double distance_for(std::span<const Point3> points, const Camera& camera, double share,
+                    double least) {
   const Projection projection(camera);
   const Point3 back = (camera.eye - camera.target).normalized();
   const double slope_y = share * std::tan(camera.angle_rad / 2.0),
                slope_x = slope_y * camera.aspect;
-  double distance = 1e-9;
+  double distance = least;
   for (const Point3& point : points) {
     const Point3 offset = point - camera.target;
     const double near = offset.dot(back);
@@ -75,7 +77,10 @@ Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool pa
   if (points.empty()) throw InvalidInput("fitted_camera: no points");
   Point3 low = points[0], high = points[0];
   for (const Point3& point : points) low = low.cwiseMin(point), high = high.cwiseMax(point);
-  const double size = std::max((high - low).norm(), 1e-6);
+  // One point has the size that single precision tells apart; at the origin, any will do.
+  const double farthest = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  const double least = 1e-6 * (farthest > 0.0 ? farthest : 1.0);
+  const double size = std::max((high - low).norm(), least), least_distance = 1e-3 * size;
   const Point3 back = from.normalized();
   Camera camera{.target = (low + high) / 2.0,
                 .up = std::abs(back.z()) > 0.999 ? Point3::UnitY() : Point3::UnitZ(),
@@ -85,7 +90,8 @@ Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool pa
   const double share = 1.0 - margin;
   camera.eye = camera.target + back * (3.0 * size);
   for (int round = 0; round < kRounds; ++round) {
-    if (!parallel) camera.eye = camera.target + back * distance_for(points, camera, share);
+    if (!parallel)
+      camera.eye = camera.target + back * distance_for(points, camera, share, least_distance);
     const Projection projection(camera);
     const Extent extent = extent_of(projection, points);
     const double unit = 1.0 / projection.size_at(camera.target, 1.0);
@@ -98,9 +104,9 @@ Camera fitted_camera(std::span<const Point3> points, const Point3& from, bool pa
     const Extent extent = extent_of(Projection(camera), points);
     const double half = std::max((extent.y.high - extent.y.low) / 2.0,
                                  (extent.x.high - extent.x.low) / (2.0 * aspect));
-    camera.height *= std::max(half, 1e-9) / share;
+    camera.height *= std::max(half, least_distance) / share;
   } else {
-    camera.eye = camera.target + back * distance_for(points, camera, share);
+    camera.eye = camera.target + back * distance_for(points, camera, share, least_distance);
   }
   return camera;
 }

@@ -61,7 +61,7 @@ std::vector<Point3> corners(const Ground& ground, double height_m, std::span<con
 
 Ground room_ground(double side_m) { return {{0.0, 0.0}, {side_m, side_m}}; }
 
-bool is_room_side(double side_m) { return side_m > 0.0 && side_m <= kLongestSide_m; }
+bool is_room_side(double side_m) { return side_m >= kShortestSide_m && side_m <= kLongestSide_m; }
 
 bool has_room(const World& world) {
   return is_room_side(world.side_m) && world.landmark_diameter_m > 0.0 &&

@@ -18,10 +18,12 @@ inline constexpr double kTintShare = 0.2;
 /// The height of the edge of open ground, of its side.
 inline constexpr double kKerbShare = 0.012;
 
-/// The longest side of a room that is drawn.
+/// The sides of a room that is drawn. A graphics library multiplies two lengths of a scene, some
+/// 1e-4 of its side each, in single precision, which ends at 1e-38.
+inline constexpr double kShortestSide_m = 1e-14;
 inline constexpr double kLongestSide_m = 1e6;
 
-/// Whether a room of that side can be drawn: positive, finite, no longer than kLongestSide_m.
+/// Whether a room of that side can be drawn: from kShortestSide_m to kLongestSide_m.
 bool is_room_side(double side_m);
 
 /// Whether a room can be drawn with its landmarks at true size, which no side may fall below.

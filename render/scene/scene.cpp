@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -79,7 +80,10 @@ std::string positions(const std::vector<Point3>& points, const char* name) {
   return {};
 }
 
-bool is_direction(const Point3& p) { return is_position(p) && p.norm() > 1e-12; }
+/// Whether it can be normalised, however small the scene is: its square is no rounded-off number.
+bool is_direction(const Point3& p) {
+  return is_position(p) && p.squaredNorm() >= std::numeric_limits<double>::min();
+}
 
 bool is_range(const Range& range) {
   return std::isfinite(range.low) && std::isfinite(range.high) && range.low < range.high;

@@ -8,6 +8,8 @@
 #include "core/base/random.hpp"
 #include "render/scene/drive_scene.hpp"
 #include "render/scene/forming_scene.hpp"
+#include "render/scene/map_scene.hpp"
+#include "render/scene/projection.hpp"
 #include "render/scene/quadric_scene.hpp"
 #include "render/scene/room.hpp"
 #include "render/scene/space_scene.hpp"
@@ -41,6 +43,31 @@ QuadricPoints bowl_of_an_ellipsoid() {
         2.0 * std::sin(tilt) * std::sin(turn), -10.0 * std::cos(tilt);
   }
   return cloud;
+}
+
+MapSceneSpec map_of_scale(double scale) {
+  MapSceneSpec spec{
+      .id = "map-scaled", .title = "Bearing, ISOMAP, K = 7", .map = sample_map(12, 0.12, 7)};
+  spec.map.estimate *= scale;
+  *spec.map.ground_truth_m *= scale;
+  return spec;
+}
+
+TEST(MapScene, FillsTheImageHoweverSmallTheMapIs) {
+  const Scene usual = map_scene(map_of_scale(1.0)), small = map_scene(map_of_scale(1e-13));
+  const Projection project(usual.views[0].camera), project_small(small.views[0].camera);
+  const std::vector<Point3>& floor = std::get<Surface>(usual.parts[0]).points;
+  for (const Point3& corner : floor) {
+    const Point at = project(corner), at_small = project_small(1e-13 * corner);
+    EXPECT_NEAR(at_small.x, at.x, 1e-9);
+    EXPECT_NEAR(at_small.y, at.y, 1e-9);
+  }
+}
+
+TEST(MapScene, IsNoneBelowTheLengthsOfSinglePrecision) {
+  EXPECT_TRUE(has_map_scene(map_of_scale(1e-13).map));
+  for (const double scale : {1e-20, 1e-160, 1e-310})
+    EXPECT_FALSE(has_map_scene(map_of_scale(scale).map)) << scale;
 }
 
 TEST(QuadricSurface, LiesOnTheQuadricAndReachesAllPoints) {

@@ -77,6 +77,8 @@ TEST(Scene, SaysWhichPartCannotBeDrawn) {
               s.views[0].camera.up = s.views[0].camera.target - s.views[0].camera.eye;
             }),
             "views/0/camera/up: along the line of sight");
+  EXPECT_EQ(refused([](Scene& s) { s.views[0].rules[0].to = s.views[0].rules[0].from; }),
+            "views/0/rules/0/to: at from");
   EXPECT_EQ(refused([](Scene& s) { s.views[0].parts = {9}; }),
             "views/0/parts: there is no such part");
 }
