@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <utility>
@@ -206,14 +207,20 @@ void BlockedDistances::add_columns(const Rows& i, const Rows& j, Index first, In
               sums.j_squares.middleCols(first, count));
 }
 
-/// As proximities() has it. @param common  Steps at which both were observed.
+/// As proximities() has it, but 0 where the sums differ by no more than their rounding: the
+/// products of equal rows are summed in another order than their squares.
+/// @param common  Steps at which both were observed.
 double BlockedDistances::distance(double product, double i_squares, double j_squares,
                                   double common) const {
   if (common == 0.0) return kInfinity;
   if (history_.sensor() == Sensor::kVisibility)
     return visibility_distance(product, std::sqrt(i_squares * j_squares));
   const double scale = are_missing_ ? static_cast<double>(steps_) / common : 1.0;
-  return std::sqrt(scale * std::max(i_squares + j_squares - 2.0 * product, 0.0));
+  const double squares = i_squares + j_squares, squared = squares - 2.0 * product;
+  // A sum of n products is off by n roundings at most; a bearing has two products a step.
+  constexpr double kRounding = std::numeric_limits<double>::epsilon();
+  if (squared <= 2.0 * static_cast<double>(steps_) * kRounding * squares) return 0.0;
+  return std::sqrt(scale * squared);
 }
 
 /// j.count x i.count.

@@ -14,8 +14,8 @@ namespace mapproof {
 /// The distances of proximities() between M landmarks, a part at a time: no array of M x M is held.
 struct HistoryDistances {
   Eigen::Index landmarks = 0;
-  /// Square roots of Proximities::squared_distances. Landmarks that were never seen together may be
-  /// left out; then `others` is their distance.
+  /// Square roots of Proximities::squared_distances; 0 for what is rounding alone. Landmarks that
+  /// were never seen together may be left out; then `others` is their distance.
   VisitedDistances distances;
   /// The distance of landmarks never seen together, sqrt(2) for visibility; infinite for others.
   double apart = kInfinity;

@@ -207,6 +207,24 @@ TEST(EmbedHistory, MapsIdenticalHistoriesToOnePoint) {
   EXPECT_TRUE(map.coordinates.isZero(0.0));
 }
 
+TEST(EmbedHistory, MapsEqualRowsOfAnyNumbersToOnePoint) {
+  Random random(4);
+  Eigen::RowVectorXd row(40);
+  for (double& value : row) value = random.uniform(0.1, 3.0);
+  for (const Sensor sensor : {Sensor::kRange, Sensor::kBearing})
+    for (const double missing : {0.0, 0.2})
+      for (const Method method : {Method::kLandmarkIsomap, Method::kLandmarkMvu}) {
+        ObservationHistory history{
+            .sensor = sensor, .names = landmark_names(12), .values = row.replicate(12, 1)};
+        for (double& value : history.values.reshaped())
+          if (random.uniform() < missing && sensor == Sensor::kBearing) value = NAN;
+        MethodSetting setting{method, 4.0};
+        const Embedding map = embed_history(history, 40, setting);
+        EXPECT_TRUE(map.coordinates.isZero(0.0)) << name(sensor) << ", " << missing;
+        EXPECT_TRUE(has(map, StatusCode::kRankDeficient)) << name(sensor) << ", " << missing;
+      }
+}
+
 TEST(EmbedHistory, DoesNotDependOnTheOrderOfTheLandmarks) {
   const ObservationHistory history = walked(Sensor::kBearing, 120, 300, 5);
   std::vector<Index> order(120);
